@@ -1,0 +1,30 @@
+# powercell_add_test_folders(): each folder of tests/ that holds .cpp files, except support/, becomes one
+# doctest executable. Tests see library internals by "lib/..." and shared helpers by "tests/support/...".
+find_path(DOCTEST_INCLUDE_DIR doctest/doctest.h REQUIRED)
+
+function(powercell_add_test_folders)
+  # Tests reach internals, so they link a static twin of the library with visible symbols.
+  get_target_property(sources powercell SOURCES)
+  get_target_property(links powercell LINK_LIBRARIES)
+  get_target_property(includes powercell INCLUDE_DIRECTORIES)
+  get_target_property(definitions powercell COMPILE_DEFINITIONS)
+  add_library(powercell_test_lib STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:powercell>)
+  set_target_properties(powercell_test_lib PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(powercell_test_lib PUBLIC ${links})
+  target_include_directories(powercell_test_lib PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+
+  file(GLOB children RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*)
+  foreach(folder IN LISTS children)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder} AND sources AND NOT folder STREQUAL "support")
+      add_executable(test_${folder} ${sources} ${CMAKE_CURRENT_SOURCE_DIR}/support/main.cpp)
+      target_link_libraries(test_${folder} PRIVATE powercell_test_lib)
+      target_include_directories(test_${folder} SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
+      target_compile_options(test_${folder} PRIVATE -Wall -Wextra)
+      if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/folder.cmake)
+        include(${CMAKE_CURRENT_SOURCE_DIR}/${folder}/folder.cmake)  # extra libraries of this folder
+      endif()
+      add_test(NAME ${folder} COMMAND test_${folder})
+    endif()
+  endforeach()
+endfunction()

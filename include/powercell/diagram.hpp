@@ -1,0 +1,60 @@
+/// \file
+/// Power diagrams restricted to a domain: the class that keeps its state between calls, and one-off
+/// functions beside it.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include <powercell/device.hpp>
+#include <powercell/domain.hpp>
+#include <powercell/options.hpp>
+#include <powercell/results.hpp>
+#include <powercell/seeds.hpp>
+
+namespace powercell {
+
+/// A power diagram of seeds in a domain, on a device. Results are computed when asked for and kept
+/// until the seeds or weights change; references stay valid until then. Not thread-safe; different
+/// diagrams may run in different threads, also on one device.
+/// If a call throws, the diagram keeps its seeds and can be used again.
+class POWERCELL_API Diagram {
+ public:
+  /// \throw Error no_fp64 if options ask for double on a device without it
+  Diagram(Device device, Domain domain, Options options = {});
+  Diagram(Diagram&&) noexcept;
+  Diagram& operator=(Diagram&&) noexcept;
+  ~Diagram();
+
+  /// Copies the seeds. At most 2^31 - 2 of them.
+  /// \throw Error invalid_argument (sizes), invalid_seed (NaN or infinity, which)
+  void set_seeds(const SeedsView& seeds);
+  /// New weights for the same positions; re-does only what depends on weights.
+  /// \throw Error invalid_argument (size), invalid_seed
+  void set_weights(std::span<const double> weights);
+
+  std::size_t size() const;  ///< number of seeds
+  const Domain& domain() const;
+  const Device& device() const;
+  Precision precision() const;  ///< as chosen: float64 or float32
+  Neighbors neighbors() const;  ///< as chosen: tree or flann
+
+  const Measures& measures();
+  const Adjacency& adjacency();
+  const Cells& cells();
+  const Dual& dual();
+  const Timings& timings() const;  ///< of the last computation
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One-off measures of the cells. \throw as Diagram
+POWERCELL_API Measures measure(const Device& device, const Domain& domain, const SeedsView& seeds,
+                               const Options& options = {});
+
+/// Pieces of one cell joined across the regions of the domain (see JoinedCells).
+POWERCELL_API JoinedCells join(const Domain& domain, const Cells& cells);
+
+}  // namespace powercell

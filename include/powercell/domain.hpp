@@ -1,0 +1,63 @@
+/// \file
+/// Domains: what a diagram is restricted to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <powercell/error.hpp>
+
+namespace powercell {
+
+struct RegionMesh;  // the domain cut into convex regions (library-internal)
+
+using Ring = std::vector<std::array<double, 2>>;  ///< a closed curve, the last point joined to the first
+
+/// One part of a polygon: an outer ring and its holes, each in either orientation, with or without
+/// the first point repeated at the end; collinear and repeated points are allowed.
+struct PolygonPart {
+  Ring outer;
+  std::vector<Ring> holes;
+};
+
+enum class DomainKind { polygon, surface, volume };
+
+/// An immutable, validated domain; copies share one state. Safe to share between threads.
+class POWERCELL_API Domain {
+ public:
+  /// The union of parts with disjoint interiors. \throw Error invalid_domain (which part, where)
+  static Domain polygon(std::span<const PolygonPart> parts);
+
+  /// A triangle mesh in space: open, closed or non-manifold.
+  /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
+  /// Triangles of zero area are left out. \throw Error invalid_domain (which triangle)
+  static Domain surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
+
+  /// A tetrahedral mesh, each tetrahedron in either orientation.
+  /// \param vertices nv x 3, row-major   \param tetrahedra nt x 4 indices from 0
+  /// Flat tetrahedra are left out. \throw Error invalid_domain (which tetrahedron)
+  static Domain volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
+
+  /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain
+  static Domain box(std::span<const double> low, std::span<const double> high);
+
+  DomainKind kind() const;
+  int dimension() const;                 ///< of the space: 2 or 3
+  int cell_dimension() const;            ///< of the cells: 2 for polygon and surface, 3 for volume
+  double measure() const;                ///< area or volume
+  std::array<double, 3> low() const;     ///< bounding box (third coordinate 0 in 2D)
+  std::array<double, 3> high() const;
+  std::size_t region_count() const;      ///< convex pieces, triangles or tetrahedra kept
+
+  explicit Domain(std::shared_ptr<const RegionMesh> mesh) : mesh_(std::move(mesh)) {}
+  /// For the library's own use.
+  const RegionMesh& mesh() const { return *mesh_; }
+
+ private:
+  std::shared_ptr<const RegionMesh> mesh_;
+};
+
+}  // namespace powercell

@@ -1,0 +1,13 @@
+/// \file
+/// The whole C++ interface but for opencl.hpp.
+#pragma once
+
+#include <powercell/device.hpp>
+#include <powercell/diagram.hpp>
+#include <powercell/domain.hpp>
+#include <powercell/error.hpp>
+#include <powercell/options.hpp>
+#include <powercell/results.hpp>
+#include <powercell/seeds.hpp>
+#include <powercell/verify.hpp>
+#include <powercell/version.hpp>

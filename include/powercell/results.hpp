@@ -1,0 +1,121 @@
+/// \file
+/// What a diagram gives back. All arrays are owned by the struct; seeds keep their input order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <powercell/export.hpp>
+
+namespace powercell {
+
+enum class SeedStatus : std::uint8_t {
+  ok,         ///< the cell has a positive measure
+  hidden,     ///< the cell restricted to the domain is empty
+  duplicate,  ///< another seed at the same position has a larger weight, or the same and a lower index
+};
+
+/// Integrals over each cell (density 1). n seeds, d coordinates.
+struct POWERCELL_API Measures {
+  int dimension = 0;                  ///< d
+  std::vector<double> mass;           ///< n: area or volume of the cell; 0 where empty
+  std::vector<double> centroid;       ///< n x d, row-major; NaN where the cell is empty
+  std::vector<double> second_moment;  ///< n: integral of |x - p_i|^2 over the cell
+  std::vector<SeedStatus> status;     ///< n
+  double domain_measure = 0;
+
+  double total() const;           ///< sum of the masses, compensated
+  double relative_error() const;  ///< |total() - domain_measure| / domain_measure
+  std::size_t count(SeedStatus s) const;
+};
+
+/// Which cells share a wall inside the domain. Compressed sparse rows; symmetric: j is in row i with
+/// the same wall measure as i in row j.
+struct Adjacency {
+  std::vector<std::uint64_t> offset;    ///< n + 1; row i is [offset[i], offset[i+1])
+  std::vector<std::uint32_t> neighbor;  ///< ascending within a row
+  std::vector<double> wall;             ///< length (polygon, surface) or area (volume) of the wall
+};
+
+/// What lies behind a face of a cell.
+struct Border {
+  enum class Kind : std::uint32_t {
+    wall,      ///< the cell of seed `index`
+    boundary,  ///< the outside: facet `index` of the domain's boundary
+    interior,  ///< the same cell goes on in region `index` of the domain
+  };
+  Kind kind;
+  std::uint32_t index;
+  friend bool operator==(const Border&, const Border&) = default;
+};
+
+/// The geometry of the cells as convex pieces, one for each region of the domain that a cell meets.
+/// Cell i owns the pieces [cell_offset[i], cell_offset[i+1]).
+/// Piece p has the vertices [vertex_offset[p], vertex_offset[p+1]) and the faces
+/// [face_offset[p], face_offset[p+1]). For polygons and surfaces a face is an edge: face k of a piece
+/// goes from its vertex k to its vertex k+1 (cyclic), counter-clockwise (on a surface, as the
+/// triangle is oriented), and `loop_offset` and `loop` are empty. For volumes face f is the polygon
+/// loop[loop_offset[f] .. loop_offset[f+1]), indices from 0 within the piece's vertices,
+/// counter-clockwise seen from outside.
+struct POWERCELL_API Cells {
+  int dimension = 0;       ///< d, coordinates of a vertex
+  int cell_dimension = 0;  ///< 2 or 3
+  std::vector<std::uint64_t> cell_offset;    ///< n + 1
+  std::vector<std::uint32_t> region;         ///< per piece: the region of the domain it lies in
+  std::vector<std::uint64_t> vertex_offset;  ///< pieces + 1
+  std::vector<double> vertices;              ///< row-major, d per vertex
+  std::vector<std::uint64_t> face_offset;    ///< pieces + 1
+  std::vector<Border> border;                ///< per face
+  std::vector<std::uint64_t> loop_offset;    ///< faces + 1 (volumes only)
+  std::vector<std::uint32_t> loop;
+
+  std::size_t cell_count() const { return cell_offset.empty() ? 0 : cell_offset.size() - 1; }
+  std::size_t piece_count() const { return region.size(); }
+};
+
+/// Cells joined across the regions of the domain: vertices of a cell are shared, and faces between
+/// pieces of the same cell are gone.
+/// Cell i owns the vertices [vertex_offset[i], vertex_offset[i+1]) and the faces
+/// [face_offset[i], face_offset[i+1]); face f is loop[loop_offset[f] .. loop_offset[f+1]), indices
+/// from 0 within the cell's vertices.
+/// Polygon: the faces of a cell are its boundary rings, outer ones counter-clockwise, holes
+/// clockwise, and `edge_border` gives what lies behind the edge that starts at each loop entry.
+/// Surface: a face is a polygon in one triangle of the domain; `edge_border` as for polygons.
+/// Volume: a face is a polygon on the cell's boundary; `face_border` says what lies behind it.
+struct JoinedCells {
+  int dimension = 0;
+  int cell_dimension = 0;
+  std::vector<std::uint64_t> vertex_offset;  ///< n + 1
+  std::vector<double> vertices;
+  std::vector<std::uint64_t> face_offset;    ///< n + 1
+  std::vector<Border> face_border;           ///< per face (volumes only)
+  std::vector<std::uint64_t> loop_offset;    ///< faces + 1
+  std::vector<std::uint32_t> loop;
+  std::vector<Border> edge_border;           ///< per loop entry (polygons and surfaces only)
+};
+
+/// The regular triangulation restricted to the domain: one simplex for each point of the domain in
+/// which d+1 cells meet (three on polygons and surfaces, four in volumes).
+struct Dual {
+  int corners = 0;                      ///< 3 or 4
+  std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented
+                                         ///< (surface: as the triangle it was found in), rows ascending
+  std::size_t size() const { return corners ? simplices.size() / static_cast<std::size_t>(corners) : 0; }
+};
+
+/// Seconds spent in each part of the last computation, and what it did.
+struct Timings {
+  double total = 0;      ///< seeds in host memory to results in host memory, kernels built before
+  double prepare = 0;    ///< validation, duplicates, ordering, tree
+  double pairs = 0;      ///< which seeds meet which regions
+  double neighbors = 0;  ///< neighbour lists on the host (FLANN)
+  double clip = 0;       ///< kernels
+  double collect = 0;    ///< results on the host
+  double build = 0;      ///< compiling kernels (not in total)
+  std::uint64_t pair_count = 0;   ///< candidate (region, seed) pairs
+  std::uint64_t retried = 0;      ///< pairs that needed a larger variant
+  std::uint64_t on_host = 0;      ///< pairs that ended on the host
+  int rounds = 0;                 ///< rounds of neighbour lists (FLANN)
+};
+
+}  // namespace powercell

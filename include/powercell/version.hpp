@@ -1,0 +1,14 @@
+/// \file
+#pragma once
+
+#include <powercell/export.hpp>
+
+#define POWERCELL_VERSION_MAJOR 0
+#define POWERCELL_VERSION_MINOR 1
+#define POWERCELL_VERSION_PATCH 0
+#define POWERCELL_VERSION "0.1.0"
+
+namespace powercell {
+/// Version of the library that is linked, "major.minor.patch".
+POWERCELL_API const char* version() noexcept;
+}  // namespace powercell

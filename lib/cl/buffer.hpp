@@ -1,0 +1,65 @@
+/// \file
+/// Device memory of one element type, and kernel calls. Internal.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "lib/cl/context.hpp"
+
+namespace powercell::cl {
+
+/// Untyped device buffer; grows when asked, never shrinks, contents undefined after growth.
+class RawBuffer {
+ public:
+  explicit RawBuffer(std::shared_ptr<Context> context) : context_(std::move(context)) {}
+  RawBuffer(RawBuffer&& other) noexcept;
+  RawBuffer& operator=(RawBuffer&& other) noexcept;
+  ~RawBuffer();
+
+  /// At least `bytes` (one element is allocated for 0). \throw Error out_of_device_memory
+  void reserve(std::size_t bytes);
+  void write(const void* from, std::size_t bytes, std::size_t offset = 0);    // blocking
+  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;       // blocking
+  void fill_zero(std::size_t bytes);
+  cl_mem handle() const { return memory_; }
+  std::size_t bytes() const { return bytes_; }
+  const std::shared_ptr<Context>& context() const { return context_; }
+
+ private:
+  std::shared_ptr<Context> context_;
+  cl_mem memory_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+template <class T>
+class Buffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  explicit Buffer(std::shared_ptr<Context> context) : raw_(std::move(context)) {}
+  void resize(std::size_t count) { raw_.reserve((size_ = count) * sizeof(T)); }
+  void upload(std::span<const T> values) {
+    resize(values.size());
+    if (!values.empty()) raw_.write(values.data(), values.size_bytes());
+  }
+  void download(std::span<T> to, std::size_t first = 0) const {
+    if (!to.empty()) raw_.read(to.data(), to.size_bytes(), first * sizeof(T));
+  }
+  std::vector<T> download() const {
+    std::vector<T> out(size_);
+    download(std::span<T>(out));
+    return out;
+  }
+  void zero() { raw_.fill_zero(size_ * sizeof(T)); }
+  std::size_t size() const { return size_; }
+  cl_mem handle() const { return raw_.handle(); }
+
+ private:
+  RawBuffer raw_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace powercell::cl

@@ -1,0 +1,62 @@
+/// \file
+/// An OpenCL context with its in-order queue and its compiled programs. Internal.
+#pragma once
+
+#ifndef CL_TARGET_OPENCL_VERSION
+#define CL_TARGET_OPENCL_VERSION 120
+#endif
+#include <CL/cl.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include <powercell/device.hpp>
+
+namespace powercell::cl {
+
+/// Throws Error (out_of_device_memory for allocation failures, else opencl) naming the code and `what`
+/// was being done, unless `status` is CL_SUCCESS.
+void check(cl_int status, std::string_view what);
+/// "CL_OUT_OF_RESOURCES" and so on for every code of OpenCL 1.2 and the ICD loader.
+std::string error_name(cl_int status);
+
+class Program;
+
+class Context {
+ public:
+  Context(cl_platform_id platform, cl_device_id device, DeviceInfo info);
+  explicit Context(cl_command_queue queue);  // retains
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  ~Context();
+
+  cl_context context() const { return context_; }
+  cl_command_queue queue() const { return queue_; }
+  cl_device_id device() const { return device_; }
+  const DeviceInfo& info() const { return info_; }
+  double build_seconds() const { return build_seconds_; }
+
+  /// The program built from the embedded source `kernels/<file>` with -D `defines` (each "NAME=VALUE",
+  /// kept in order); from memory, from the disk cache, or compiled. Thread-safe.
+  /// \throw Error build_failed with device, options and log
+  std::shared_ptr<const Program> program(std::string_view file, const std::vector<std::string>& defines);
+
+  /// Blocks until the queue is empty.
+  void finish();
+
+ private:
+  // (implementation's own members; keep what is above as it is)
+  cl_context context_ = nullptr;
+  cl_command_queue queue_ = nullptr;
+  cl_device_id device_ = nullptr;
+  DeviceInfo info_;
+  double build_seconds_ = 0;
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
+};
+
+}  // namespace powercell::cl

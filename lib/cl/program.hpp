@@ -1,0 +1,63 @@
+/// \file
+/// A compiled program and its kernels. Internal.
+#pragma once
+
+#include <string>
+
+#include "lib/cl/buffer.hpp"
+
+namespace powercell::cl {
+
+/// A built cl_program; immutable, shared.
+class Program {
+ public:
+  Program(cl_program program, cl_device_id device) : program_(program), device_(device) {}  // takes ownership
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+  cl_program handle() const { return program_; }
+  cl_device_id device() const { return device_; }
+
+ private:
+  cl_program program_;
+  cl_device_id device_;
+};
+
+/// One kernel object: set arguments, launch. Not thread-safe; make one per call or per diagram.
+class Kernel {
+ public:
+  Kernel(std::shared_ptr<Context> context, std::shared_ptr<const Program> program, const std::string& name);
+  Kernel(Kernel&&) noexcept;
+  Kernel& operator=(Kernel&&) noexcept;
+  ~Kernel();
+
+  /// Sets all arguments in order: Buffer<T>, RawBuffer, cl_mem, or a plain scalar of the exact OpenCL type.
+  template <class... Args>
+  Kernel& args(const Args&... values) {
+    cl_uint index = 0;
+    (set(index++, values), ...);
+    return *this;
+  }
+  /// Enqueues `global` work-items (rounded up to the group size; kernels guard their tail) and adds
+  /// the event's device time to `seconds` when it is not null (waits for it then).
+  /// local = 0 lets the class choose: a power of two within the queried limits of device and kernel.
+  void launch(std::size_t global, std::size_t local = 0, double* seconds = nullptr);
+
+ private:
+  template <class T>
+  void set(cl_uint index, const Buffer<T>& b) { set_memory(index, b.handle()); }
+  void set(cl_uint index, const RawBuffer& b) { set_memory(index, b.handle()); }
+  void set(cl_uint index, cl_mem m) { set_memory(index, m); }
+  template <class T>
+    requires std::is_arithmetic_v<T>
+  void set(cl_uint index, T value) { set_bytes(index, sizeof(T), &value); }
+  void set_memory(cl_uint index, cl_mem memory);
+  void set_bytes(cl_uint index, std::size_t size, const void* value);
+
+  std::shared_ptr<Context> context_;
+  std::shared_ptr<const Program> program_;
+  cl_kernel kernel_ = nullptr;
+  std::string name_;
+};
+
+}  // namespace powercell::cl

@@ -1,0 +1,42 @@
+/// \file
+/// A domain cut into convex regions, the form that pair enumeration and the kernels read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <powercell/domain.hpp>
+#include <powercell/results.hpp>
+
+namespace powercell {
+
+enum class RegionShape {
+  polygon,      ///< convex polygon, vertices counter-clockwise (surface: a triangle as oriented)
+  tetrahedron,  ///< positively oriented: det(v1-v0, v2-v0, v3-v0) > 0
+  box,          ///< 8 corners, corner k at (x: k&1, y: k&2, z: k&4), low where the bit is 0
+};
+
+struct RegionMesh {
+  DomainKind kind = DomainKind::polygon;
+  int dimension = 0;       ///< coordinates of a vertex
+  int cell_dimension = 0;  ///< 2 or 3
+  RegionShape shape = RegionShape::polygon;
+  std::vector<double> vertices;              ///< nv x dimension
+  std::vector<std::uint32_t> region_offset;  ///< regions + 1, into region_vertex
+  std::vector<std::uint32_t> region_vertex;
+  /// Per facet slot of each region: polygon: edge k from vertex k to k+1, so facet slots run parallel
+  /// to region_vertex; tetrahedron: facet k opposite vertex k (4 a region); box: -x +x -y +y -z +z.
+  /// `boundary` facets are numbered 0 .. boundary_count-1; `interior` ones name the region behind.
+  /// Edges between convex pieces of a polygon and edges shared by triangles are interior.
+  std::vector<Border> facet;
+  std::vector<std::uint32_t> facet_offset;  ///< regions + 1, into facet
+  std::vector<std::uint32_t> source;        ///< per region: input part, triangle or tetrahedron
+  std::uint32_t boundary_count = 0;
+  double measure = 0;
+  std::array<double, 3> low{}, high{};      ///< bounding box of the regions
+
+  std::size_t region_count() const { return source.size(); }
+};
+
+}  // namespace powercell
