@@ -1,0 +1,87 @@
+#!/bin/sh
+# Installs what is missing, builds powercell and runs it. For Debian 12 and its relatives.
+#
+#   ./setup.sh demo   install, build, draw the demo pictures
+#   ./setup.sh test   install, build everything, run the tests
+#   ./setup.sh build  install and build only
+#
+# Options after the word: --no-install (the packages are taken care of elsewhere; only build),
+# --jobs N (default: all cores). Safe to run again: what is there already is left as it is.
+set -eu
+
+# What the library and the tool need to be built and to run on the CPU.
+build_packages="cmake ninja-build g++ pkg-config
+  ocl-icd-opencl-dev opencl-c-headers pocl-opencl-icd
+  libflann-dev liblz4-dev libgeos-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev libassimp-dev libcairo2-dev libpugixml-dev zlib1g-dev"
+
+# What the tests need besides: the peers that results are compared with, and the programs that read
+# written files back.
+test_packages="doctest-dev libcgal-dev libeigen3-dev voro++-dev libtbb-dev
+  clang oclgrind librsvg2-bin libxml2-utils python3 python3-meshio python3-vtk9"
+
+say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
+fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }
+usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
+
+# install PACKAGE...: those of them that are not installed yet.
+install() {
+  command -v dpkg-query >/dev/null || fail "this is not a Debian system. Install the like of: $*
+  and run '$0 $action --no-install'."
+  missing=""
+  for package in "$@"; do
+    state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) || state=absent
+    [ "$state" = installed ] || missing="$missing $package"
+  done
+  [ -n "$missing" ] || return 0
+  say "Installing$missing"
+  as_root=""
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "needs root or sudo to install:$missing"
+    as_root="sudo"
+  fi
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq update </dev/null ||
+    fail "apt-get update failed: is the network there?"
+  # shellcheck disable=SC2086 # the list is meant to be split
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $missing \
+    </dev/null >"${TMPDIR:-/tmp}/powercell-apt.$$.log" 2>&1 || {
+    tail -n 20 "${TMPDIR:-/tmp}/powercell-apt.$$.log" >&2
+    fail "apt-get install failed; all of its output: ${TMPDIR:-/tmp}/powercell-apt.$$.log"
+  }
+  rm -f "${TMPDIR:-/tmp}/powercell-apt.$$.log"
+}
+
+# build ON|OFF: the release preset, with or without tests.
+build() {
+  say "Building in build/release with $jobs jobs"
+  cmake --preset release -DPOWERCELL_TESTS="$1" --log-level=WARNING
+  cmake --build build/release --parallel "$jobs"
+}
+
+action=${1:-help}
+[ $# -eq 0 ] || shift
+jobs=$(nproc)
+wanted=yes
+while [ $# -gt 0 ]; do
+  case $1 in
+    --no-install) wanted=no ;;
+    --jobs) [ $# -ge 2 ] || fail "--jobs needs a number"; jobs=$2; shift ;;
+    *) usage >&2; fail "unknown option '$1'" ;;
+  esac
+  shift
+done
+case $action in
+  demo | build) packages=$build_packages ;;
+  test) packages="$build_packages $test_packages" ;;
+  -h | --help | help) usage; exit 0 ;;
+  *) usage >&2; fail "unknown action '$action'" ;;
+esac
+
+cd "$(dirname "$0")"
+# shellcheck disable=SC2086
+[ "$wanted" = no ] || install $packages
+case $action in
+  build) build OFF; say "Built: build/release/apps/powercell" ;;
+  demo) build OFF; say "Running powercell demo"; build/release/apps/powercell demo ;;
+  test) build ON; say "Testing"; ctest --test-dir build/release --output-on-failure --parallel "$jobs" ;;
+esac

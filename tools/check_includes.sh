@@ -1,0 +1,25 @@
+#!/bin/sh
+# Includes point one way: diagram and verify -> stages -> primitives -> cl; the C interface and the tool
+# see public headers only. Prints each include that does not, and fails.
+set -eu
+cd "$(dirname "$0")/.."
+bad=0
+# forbid FOLDER PATTERN WHY: no file below FOLDER includes what PATTERN matches.
+forbid() {
+  [ -d "$1" ] || return 0
+  if grep -rnE "^#include [\"<]($2)" "$1" --include='*.hpp' --include='*.h' --include='*.cpp'; then
+    echo "check_includes: $3" >&2
+    bad=1
+  fi
+}
+stages="seeds|domain|neighbors|pairs|clip|integrate|collect"
+forbid lib/cl "lib/(primitives|$stages|diagram|verify|c_api)/" "lib/cl must not know what is above it"
+forbid lib/primitives "lib/($stages|diagram|verify|c_api)/" "lib/primitives may include lib/cl only"
+for stage in $(echo "$stages" | tr '|' ' '); do
+  forbid "lib/$stage" "lib/(diagram|verify|c_api)/" "a stage must not include the pipeline that calls it"
+done
+forbid lib/c_api "lib/($stages|primitives|cl|diagram|verify)/" "the C interface is built on the public headers"
+forbid include "lib/|CL/opencl.hpp|flann|Eigen|geos" "public headers must not leak what the library is made of"
+forbid apps "lib/" "the tool is built on the public headers"
+[ $bad -eq 0 ] && echo "check_includes: includes point one way"
+exit $bad
