@@ -1,0 +1,113 @@
+/* Scalar types, seeds and the few things that differ between precisions and languages: the only
+   file with #if. Defines: REAL_BITS (32, 64; 80 when compiled as C++ for the last resort on the
+   host), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
+   VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
+#ifndef POWERCELL_BASE_REAL
+#define POWERCELL_BASE_REAL
+#include "layout.h"
+
+#ifndef REAL_BITS
+#define REAL_BITS 32
+#endif
+#ifndef DIMENSION
+#define DIMENSION 3
+#endif
+#ifndef CELL_DIMENSION
+#define CELL_DIMENSION 3
+#endif
+#ifndef OUTPUTS
+#define OUTPUTS 7
+#endif
+
+#ifdef __cplusplus
+
+#define __global
+#define __kernel
+typedef long double real;
+typedef double stored_real;
+typedef unsigned int index_t;
+typedef struct {
+  double x, y, z, w;
+} seed_t;
+#define REAL_EPSILON 1.0842021724855044e-19L
+#define REAL_MAX 1e4000L
+/* Cells on the host grow: arrays are pointers, capacities are members. */
+#define STORAGE(type, name, count) type* name
+#define STORAGE_ROWS(type, name, rows, count) type* name[rows]
+#define VERTEX_CAPACITY (cell->vertex_capacity)
+#define FACE_CAPACITY (cell->face_capacity)
+#define TOLERANCE_FACTOR (cell->tolerance_factor)
+#define HOST_MEMBERS   \
+  int vertex_capacity; \
+  int face_capacity;   \
+  real tolerance_factor;
+
+#else
+
+#pragma OPENCL FP_CONTRACT OFF
+#ifndef VERTEX_CAPACITY
+#define VERTEX_CAPACITY 64
+#endif
+#ifndef FACE_CAPACITY
+#define FACE_CAPACITY 48
+#endif
+#if VERTEX_CAPACITY > 255
+typedef ushort index_t;
+#else
+typedef uchar index_t;
+#endif
+#define STORAGE(type, name, count) type name[count]
+#define STORAGE_ROWS(type, name, rows, count) type name[rows][count]
+#define TOLERANCE_FACTOR 16
+#define HOST_MEMBERS
+
+#if REAL_BITS == 64
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double real;
+typedef double4 seed_t; /* x y z weight */
+#define REAL_EPSILON 2.2204460492503131e-16
+#define REAL_MAX 1.0e300
+#else
+typedef float real;
+typedef struct {
+  float4 high;
+  float4 low;
+} seed_t; /* x y z weight, each as the sum of two floats */
+#define REAL_EPSILON 1.1920929e-7f
+#define REAL_MAX 1.0e38f
+#endif
+typedef real stored_real;
+
+#endif
+
+/* a - b by coordinates, and the difference of the weights (exact to the precision of the result
+   also far from the origin). */
+static inline real weight_difference(seed_t a, seed_t b);
+static inline void difference(seed_t a, seed_t b, real* d);
+
+#if !defined(__cplusplus) && REAL_BITS == 32
+static inline real weight_difference(seed_t a, seed_t b) {
+  return (a.high.w - b.high.w) + (a.low.w - b.low.w);
+}
+static inline void difference(seed_t a, seed_t b, real* d) {
+  const float4 c = (a.high - b.high) + (a.low - b.low);
+  d[0] = c.x;
+  d[1] = c.y;
+  if (DIMENSION == 3) d[DIMENSION - 1] = c.z;
+}
+#else
+static inline real weight_difference(seed_t a, seed_t b) { return (real)a.w - (real)b.w; }
+static inline void difference(seed_t a, seed_t b, real* d) {
+  d[0] = (real)a.x - (real)b.x;
+  d[1] = (real)a.y - (real)b.y;
+  if (DIMENSION == 3) d[DIMENSION - 1] = (real)a.z - (real)b.z;
+}
+#endif
+
+static inline real norm2(const real* d) {
+  real s = d[0] * d[0];
+  for (int k = 1; k < DIMENSION; ++k) s += d[k] * d[k];
+  return s;
+}
+
+#endif

@@ -1,0 +1,68 @@
+/* Writing what was asked for of a clipped piece. */
+#ifndef POWERCELL_CLIP_WRITE
+#define POWERCELL_CLIP_WRITE
+#include "clip/bisector.cl"
+
+typedef struct {
+  __global stored_real* moments;  /* per pair: measure, first moments, second moment, about the seed */
+  __global uint* faces;           /* per row: faces written */
+  __global int* border;           /* rows of FACE_CAPACITY */
+  __global stored_real* wall;     /* rows of FACE_CAPACITY */
+  __global uint* vertices;        /* per row: vertices written */
+  __global stored_real* vertex;   /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
+  __global uint* link;            /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
+} output_t;
+
+/* True if the cell is no thicker than the rounding errors of its vertices. */
+static inline bool cell_is_flat(const cell_t* cell, real measure) {
+  real low[DIMENSION], high[DIMENSION], extent = 0;
+  cell_box(cell, low, high);
+  for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
+  const real thickness = 32 * REAL_EPSILON * cell->reach;
+  return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
+}
+
+static inline void write_faces(const cell_t* cell, output_t out, uint row) {
+  const int faces = cell_faces(cell);
+  out.faces[row] = (uint)faces;
+  for (int f = 0; f < faces; ++f) {
+    out.border[row * FACE_CAPACITY + (uint)f] = cell->border[f];
+    out.wall[row * FACE_CAPACITY + (uint)f] = (stored_real)cell->side[f];
+  }
+}
+
+static inline void write_vertices(const cell_t* cell, output_t out, uint row) {
+  out.vertices[row] = (uint)cell->vertices;
+  for (int v = 0; v < cell->vertices; ++v) {
+    const size_t at = (size_t)row * VERTEX_CAPACITY + (size_t)v;
+    for (int k = 0; k < DIMENSION; ++k) out.vertex[at * DIMENSION + (size_t)k] = (stored_real)cell->x[k][v];
+    cell_write_links(cell, v, out.link + at * 6);
+  }
+}
+
+/* Writes a piece that ended with `status`; returns the final status. */
+static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
+  real moments[2 + DIMENSION];
+  for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+  if (status == PIECE_WHOLE) {
+    cell_finish(cell);
+    cell_moments(cell, moments);
+    if (cell_is_flat(cell, moments[0])) {
+      status = PIECE_FLAT;
+      for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+    }
+    if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
+      cell_walls(cell);
+      write_faces(cell, out, row);
+    }
+    if (OUTPUTS & OUTPUT_GEOMETRY) write_vertices(cell, out, row);
+  } else if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
+    out.faces[row] = 0;
+    if (OUTPUTS & OUTPUT_GEOMETRY) out.vertices[row] = 0;
+  }
+  for (int k = 0; k < 2 + DIMENSION; ++k)
+    out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] = (stored_real)moments[k];
+  return status;
+}
+
+#endif
