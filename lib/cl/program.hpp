@@ -34,8 +34,12 @@ class Kernel {
   /// Sets all arguments in order: Buffer<T>, RawBuffer, cl_mem, or a plain scalar of the exact OpenCL type.
   template <class... Args>
   Kernel& args(const Args&... values) {
-    cl_uint index = 0;
-    (set(index++, values), ...);
+    return args_from(0, values...);
+  }
+  /// The same from argument `first` on.
+  template <class... Args>
+  Kernel& args_from(cl_uint first, const Args&... values) {
+    (set(first++, values), ...);
     return *this;
   }
   /// Enqueues `global` work-items (rounded up to the group size; kernels guard their tail) and adds
