@@ -3,16 +3,6 @@
 find_path(DOCTEST_INCLUDE_DIR doctest/doctest.h REQUIRED)
 
 function(powercell_add_test_folders)
-  # Tests reach internals, so they link a static twin of the library with visible symbols.
-  get_target_property(sources powercell SOURCES)
-  get_target_property(links powercell LINK_LIBRARIES)
-  get_target_property(includes powercell INCLUDE_DIRECTORIES)
-  get_target_property(definitions powercell COMPILE_DEFINITIONS)
-  add_library(powercell_test_lib STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:powercell>)
-  set_target_properties(powercell_test_lib PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(powercell_test_lib PUBLIC ${links})
-  target_include_directories(powercell_test_lib PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
-
   file(GLOB children RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*)
   foreach(folder IN LISTS children)
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
