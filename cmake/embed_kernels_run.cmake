@@ -1,27 +1,31 @@
-# Writes OUTPUT, a C++ file that defines powercell::cl::embedded_kernels(): pairs of path and text.
+# Writes OUTPUT, a C++ file that defines powercell::cl::embedded_kernels() (lib/cl/program_source.hpp):
+# path below FOLDER and text of every .cl and .h file. Bytes, not string literals, so that any text and
+# any length goes through every compiler unchanged.
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*.cl ${FOLDER}/*.h)
 list(SORT files)
-set(body "")
+set(arrays "")
+set(table "")
+set(number 0)
 foreach(file IN LISTS files)
   file(READ ${FOLDER}/${file} hex HEX)
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
-  string(APPEND body "    {\"${file}\", {")
-  string(MAKE_C_IDENTIFIER "${file}" identifier)
-  string(APPEND arrays "const unsigned char ${identifier}[] = {${bytes}0};\n")
-  set(body "${body}reinterpret_cast<const char*>(${identifier}), sizeof(${identifier}) - 1}},\n")
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${hex}")
+  string(APPEND arrays "const unsigned char text_${number}[] = {${bytes}0};  // ${file}\n")
+  string(APPEND table
+    "      {\"${file}\", {reinterpret_cast<const char*>(text_${number}), sizeof(text_${number}) - 1}},\n")
+  math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "// Generated from kernels/ by cmake/embed_kernels_run.cmake.
-#include <string_view>
-#include <utility>
-#include <vector>
+#include \"lib/cl/program_source.hpp\"
+
 namespace powercell::cl {
 namespace {
 ${arrays}}  // namespace
-const std::vector<std::pair<std::string_view, std::string_view>>& embedded_kernels();
-const std::vector<std::pair<std::string_view, std::string_view>>& embedded_kernels() {
-  static const std::vector<std::pair<std::string_view, std::string_view>> kernels = {
-${body}  };
-  return kernels;
+
+const SourceFiles& embedded_kernels() {
+  static const SourceFiles files = {
+${table}  };
+  return files;
 }
+
 }  // namespace powercell::cl
 ")

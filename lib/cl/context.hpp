@@ -9,12 +9,11 @@
 
 #include <memory>
 #include <mutex>
+#include <powercell/device.hpp>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
-
-#include <powercell/device.hpp>
 
 namespace powercell::cl {
 
@@ -38,7 +37,8 @@ class Context {
   cl_command_queue queue() const { return queue_; }
   cl_device_id device() const { return device_; }
   const DeviceInfo& info() const { return info_; }
-  double build_seconds() const { return build_seconds_; }
+  double build_seconds() const;
+  void add_build_seconds(double seconds);
 
   /// The program built from the embedded source `kernels/<file>` with -D `defines` (each "NAME=VALUE",
   /// kept in order); from memory, from the disk cache, or compiled. Thread-safe.
@@ -55,7 +55,8 @@ class Context {
   cl_device_id device_ = nullptr;
   DeviceInfo info_;
   double build_seconds_ = 0;
-  std::mutex mutex_;
+  mutable std::mutex seconds_mutex_;  // guards build_seconds_
+  std::mutex mutex_;                  // guards programs_, also while one is built: each is built once
   std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
 };
 

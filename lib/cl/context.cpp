@@ -1,0 +1,89 @@
+#include "lib/cl/context.hpp"
+
+#include <utility>
+
+#include "lib/cl/enumerate.hpp"
+#include "lib/cl/program.hpp"
+
+namespace powercell::cl {
+namespace {
+
+template <class T>
+T queue_value(cl_command_queue queue, cl_command_queue_info which) {
+  T value{};
+  check(clGetCommandQueueInfo(queue, which, sizeof value, &value, nullptr), "asking a queue for a property");
+  return value;
+}
+
+/// The indices by which `Device::choose` would find the caller's device; for a part of a device, the whole.
+void find_indices(cl_device_id device, DeviceInfo& info) {
+  cl_device_id parent = device;
+  for (cl_device_id up = device; up;) {
+    parent = up;
+    if (clGetDeviceInfo(parent, CL_DEVICE_PARENT_DEVICE, sizeof up, &up, nullptr) != CL_SUCCESS) break;
+  }
+  for (const auto& found : find_devices())
+    if (found.device == parent) {
+      info.platform = found.info.platform;
+      info.device = found.info.device;
+    }
+}
+
+}  // namespace
+
+Context::Context(cl_platform_id platform, cl_device_id device, DeviceInfo info)
+    : device_(device), info_(std::move(info)) {
+  cl_int status = CL_SUCCESS;
+  const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
+                                              reinterpret_cast<cl_context_properties>(platform), 0};
+  context_ = clCreateContext(properties, 1, &device, nullptr, nullptr, &status);
+  check(status, "creating a context on " + info_.name);
+  queue_ = clCreateCommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE, &status);
+  if (status != CL_SUCCESS) clReleaseContext(context_);
+  check(status, "creating a queue on " + info_.name);
+}
+
+Context::Context(cl_command_queue queue) {
+  if (!queue) throw Error(ErrorCode::invalid_argument, "the caller's command queue is null");
+  const auto properties = queue_value<cl_command_queue_properties>(queue, CL_QUEUE_PROPERTIES);
+  if (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
+    throw Error(ErrorCode::invalid_argument,
+                "the caller's command queue is out of order; create it without "
+                "CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE");
+  device_ = queue_value<cl_device_id>(queue, CL_QUEUE_DEVICE);
+  cl_platform_id platform = nullptr;
+  check(clGetDeviceInfo(device_, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr),
+        "asking the caller's device for its platform");
+  info_ = describe(platform, device_);
+  find_indices(device_, info_);
+  const auto context = queue_value<cl_context>(queue, CL_QUEUE_CONTEXT);
+  check(clRetainContext(context), "retaining the caller's context");
+  if (const cl_int status = clRetainCommandQueue(queue); status != CL_SUCCESS) {
+    clReleaseContext(context);
+    check(status, "retaining the caller's queue");
+  }
+  context_ = context;
+  queue_ = queue;
+}
+
+Context::~Context() {
+  programs_.clear();
+  clReleaseCommandQueue(queue_);
+  clReleaseContext(context_);
+}
+
+double Context::build_seconds() const {
+  std::lock_guard lock(seconds_mutex_);
+  return build_seconds_;
+}
+
+void Context::add_build_seconds(double seconds) {
+  std::lock_guard lock(seconds_mutex_);
+  build_seconds_ += seconds;
+}
+
+void Context::finish() {
+  check(clFinish(queue_), "waiting for " + info_.name);
+}
+
+}  // namespace powercell::cl

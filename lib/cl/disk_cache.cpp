@@ -1,0 +1,140 @@
+#include "lib/cl/disk_cache.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace powercell::cl {
+namespace {
+
+/// What stands before the binary in a file. Only read back by the machine that wrote it.
+struct Header {
+  std::array<char, 8> magic{'P', 'W', 'R', 'C', 'E', 'L', 'L', '1'};
+  CacheKey key;
+  std::uint64_t size = 0;      ///< of the binary, bytes
+  std::uint64_t checksum = 0;  ///< FNV-1a of the binary
+  friend bool operator==(const Header&, const Header&) = default;
+};
+static_assert(sizeof(Header) == 40, "no padding: the header is written as it lies in memory");
+
+constexpr std::uint64_t fnv_basis = 0xcbf29ce484222325u;
+constexpr std::uint64_t fnv_prime = 0x100000001b3u;
+
+/// FNV-1a of 64 bits, and beside it a hash that mixes otherwise, so that both do not collide together.
+struct Hash {
+  std::uint64_t fnv = fnv_basis;
+  std::uint64_t other = 0x9e3779b97f4a7c15u;
+  void add(unsigned char byte) {
+    fnv = (fnv ^ byte) * fnv_prime;
+    other = (std::rotl(other, 23) ^ byte) * 0xbf58476d1ce4e5b9u;
+  }
+  template <class Bytes>
+  void add_all(const Bytes& bytes) {
+    for (const auto byte : bytes) add(static_cast<unsigned char>(byte));
+  }
+};
+
+Header header_of(const CacheKey& key, std::span<const unsigned char> binary) {
+  Hash hash;
+  hash.add_all(binary);
+  Header header;
+  header.key = key;
+  header.size = binary.size();
+  header.checksum = hash.fnv;
+  return header;
+}
+
+/// A name no other writer uses, in this process or another.
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  static std::atomic<unsigned> counter{0};
+  std::filesystem::path temporary = path;
+  for (const std::string& part : {std::to_string(getpid()), std::to_string(counter++)})
+    temporary += '.' + part;
+  temporary += ".tmp";
+  return temporary;
+}
+
+const char* environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : nullptr;
+}
+
+}  // namespace
+
+CacheKey CacheKey::of(std::span<const std::string_view> parts) {
+  Hash hash;
+  for (const auto part : parts) {
+    hash.add_all(part);
+    for (std::uint64_t size = part.size(), i = 0; i < 8; ++i, size >>= 8)
+      hash.add(static_cast<unsigned char>(size & 0xff));
+  }
+  // A last mixing, since the high bits of the last bytes are still weak.
+  const std::uint64_t mixed = (hash.other ^ (hash.other >> 31)) * 0x94d049bb133111ebu;
+  return {mixed ^ (mixed >> 29), hash.fnv};
+}
+
+std::string CacheKey::hex() const {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text;
+  for (const std::uint64_t half : {high, low})
+    for (int shift = 60; shift >= 0; shift -= 4) text.push_back(digits[(half >> shift) & 15]);
+  return text;
+}
+
+std::filesystem::path DiskCache::default_folder() {
+  if (const char* folder = environment("POWERCELL_CACHE_DIR")) return folder;
+  if (const char* folder = environment("XDG_CACHE_HOME")) return std::filesystem::path(folder) / "powercell";
+  if (const char* home = environment("HOME")) return std::filesystem::path(home) / ".cache" / "powercell";
+  return {};
+}
+
+std::optional<Binary> DiskCache::read(const CacheKey& key) const {
+  if (folder_.empty()) return std::nullopt;
+  std::ifstream file(path(key), std::ios::binary);
+  if (!file) return std::nullopt;
+  Header header;
+  std::error_code error;
+  const std::uintmax_t file_size = std::filesystem::file_size(path(key), error);
+  // The size is looked at first: a damaged header must not ask for memory beyond the file.
+  if (!error && file.read(reinterpret_cast<char*>(&header), sizeof header) &&
+      file_size == sizeof header + header.size) {
+    Binary binary(header.size);
+    if (file.read(reinterpret_cast<char*>(binary.data()), static_cast<std::streamsize>(binary.size())) &&
+        header == header_of(key, binary))
+      return binary;
+  }
+  file.close();
+  remove(key);
+  return std::nullopt;
+}
+
+bool DiskCache::write(const CacheKey& key, std::span<const unsigned char> binary) const {
+  if (folder_.empty()) return false;
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) return false;
+  const auto temporary = temporary_beside(path(key));
+  const Header header = header_of(key, binary);
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(&header), sizeof header);
+  file.write(reinterpret_cast<const char*>(binary.data()), static_cast<std::streamsize>(binary.size()));
+  file.close();
+  const bool whole = !file.fail();
+  if (whole) std::filesystem::rename(temporary, path(key), error);
+  if (whole && !error) return true;
+  std::filesystem::remove(temporary, error);
+  return false;
+}
+
+void DiskCache::remove(const CacheKey& key) const {
+  std::error_code ignored;  // gone already, or not ours to delete: the next write replaces it
+  std::filesystem::remove(path(key), ignored);
+}
+
+}  // namespace powercell::cl

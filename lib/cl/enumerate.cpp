@@ -1,0 +1,124 @@
+#include "lib/cl/enumerate.hpp"
+
+namespace powercell {
+namespace cl {
+namespace {
+
+constexpr cl_int platform_not_found_khr = -1001;
+
+std::string trimmed(std::string text) {
+  const char* blank = " \t\r\n";
+  text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::string device_text(cl_device_id device, cl_device_info which) {
+  std::size_t size = 0;
+  check(clGetDeviceInfo(device, which, 0, nullptr, &size), "asking a device for the length of a text");
+  std::string text(size, '\0');
+  check(clGetDeviceInfo(device, which, size, text.data(), nullptr), "asking a device for a text");
+  return trimmed(std::move(text));
+}
+
+template <class T>
+T device_value(cl_device_id device, cl_device_info which) {
+  T value{};
+  check(clGetDeviceInfo(device, which, sizeof value, &value, nullptr), "asking a device for a property");
+  return value;
+}
+
+bool has_fp64(cl_device_id device) {
+  // Devices of OpenCL 1.1 without the extension do not know the question: that is a no, not an error.
+  cl_device_fp_config config = 0;
+  return clGetDeviceInfo(device, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof config, &config, nullptr) == CL_SUCCESS &&
+         config != 0;
+}
+
+DeviceInfo::Type type_of(cl_device_id device) {
+  const auto type = device_value<cl_device_type>(device, CL_DEVICE_TYPE);
+  if (type & CL_DEVICE_TYPE_GPU) return DeviceInfo::Type::gpu;
+  if (type & CL_DEVICE_TYPE_CPU) return DeviceInfo::Type::cpu;
+  if (type & CL_DEVICE_TYPE_ACCELERATOR) return DeviceInfo::Type::accelerator;
+  return DeviceInfo::Type::other;
+}
+
+std::vector<cl_platform_id> find_platforms() {
+  cl_uint count = 0;
+  const cl_int status = clGetPlatformIDs(0, nullptr, &count);
+  if (status == platform_not_found_khr || (status == CL_SUCCESS && count == 0)) return {};
+  check(status, "counting the OpenCL platforms");
+  std::vector<cl_platform_id> platforms(count);
+  check(clGetPlatformIDs(count, platforms.data(), nullptr), "listing the OpenCL platforms");
+  return platforms;
+}
+
+std::vector<cl_device_id> devices_of(cl_platform_id platform) {
+  cl_uint count = 0;
+  const cl_int status = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
+  if (status == CL_DEVICE_NOT_FOUND || (status == CL_SUCCESS && count == 0)) return {};
+  const std::string what = "listing the devices of the platform " + platform_text(platform, CL_PLATFORM_NAME);
+  check(status, what);
+  std::vector<cl_device_id> devices(count);
+  check(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr), what);
+  return devices;
+}
+
+bool usable(cl_device_id device) {
+  return device_value<cl_bool>(device, CL_DEVICE_AVAILABLE) &&
+         device_value<cl_bool>(device, CL_DEVICE_COMPILER_AVAILABLE);
+}
+
+}  // namespace
+
+std::string platform_text(cl_platform_id platform, cl_platform_info which) {
+  std::size_t size = 0;
+  check(clGetPlatformInfo(platform, which, 0, nullptr, &size), "asking a platform for the length of a text");
+  std::string text(size, '\0');
+  check(clGetPlatformInfo(platform, which, size, text.data(), nullptr), "asking a platform for a text");
+  return trimmed(std::move(text));
+}
+
+DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
+  DeviceInfo info;
+  info.platform_name = platform_text(platform, CL_PLATFORM_NAME);
+  info.name = device_text(device, CL_DEVICE_NAME);
+  info.vendor = device_text(device, CL_DEVICE_VENDOR);
+  info.driver_version = device_text(device, CL_DRIVER_VERSION);
+  info.opencl_c_version = device_text(device, CL_DEVICE_OPENCL_C_VERSION);
+  info.type = type_of(device);
+  info.fp64 = has_fp64(device);
+  info.compute_units = device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS);
+  info.clock_mhz = device_value<cl_uint>(device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+  info.memory_bytes = device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
+  info.largest_allocation = device_value<cl_ulong>(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+  info.max_work_group_size = device_value<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+  return info;
+}
+
+std::vector<FoundDevice> find_devices() {
+  std::vector<FoundDevice> found;
+  const auto platforms = find_platforms();
+  for (std::size_t p = 0; p < platforms.size(); ++p) {
+    const auto devices = devices_of(platforms[p]);
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+      if (!usable(devices[d])) continue;
+      FoundDevice entry{platforms[p], devices[d], describe(platforms[p], devices[d])};
+      entry.info.platform = static_cast<int>(p);
+      entry.info.device = static_cast<int>(d);
+      found.push_back(std::move(entry));
+    }
+  }
+  return found;
+}
+
+}  // namespace cl
+
+std::vector<DeviceInfo> devices() {
+  std::vector<DeviceInfo> infos;
+  for (auto& found : cl::find_devices()) infos.push_back(std::move(found.info));
+  return infos;
+}
+
+}  // namespace powercell

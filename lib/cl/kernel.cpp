@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <utility>
+
+#include "lib/cl/program.hpp"
+
+namespace powercell::cl {
+namespace {
+
+// Work-items of a group where the class chooses. CPU drivers run a group as a loop on one thread: long
+// enough to pay for the group, short enough to share the work evenly, and one number, since PoCL compiles
+// a kernel anew for each size. GPUs: some warps, but few enough to leave each item its registers.
+constexpr std::size_t cpu_group_size = 32;
+constexpr std::size_t gpu_group_size = 128;
+
+struct Launch {
+  cl_kernel kernel;
+  cl_command_queue queue;
+  cl_device_id device;
+  const DeviceInfo& info;
+  std::string what;
+};
+
+template <class T>
+T group_value(const Launch& launch, cl_kernel_work_group_info which) {
+  T value{};
+  check(clGetKernelWorkGroupInfo(launch.kernel, launch.device, which, sizeof value, &value, nullptr),
+        launch.what + ": asking for its work-group sizes");
+  return value;
+}
+
+std::size_t choose_group_size(const Launch& launch) {
+  struct Sizes {
+    std::size_t x, y, z;
+  };
+  const auto required = group_value<Sizes>(launch, CL_KERNEL_COMPILE_WORK_GROUP_SIZE);
+  if (required.x != 0) return required.x;
+  const std::size_t limit = std::max<std::size_t>(
+      1,
+      std::min(group_value<std::size_t>(launch, CL_KERNEL_WORK_GROUP_SIZE), launch.info.max_work_group_size));
+  if (launch.info.type != DeviceInfo::Type::gpu) return std::bit_floor(std::min(limit, cpu_group_size));
+  const auto multiple = group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE);
+  return std::bit_floor(std::min(limit, std::max(multiple, gpu_group_size)));
+}
+
+bool profiles(cl_command_queue queue) {
+  cl_command_queue_properties properties = 0;
+  check(clGetCommandQueueInfo(queue, CL_QUEUE_PROPERTIES, sizeof properties, &properties, nullptr),
+        "asking a queue for its properties");
+  return (properties & CL_QUEUE_PROFILING_ENABLE) != 0;
+}
+
+void enqueue(const Launch& launch, std::size_t global, std::size_t local, cl_event* event) {
+  check(clEnqueueNDRangeKernel(launch.queue, launch.kernel, 1, nullptr, &global, &local, 0, nullptr, event),
+        launch.what + ", " + std::to_string(global) + " work-items in groups of " + std::to_string(local));
+}
+
+/// Seconds between start and end of the event, waiting for it; releases it.
+double event_seconds(cl_event event, const std::string& what) {
+  cl_int failure = clWaitForEvents(1, &event);
+  if (failure == CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST) {
+    // The event's own status says why.
+    cl_int execution = CL_SUCCESS;
+    clGetEventInfo(event, CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof execution, &execution, nullptr);
+    if (execution < 0) failure = execution;
+  }
+  cl_ulong start = 0, end = 0;
+  if (failure == CL_SUCCESS)
+    failure = clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
+  if (failure == CL_SUCCESS)
+    failure = clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
+  clReleaseEvent(event);
+  check(failure, what);
+  return end > start ? 1e-9 * static_cast<double>(end - start) : 0.0;
+}
+
+/// For a caller's queue that does not profile: the wall clock, with the queue emptied before and after.
+double wall_seconds(const Launch& launch, std::size_t global, std::size_t local) {
+  check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
+  const auto start = std::chrono::steady_clock::now();
+  enqueue(launch, global, local, nullptr);
+  check(clFinish(launch.queue), launch.what);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Kernel::Kernel(std::shared_ptr<Context> context, std::shared_ptr<const Program> program,
+               const std::string& name)
+    : context_(std::move(context)), program_(std::move(program)), name_(name) {
+  cl_int status = CL_SUCCESS;
+  kernel_ = clCreateKernel(program_->handle(), name_.c_str(), &status);
+  check(status, "creating the kernel " + name_);
+}
+
+Kernel::Kernel(Kernel&& other) noexcept
+    : context_(std::move(other.context_)),
+      program_(std::move(other.program_)),
+      kernel_(std::exchange(other.kernel_, nullptr)),
+      name_(std::move(other.name_)) {}
+
+Kernel& Kernel::operator=(Kernel&& other) noexcept {
+  if (this == &other) return *this;
+  if (kernel_) clReleaseKernel(kernel_);
+  context_ = std::move(other.context_);
+  program_ = std::move(other.program_);
+  kernel_ = std::exchange(other.kernel_, nullptr);
+  name_ = std::move(other.name_);
+  return *this;
+}
+
+Kernel::~Kernel() {
+  if (kernel_) clReleaseKernel(kernel_);
+}
+
+void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
+  if (global == 0) return;
+  const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
+                      "running the kernel " + name_ + " on " + context_->info().name};
+  if (local == 0) local = choose_group_size(launch);
+  global = (global + local - 1) / local * local;
+  if (!seconds) return enqueue(launch, global, local, nullptr);
+  if (!profiles(launch.queue)) {
+    *seconds += wall_seconds(launch, global, local);
+    return;
+  }
+  cl_event event = nullptr;
+  enqueue(launch, global, local, &event);
+  *seconds += event_seconds(event, launch.what);
+}
+
+void Kernel::set_memory(cl_uint index, cl_mem memory) {
+  set_bytes(index, sizeof memory, &memory);
+}
+
+void Kernel::set_bytes(cl_uint index, std::size_t size, const void* value) {
+  check(clSetKernelArg(kernel_, index, size, value),
+        "setting argument " + std::to_string(index) + " of the kernel " + name_);
+}
+
+}  // namespace powercell::cl
