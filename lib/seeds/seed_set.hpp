@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <powercell/seeds.hpp>
 #include <span>
 #include <vector>
-
-#include <powercell/seeds.hpp>
 
 namespace powercell {
 
@@ -14,11 +13,11 @@ namespace powercell {
 /// positions in this order; `input[rank]` leads back to the caller's index.
 struct SeedSet {
   int dimension = 0;
-  std::size_t input_count = 0;          ///< seeds as given
-  std::vector<double> positions;        ///< m x d, row-major, by rank
-  std::vector<double> weights;          ///< m, by rank
-  std::vector<std::uint32_t> input;     ///< m: index of the seed as given
-  std::vector<std::uint32_t> duplicate; ///< input indices left out, ascending
+  std::size_t input_count = 0;           ///< seeds as given
+  std::vector<double> positions;         ///< m x d, row-major, by rank
+  std::vector<double> weights;           ///< m, by rank
+  std::vector<std::uint32_t> input;      ///< m: index of the seed as given
+  std::vector<std::uint32_t> duplicate;  ///< input indices left out, ascending
   std::size_t size() const { return input.size(); }
 };
 

@@ -1,0 +1,78 @@
+#include "lib/seeds/validate.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <powercell/error.hpp>
+#include <string>
+
+#include "lib/seeds/threads.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr std::size_t most_seeds = (std::size_t{1} << 31) - 2;
+
+/// Index of the first value that is NaN or infinite, or values.size().
+std::size_t first_not_finite(std::span<const double> values, int threads) {
+  std::atomic<std::size_t> first{values.size()};
+  parallel_for(threads, values.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (std::isfinite(values[k])) continue;
+      std::size_t known = first.load();
+      while (k < known && !first.compare_exchange_weak(known, k)) {
+      }
+      return;
+    }
+  });
+  return first.load();
+}
+
+void check_sizes(const SeedsView& seeds, int dimension) {
+  if (dimension != 2 && dimension != 3)
+    throw Error(ErrorCode::invalid_argument, "dimension must be 2 or 3, not " + std::to_string(dimension));
+  if (seeds.dimension != dimension)
+    throw Error(ErrorCode::invalid_argument,
+                "seeds have " + std::to_string(seeds.dimension) + " coordinates each, the domain has " +
+                    std::to_string(dimension) + "; give seeds of the domain's dimension");
+  const std::size_t d = static_cast<std::size_t>(dimension);
+  if (seeds.positions.size() % d != 0)
+    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.positions.size()) +
+                                                 " coordinates are not a multiple of the dimension " +
+                                                 std::to_string(dimension));
+  if (!seeds.weights.empty() && seeds.weights.size() != seeds.size())
+    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.weights.size()) + " weights for " +
+                                                 std::to_string(seeds.size()) +
+                                                 " seeds; give one for each seed, or none for all zero");
+  if (seeds.size() > most_seeds)
+    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.size()) + " seeds are more than the " +
+                                                 std::to_string(most_seeds) + " that one diagram can have");
+}
+
+std::string spelled(double value) {
+  if (std::isnan(value)) return "NaN";
+  return value > 0 ? "infinity" : "-infinity";
+}
+
+}  // namespace
+
+void validate_seeds(const SeedsView& seeds, int dimension, int threads) {
+  check_sizes(seeds, dimension);
+  const std::size_t d = static_cast<std::size_t>(dimension);
+  const std::size_t position = first_not_finite(seeds.positions, threads);
+  const std::size_t weight = first_not_finite(seeds.weights, threads);
+  const bool bad_position = position < seeds.positions.size();
+  const bool bad_weight = weight < seeds.weights.size();
+  if (bad_position && (!bad_weight || position / d <= weight))
+    throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(position / d) + ": coordinate " +
+                                             "xyz"[position % d] + " is " +
+                                             spelled(seeds.positions[position]) +
+                                             "; coordinates must be finite, correct or remove this seed");
+  if (bad_weight)
+    throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(weight) + ": weight is " +
+                                             spelled(seeds.weights[weight]) +
+                                             "; weights must be finite, correct or remove this seed");
+}
+
+}  // namespace powercell
