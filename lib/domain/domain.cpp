@@ -1,0 +1,42 @@
+#include <powercell/domain.hpp>
+
+#include "lib/domain/build.hpp"
+#include "lib/domain/region_mesh.hpp"
+
+namespace powercell {
+
+Domain Domain::surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+  return Domain(build_surface(vertices, triangles));
+}
+
+Domain Domain::volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra) {
+  return Domain(build_volume(vertices, tetrahedra));
+}
+
+Domain Domain::box(std::span<const double> low, std::span<const double> high) {
+  return Domain(build_box(low, high));
+}
+
+DomainKind Domain::kind() const {
+  return mesh_->kind;
+}
+int Domain::dimension() const {
+  return mesh_->dimension;
+}
+int Domain::cell_dimension() const {
+  return mesh_->cell_dimension;
+}
+double Domain::measure() const {
+  return mesh_->measure;
+}
+std::array<double, 3> Domain::low() const {
+  return mesh_->low;
+}
+std::array<double, 3> Domain::high() const {
+  return mesh_->high;
+}
+std::size_t Domain::region_count() const {
+  return mesh_->region_count();
+}
+
+}  // namespace powercell
