@@ -1,0 +1,44 @@
+/// \file
+/// Small named shapes of every kind of domain.
+#pragma once
+
+#include <powercell/domain.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/generators.hpp"
+#include "tests/support/meshes.hpp"
+
+namespace powercell::test {
+
+struct NamedDomain {
+  std::string name;
+  Domain domain;
+};
+
+using Parts = std::vector<PolygonPart>;
+Parts unit_square();
+Parts letter_u();           ///< non-convex, with collinear points
+Parts square_with_holes();  ///< two holes, outer ring clockwise
+Parts islands();            ///< three parts, one of them inside the hole of another
+Parts comb(int teeth);      ///< thin teeth: many convex pieces
+
+Domain surface_of(const Mesh& mesh);
+Domain volume_of(const Mesh& mesh);
+/// The square [0,1]^2 or cube [0,1]^3 as a box domain.
+Domain unit_box(int dimension);
+
+std::vector<NamedDomain> polygon_domains();
+std::vector<NamedDomain> surface_domains();
+std::vector<NamedDomain> volume_domains();
+std::vector<NamedDomain> box_domains();
+
+/// n points uniform in measure on the regions of the domain (n x d), for seeds on a surface and for
+/// points whose owner is asked. \pre the domain's regions are polygons, tetrahedra or one box
+std::vector<double> points_in(const Domain& domain, std::size_t n, Random& random);
+/// Seeds on or near the domain: on a surface points_in moved off it by up to half the spacing; else scatter
+/// in the bounding box grown by a tenth, so that some seeds lie outside. Weights by the domain's spacing.
+SeedArray seeds_for(const Domain& domain, Distribution distribution, WeightRange range, std::size_t n,
+                    Random& random);
+
+}  // namespace powercell::test

@@ -1,0 +1,28 @@
+/// \file
+/// Triangle and tetrahedral meshes of named shapes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/generators.hpp"
+
+namespace powercell::test {
+
+/// A mesh as the library takes it: nv x 3 coordinates, then 3 or 4 indices an element.
+struct Mesh {
+  std::vector<double> vertices;
+  std::vector<std::uint32_t> elements;
+  std::size_t vertex_count() const { return vertices.size() / 3; }
+};
+
+Mesh icosphere(int subdivisions);    ///< radius 1 about 0, closed
+Mesh torus(int around, int across);  ///< radii 1 and 0.4 about the z axis, closed
+Mesh wavy_patch(int per_axis);       ///< open: a height field over the unit square
+Mesh book(int pages);                ///< non-manifold: rectangles that share one edge
+/// The unit cube as 6 tetrahedra a grid cell; inner vertices moved by up to `jitter` cells and every
+/// other tetrahedron turned inside out, as files have them.
+Mesh cube_tetrahedra(int per_axis, double jitter, Random& random);
+Mesh ball_tetrahedra(int subdivisions);  ///< an icosphere's triangles joined to its centre
+
+}  // namespace powercell::test

@@ -1,0 +1,67 @@
+/// \file
+/// Convex polygons and polyhedra in long double, cut by half-spaces one at a time. Written for the
+/// oracles alone and as plainly as possible: lists of vertices and of faces, no sharing with lib/.
+#pragma once
+
+#include <cstdint>
+#include <powercell/results.hpp>
+#include <vector>
+
+namespace powercell::test {
+
+using Real = long double;
+
+struct Vec {
+  Real x = 0, y = 0, z = 0;
+};
+Vec operator+(const Vec& a, const Vec& b);
+Vec operator-(const Vec& a, const Vec& b);
+Vec operator*(Real s, const Vec& a);
+Real dot(const Vec& a, const Vec& b);
+Vec cross(const Vec& a, const Vec& b);
+Real length(const Vec& a);
+
+/// The points y with normal . y <= offset.
+struct HalfSpace {
+  Vec normal;
+  Real offset = 0;
+  Real excess(const Vec& y) const { return dot(normal, y) - offset; }  ///< positive outside
+};
+
+/// Measure, first moment and second moment about the origin.
+struct Moments {
+  Real measure = 0;
+  Vec first;
+  Real second = 0;
+  Moments& operator+=(const Moments& other);
+};
+
+/// Edge k goes from vertex k to vertex k+1 (cyclic); `border[k]` is what lies behind it.
+struct Polygon {
+  std::vector<Vec> vertices;
+  std::vector<Border> border;
+  bool empty() const { return vertices.empty(); }
+};
+
+/// A face is a ring of vertex indices, counter-clockwise seen from outside.
+struct Polyhedron {
+  struct Face {
+    std::vector<std::uint32_t> ring;
+    Border border;
+  };
+  std::vector<Vec> vertices;  ///< those of cut-off parts stay in the list, in no ring
+  std::vector<Face> faces;
+  bool empty() const { return faces.empty(); }
+};
+
+/// What is left of the polygon or polyhedron in the half-space; points on its plane are kept, and the
+/// edge or face made by the cut gets `border`.
+Polygon clip(const Polygon& polygon, const HalfSpace& half_space, Border border);
+Polyhedron clip(const Polyhedron& polyhedron, const HalfSpace& half_space, Border border);
+
+Moments moments(const Polygon& polygon);
+Moments moments(const Polyhedron& polyhedron);
+Real edge_length(const Polygon& polygon, std::size_t edge);
+Real face_area(const Polyhedron& polyhedron, std::size_t face);
+
+}  // namespace powercell::test

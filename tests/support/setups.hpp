@@ -1,0 +1,27 @@
+/// \file
+/// Every way a diagram can be made on this machine: device x precision x neighbour provider.
+#pragma once
+
+#include <powercell/device.hpp>
+#include <powercell/options.hpp>
+#include <string>
+#include <vector>
+
+namespace powercell::test {
+
+struct Setup {
+  std::string name;  ///< e.g. "0:0 double tree"
+  Device device;
+  Options options;
+};
+
+/// All of them; the devices are made once for the process. POWERCELL_DEVICE, if set, restricts the list
+/// to the device it names.
+const std::vector<Setup>& all_setups();
+/// The first device in its best precision, with each provider.
+const std::vector<Setup>& main_setups();
+
+/// 2^-53 or 2^-24.
+double unit_roundoff(Precision precision);
+
+}  // namespace powercell::test

@@ -1,0 +1,19 @@
+# Included by the folder.cmake of a test folder, and by bench/: two static libraries, each built once.
+#   powercell_support   generators, domains, brute force, comparisons
+#   powercell_oracles   CGAL and voro++ behind plain headers (CGAL takes long to compile)
+if(NOT TARGET powercell_support)
+  set(support ${PROJECT_SOURCE_DIR}/tests/support)
+  add_library(powercell_support STATIC EXCLUDE_FROM_ALL
+    ${support}/generators.cpp ${support}/meshes.cpp ${support}/domains.cpp ${support}/polytope.cpp
+    ${support}/brute_force.cpp ${support}/compare.cpp ${support}/compare_geometry.cpp ${support}/setups.cpp)
+  target_compile_options(powercell_support PRIVATE -Wall -Wextra)
+  target_link_libraries(powercell_support PUBLIC powercell_test_lib)
+  if(POWERCELL_FLANN)
+    target_compile_definitions(powercell_support PRIVATE POWERCELL_TEST_FLANN)
+  endif()
+
+  find_package(CGAL REQUIRED)
+  find_library(VORO_LIBRARY voro++ REQUIRED)
+  add_library(powercell_oracles STATIC EXCLUDE_FROM_ALL ${support}/cgal.cpp ${support}/voro.cpp)
+  target_link_libraries(powercell_oracles PUBLIC powercell_support PRIVATE CGAL::CGAL ${VORO_LIBRARY})
+endif()

@@ -1,0 +1,24 @@
+/// \file
+/// voro++'s radical Voronoi cells in a box.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/generators.hpp"
+
+namespace powercell::test {
+
+/// n seeds in space.
+struct RadicalCells {
+  std::vector<double> volume;           ///< n; 0 for cells that voro++ finds empty
+  std::vector<std::uint64_t> offset;    ///< n + 1
+  std::vector<std::uint32_t> neighbor;  ///< ascending within a row, as each cell sees it by itself
+  std::vector<double> wall;             ///< area
+};
+
+/// Every seed must lie in the box (voro++ leaves others out). Weights may have any sign: voro++ takes
+/// radii, so the least weight is taken from all.
+RadicalCells radical_cells(const SeedsView& seeds, const Box& box);
+
+}  // namespace powercell::test
