@@ -39,14 +39,19 @@ class POWERCELL_API Diagram {
   Precision precision() const;  ///< as chosen: float64 or float32
   Neighbors neighbors() const;  ///< as chosen: tree or flann
 
+  /// Computes now, in one pass, the measures and what else is named; each is also computed when first
+  /// asked for, but then in a pass of its own.
+  void compute(bool adjacency, bool cells);
+
   const Measures& measures();
   const Adjacency& adjacency();
   const Cells& cells();
   const Dual& dual();
   const Timings& timings() const;  ///< of the last computation
 
+  struct State;  ///< library-internal
+
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

@@ -35,6 +35,7 @@ struct Adjacency {
   std::vector<std::uint64_t> offset;    ///< n + 1; row i is [offset[i], offset[i+1])
   std::vector<std::uint32_t> neighbor;  ///< ascending within a row
   std::vector<double> wall;             ///< length (polygon, surface) or area (volume) of the wall
+  double asymmetry = 0;  ///< largest |a_ij - a_ji| seen before the two sides were averaged
 };
 
 /// What lies behind a face of a cell.

@@ -1,0 +1,201 @@
+#include "lib/clip/clipper.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "kernels/layout.h"
+
+namespace powercell {
+
+namespace {
+
+/// Bytes of output rows in device memory at once.
+constexpr std::size_t row_budget = std::size_t{192} << 20;
+
+/// Arguments that all clip kernels share come first; those of the candidates follow.
+constexpr unsigned common_arguments = 16;
+
+/// `count` reals of the device's precision as doubles.
+void read_reals(const cl::RawBuffer& buffer, bool float32, std::size_t count, std::vector<double>& to) {
+  to.resize(count);
+  if (count == 0) return;
+  if (!float32) {
+    buffer.read(to.data(), count * sizeof(double));
+    return;
+  }
+  std::vector<float> narrow(count);
+  buffer.read(narrow.data(), count * sizeof(float));
+  std::copy(narrow.begin(), narrow.end(), to.begin());
+}
+
+}  // namespace
+
+Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs)
+    : scene_(scene),
+      candidates_(candidates),
+      outputs_(outputs),
+      active_(scene.context()),
+      seed_(scene.context()),
+      region_(scene.context()),
+      status_(scene.context()),
+      faces_(scene.context()),
+      vertices_(scene.context()),
+      link_(scene.context()),
+      border_(scene.context()),
+      moments_(scene.context()),
+      wall_(scene.context()),
+      vertex_(scene.context()) {}
+
+bool Clipper::wants_rows() const { return (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0; }
+
+cl::Kernel& Clipper::kernel(std::size_t rung) {
+  const auto found = kernels_.find(rung);
+  if (found != kernels_.end()) return found->second;
+  const RegionMesh& mesh = scene_.mesh();
+  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(),
+                        capacities(mesh.cell_dimension)[rung], outputs_};
+  auto program = scene_.context()->program(candidates_.file(), variant.defines());
+  return kernels_
+      .emplace(rung, cl::Kernel(scene_.context(), std::move(program), std::string(candidates_.kernel())))
+      .first->second;
+}
+
+std::size_t Clipper::rows_that_fit(std::size_t rung) const {
+  if (!wants_rows()) return std::size_t{1} << 30;
+  const RegionMesh& mesh = scene_.mesh();
+  const Capacity capacity = capacities(mesh.cell_dimension)[rung];
+  std::size_t bytes = static_cast<std::size_t>(capacity.faces) * 12;
+  if (outputs_ & OUTPUT_GEOMETRY)
+    bytes += static_cast<std::size_t>(capacity.vertices * (mesh.dimension * 8 + 24));
+  return std::max<std::size_t>(1, row_budget / bytes);
+}
+
+void Clipper::read_rows(std::size_t rows, const Capacity& capacity, PieceBatch& batch) const {
+  const auto face_entries = rows * static_cast<std::size_t>(capacity.faces);
+  const auto vertex_entries = rows * static_cast<std::size_t>(capacity.vertices);
+  batch.capacity = capacity;
+  batch.faces.resize(rows);
+  faces_.download(std::span(batch.faces));
+  batch.border.resize(face_entries);
+  border_.download(std::span(batch.border));
+  read_reals(wall_, scene_.float32(), face_entries, batch.wall);
+  if (!(outputs_ & OUTPUT_GEOMETRY)) return;
+  batch.vertices.resize(rows);
+  vertices_.download(std::span(batch.vertices));
+  read_reals(vertex_, scene_.float32(), vertex_entries * static_cast<std::size_t>(scene_.mesh().dimension),
+             batch.vertex);
+  if (scene_.mesh().cell_dimension == 3) {
+    batch.link.resize(vertex_entries * 6);
+    link_.download(std::span(batch.link));
+  }
+}
+
+void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, int round, PieceSet& pieces,
+                     Outcome& outcome) {
+  const RegionMesh& mesh = scene_.mesh();
+  const Capacity capacity = capacities(mesh.cell_dimension)[rung];
+  const std::size_t rows = active.size(), real = scene_.float32() ? sizeof(float) : sizeof(double);
+  List ranks(rows);
+  std::transform(active.begin(), active.end(), ranks.begin(), [&](std::uint32_t p) { return pair_seed_[p]; });
+  candidates_.prepare(ranks, round);
+
+  const bool geometry = (outputs_ & OUTPUT_GEOMETRY) != 0;
+  const std::size_t face_rows = wants_rows() ? rows : 0, vertex_rows = geometry ? rows : 0;
+  active_.upload(active);
+  status_.resize(rows);
+  faces_.resize(face_rows);
+  border_.resize(face_rows * static_cast<std::size_t>(capacity.faces));
+  wall_.reserve(face_rows * static_cast<std::size_t>(capacity.faces) * real);
+  vertices_.resize(vertex_rows);
+  vertex_.reserve(vertex_rows * static_cast<std::size_t>(capacity.vertices * mesh.dimension) * real);
+  link_.resize(mesh.cell_dimension == 3 ? vertex_rows * static_cast<std::size_t>(capacity.vertices) * 6 : 0);
+
+  cl::Kernel& call = kernel(rung);
+  call.args(static_cast<cl_uint>(rows), active_, seed_, region_, scene_.corners, scene_.region_offset,
+            scene_.region_vertex, scene_.shape, status_, moments_, faces_, border_, wall_, vertices_, vertex_,
+            link_);
+  candidates_.set_arguments(call, common_arguments);
+  call.launch(rows, 0, &statistics_.kernel_seconds);
+
+  List status(rows);
+  status_.download(std::span(status));
+  const auto batch = static_cast<std::uint32_t>(pieces.batches.size());
+  bool rows_wanted = false;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::uint32_t pair = active[row];
+    pieces.status[pair] = status[row];
+    pieces.batch[pair] = batch;
+    pieces.row[pair] = static_cast<std::uint32_t>(row);
+    if (status[row] == PIECE_MORE) outcome.more.push_back(pair);
+    if (status[row] == PIECE_FULL) outcome.full.push_back(pair);
+    if (status[row] == PIECE_TANGLED) outcome.tangled.push_back(pair);
+    rows_wanted |= status[row] == PIECE_WHOLE || status[row] == PIECE_FLAT;
+  }
+  pieces.batches.emplace_back();
+  if (wants_rows() && rows_wanted) read_rows(rows, capacity, pieces.batches.back());
+}
+
+void Clipper::run_rung(std::size_t rung, const List& active, PieceSet& pieces, Outcome& outcome) {
+  List pending = active;
+  for (int round = 0; !pending.empty(); ++round) {
+    outcome.more.clear();
+    const std::size_t most = std::min(candidates_.most_pairs(round), rows_that_fit(rung));
+    for (std::size_t begin = 0; begin < pending.size(); begin += most) {
+      const std::size_t count = std::min(most, pending.size() - begin);
+      launch(rung, std::span(pending).subspan(begin, count), round, pieces, outcome);
+    }
+    statistics_.rounds = std::max(statistics_.rounds, round + 1);
+    pending = outcome.more;
+  }
+}
+
+void Clipper::finish_on_host(const List& pairs, PieceSet& pieces) {
+  if (pairs.empty()) return;
+  if (!host_scene_) host_scene_ = make_host_scene(scene_);
+  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
+  for (const std::uint32_t pair : pairs) {
+    HostPiece piece = clip_on_host(*host_scene_, pair_seed_[pair], pair_region_[pair]);
+    if (scene_.float32()) {
+      const std::vector<float> narrow(piece.moments.begin(), piece.moments.end());
+      moments_.write(narrow.data(), count * sizeof(float), pair * count * sizeof(float));
+    } else {
+      moments_.write(piece.moments.data(), count * sizeof(double), pair * count * sizeof(double));
+    }
+    pieces.status[pair] = static_cast<std::uint32_t>(piece.status);
+    pieces.batch[pair] = static_cast<std::uint32_t>(pieces.batches.size());
+    pieces.row[pair] = 0;
+    pieces.batches.push_back(std::move(piece.batch));
+  }
+  statistics_.on_host += pairs.size();
+}
+
+PieceSet Clipper::clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region) {
+  pair_seed_ = pair_seed;
+  pair_region_ = pair_region;
+  const std::size_t count = pair_seed.size();
+  const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
+  seed_.upload(pair_seed);
+  region_.upload(pair_region);
+  moments_.reserve(count * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
+
+  PieceSet pieces;
+  pieces.status.resize(count);
+  pieces.batch.resize(count);
+  pieces.row.resize(count);
+  List pending(count), last_resort;
+  for (std::size_t k = 0; k < count; ++k) pending[k] = static_cast<std::uint32_t>(k);
+  for (std::size_t rung = 0; rung < capacities(scene_.mesh().cell_dimension).size() && !pending.empty(); ++rung) {
+    if (rung > 0) statistics_.retried += pending.size();
+    Outcome outcome;
+    run_rung(rung, pending, pieces, outcome);
+    last_resort.insert(last_resort.end(), outcome.tangled.begin(), outcome.tangled.end());
+    pending = std::move(outcome.full);
+    std::sort(pending.begin(), pending.end());
+  }
+  last_resort.insert(last_resort.end(), pending.begin(), pending.end());
+  std::sort(last_resort.begin(), last_resort.end());
+  finish_on_host(last_resort, pieces);
+  return pieces;
+}
+
+}  // namespace powercell

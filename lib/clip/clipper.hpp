@@ -1,0 +1,68 @@
+/// \file
+/// Clips chunks of (region, seed) pairs on the device: rounds of candidates, the capacity ladder, and
+/// the host as the last resort.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+
+#include "lib/clip/candidates.hpp"
+#include "lib/clip/host_clip.hpp"
+#include "lib/clip/pieces.hpp"
+#include "lib/clip/scene.hpp"
+
+namespace powercell {
+
+/// What clipping has done so far.
+struct ClipStatistics {
+  std::uint64_t retried = 0;  ///< pairs that went to a larger variant
+  std::uint64_t on_host = 0;  ///< pairs that ended on the host
+  int rounds = 0;             ///< most rounds of candidates that a chunk needed
+  double kernel_seconds = 0;  ///< time in clip kernels, by events
+};
+
+class Clipper {
+ public:
+  /// \param outputs OUTPUT_... of kernels/layout.h
+  Clipper(const Scene& scene, Candidates& candidates, int outputs);
+
+  /// Clips pair k = (pair_seed[k], pair_region[k]), ranks ascending. Afterwards every pair has a final
+  /// status; moments() holds its moments in device memory, and the result its rows where asked for.
+  /// \throw Error opencl, out_of_device_memory, build_failed, internal
+  PieceSet clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
+
+  /// Moments by pair of the last chunk: rows of 2 + dimension reals of the device's precision.
+  const cl::RawBuffer& moments() const { return moments_; }
+  const ClipStatistics& statistics() const { return statistics_; }
+
+ private:
+  using List = std::vector<std::uint32_t>;
+  struct Outcome {
+    List more, full, tangled;
+  };
+
+  cl::Kernel& kernel(std::size_t rung);
+  std::size_t rows_that_fit(std::size_t rung) const;
+  void launch(std::size_t rung, std::span<const std::uint32_t> active, int round, PieceSet& pieces,
+              Outcome& outcome);
+  void read_rows(std::size_t rows, const Capacity& capacity, PieceBatch& batch) const;
+  /// Clips `active` with one rung until no pair asks for more candidates.
+  void run_rung(std::size_t rung, const List& active, PieceSet& pieces, Outcome& outcome);
+  void finish_on_host(const List& pairs, PieceSet& pieces);
+  bool wants_rows() const;
+
+  const Scene& scene_;
+  Candidates& candidates_;
+  int outputs_;
+  std::map<std::size_t, cl::Kernel> kernels_;
+  std::optional<HostScene> host_scene_;
+  std::span<const std::uint32_t> pair_seed_, pair_region_;
+  ClipStatistics statistics_;
+
+  cl::Buffer<std::uint32_t> active_, seed_, region_, status_, faces_, vertices_, link_;
+  cl::Buffer<std::int32_t> border_;
+  cl::RawBuffer moments_, wall_, vertex_;
+};
+
+}  // namespace powercell

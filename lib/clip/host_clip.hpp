@@ -1,0 +1,36 @@
+/// \file
+/// The last resort: one piece clipped on the host, in extended precision and with arrays that grow, by
+/// the kernels' own source compiled as C++.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lib/clip/pieces.hpp"
+#include "lib/clip/scene.hpp"
+
+namespace powercell {
+
+/// Result of one piece; `batch` has a single row.
+struct HostPiece {
+  int status;
+  std::vector<double> moments;  ///< 2 + dimension
+  PieceBatch batch;
+};
+
+/// Points packed as kernels see them, in double.
+struct HostScene {
+  std::vector<std::byte> corners, points, node_low, node_high;
+  region_shape_t shape;
+  const RegionMesh* mesh;
+  const PackedTree* tree;
+};
+
+HostScene make_host_scene(const Scene& scene);
+
+/// Clips the piece of seed `rank` in `region` by all other seeds.
+/// \throw Error internal if rounding defeats even this (names the seed by its rank)
+HostPiece clip_on_host(const HostScene& scene, std::uint32_t rank, std::uint32_t region);
+
+}  // namespace powercell

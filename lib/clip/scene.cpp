@@ -1,0 +1,71 @@
+#include "lib/clip/scene.hpp"
+
+namespace powercell {
+
+namespace {
+
+void upload(cl::RawBuffer& buffer, const std::vector<std::byte>& bytes) {
+  buffer.reserve(bytes.size());
+  if (!bytes.empty()) buffer.write(bytes.data(), bytes.size());
+}
+
+/// Corner 0 of a right-handed corner (axes x, y, z) has the neighbours x, z, y counter-clockwise seen
+/// from outside; `facet[k]` is the facet that does not contain the neighbour along axis k.
+void set_corner(region_shape_t& shape, int vertex, const int (&along)[3], const int (&facet)[3], bool flip) {
+  const int order[3] = {0, flip ? 1 : 2, flip ? 2 : 1};
+  for (int k = 0; k < 3; ++k) {
+    const int missing = 3 - order[k] - order[(k + 1) % 3];  // the axis off the face between the two
+    shape.next[k][vertex] = along[order[k]];
+    shape.face[k][vertex] = facet[missing];
+  }
+}
+
+}  // namespace
+
+region_shape_t region_shape(RegionShape kind) {
+  region_shape_t shape{};
+  if (kind == RegionShape::tetrahedron) {
+    shape.vertices = shape.faces = 4;
+    // Even permutations of (0, 1, 2, 3) keep the orientation: each vertex sees the others as vertex 0 does.
+    const int order[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+    for (const auto& o : order) set_corner(shape, o[0], {o[1], o[2], o[3]}, {o[1], o[2], o[3]}, false);
+  } else if (kind == RegionShape::box) {
+    shape.vertices = 8;
+    shape.faces = 6;
+    for (int v = 0; v < 8; ++v) {
+      const int x = v & 1, y = v >> 1 & 1, z = v >> 2 & 1;
+      set_corner(shape, v, {v ^ 1, v ^ 2, v ^ 4}, {x, 2 + y, 4 + z}, (x + y + z) % 2 == 1);
+    }
+  }
+  return shape;
+}
+
+Scene::Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool float32)
+    : corners(context),
+      points(context),
+      node_low(context),
+      node_high(context),
+      region_offset(context),
+      region_vertex(context),
+      level_offset(context),
+      shape(context),
+      context_(context),
+      mesh_(mesh),
+      frame_(Frame::of(mesh, float32)) {
+  upload(corners, frame_.pack(mesh.dimension, mesh.vertices, {}));
+  region_offset.upload(mesh.region_offset);
+  region_vertex.upload(mesh.region_vertex);
+  const region_shape_t start = region_shape(mesh.shape);
+  shape.upload({&start, 1});
+}
+
+void Scene::set_seeds(const SeedSet& seeds, const PackedTree& tree) {
+  seeds_ = &seeds;
+  tree_ = &tree;
+  upload(points, frame_.pack(seeds.dimension, seeds.positions, seeds.weights));
+  upload(node_low, frame_.pack(tree.dimension, tree.low, tree.weight));
+  upload(node_high, frame_.pack(tree.dimension, tree.high, {}));
+  level_offset.upload(tree.level_offset);
+}
+
+}  // namespace powercell

@@ -1,0 +1,47 @@
+/// \file
+/// Everything a clip kernel reads, in device memory and, for the last resort, on the host.
+#pragma once
+
+#include <memory>
+
+#include "kernels/layout.h"
+#include "lib/cl/buffer.hpp"
+#include "lib/clip/frame.hpp"
+#include "lib/neighbors/packed_tree.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+/// The graph that all volume regions of one shape start from.
+region_shape_t region_shape(RegionShape shape);
+
+/// Domain, seeds and tree on the device. Buffers are kept between uploads.
+class Scene {
+ public:
+  Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool float32);
+
+  /// Uploads positions, weights and tree; keeps references to both until the next call.
+  void set_seeds(const SeedSet& seeds, const PackedTree& tree);
+  /// Uploads weights only (positions and boxes are as before).
+  void set_weights(const SeedSet& seeds, const PackedTree& tree) { set_seeds(seeds, tree); }
+
+  const std::shared_ptr<cl::Context>& context() const { return context_; }
+  const RegionMesh& mesh() const { return mesh_; }
+  const SeedSet& seeds() const { return *seeds_; }
+  const PackedTree& tree() const { return *tree_; }
+  const Frame& frame() const { return frame_; }
+  bool float32() const { return frame_.split; }
+
+  cl::RawBuffer corners, points, node_low, node_high;  // seed_t
+  cl::Buffer<std::uint32_t> region_offset, region_vertex, level_offset;
+  cl::Buffer<region_shape_t> shape;
+
+ private:
+  std::shared_ptr<cl::Context> context_;
+  const RegionMesh& mesh_;
+  Frame frame_;
+  const SeedSet* seeds_ = nullptr;
+  const PackedTree* tree_ = nullptr;
+};
+
+}  // namespace powercell

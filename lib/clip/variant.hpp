@@ -1,0 +1,35 @@
+/// \file
+/// The kernel variants: the one place that names the kernels' defines and capacities.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace powercell {
+
+/// Capacities of one rung of the ladder; a piece that does not fit goes to the next, at last to the host.
+struct Capacity {
+  int vertices;
+  int faces;
+};
+
+/// What distinguishes compiled programs.
+struct Variant {
+  int dimension = 0;
+  int cell_dimension = 0;
+  bool float32 = false;
+  Capacity capacity{};
+  int outputs = 0;  ///< OUTPUT_... of kernels/layout.h
+
+  std::vector<std::string> defines() const;
+};
+
+/// The rungs for a cell dimension, small to large.
+/// 2D: white noise has 6 edges and seldom 14; a convex piece starts with up to 24.
+/// 3D: white noise has 15.5 faces and 27 vertices, in 10^6 cells at most about 40 and 76.
+const std::vector<Capacity>& capacities(int cell_dimension);
+
+/// All programs the library can ask for with a precision, for tests that compile each.
+std::vector<Variant> all_variants(bool float32);
+
+}  // namespace powercell

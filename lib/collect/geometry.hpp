@@ -1,0 +1,41 @@
+/// \file
+/// Gathers the geometry of clipped pieces into Cells.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <powercell/results.hpp>
+
+#include "lib/clip/frame.hpp"
+#include "lib/clip/pieces.hpp"
+#include "lib/domain/region_mesh.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+class GeometryCollector {
+ public:
+  GeometryCollector(const RegionMesh& mesh, const SeedSet& seeds, const Frame& frame);
+
+  /// Adds the whole pieces of a chunk, in the order of the pairs.
+  void add(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
+           const PieceSet& pieces);
+
+  /// The cells in input order.
+  Cells finish();
+
+ private:
+  void add_vertices(const PieceBatch& batch, std::size_t row, std::uint32_t rank);
+  void add_loops(const PieceBatch& batch, std::size_t row);
+  Border border(std::int32_t code, std::uint32_t region) const;
+
+  const RegionMesh& mesh_;
+  const SeedSet& seeds_;
+  const Frame& frame_;
+  Cells cells_;                          // by rank; cell_offset unused until finish
+  std::vector<std::uint32_t> piece_rank_;
+};
+
+}  // namespace powercell

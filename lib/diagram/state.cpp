@@ -1,0 +1,85 @@
+#include "lib/diagram/state.hpp"
+
+#include <algorithm>
+
+#include "kernels/layout.h"
+#include "lib/diagram/chunks.hpp"
+#include "lib/diagram/stopwatch.hpp"
+#include "lib/neighbors/tree_candidates.hpp"
+#ifdef POWERCELL_HAS_FLANN
+#include "lib/neighbors/list_candidates.hpp"
+#endif
+
+namespace powercell {
+
+namespace {
+
+Precision choose_precision(const Device& device, Precision asked) {
+  const bool fp64 = device.info().fp64;
+  if (asked == Precision::automatic) return fp64 ? Precision::float64 : Precision::float32;
+  if (asked == Precision::float64 && !fp64)
+    throw Error(ErrorCode::no_fp64, "device \"" + device.info().name +
+                                        "\" has no double precision; use single precision or another device");
+  return asked;
+}
+
+Neighbors choose_neighbors(Neighbors asked) {
+#ifndef POWERCELL_HAS_FLANN
+  if (asked == Neighbors::flann)
+    throw Error(ErrorCode::unsupported, "this build has no FLANN; use the tree, or build with POWERCELL_FLANN=ON");
+#endif
+  return asked == Neighbors::automatic ? Neighbors::tree : asked;
+}
+
+}  // namespace
+
+Diagram::State::State(Device device_in, Domain domain_in, Options options_in)
+    : device(std::move(device_in)),
+      domain(std::move(domain_in)),
+      options(std::move(options_in)),
+      precision(choose_precision(device, options.precision)),
+      neighbors(choose_neighbors(options.neighbors)),
+      scene(device.context(), domain.mesh(), precision == Precision::float32) {}
+
+void Diagram::State::forget_results() {
+  measures.reset();
+  adjacency.reset();
+  cells.reset();
+  dual.reset();
+}
+
+void Diagram::State::prepare() {
+  if (ready) return;
+  const int threads = thread_count(options.threads);
+  Stopwatch tree_watch;
+  tree = build_packed_tree(seeds, threads);
+  scene.set_seeds(seeds, tree);
+  timings.prepare += tree_watch.seconds();
+  Stopwatch pair_watch;
+  pairs = enumerate_pairs(domain.mesh(), seeds, tree, threads, options.progress);
+  timings.pairs = pair_watch.seconds();
+  timings.pair_count = pairs.region.size();
+  Stopwatch neighbor_watch;
+#ifdef POWERCELL_HAS_FLANN
+  if (neighbors == Neighbors::flann)
+    candidates = std::make_unique<ListCandidates>(scene, options);
+  else
+#endif
+    candidates = std::make_unique<TreeCandidates>(scene);
+  timings.neighbors = neighbor_watch.seconds();
+  ready = true;
+}
+
+void Diagram::State::run(bool want_adjacency, bool want_cells) {
+  if (!given) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
+  const double built_before = device.build_seconds();
+  const double prepared = timings.prepare;  // by set_seeds or set_weights
+  Stopwatch watch;
+  if (!ready && !seeds.input.empty()) prepare();
+  ChunkRun chunk_run(*this, want_adjacency, want_cells);
+  chunk_run.run();
+  timings.build = device.build_seconds() - built_before;
+  timings.total = prepared + watch.seconds() - timings.build;
+}
+
+}  // namespace powercell

@@ -1,0 +1,48 @@
+/// \file
+/// What a Diagram keeps between calls.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <powercell/diagram.hpp>
+
+#include "lib/clip/candidates.hpp"
+#include "lib/clip/scene.hpp"
+#include "lib/pairs/enumerate.hpp"
+
+namespace powercell {
+
+struct Diagram::State {
+  Device device;
+  Domain domain;
+  Options options;
+  Precision precision;
+  Neighbors neighbors;
+  Scene scene;
+
+  SeedSet seeds;
+  std::vector<double> input_weights;  // as given, by input index
+  std::vector<double> input_positions;
+  bool given = false;     // set_seeds has been called
+  bool ready = false;     // tree, pairs and device buffers belong to the seeds
+  PackedTree tree;
+  Pairs pairs;
+  std::unique_ptr<Candidates> candidates;
+  Timings timings;
+
+  std::optional<Measures> measures;
+  std::optional<Adjacency> adjacency;
+  std::optional<Cells> cells;
+  std::optional<Dual> dual;
+
+  State(Device device, Domain domain, Options options);
+  void forget_results();
+  /// Tree, pairs, device buffers and candidate source for the present seeds and weights.
+  void prepare();
+  /// Clips all pairs and fills measures, and adjacency and cells where asked.
+  void run(bool want_adjacency, bool want_cells);
+};
+
+}  // namespace powercell

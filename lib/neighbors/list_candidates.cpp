@@ -1,0 +1,76 @@
+#include "lib/neighbors/list_candidates.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "lib/seeds/lift.hpp"
+
+namespace powercell {
+
+namespace {
+
+/// Entries of neighbour lists in device memory at once.
+constexpr std::size_t most_entries = std::size_t{1} << 25;
+
+std::size_t initial_neighbors(const Options& options, int cell_dimension) {
+  if (options.initial_neighbors < 0)
+    throw Error(ErrorCode::invalid_argument,
+                "initial_neighbors is " + std::to_string(options.initial_neighbors) + "; it must not be negative");
+  if (options.initial_neighbors > 0) return static_cast<std::size_t>(options.initial_neighbors);
+  return cell_dimension == 3 ? 32 : 16;
+}
+
+}  // namespace
+
+ListCandidates::ListCandidates(const Scene& scene, const Options& options)
+    : scene_(scene),
+      initial_(initial_neighbors(options, scene.mesh().cell_dimension)),
+      twins_(options.twin_queries),
+      threads_(thread_count(options.threads)),
+      index_(scene.seeds(), lift_heights(scene.seeds(), options.lift_eta)),
+      lift_(scene.context()),
+      neighbor_(scene.context()),
+      active_list_(scene.context()) {
+  std::vector<double> heights = lift_heights(scene.seeds(), options.lift_eta);
+  for (double& h : heights) h *= scene.frame().scale;
+  if (scene.float32()) {
+    const std::vector<float> narrow(heights.begin(), heights.end());
+    lift_.reserve(narrow.size() * sizeof(float));
+    if (!narrow.empty()) lift_.write(narrow.data(), narrow.size() * sizeof(float));
+  } else {
+    lift_.reserve(heights.size() * sizeof(double));
+    if (!heights.empty()) lift_.write(heights.data(), heights.size() * sizeof(double));
+  }
+}
+
+std::size_t ListCandidates::neighbors(int round) const {
+  const std::size_t others = scene_.seeds().size() - 1;
+  return round > 40 ? others : std::min(others, initial_ << round);
+}
+
+std::size_t ListCandidates::most_pairs(int round) const {
+  return std::max<std::size_t>(1, most_entries / std::max<std::size_t>(1, neighbors(round)));
+}
+
+void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
+  const auto start = std::chrono::steady_clock::now();
+  distinct_.clear();
+  pair_row_.clear();
+  for (const std::uint32_t rank : ranks) {
+    if (distinct_.empty() || distinct_.back() != rank) distinct_.push_back(rank);
+    pair_row_.push_back(static_cast<std::uint32_t>(distinct_.size() - 1));
+  }
+  count_ = neighbors(round);
+  index_.query(distinct_, count_, twins_, threads_, rows_);
+  host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  neighbor_.upload(rows_);
+  active_list_.upload(pair_row_);
+}
+
+void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) {
+  kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), lift_, neighbor_,
+                   active_list_, static_cast<cl_uint>(count_), static_cast<cl_uint>(count_),
+                   static_cast<cl_int>(twins_));
+}
+
+}  // namespace powercell

@@ -1,0 +1,28 @@
+/// \file
+/// Candidates from the packed tree, searched in the kernel (kernels/neighbors/tree.cl).
+#pragma once
+
+#include <limits>
+
+#include "lib/clip/candidates.hpp"
+#include "lib/clip/scene.hpp"
+
+namespace powercell {
+
+class TreeCandidates : public Candidates {
+ public:
+  explicit TreeCandidates(const Scene& scene) : scene_(scene) {}
+  std::string_view file() const override { return "clip/by_tree.cl"; }
+  std::string_view kernel() const override { return "clip_by_tree_kernel"; }
+  std::size_t most_pairs(int) const override { return std::numeric_limits<std::uint32_t>::max(); }
+  void prepare(std::span<const std::uint32_t>, int) override {}
+  void set_arguments(cl::Kernel& kernel, unsigned first) override {
+    kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), scene_.node_low,
+                     scene_.node_high, scene_.level_offset, static_cast<cl_int>(scene_.tree().levels()));
+  }
+
+ private:
+  const Scene& scene_;
+};
+
+}  // namespace powercell
