@@ -73,13 +73,19 @@ Context::~Context() {
 }
 
 double Context::build_seconds() const {
-  std::lock_guard lock(seconds_mutex_);
+  std::lock_guard lock(record_mutex_);
   return build_seconds_;
 }
 
 void Context::add_build_seconds(double seconds) {
-  std::lock_guard lock(seconds_mutex_);
+  std::lock_guard lock(record_mutex_);
   build_seconds_ += seconds;
+}
+
+bool Context::compiles_at_launch(const Program& program, const std::string& kernel, std::size_t local) {
+  if (!is_pocl(info_)) return false;
+  std::lock_guard lock(record_mutex_);
+  return launched_.emplace(program.handle(), kernel, local).second;
 }
 
 void Context::finish() {

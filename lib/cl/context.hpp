@@ -10,8 +10,10 @@
 #include <memory>
 #include <mutex>
 #include <powercell/device.hpp>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -39,6 +41,9 @@ class Context {
   const DeviceInfo& info() const { return info_; }
   double build_seconds() const;
   void add_build_seconds(double seconds);
+  /// Whether the driver compiles this kernel for groups of `local` at its next launch, as far as can be
+  /// told: PoCL does at the first. Answers true once.
+  bool compiles_at_launch(const Program& program, const std::string& kernel, std::size_t local);
 
   /// The program built from the embedded source `kernels/<file>` with -D `defines` (each "NAME=VALUE",
   /// kept in order); from memory, from the disk cache, or compiled. Thread-safe.
@@ -55,8 +60,9 @@ class Context {
   cl_device_id device_ = nullptr;
   DeviceInfo info_;
   double build_seconds_ = 0;
-  mutable std::mutex seconds_mutex_;  // guards build_seconds_
-  std::mutex mutex_;                  // guards programs_, also while one is built: each is built once
+  std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
+  mutable std::mutex record_mutex_;  // guards build_seconds_ and launched_
+  std::mutex mutex_;                 // guards programs_, also while one is built: each is built once
   std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
 };
 

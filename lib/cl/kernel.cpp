@@ -75,6 +75,19 @@ double event_seconds(cl_event event, const std::string& what) {
   return end > start ? 1e-9 * static_cast<double>(end - start) : 0.0;
 }
 
+/// The first launch of a kernel with a group size, where the driver compiles it only then: waits for the
+/// end and books what is not execution as compilation, else it would pass for the time of the kernel.
+double compiling_launch(Context& context, const Launch& launch, std::size_t global, std::size_t local) {
+  check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
+  const auto start = std::chrono::steady_clock::now();
+  cl_event event = nullptr;
+  enqueue(launch, global, local, &event);
+  const double execution = event_seconds(event, launch.what);
+  const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  context.add_build_seconds(std::max(0.0, all - execution));
+  return execution;
+}
+
 /// For a caller's queue that does not profile: the wall clock, with the queue emptied before and after.
 double wall_seconds(const Launch& launch, std::size_t global, std::size_t local) {
   check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
@@ -120,14 +133,19 @@ void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
                       "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
   global = (global + local - 1) / local * local;
-  if (!seconds) return enqueue(launch, global, local, nullptr);
-  if (!profiles(launch.queue)) {
+  const bool profiling = profiles(launch.queue);
+  if (profiling && context_->compiles_at_launch(*program_, name_, local)) {
+    const double execution = compiling_launch(*context_, launch, global, local);
+    if (seconds) *seconds += execution;
+  } else if (!seconds) {
+    enqueue(launch, global, local, nullptr);
+  } else if (profiling) {
+    cl_event event = nullptr;
+    enqueue(launch, global, local, &event);
+    *seconds += event_seconds(event, launch.what);
+  } else {
     *seconds += wall_seconds(launch, global, local);
-    return;
   }
-  cl_event event = nullptr;
-  enqueue(launch, global, local, &event);
-  *seconds += event_seconds(event, launch.what);
 }
 
 void Kernel::set_memory(cl_uint index, cl_mem memory) {

@@ -129,7 +129,7 @@ bool uses_disk_cache(const Context& context) {
   const std::string_view wish = set ? set : "";
   if (wish == "always") return true;
   if (wish == "never") return false;
-  return context.info().platform_name != "Portable Computing Language";
+  return !is_pocl(context.info());
 }
 
 std::shared_ptr<const Program> build_program(const Context& context, const ProgramRequest& request,
