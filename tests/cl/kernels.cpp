@@ -7,14 +7,31 @@
 
 using namespace powercell;
 
+namespace {
+
+const char* const source = R"(
+__kernel void mark(__global uint* out, uint count) {
+  const uint i = get_global_id(0);
+  if (i < count) out[i] += i + 1;
+}
+__kernel void group_size(__global uint* out) {
+  if (get_global_id(0) == 0) out[0] = get_local_size(0);
+}
+__kernel __attribute__((reqd_work_group_size(8, 1, 1))) void group_size_8(__global uint* out) {
+  if (get_global_id(0) == 0) out[0] = get_local_size(0);
+}
+)";
+
+std::shared_ptr<const cl::Program> program() {
+  static const auto built = source_program(test_device().context(), source);
+  return built;
+}
+
+}  // namespace
+
 TEST_CASE("a launch reaches every item once and none beyond") {
   auto context = test_device().context();
-  cl::Kernel kernel(context, source_program(context, R"(
-    __kernel void mark(__global uint* out, uint count) {
-      const uint i = get_global_id(0);
-      if (i < count) out[i] += i + 1;
-    })"),
-                    "mark");
+  cl::Kernel kernel(context, program(), "mark");
   for (const std::size_t count : {0u, 1u, 1000u, 4097u}) {
     for (const std::size_t local : {0u, 16u}) {
       CAPTURE(count);
@@ -22,11 +39,67 @@ TEST_CASE("a launch reaches every item once and none beyond") {
       cl::Buffer<cl_uint> out(context);
       out.resize(count + 1);
       out.zero();
-      kernel.args(out, static_cast<cl_uint>(count)).launch(count, local);
+      double seconds = 0;
+      kernel.args(out, static_cast<cl_uint>(count)).launch(count, local, count == 1000 ? &seconds : nullptr);
       std::vector<cl_uint> expected(count + 1);
       std::iota(expected.begin(), expected.end(), 1u);
       expected[count] = 0;
       CHECK(out.download() == expected);
+      CHECK((seconds > 0) == (count == 1000));
+      CHECK(seconds < 10);
     }
   }
+}
+
+TEST_CASE("the chosen group size is a power of two within the limits, or what the kernel requires") {
+  auto context = test_device().context();
+  cl::Buffer<cl_uint> out(context);
+  out.resize(1);
+  cl::Kernel(context, program(), "group_size").args(out).launch(1000);
+  const cl_uint chosen = out.download()[0];
+  CHECK(chosen > 0);
+  CHECK((chosen & (chosen - 1)) == 0);
+  CHECK(chosen <= context->info().max_work_group_size);
+  cl::Kernel(context, program(), "group_size_8").args(out).launch(1000);
+  CHECK(out.download()[0] == 8);
+}
+
+TEST_CASE("what goes wrong with a kernel names the kernel") {
+  auto context = test_device().context();
+  auto message_of = [](auto&& call) {
+    const auto error = error_of(call);
+    REQUIRE(error);
+    CHECK(error->code() == ErrorCode::opencl);
+    return std::string(error->what());
+  };
+  const std::string unknown = message_of([&] { cl::Kernel(context, program(), "teapot"); });
+  CHECK(contains(unknown, "teapot"));
+  CHECK(contains(unknown, "CL_INVALID_KERNEL_NAME"));
+
+  cl::Kernel kernel(context, program(), "mark");
+  const std::string no_arguments = message_of([&] { kernel.launch(10); });
+  CHECK(contains(no_arguments, "mark"));
+  CHECK(contains(no_arguments, "CL_INVALID_KERNEL_ARGS"));
+
+  cl::Buffer<cl_uint> out(context);
+  out.resize(1);
+  const std::string wrong_size = message_of([&] { kernel.args(out, cl_ulong{1}); });
+  CHECK(contains(wrong_size, "argument 1 of the kernel mark"));
+  const std::string too_large =
+      message_of([&] { kernel.args(out, cl_uint{1}).launch(1, 2 * context->info().max_work_group_size); });
+  CHECK(contains(too_large, "mark"));
+}
+
+TEST_CASE("a moved kernel keeps its arguments") {
+  auto context = test_device().context();
+  cl::Buffer<cl_uint> out(context);
+  out.upload(std::vector<cl_uint>{0});
+  cl::Kernel from(context, program(), "mark");
+  from.args(out, cl_uint{1});
+  cl::Kernel to(std::move(from));
+  to.launch(1);
+  cl::Kernel other(context, program(), "group_size");
+  other = std::move(to);
+  other.launch(1);
+  CHECK(out.download()[0] == 2);
 }

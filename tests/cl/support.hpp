@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <powercell/device.hpp>
 #include <string>
 
@@ -16,10 +17,29 @@ inline const powercell::Device& test_device() {
   return device;
 }
 
+inline powercell::cl::ProgramRequest test_request(const std::string& source) {
+  return {"kernels/test.cl", source, powercell::cl::build_options({"TEST=1"})};
+}
+
+/// A program that is not among the embedded ones.
 inline std::shared_ptr<const powercell::cl::Program> source_program(
     const std::shared_ptr<powercell::cl::Context>& context, const std::string& source) {
-  const powercell::cl::ProgramRequest request{"test.cl", source, powercell::cl::build_options({})};
-  return powercell::cl::build_program(*context, request, nullptr, nullptr);
+  return powercell::cl::build_program(*context, test_request(source), nullptr, nullptr);
+}
+
+/// The error that `call` throws; none if it does not.
+template <class Call>
+std::optional<powercell::Error> error_of(Call&& call) {
+  try {
+    call();
+  } catch (const powercell::Error& error) {
+    return error;
+  }
+  return std::nullopt;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 /// A new empty folder, removed with what is in it at the end of the scope.
@@ -37,3 +57,26 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Sets an environment variable for the length of a scope.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+/// A shell command that runs the skipped test case `name` of this executable in a process of its own.
+inline std::string child_command(const std::string& name) {
+  std::string command = std::filesystem::read_symlink("/proc/self/exe").string();
+  command.insert(command.begin(), '\'');
+  return command.append("' --no-skip -tc='").append(name).append("' > /dev/null");
+}
