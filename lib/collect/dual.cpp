@@ -1,0 +1,188 @@
+#include "lib/collect/dual.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace powercell {
+namespace {
+
+template <std::size_t C>
+using Row = std::array<std::uint32_t, C>;
+
+/// The seeds of a row in ascending order; rows start with their smallest seed.
+Row<3> key(const Row<3>& row) {
+  return row[1] < row[2] ? row : Row<3>{row[0], row[2], row[1]};
+}
+Row<4> key(const Row<4>& row) {
+  return row;
+}
+
+template <std::size_t C>
+bool by_key(const Row<C>& a, const Row<C>& b) {
+  return key(a) < key(b);
+}
+
+template <std::size_t C>
+void keep_distinct(std::vector<Row<C>>& rows, std::size_t begin) {
+  const auto first = rows.begin() + static_cast<std::ptrdiff_t>(begin);
+  std::stable_sort(first, rows.end(), by_key<C>);
+  rows.erase(std::unique(first, rows.end(), [](const auto& a, const auto& b) { return key(a) == key(b); }),
+             rows.end());
+}
+
+bool is_wall(const Border& border) {
+  return border.kind == Border::Kind::wall;
+}
+
+/// Calls `found` with the triangle of each vertex of a polygonal piece between two walls.
+/// With the cell on the left of its edges, the cells around the vertex follow each other as
+/// (cell, behind the edge that ends there, behind the edge that starts there).
+template <class Found>
+void corners_of_polygon(const Cells& cells, std::uint32_t cell, std::size_t piece, const Found& found) {
+  const std::uint64_t begin = cells.face_offset[piece], end = cells.face_offset[piece + 1];
+  for (std::uint64_t k = begin; k < end; ++k) {
+    const Border& in = cells.border[k == begin ? end - 1 : k - 1];
+    const Border& out = cells.border[k];
+    if (!is_wall(in) || !is_wall(out) || in.index == out.index) continue;
+    Row<3> row{cell, in.index, out.index};
+    std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
+    found(row);
+  }
+}
+
+/// Scratch for the faces around each vertex of a polyhedral piece.
+struct Incidence {
+  std::vector<std::array<std::uint32_t, 3>> wall;  ///< the seeds behind the faces at a vertex
+  std::vector<std::uint32_t> count;                ///< how many of its faces are walls
+};
+
+/// Calls `found` with the tetrahedron of each vertex of a polyhedral piece where three walls meet.
+template <class Found>
+void corners_of_polyhedron(const Cells& cells, std::uint32_t cell, std::size_t piece, Incidence& around,
+                           const Found& found) {
+  const std::size_t vertices = cells.vertex_offset[piece + 1] - cells.vertex_offset[piece];
+  around.wall.resize(std::max(around.wall.size(), vertices));
+  around.count.assign(vertices, 0);
+  for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
+    if (!is_wall(cells.border[f])) continue;
+    for (std::uint64_t k = cells.loop_offset[f]; k < cells.loop_offset[f + 1]; ++k) {
+      const std::uint32_t v = cells.loop[k];
+      if (around.count[v] < 3) around.wall[v][around.count[v]] = cells.border[f].index;
+      ++around.count[v];
+    }
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (around.count[v] != 3) continue;
+    Row<4> row{cell, around.wall[v][0], around.wall[v][1], around.wall[v][2]};
+    std::sort(row.begin(), row.end());
+    if (std::adjacent_find(row.begin(), row.end()) == row.end()) found(row);
+  }
+}
+
+template <std::size_t C, class Found>
+void corners_of_cell(const Cells& cells, std::uint32_t cell, Incidence& around, const Found& found) {
+  for (std::uint64_t p = cells.cell_offset[cell]; p < cells.cell_offset[cell + 1]; ++p) {
+    if constexpr (C == 3) {
+      corners_of_polygon(cells, cell, p, found);
+    } else {
+      corners_of_polyhedron(cells, cell, p, around, found);
+    }
+  }
+}
+
+/// Rows by ascending key. Nearly every simplex is seen from its smallest seed's cell, so those are taken
+/// first, cell by cell, which leaves them sorted in little memory. A cell does not see a corner that lies
+/// on the border between two of its regions; hence the second pass over the other cells of each corner.
+template <std::size_t C>
+std::vector<Row<C>> collect(const Cells& cells) {
+  const std::uint32_t n = static_cast<std::uint32_t>(cells.cell_count());
+  std::vector<Row<C>> rows;
+  std::vector<std::uint64_t> offset(std::size_t{n} + 1, 0);
+  Incidence around;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    corners_of_cell<C>(cells, i, around, [&](const Row<C>& row) {
+      if (row[0] == i) rows.push_back(row);
+    });
+    keep_distinct(rows, offset[i]);
+    offset[std::size_t{i} + 1] = rows.size();
+  }
+  std::vector<Row<C>> missed;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    corners_of_cell<C>(cells, i, around, [&](const Row<C>& row) {
+      if (row[0] == i) return;
+      const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(offset[row[0]]);
+      const auto end = rows.begin() + static_cast<std::ptrdiff_t>(offset[std::size_t{row[0]} + 1]);
+      if (!std::binary_search(begin, end, row, by_key<C>)) missed.push_back(row);
+    });
+  }
+  if (!missed.empty()) {
+    keep_distinct(missed, 0);
+    const auto middle = static_cast<std::ptrdiff_t>(rows.size());
+    rows.insert(rows.end(), missed.begin(), missed.end());
+    std::inplace_merge(rows.begin(), rows.begin() + middle, rows.end(), by_key<C>);
+  }
+  return rows;
+}
+
+/// Turns each row to positive orientation by the positions of its seeds. Differences are exact in long
+/// double unless positions differ in scale by more than its extra bits; below `rounding` times the product
+/// of the edge lengths the sign of the determinant is not known, and the row stays as it is.
+template <std::size_t C>
+void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
+  constexpr std::size_t d = C - 1;
+  constexpr long double rounding = 16 * std::numeric_limits<long double>::epsilon();
+  for (Row<C>& row : rows) {
+    long double e[d][d], scale = rounding;
+    for (std::size_t k = 0; k < d; ++k) {
+      long double squared = 0;
+      for (std::size_t c = 0; c < d; ++c) {
+        e[k][c] =
+            static_cast<long double>(seeds.positions[d * row[k + 1] + c]) - seeds.positions[d * row[0] + c];
+        squared += e[k][c] * e[k][c];
+      }
+      scale *= std::sqrt(squared);
+    }
+    long double det;
+    if constexpr (d == 2) {
+      det = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+    } else {
+      det = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+            e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    }
+    if (det < -scale) std::swap(row[d - 1], row[d]);
+  }
+}
+
+template <std::size_t C>
+Dual finish(std::vector<Row<C>> rows) {
+  // Turning a row moves it only among rows with the same smallest seed.
+  for (auto begin = rows.begin(); begin != rows.end();) {
+    const auto end =
+        std::find_if(begin, rows.end(), [&](const Row<C>& row) { return row[0] != (*begin)[0]; });
+    std::sort(begin, end);
+    begin = end;
+  }
+  Dual dual;
+  dual.corners = C;
+  dual.simplices.reserve(C * rows.size());
+  for (const Row<C>& row : rows) dual.simplices.insert(dual.simplices.end(), row.begin(), row.end());
+  return dual;
+}
+
+}  // namespace
+
+Dual make_dual(const Cells& cells, const SeedsView& seeds) {
+  if (cells.cell_dimension == 3) {
+    std::vector<Row<4>> rows = collect<4>(cells);
+    orient(rows, seeds);
+    return finish(std::move(rows));
+  }
+  std::vector<Row<3>> rows = collect<3>(cells);
+  if (cells.dimension == 2) orient(rows, seeds);
+  return finish(std::move(rows));
+}
+
+}  // namespace powercell

@@ -1,0 +1,104 @@
+#include "tests/collect/cells_by_definition.hpp"
+
+#include "lib/domain/region_mesh.hpp"
+#include "tests/support/brute_force.hpp"
+
+namespace powercell::test {
+namespace {
+
+Vec corner(const RegionMesh& mesh, std::size_t region, std::size_t k) {
+  const double* x = &mesh.vertices[mesh.region_vertex[mesh.region_offset[region] + k] *
+                                   static_cast<std::size_t>(mesh.dimension)];
+  return {x[0], x[1], mesh.dimension == 3 ? x[2] : 0.0};
+}
+
+template <class Piece>
+Piece whole_region(const RegionMesh& mesh, std::size_t region);
+
+template <>
+Polygon whole_region(const RegionMesh& mesh, std::size_t region) {
+  Polygon polygon;
+  for (std::size_t k = 0; k < mesh.region_offset[region + 1] - mesh.region_offset[region]; ++k) {
+    polygon.vertices.push_back(corner(mesh, region, k));
+    polygon.border.push_back(mesh.facet[mesh.facet_offset[region] + k]);
+  }
+  return polygon;
+}
+
+template <>
+Polyhedron whole_region(const RegionMesh& mesh, std::size_t region) {
+  static const std::vector<std::vector<std::uint32_t>> tetrahedron = {
+      {1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  static const std::vector<std::vector<std::uint32_t>> box = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                                              {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const auto& rings = mesh.shape == RegionShape::box ? box : tetrahedron;
+  Polyhedron polyhedron;
+  for (std::size_t k = 0; k < mesh.region_offset[region + 1] - mesh.region_offset[region]; ++k)
+    polyhedron.vertices.push_back(corner(mesh, region, k));
+  for (std::size_t f = 0; f < rings.size(); ++f)
+    polyhedron.faces.push_back({rings[f], mesh.facet[mesh.facet_offset[region] + f]});
+  return polyhedron;
+}
+
+/// The bisector's half-space in the domain's coordinates; the oracle's is relative to seed i.
+HalfSpace placed_bisector(const SeedsView& seeds, std::size_t i, std::size_t j) {
+  HalfSpace half_space = bisector(seeds, i, j);
+  const double* p = &seeds.positions[i * static_cast<std::size_t>(seeds.dimension)];
+  half_space.offset += dot(half_space.normal, {p[0], p[1], seeds.dimension == 3 ? p[2] : 0.0});
+  return half_space;
+}
+
+void append_faces(Cells& cells, const Polygon& piece) {
+  cells.border.insert(cells.border.end(), piece.border.begin(), piece.border.end());
+}
+
+void append_faces(Cells& cells, const Polyhedron& piece) {
+  for (const auto& face : piece.faces) {
+    cells.border.push_back(face.border);
+    cells.loop.insert(cells.loop.end(), face.ring.begin(), face.ring.end());
+    cells.loop_offset.push_back(cells.loop.size());
+  }
+}
+
+template <class Piece>
+void append_cell(Cells& cells, const RegionMesh& mesh, const SeedsView& seeds, std::uint32_t i, double noise,
+                 Random& random) {
+  for (std::uint32_t r = 0; r < mesh.region_count(); ++r) {
+    Piece piece = whole_region<Piece>(mesh, r);
+    for (std::uint32_t j = 0; j < seeds.size() && !piece.empty(); ++j)
+      if (j != i) piece = clip(piece, placed_bisector(seeds, i, j), {Border::Kind::wall, j});
+    if (!(moments(piece).measure > 1e-15L)) continue;
+    cells.region.push_back(r);
+    for (const Vec& v : piece.vertices) {
+      const Real x[3] = {v.x, v.y, v.z};
+      for (int k = 0; k < mesh.dimension; ++k)
+        cells.vertices.push_back(static_cast<double>(x[k]) + noise * random.uniform(-1, 1));
+    }
+    append_faces(cells, piece);
+    cells.vertex_offset.push_back(cells.vertices.size() / static_cast<std::size_t>(mesh.dimension));
+    cells.face_offset.push_back(cells.border.size());
+  }
+}
+
+}  // namespace
+
+Cells cells_by_definition(const Domain& domain, const SeedsView& seeds, double noise) {
+  const RegionMesh& mesh = domain.mesh();
+  Random random(test_seed());
+  Cells cells;
+  cells.dimension = mesh.dimension;
+  cells.cell_dimension = mesh.cell_dimension;
+  cells.cell_offset = cells.vertex_offset = cells.face_offset = {0};
+  if (mesh.cell_dimension == 3) cells.loop_offset = {0};
+  for (std::uint32_t i = 0; i < seeds.size(); ++i) {
+    if (mesh.cell_dimension == 2) {
+      append_cell<Polygon>(cells, mesh, seeds, i, noise, random);
+    } else {
+      append_cell<Polyhedron>(cells, mesh, seeds, i, noise, random);
+    }
+    cells.cell_offset.push_back(cells.piece_count());
+  }
+  return cells;
+}
+
+}  // namespace powercell::test
