@@ -1,0 +1,233 @@
+#include "lib/pairs/candidate_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace powercell::pairs {
+namespace {
+
+// A part with at most this many seeds in question is decided seed by seed, else split.
+constexpr std::uint64_t few_seeds = 48;
+// Entries a frontier is expanded to. Coarser ones test worse, finer ones cost each part more.
+constexpr std::size_t enough_for_part = 32;
+constexpr std::size_t enough_for_box = 48;
+// Splits in a row that may fail to thin out the seeds in question before splitting is given up.
+constexpr int most_failures = 4;
+
+template <int D>
+double radius(const Part<D>& part, const Point<D>& centroid) {
+  double most = 0;
+  for (std::size_t v = 0; v < part.corners; ++v)
+    most = std::max(most, squared_distance<D>(part.corner[v], centroid));
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+template <int D>
+void CandidateSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Frontier& from,
+                                Frontier& to) {
+  tree_.set_origin(low.data());
+  Step& step = root_;
+  step.part.shape = PartShape::box;
+  step.part.corners = std::size_t{1} << D;
+  Point<D> size;
+  for (std::size_t k = 0; k < D; ++k) size[k] = high[k] - low[k];
+  for (std::size_t v = 0; v < step.part.corners; ++v)
+    for (std::size_t k = 0; k < D; ++k) step.part.corner[v][k] = (v >> k & 1) != 0 ? size[k] : 0.0;
+  reach_ = std::sqrt(squared_distance<D>(size, Point<D>{}));
+  refine(step, from, Testers{}, enough_for_box, false);
+  to.swap(step.frontier);
+}
+
+template <int D>
+void CandidateSearch<D>::find(std::uint32_t region, const Frontier& from, std::vector<std::uint32_t>& ranks) {
+  set_region(region);
+  found_.clear();
+  if (from.size() == 1 && from.front().is_seed()) {
+    ranks.push_back(from.front().index);
+    return;
+  }
+  if (mesh_.shape == RegionShape::polygon) {
+    search_polygon(corners_, from);
+  } else {
+    root_.part.shape = mesh_.shape == RegionShape::box ? PartShape::box : PartShape::tetrahedron;
+    root_.part.corners = corners_.size();
+    std::copy(corners_.begin(), corners_.end(), root_.part.corner.begin());
+    refine(root_, from, Testers{}, enough_for_part, true);
+    search(root_);
+  }
+  // Parts share candidates, and a node may be settled from several parts.
+  std::sort(found_.begin(), found_.end(), [](RankRange a, RankRange b) { return a.begin < b.begin; });
+  std::uint32_t next = 0;
+  for (const RankRange range : found_)
+    for (next = std::max(next, range.begin); next < range.end; ++next) ranks.push_back(next);
+}
+
+template <int D>
+void CandidateSearch<D>::set_region(std::uint32_t region) {
+  const std::uint32_t first = mesh_.region_offset[region], last = mesh_.region_offset[region + 1];
+  const double* origin = &mesh_.vertices[std::size_t{mesh_.region_vertex[first]} * D];
+  corners_.resize(last - first);
+  reach_ = 0;
+  for (std::uint32_t slot = first; slot < last; ++slot) {
+    const double* x = &mesh_.vertices[std::size_t{mesh_.region_vertex[slot]} * D];
+    Point<D>& corner = corners_[slot - first];
+    for (std::size_t k = 0; k < D; ++k) corner[k] = x[k] - origin[k];
+    reach_ = std::max(reach_, squared_distance<D>(corner, Point<D>{}));
+  }
+  reach_ = std::sqrt(reach_);
+  tree_.set_origin(origin);
+  interior_.set(corners_, mesh_);
+}
+
+/// Polygons of many corners are halved by chords, without a test, until they fit a Part.
+template <int D>
+void CandidateSearch<D>::search_polygon(std::span<const Point<D>> corners, const Frontier& from) {
+  const std::size_t count = corners.size();
+  if (count <= most_corners) {
+    root_.part.shape = PartShape::polygon;
+    root_.part.corners = count;
+    std::copy(corners.begin(), corners.end(), root_.part.corner.begin());
+    refine(root_, from, Testers{}, enough_for_part, true);
+    search(root_);
+    return;
+  }
+  search_polygon(corners.first(count / 2 + 1), from);
+  std::vector<Point<D>> rest(corners.begin() + static_cast<std::ptrdiff_t>(count / 2), corners.end());
+  rest.push_back(corners.front());
+  search_polygon(rest, from);
+}
+
+template <int D>
+void CandidateSearch<D>::search(Step& step) {
+  steps_left_ = 256 + step.open / 2;
+  visit(step, 0, 0);
+}
+
+/// Decides a refined part, or splits it. `failures` counts the splits in a row above it whose halves both
+/// kept nearly all seeds: then more seeds meet in a point than splitting can tell apart.
+template <int D>
+void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
+  if (step.open == 0) return;
+  if (step.open <= few_seeds || depth == most_splits || failures == most_failures || steps_left_ < 2)
+    return finish(step);
+  steps_left_ -= 2;
+  if (halves_.size() == depth) halves_.emplace_back();
+  Halves& halves = halves_[depth];
+  std::tie(halves.first.part, halves.second.part) = split(step.part);
+  refine(halves.first, step.frontier, step.testers, enough_for_part, true);
+  refine(halves.second, step.frontier, step.testers, enough_for_part, true);
+  const bool paid = halves.first.open + halves.second.open < step.open + step.open / 5 * 4;
+  visit(halves.first, depth + 1, paid ? 0 : failures + 1);
+  visit(halves.second, depth + 1, paid ? 0 : failures + 1);
+}
+
+/// Fills the frontier of `step` with what is left of `from` for its part. `known` are seeds worth trying.
+template <int D>
+void CandidateSearch<D>::refine(Step& step, const Frontier& from, const Testers& known, std::size_t enough,
+                                bool settle) {
+  step.bounds = PowerBounds(reach_, radius<D>(step.part, step.part.centroid()));
+  step.frontier.clear();
+  step.open = 0;
+  choose_testers(step, from, known);
+  for (const Entry e : from) take(step, e, settle, &step == &root_);
+  expand(step, enough, settle);
+}
+
+template <int D>
+void CandidateSearch<D>::choose_testers(Step& step, const Frontier& from, const Testers& known) {
+  using Least = typename LocalTree<D>::Least;
+  step.testers.clear();
+  const auto choose_at = [&](const Point<D>& x) {
+    Least least;
+    const auto consider = [&](std::uint32_t rank) {
+      const double power = tree_.power(Entry{rank, -1, false}, x);
+      if (power < least.power) least = {power, rank};
+    };
+    for (const Tester& t : known) consider(t.rank);
+    for (const Tester& t : step.testers) consider(t.rank);
+    least = tree_.least_power(x, from, least);
+    if (least.rank != LocalTree<D>::none && !step.testers.contains(least.rank))
+      step.testers.add({least.rank, tree_.upper(least.rank, step.part, step.bounds)});
+  };
+  choose_at(step.part.centroid());
+  for (std::size_t v = 0; v < step.part.corners; ++v) choose_at(step.part.corner[v]);
+}
+
+/// Keeps `entry` unless it is excluded; a `fresh` node inside the region is settled at once: a seed in the
+/// region nearly always meets it, and there are no more of them than seeds.
+template <int D>
+void CandidateSearch<D>::take(Step& step, Entry entry, bool settle, bool fresh) {
+  if (excluded(step.testers, tree_.lower(entry, step.part, step.bounds), step.part.corners)) return;
+  if (settle && fresh && !entry.settled && !entry.is_seed()) {
+    const auto box = tree_.box(entry);
+    if (interior_.contains(box.low, box.high)) {
+      entry.settled = true;
+      emit(ranks(tree_.tree(), entry));
+    }
+  }
+  step.frontier.push_back(entry);
+  if (!entry.settled) {
+    const RankRange range = ranks(tree_.tree(), entry);
+    step.open += range.end - range.begin;
+  }
+}
+
+/// Replaces open nodes by their children, the largest first, until there are `enough` entries or seeds only.
+template <int D>
+void CandidateSearch<D>::expand(Step& step, std::size_t enough, bool settle) {
+  while (step.frontier.size() < enough) {
+    int level = -1;
+    for (const Entry e : step.frontier)
+      if (!e.settled) level = std::max<int>(level, e.level);
+    if (level < 0) return;
+    expanding_.swap(step.frontier);
+    step.frontier.clear();
+    for (const Entry e : expanding_) {
+      if (e.settled || e.level != level) {
+        step.frontier.push_back(e);
+        continue;
+      }
+      const RankRange range = ranks(tree_.tree(), e);
+      step.open -= range.end - range.begin;
+      for_children(tree_.tree(), e, [&](Entry child) { take(step, child, settle, true); });
+    }
+  }
+}
+
+/// Emits the seeds that the testers leave, and of few ones those that no other excludes.
+template <int D>
+void CandidateSearch<D>::finish(Step& step) {
+  const auto open_node = [](Entry e) { return !e.settled && !e.is_seed(); };
+  while (std::any_of(step.frontier.begin(), step.frontier.end(), open_node))
+    expand(step, step.frontier.size() + 1, true);
+  if (step.open <= few_seeds) return finish_few(step);
+  for (const Entry e : step.frontier)
+    if (!e.settled) emit(ranks(tree_.tree(), e));
+}
+
+template <int D>
+void CandidateSearch<D>::finish_few(Step& step) {
+  few_.clear();
+  few_lower_.clear();
+  few_upper_.clear();
+  for (const Entry e : step.frontier) {
+    if (e.settled) continue;
+    few_.push_back(e.index);
+    few_lower_.push_back(tree_.lower(e, step.part, step.bounds));
+    few_upper_.push_back(tree_.upper(e.index, step.part, step.bounds));
+  }
+  for (std::size_t i = 0; i < few_.size(); ++i) {
+    const auto beats = [&](const CornerValues& upper) {
+      return dominates(upper, few_lower_[i], step.part.corners);
+    };
+    if (std::none_of(few_upper_.begin(), few_upper_.end(), beats)) emit({few_[i], few_[i] + 1});
+  }
+}
+
+template class CandidateSearch<2>;
+template class CandidateSearch<3>;
+
+}  // namespace powercell::pairs
