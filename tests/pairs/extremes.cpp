@@ -1,0 +1,153 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "lib/pairs/enumerate.hpp"
+#include "tests/pairs/region_meshes.hpp"
+#include "tests/pairs/true_pairs.hpp"
+#include "tests/support/brute_force.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+struct Enumerated {
+  SeedSet seeds;
+  Pairs pairs;
+};
+
+Enumerated enumerate(const RegionMesh& mesh, std::size_t n, WeightRange range) {
+  Random random(test_seed());
+  const SeedArray seeds = random_seeds(Distribution::white, range, n, mesh.dimension, random);
+  Enumerated all{make_seed_set(seeds.view(), mesh.dimension, 2), {}};
+  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  return all;
+}
+
+/// Random points of random regions: the seed of least power there must be a candidate of the region.
+void check_owners(const RegionMesh& mesh, const Enumerated& all, int samples) {
+  Random random(test_seed() + 1);
+  const SeedsView view{all.seeds.dimension, all.seeds.positions, all.seeds.weights};
+  const std::size_t d = static_cast<std::size_t>(mesh.dimension);
+  for (int s = 0; s < samples; ++s) {
+    const auto r = static_cast<std::uint32_t>(random.index(mesh.region_count()));
+    std::vector<double> x(d, 0.0), share;
+    for (std::uint32_t slot = mesh.region_offset[r]; slot < mesh.region_offset[r + 1]; ++slot)
+      share.push_back(random.uniform());
+    const double sum = std::accumulate(share.begin(), share.end(), 0.0);
+    for (std::size_t c = 0; c < share.size(); ++c)
+      for (std::size_t k = 0; k < d; ++k)
+        x[k] += share[c] / sum * mesh.vertices[mesh.region_vertex[mesh.region_offset[r] + c] * d + k];
+    const auto [rank, gap] = owner(view, x);
+    if (gap < 1e-12L) continue;  // the rounding of x may have moved it out of the region
+    const auto first = all.pairs.region.begin();
+    CHECK(std::binary_search(first + static_cast<std::ptrdiff_t>(all.pairs.offset[rank]),
+                             first + static_cast<std::ptrdiff_t>(all.pairs.offset[rank + 1]), r));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("many seeds in two triangles: about one pair a seed") {
+  INFO(replay_hint());
+  const RegionMesh mesh = square_of_triangles(1);
+  for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
+    const Enumerated all = enumerate(mesh, 200000, range);
+    // Cells along the diagonal, about 1.3 sqrt(2) sqrt(n) of them, count twice; twice as many may.
+    CHECK(all.pairs.region.size() < 200000 + 4 * 448);
+    check_owners(mesh, all, 200);
+  }
+}
+
+TEST_CASE("ten seeds on many triangles: about one pair a triangle") {
+  INFO(replay_hint());
+  const RegionMesh mesh = square_of_triangles(300);
+  for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
+    const Enumerated all = enumerate(mesh, 10, range);
+    CHECK(all.pairs.region.size() >= mesh.region_count());
+    CHECK(all.pairs.region.size() < mesh.region_count() * 1.03);
+    check_owners(mesh, all, 1000);
+  }
+}
+
+TEST_CASE("many seeds in space, a surface of twelve triangles: only the cells at the surface") {
+  INFO(replay_hint());
+  const RegionMesh mesh = cube_surface(1);
+  for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
+    const Enumerated all = enumerate(mesh, 50000, range);
+    // Six faces of 0.36, each met by about 1.46 n^(2/3) cells per unit area: 4280.
+    CHECK(all.pairs.region.size() > 2000);
+    CHECK(all.pairs.region.size() < 8600);
+    check_owners(mesh, all, 300);
+  }
+}
+
+TEST_CASE("seeds and tetrahedra in like numbers") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const RegionMesh mesh = volume_regions(cube_tetrahedra(12, 0.2, random));
+  for (const WeightRange range : {WeightRange::W0, WeightRange::W2})
+    check_owners(mesh, enumerate(mesh, 10000, range), 500);
+}
+
+TEST_CASE("clusters far below the size of the regions that they straddle stay cheap") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  // Half of the seeds within 1e-7 of the diagonal of the square, where its two triangles meet.
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 20000, 2, random);
+  for (std::size_t i = 0; i < 10000; ++i)
+    for (int k = 0; k < 2; ++k) seeds.coordinate(i, k) = 0.5 + 1e-7 * random.uniform(-1, 1);
+  const RegionMesh mesh = square_of_triangles(1);
+  Enumerated all{make_seed_set(seeds.view(), 2, 2), {}};
+  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  CHECK(all.pairs.region.size() < 20000 + 6 * 142);
+  check_owners(mesh, all, 300);
+}
+
+TEST_CASE("one region, no seeds, no regions") {
+  RegionMesh one = square_of_triangles(1);
+  one.source.resize(1);
+  one.region_offset.resize(2);
+  one.region_vertex.resize(3);
+  const Enumerated all = enumerate(one, 100, WeightRange::W2);
+  CHECK(all.pairs.region == std::vector<std::uint32_t>(all.seeds.size(), 0));
+  CHECK(all.pairs.offset.back() == all.seeds.size());
+
+  const SeedSet none = make_seed_set(SeedsView{2, {}, {}}, 2, 1);
+  const Pairs without_seeds = enumerate_pairs(square_of_triangles(2), none, build_packed_tree(none, 1), 1);
+  CHECK(without_seeds.offset == std::vector<std::uint64_t>{0});
+  CHECK(without_seeds.region.empty());
+
+  RegionMesh empty;
+  empty.dimension = 2;
+  CHECK(enumerate(empty, 5, WeightRange::W0).pairs.offset == std::vector<std::uint64_t>(6, 0));
+}
+
+TEST_CASE("progress is told, and stops the work when asked") {
+  const RegionMesh mesh = square_of_triangles(40);
+  Random random(1);
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 1000, 2, random);
+  const SeedSet set = make_seed_set(seeds.view(), 2, 1);
+  const PackedTree tree = build_packed_tree(set, 1);
+  double last = 0;
+  enumerate_pairs(mesh, set, tree, 1, [&](double fraction) {
+    CHECK(fraction > last);
+    last = fraction;
+    return true;
+  });
+  CHECK(last == 1);
+  for (const int threads : {1, 3}) {
+    int calls = 0;
+    try {
+      enumerate_pairs(mesh, set, tree, threads, [&](double) { return ++calls < 2; });
+      // With more threads the caller may find fewer than two tasks to do.
+      CHECK(threads > 1);
+      CHECK(calls < 2);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::interrupted);
+      CHECK(calls == 2);
+    }
+  }
+}

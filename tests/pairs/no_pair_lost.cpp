@@ -1,0 +1,153 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "lib/pairs/enumerate.hpp"
+#include "tests/pairs/region_meshes.hpp"
+#include "tests/pairs/true_pairs.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+struct NamedMesh {
+  std::string name;
+  RegionMesh mesh;
+  double most;  // candidates for each true pair on random seeds: the worst measured, and a tenth more
+};
+
+std::vector<NamedMesh> meshes() {
+  Random random(test_seed());
+  std::vector<NamedMesh> all;
+  all.push_back({"square of 2 triangles", square_of_triangles(1), 2.2});
+  all.push_back({"square of 200 triangles", square_of_triangles(10), 1.4});
+  all.push_back({"disc of 3 polygons", disc_of_polygons(40), 1.9});
+  all.push_back({"icosphere", surface_regions(icosphere(1)), 1.6});
+  all.push_back({"cube surface", cube_surface(1), 2.1});
+  all.push_back({"triangle soup", triangle_soup(120, random), 1.5});
+  all.push_back({"cube of 6 tetrahedra", volume_regions(cube_tetrahedra(1, 0, random)), 2.1});
+  all.push_back({"cube of 162 tetrahedra", volume_regions(cube_tetrahedra(3, 0.2, random)), 1.7});
+  all.push_back({"8 boxes", boxes(2), 2.1});
+  return all;
+}
+
+/// No true pair is missing; rows ascend; the result is the same for any number of threads.
+/// Returns candidates per true pair.
+double check(const RegionMesh& mesh, const SeedArray& seeds) {
+  const SeedSet set = make_seed_set(seeds.view(), mesh.dimension, 1);
+  const PackedTree tree = build_packed_tree(set, 1);
+  const Pairs pairs = enumerate_pairs(mesh, set, tree, 1);
+  REQUIRE(pairs.offset.size() == set.size() + 1);
+  REQUIRE(pairs.offset.back() == pairs.region.size());
+  for (std::size_t i = 0; i < set.size(); ++i)
+    for (std::uint64_t k = pairs.offset[i] + 1; k < pairs.offset[i + 1]; ++k)
+      REQUIRE(pairs.region[k - 1] < pairs.region[k]);
+
+  const PairSet expected = true_pairs(mesh, set);
+  const PairSet found = as_set(pairs);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> lost;
+  std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(), std::back_inserter(lost));
+  CHECK_MESSAGE(lost.empty(), lost.size(), " pairs lost, the first: region ",
+                lost.empty() ? 0 : lost[0].first, ", rank ", lost.empty() ? 0 : lost[0].second);
+  REQUIRE(!expected.empty());
+
+  for (const int threads : {2, 5}) {
+    const Pairs again = enumerate_pairs(mesh, set, tree, threads);
+    CHECK(again.offset == pairs.offset);
+    CHECK(again.region == pairs.region);
+  }
+  return static_cast<double>(found.size()) / static_cast<double>(expected.size());
+}
+
+SeedArray heavy(int dimension, Random& random) {
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 120, dimension, random);
+  double most = 0;
+  for (const double w : seeds.weights) most = std::max(most, w);
+  seeds.weights[60] = 1e6 * most;
+  return seeds;
+}
+
+SeedArray far_outside(int dimension, Random& random) {
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 60, dimension, random);
+  const SeedArray far = random_seeds(Distribution::white, WeightRange::W1, 60, dimension, random,
+                                     Box{{50, 60, 70}, {53, 63, 73}});
+  seeds.positions.insert(seeds.positions.end(), far.positions.begin(), far.positions.end());
+  seeds.weights.insert(seeds.weights.end(), far.weights.begin(), far.weights.end());
+  return seeds;
+}
+
+SeedArray all_outside(int dimension, Random& random) {
+  return random_seeds(Distribution::white, WeightRange::W1, 150, dimension, random,
+                      Box{{-3, 2, 4}, {-1, 4, 7}});
+}
+
+}  // namespace
+
+TEST_CASE("no pair is lost and few are needless: random seeds and weights") {
+  INFO(replay_hint());
+  for (const NamedMesh& m : meshes()) {
+    Random random(test_seed());
+    double worst = 0;
+    for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
+      for (const std::size_t n : {3, 20, 200}) {
+        INFO(m.name, " ", std::string(name(range)), " n = ", n);
+        const SeedArray seeds = random_seeds(Distribution::white, range, n, m.mesh.dimension, random);
+        const double ratio = check(m.mesh, seeds);
+        worst = std::max(worst, ratio);
+      }
+    CHECK_MESSAGE(worst < m.most, m.name);
+  }
+}
+
+TEST_CASE("no pair is lost: degenerate seeds") {
+  INFO(replay_hint());
+  using Family = std::pair<std::string, std::function<SeedArray(int, Random&)>>;
+  const std::vector<Family> families = {
+      {"grid of 5", [](int d, Random&) { return grid(d == 2 ? 11 : 5, d); }},
+      {"grid on corners",
+       [](int d, Random&) {
+         return grid(d == 2 ? 11 : 5, d, {{-.1, -.1, -.1}, {1.1, 1.1, 1.1}});
+       }},
+      {"heavy seed", heavy},
+      {"far outside", far_outside},
+      {"all outside", all_outside},
+      {"cluster",
+       [](int d, Random& r) { return random_seeds(Distribution::cluster, WeightRange::W1, 150, d, r); }},
+      {"scales", [](int d, Random& r) { return spread_over_scales(150, d, 9, r); }},
+      {"cospherical", [](int d, Random&) { return cospherical(100, d); }},
+      {"collinear", [](int d, Random&) { return collinear(60, d); }},
+      {"one seed",
+       [](int d, Random& r) { return random_seeds(Distribution::white, WeightRange::W0, 1, d, r); }},
+  };
+  for (const NamedMesh& m : meshes())
+    for (const Family& family : families) {
+      Random random(test_seed());
+      INFO(m.name, " ", family.first);
+      check(m.mesh, family.second(m.mesh.dimension, random));
+    }
+}
+
+TEST_CASE("no pair is lost, nor many gained, by scale, place and a constant in the weights") {
+  INFO(replay_hint());
+  struct Change {
+    double scale, by, weight;
+  };
+  for (NamedMesh& m : meshes())
+    for (const Change c : {Change{1e-6, 0, 0}, Change{1e9, 0, 0}, Change{1, 1e9, 0}, Change{1, 0, 1e6},
+                           Change{1e-160, 0, 0}, Change{1e160, 0, 0}}) {
+      INFO(m.name, " scaled by ", c.scale, ", moved by ", c.by, ", weights plus ", c.weight);
+      Random random(test_seed());
+      SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 100, m.mesh.dimension, random);
+      scale(seeds, c.scale);
+      if (c.scale > 1e100) seeds.weights.assign(seeds.size(), 0.0);  // they would overflow
+      for (double& x : seeds.positions) x += c.by;
+      for (double& w : seeds.weights) w += c.weight;
+      RegionMesh mesh = m.mesh;
+      transform(mesh, c.scale, c.by);
+      const double ratio = check(mesh, seeds);
+      // Where squares overflow or vanish nothing can be told apart, and everything stays.
+      if (c.scale > 1e-100 && c.scale < 1e100) CHECK(ratio < m.most);
+    }
+}
