@@ -5,6 +5,10 @@
 
 namespace powercell {
 
+Domain Domain::polygon(std::span<const PolygonPart> parts) {
+  return Domain(build_polygon(parts));
+}
+
 Domain Domain::surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
   return Domain(build_surface(vertices, triangles));
 }

@@ -1,0 +1,29 @@
+/// \file
+/// One part of a polygon cut into convex pieces that tile it exactly.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lib/domain/geos.hpp"
+#include "lib/domain/rings.hpp"
+
+namespace powercell {
+
+/// Most vertices of a piece: the clip kernels start with room for about 32 and cells add some.
+inline constexpr std::size_t piece_capacity = 24;
+
+/// Convex polygons, counter-clockwise; piece k is vertex[offset[k] .. offset[k+1]).
+struct Pieces {
+  std::vector<std::uint32_t> offset{0};
+  std::vector<std::uint32_t> vertex;
+};
+
+/// Appends the pieces of the part with the rings [first, last). All their vertices are vertices of the
+/// rings, and a vertex on an edge of a piece is a vertex of both pieces beside it. A convex part of at
+/// most `piece_capacity` vertices is one piece.
+void append_convex_pieces(geos::Context& geos, const IndexedRings& rings, std::size_t first, std::size_t last,
+                          Pieces& pieces);
+
+}  // namespace powercell

@@ -1,0 +1,124 @@
+#include "lib/domain/geos.hpp"
+
+namespace powercell::geos {
+
+Context::Context() : handle_(GEOS_init_r()) {
+  GEOSContext_setErrorMessageHandler_r(
+      handle_, [](const char* message, void* text) { *static_cast<std::string*>(text) = message; },
+      &message_);
+}
+Context::~Context() {
+  GEOS_finish_r(handle_);
+}
+
+void Context::fail(const char* operation) const {
+  throw Error(ErrorCode::internal, std::string("GEOS: ") + operation + " failed: " + message_);
+}
+
+Geometry Context::own(GEOSGeometry* geometry, const char* operation) {
+  if (!geometry) fail(operation);
+  return Geometry(geometry, Destroy{handle_});
+}
+
+GEOSCoordSequence* Context::sequence(const std::vector<double>& xy) {
+  GEOSCoordSequence* points =
+      GEOSCoordSeq_copyFromBuffer_r(handle_, xy.data(), static_cast<unsigned>(xy.size() / 2), 0, 0);
+  if (!points) fail("copying coordinates");
+  return points;
+}
+
+Geometry Context::polygon(const IndexedRings& rings, std::size_t first, std::size_t last) {
+  std::vector<Geometry> closed;
+  for (std::size_t r = first; r < last; ++r) {
+    std::vector<double> xy;
+    for (std::uint32_t v : rings.rings[r].vertex) xy.insert(xy.end(), {rings.at(v)[0], rings.at(v)[1]});
+    xy.insert(xy.end(), {xy[0], xy[1]});
+    closed.push_back(own(GEOSGeom_createLinearRing_r(handle_, sequence(xy)), "making a ring"));
+  }
+  std::vector<GEOSGeometry*> raw;
+  for (Geometry& ring : closed) raw.push_back(ring.release());  // the polygon takes them, also on failure
+  return own(GEOSGeom_createPolygon_r(handle_, raw[0], raw.data() + 1, static_cast<unsigned>(raw.size() - 1)),
+             "making a polygon");
+}
+
+Geometry Context::multipolygon(const std::vector<Geometry>& polygons) {
+  std::vector<GEOSGeometry*> raw;
+  for (const Geometry& polygon : polygons) raw.push_back(GEOSGeom_clone_r(handle_, polygon.get()));
+  return own(
+      GEOSGeom_createCollection_r(handle_, GEOS_MULTIPOLYGON, raw.data(), static_cast<unsigned>(raw.size())),
+      "making a multipolygon");
+}
+
+Geometry Context::segment(const double* a, const double* b) {
+  return own(GEOSGeom_createLineString_r(handle_, sequence({a[0], a[1], b[0], b[1]})), "making a segment");
+}
+
+std::optional<Defect> Context::defect(const Geometry& geometry) {
+  char* reason = nullptr;
+  GEOSGeometry* place = nullptr;
+  const char valid = GEOSisValidDetail_r(handle_, geometry.get(), 0, &reason, &place);
+  const Geometry location(place, Destroy{handle_});
+  Defect found;
+  if (reason) found.reason = reason;
+  GEOSFree_r(handle_, reason);
+  if (valid == 1) return std::nullopt;
+  if (valid != 0) fail("the validity check");
+  if (location) {
+    GEOSGeomGetX_r(handle_, location.get(), &found.x);
+    GEOSGeomGetY_r(handle_, location.get(), &found.y);
+  }
+  return found;
+}
+
+std::optional<Defect> Context::overlap(const Geometry& a, const Geometry& b) {
+  const char meet = GEOSRelatePattern_r(handle_, a.get(), b.get(), "T********");
+  if (meet == 0) return std::nullopt;
+  if (meet != 1) fail("comparing two parts");
+  const Geometry common = own(GEOSIntersection_r(handle_, a.get(), b.get()), "intersecting two parts");
+  const Geometry inside = own(GEOSPointOnSurface_r(handle_, common.get()), "finding a point");
+  Defect found;
+  found.reason = "overlap";
+  GEOSGeomGetX_r(handle_, inside.get(), &found.x);
+  GEOSGeomGetY_r(handle_, inside.get(), &found.y);
+  return found;
+}
+
+std::vector<double> Context::triangulate(const Geometry& polygon) {
+  const Geometry all(GEOSConstrainedDelaunayTriangulation_r(handle_, polygon.get()), Destroy{handle_});
+  std::vector<double> corners;
+  if (!all) return corners;
+  const int count = GEOSGetNumGeometries_r(handle_, all.get());
+  corners.reserve(6 * static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const GEOSGeometry* triangle = GEOSGetGeometryN_r(handle_, all.get(), k);
+    const GEOSGeometry* ring = GEOSGetExteriorRing_r(handle_, triangle);
+    const GEOSCoordSequence* points = ring ? GEOSGeom_getCoordSeq_r(handle_, ring) : nullptr;
+    for (unsigned c = 0; c < 3; ++c) {
+      double x = 0, y = 0;
+      if (!points || !GEOSCoordSeq_getXY_r(handle_, points, c, &x, &y)) fail("reading a triangle");
+      corners.insert(corners.end(), {x, y});
+    }
+  }
+  return corners;
+}
+
+Tree::Tree(Context& context)
+    : context_(context), tree_(GEOSSTRtree_create_r(context.handle_, 10), Destroy{context.handle_}) {
+  if (!tree_) context.fail("making a tree");
+}
+
+void Tree::insert(const Geometry& extent, std::size_t number) {
+  GEOSSTRtree_insert_r(context_.handle_, tree_.get(), extent.get(), reinterpret_cast<void*>(number));
+}
+
+void Tree::query(const Geometry& extent, const std::function<void(std::size_t)>& visit) {
+  GEOSSTRtree_query_r(
+      context_.handle_, tree_.get(), extent.get(),
+      [](void* number, void* function) {
+        (*static_cast<const std::function<void(std::size_t)>*>(function))(
+            reinterpret_cast<std::size_t>(number));
+      },
+      const_cast<std::function<void(std::size_t)>*>(&visit));
+}
+
+}  // namespace powercell::geos

@@ -1,0 +1,73 @@
+/// \file
+/// The few operations of GEOS that polygons need, behind its reentrant C interface.
+#pragma once
+
+#include <geos_c.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/domain/rings.hpp"
+
+namespace powercell::geos {
+
+class Context;
+
+struct Destroy {
+  GEOSContextHandle_t handle = nullptr;
+  void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(handle, geometry); }
+  void operator()(GEOSSTRtree* tree) const { GEOSSTRtree_destroy_r(handle, tree); }
+};
+using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
+
+/// What is wrong with a geometry, and where.
+struct Defect {
+  std::string reason;
+  double x = 0, y = 0;
+};
+
+/// A context of its own for each use, so that domains can be built in several threads.
+/// Failures inside GEOS become Error internal with its message, unless said otherwise.
+class Context {
+ public:
+  Context();
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  /// The rings [first, last): one outer ring and its holes.
+  Geometry polygon(const IndexedRings& rings, std::size_t first, std::size_t last);
+  Geometry multipolygon(const std::vector<Geometry>& polygons);
+  Geometry segment(const double* a, const double* b);
+
+  std::optional<Defect> defect(const Geometry& geometry);
+  /// A point in the overlap, if the interiors of a and b meet.
+  std::optional<Defect> overlap(const Geometry& a, const Geometry& b);
+  /// Corners of the triangles, 3 x 2 numbers each; empty if GEOS cannot triangulate the polygon.
+  std::vector<double> triangulate(const Geometry& polygon);
+
+ private:
+  friend class Tree;
+  Geometry own(GEOSGeometry* geometry, const char* operation);
+  GEOSCoordSequence* sequence(const std::vector<double>& xy);
+  [[noreturn]] void fail(const char* operation) const;
+  GEOSContextHandle_t handle_;
+  std::string message_;
+};
+
+/// Bounding boxes with numbers, and which of them meet a box.
+class Tree {
+ public:
+  explicit Tree(Context& context);
+  void insert(const Geometry& extent, std::size_t number);
+  void query(const Geometry& extent, const std::function<void(std::size_t)>& visit);
+
+ private:
+  Context& context_;
+  std::unique_ptr<GEOSSTRtree, Destroy> tree_;
+};
+
+}  // namespace powercell::geos

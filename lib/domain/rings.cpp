@@ -1,0 +1,108 @@
+#include "lib/domain/rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/domain/orient2d.hpp"
+
+namespace powercell {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw Error(ErrorCode::invalid_domain, why);
+}
+
+void check_finite(const Ring& ring, const std::string& where) {
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    if (std::isfinite(ring[k][0]) && std::isfinite(ring[k][1])) continue;
+    refuse(where + ", point " + std::to_string(k) + ": (" + std::to_string(ring[k][0]) + ", " +
+           std::to_string(ring[k][1]) + ") is not finite");
+  }
+}
+
+/// The corners of a ring, from the first one on.
+Ring corners(const Ring& ring) {
+  Ring kept;
+  auto straight = [](const auto& a, const auto& b, const auto& c) {
+    return strictly_between(a.data(), b.data(), c.data());
+  };
+  for (const auto& point : ring) {
+    if (!kept.empty() && kept.back() == point) continue;
+    while (kept.size() >= 2 && straight(kept[kept.size() - 2], kept.back(), point)) kept.pop_back();
+    if (kept.empty() || kept.back() != point) kept.push_back(point);
+  }
+  while (kept.size() >= 2 && kept.back() == kept.front()) kept.pop_back();
+  while (kept.size() >= 3 && straight(kept[kept.size() - 2], kept.back(), kept.front())) kept.pop_back();
+  std::size_t first = 0;
+  while (kept.size() - first >= 3 && straight(kept.back(), kept[first], kept[first + 1])) ++first;
+  kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(first));
+  return kept;
+}
+
+/// The turn at the lexicographically least corner gives the orientation of a simple ring.
+bool counter_clockwise(const Ring& ring) {
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(ring) - ring.begin());
+  const std::size_t n = ring.size();
+  return orient2d(ring[(least + n - 1) % n].data(), ring[least].data(), ring[(least + 1) % n].data()) > 0;
+}
+
+Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
+  const std::string where = ring_name(part, hole);
+  check_finite(ring, where);
+  Ring kept = corners(ring);
+  if (kept.size() < 3) {
+    refuse(where + ": a ring needs three points that are not on one line, these " +
+           std::to_string(ring.size()) + " have no area between them");
+  }
+  const bool outer = hole == 0;
+  if (counter_clockwise(kept) != outer) std::reverse(kept.begin() + 1, kept.end());
+  return kept;
+}
+
+}  // namespace
+
+std::string ring_name(std::uint32_t part, std::uint32_t hole) {
+  return "part " + std::to_string(part) +
+         (hole == 0 ? std::string(", outer ring") : ", hole " + std::to_string(hole - 1));
+}
+
+std::uint32_t IndexedRings::find(double x, double y) const {
+  std::size_t low = 0, high = vertex_count();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    const double* v = &vertices[2 * middle];
+    if (v[0] < x || (v[0] == x && v[1] < y)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  const bool found = low < vertex_count() && vertices[2 * low] == x && vertices[2 * low + 1] == y;
+  return static_cast<std::uint32_t>(found ? low : vertex_count());
+}
+
+IndexedRings index_rings(std::span<const PolygonPart> parts) {
+  if (parts.empty()) refuse("the domain is empty: the polygon has no parts");
+  IndexedRings indexed;
+  indexed.parts = static_cast<std::uint32_t>(parts.size());
+  std::vector<Ring> cleaned;
+  Ring points;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    for (std::uint32_t h = 0; h <= parts[p].holes.size(); ++h) {
+      cleaned.push_back(clean(h == 0 ? parts[p].outer : parts[p].holes[h - 1], p, h));
+      points.insert(points.end(), cleaned.back().begin(), cleaned.back().end());
+      indexed.rings.push_back({p, h, {}});
+    }
+  }
+  std::ranges::sort(points);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() > (std::size_t{1} << 30)) refuse("a polygon can have at most 2^30 points");
+  for (const auto& point : points)
+    indexed.vertices.insert(indexed.vertices.end(), point.begin(), point.end());
+  for (std::size_t r = 0; r < cleaned.size(); ++r) {
+    for (const auto& [x, y] : cleaned[r]) indexed.rings[r].vertex.push_back(indexed.find(x, y));
+  }
+  return indexed;
+}
+
+}  // namespace powercell
