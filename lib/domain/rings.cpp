@@ -2,22 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "lib/domain/orient2d.hpp"
 
 namespace powercell {
 namespace {
 
+/// Ring 0 is the outer one, ring k hole k - 1.
+const Ring& ring_of(const PolygonPart& part, std::uint32_t k) {
+  return k == 0 ? part.outer : part.holes[k - 1];
+}
+
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(ErrorCode::invalid_domain, why);
 }
 
-void check_finite(const Ring& ring, const std::string& where) {
+/// The largest magnitude of a coordinate. \throw Error for one that is not finite
+double largest_coordinate(const Ring& ring, const std::string& where) {
+  double largest = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
+    largest = std::max({largest, std::fabs(ring[k][0]), std::fabs(ring[k][1])});
     if (std::isfinite(ring[k][0]) && std::isfinite(ring[k][1])) continue;
     refuse(where + ", point " + std::to_string(k) + ": (" + std::to_string(ring[k][0]) + ", " +
            std::to_string(ring[k][1]) + ") is not finite");
   }
+  return largest;
 }
 
 /// The corners of a ring, from the first one on.
@@ -48,7 +58,6 @@ bool counter_clockwise(const Ring& ring) {
 
 Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
   const std::string where = ring_name(part, hole);
-  check_finite(ring, where);
   Ring kept = corners(ring);
   if (kept.size() < 3) {
     refuse(where + ": a ring needs three points that are not on one line, these " +
@@ -57,6 +66,15 @@ Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
   const bool outer = hole == 0;
   if (counter_clockwise(kept) != outer) std::reverse(kept.begin() + 1, kept.end());
   return kept;
+}
+
+/// Products of two differences, and what rounding them loses, must be numbers.
+void check_magnitude(double largest) {
+  if (largest == 0 || (largest < 1e150 && largest > 1e-140)) return;  // a ring at 0 is refused for its shape
+  std::ostringstream text;
+  text << "the coordinates of the polygon are of size " << largest
+       << ": outside 1e-140 .. 1e150 areas leave the range of double, scale them";
+  refuse(text.str());
 }
 
 }  // namespace
@@ -83,13 +101,21 @@ std::uint32_t IndexedRings::find(double x, double y) const {
 
 IndexedRings index_rings(std::span<const PolygonPart> parts) {
   if (parts.empty()) refuse("the domain is empty: the polygon has no parts");
+  double largest = 0;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    for (std::uint32_t h = 0; h <= parts[p].holes.size(); ++h) {
+      largest = std::max(largest, largest_coordinate(ring_of(parts[p], h), ring_name(p, h)));
+    }
+  }
+  check_magnitude(largest);
+
   IndexedRings indexed;
   indexed.parts = static_cast<std::uint32_t>(parts.size());
   std::vector<Ring> cleaned;
   Ring points;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     for (std::uint32_t h = 0; h <= parts[p].holes.size(); ++h) {
-      cleaned.push_back(clean(h == 0 ? parts[p].outer : parts[p].holes[h - 1], p, h));
+      cleaned.push_back(clean(ring_of(parts[p], h), p, h));
       points.insert(points.end(), cleaned.back().begin(), cleaned.back().end());
       indexed.rings.push_back({p, h, {}});
     }
