@@ -23,8 +23,7 @@ __kernel __attribute__((reqd_work_group_size(8, 1, 1))) void group_size_8(__glob
 )";
 
 std::shared_ptr<const cl::Program> program() {
-  static const auto built = source_program(test_device().context(), source);
-  return built;
+  return source_program(test_device().context(), source);
 }
 
 }  // namespace

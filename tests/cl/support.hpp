@@ -11,10 +11,11 @@
 
 #include "lib/cl/program_build.hpp"
 
-/// The device under test (POWERCELL_DEVICE, or the default one), chosen once.
+/// The device under test (POWERCELL_DEVICE, or the default one), chosen once. Never released: at the end of
+/// the process the driver may be gone before it (oclgrind is).
 inline const powercell::Device& test_device() {
-  static const powercell::Device device = powercell::Device::choose();
-  return device;
+  static const auto* device = new powercell::Device(powercell::Device::choose());
+  return *device;
 }
 
 inline powercell::cl::ProgramRequest test_request(const std::string& source) {
