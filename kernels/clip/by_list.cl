@@ -3,7 +3,7 @@
 #include "clip/write.cl"
 
 /* Work-item t takes pair active[t] of the chunk, neighbour row active_list[t] and row t of the
-   outputs; status goes by pair. */
+   outputs; moments go by pair. */
 __kernel void clip_by_list_kernel(
     const uint count, __global const uint* active, __global const uint* pair_seed,
     __global const uint* pair_region, __global const seed_t* corners, __global const uint* region_offset,
@@ -22,5 +22,5 @@ __kernel void clip_by_list_kernel(
   int result =
       cell_start(&cell, seeds[i], corners, region_offset, region_vertex, shape, pair_region[pair]);
   if (result == PIECE_WHOLE) result = clip_by_list(&cell, lists, i, active_list[row]);
-  status[pair] = (uint)write_piece(&cell, out, result, pair, row);
+  status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

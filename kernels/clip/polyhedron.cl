@@ -118,15 +118,10 @@ static inline void move_vertex(cell_t* cell, int to, int from) {
 /* Removes the outside vertices among the first n of n + count. */
 static inline void drop_outside(cell_t* cell, int n, int count, real tolerance) {
   int last = n + count - 1;
-  for (int v = 0; v < n; ++v) {
+  for (int v = 0; v < n && v <= last; ++v) {
     if (!(cell->side[v] > tolerance)) continue;
     while (last > v && last < n && cell->side[last] > tolerance) --last;
-    if (last <= v) {
-      last = v - 1;
-      break;
-    }
-    move_vertex(cell, v, last);
-    cell->side[v] = 0;
+    if (last > v) move_vertex(cell, v, last);
     --last;
   }
   cell->vertices = last + 1;

@@ -1,6 +1,6 @@
 /* Candidates from the packed tree (8 seeds a leaf, 8 nodes a parent, largest weight per node): first
-   the seeds next to rank i in Hilbert order, nearest bisector first; then all nodes that the exact box
-   test cannot exclude. Right for any weights: nothing is left out without the test. */
+   the seeds of the leaves nearest by power distance, nearest bisector first; then all nodes that the
+   exact box test cannot exclude. Right for any weights: nothing is left out without the test. */
 #ifndef POWERCELL_NEIGHBORS_TREE
 #define POWERCELL_NEIGHBORS_TREE
 #include "clip/bisector.cl"
@@ -8,7 +8,8 @@
 #define TREE_FAN 8u
 #define TREE_LEVELS 12 /* 8^11 leaves hold more seeds than a rank can number */
 #define TREE_STACK (7 * TREE_LEVELS + 8)
-#define WINDOW 24 /* seeds tried first on each side of rank i */
+#define NEAR_LEAVES 8 /* leaves whose seeds are tried first */
+#define NEAR_SEEDS 64 /* NEAR_LEAVES * TREE_FAN */
 
 typedef struct {
   __global const seed_t* seeds;       /* by rank */
@@ -19,9 +20,47 @@ typedef struct {
   uint count;
 } tree_t;
 
-/* A lower bound of |y-p_j|^2 - w_j - |y|^2 + w_i over the box [low, high] of the cell and the seeds j of
-   the node: below 0, some seed may cut (docs/mathematics.md). A rounding margin is taken off. */
-static inline real node_bound(tree_t tree, uint node, seed_t seed, const real* low, const real* high) {
+/* Nodes still to visit, the next on top. */
+typedef struct {
+  uint node[TREE_STACK]; /* number within its level */
+  uchar level[TREE_STACK];
+  int depth;
+} stack_t;
+
+/* Sorts a child into the entries above `base`, whose keys are key[0..], the least on top. */
+static inline void push_sorted(stack_t* stack, int base, real* key, uint node, int level, real k) {
+  int at = stack->depth++;
+  stack->level[at] = (uchar)level;
+  for (; at > base && key[at - base - 1] < k; --at) {
+    key[at - base] = key[at - base - 1];
+    stack->node[at] = stack->node[at - 1];
+  }
+  key[at - base] = k;
+  stack->node[at] = node;
+}
+
+/* The nodes of level `level` below node `node` of the level above end before this. */
+static inline uint children_end(tree_t tree, uint node, int level) {
+  return min((node + 1) * TREE_FAN, tree.level_offset[level + 1] - tree.level_offset[level]);
+}
+
+/* Least power distance of the seed from a node: its box and its largest weight. */
+static inline real node_distance(tree_t tree, uint node, seed_t seed) {
+  real a[DIMENSION], b[DIMENSION], near2 = 0;
+  const seed_t node_low = tree.node_low[node];
+  difference(node_low, seed, a);
+  difference(tree.node_high[node], seed, b);
+  for (int k = 0; k < DIMENSION; ++k) {
+    const real gap = fmax(fmax(a[k], -b[k]), (real)0);
+    near2 += gap * gap;
+  }
+  return near2 + weight_difference(seed, node_low);
+}
+
+/* True if some seed of the node may cut the box [low, high] of the cell: the least value of
+   |y-p_j|^2 - w_j - |y|^2 + w_i over the box and the seeds j of the node is below 0
+   (docs/mathematics.md). A rounding margin is taken off. */
+static inline bool node_may_cut(tree_t tree, uint node, seed_t seed, const real* low, const real* high) {
   real a[DIMENSION], b[DIMENSION], value = 0, size = 0;
   const seed_t node_low = tree.node_low[node];
   difference(node_low, seed, a);
@@ -34,7 +73,7 @@ static inline real node_bound(tree_t tree, uint node, seed_t seed, const real* l
     size += s * s;
   }
   const real dw = weight_difference(seed, node_low);
-  return value + dw - 8 * REAL_EPSILON * (size + fabs(dw));
+  return value + dw < 8 * REAL_EPSILON * (size + fabs(dw));
 }
 
 /* The same for one seed, over the corner of the box that is worst. */
@@ -53,37 +92,67 @@ static inline real bisector_distance(seed_t seed, seed_t other) {
   return (q2 + weight_difference(seed, other)) / sqrt(q2);
 }
 
-/* Cuts by the seeds first .. last-1 except i, nearest bisector first. */
-static inline int cut_by_window(cell_t* cell, tree_t tree, uint i, uint first, uint last) {
-  real key[2 * WINDOW + 1];
+/* The NEAR_LEAVES leaves nearest to the seed, nearest first; returns how many there are. */
+static inline int find_near_leaves(tree_t tree, seed_t seed, stack_t* stack, uint* leaf) {
+  real best[NEAR_LEAVES], key[TREE_FAN];
+  int found = 0;
+  stack->depth = 1;
+  stack->node[0] = 0;
+  stack->level[0] = (uchar)(tree.levels - 1);
+  while (stack->depth > 0) {
+    const uint node = stack->node[--stack->depth];
+    const int level = stack->level[stack->depth];
+    const real d = node_distance(tree, tree.level_offset[level] + node, seed);
+    if (found == NEAR_LEAVES && d >= best[found - 1]) continue;
+    if (level > 0) {
+      const int base = stack->depth;
+      const uint end = children_end(tree, node, level - 1);
+      for (uint child = node * TREE_FAN; child < end; ++child) {
+        const real k = node_distance(tree, tree.level_offset[level - 1] + child, seed);
+        if (found < NEAR_LEAVES || k < best[found - 1]) push_sorted(stack, base, key, child, level - 1, k);
+      }
+      continue;
+    }
+    int at = found < NEAR_LEAVES ? found++ : found - 1;
+    for (; at > 0 && best[at - 1] > d; --at) {
+      best[at] = best[at - 1];
+      leaf[at] = leaf[at - 1];
+    }
+    best[at] = d;
+    leaf[at] = node;
+  }
+  return found;
+}
+
+/* Cuts by the seeds of the given leaves except i, nearest bisector first. */
+static inline int cut_by_near(cell_t* cell, tree_t tree, uint i, const uint* leaf, int leaves) {
+  real key[NEAR_SEEDS];
   const seed_t seed = tree.seeds[i];
-  const int count = (int)(last - first);
-  for (int k = 0; k < count; ++k)
-    key[k] = first + (uint)k == i ? REAL_MAX : bisector_distance(seed, tree.seeds[first + (uint)k]);
+  for (int k = 0; k < leaves * (int)TREE_FAN; ++k) {
+    const uint j = leaf[k / (int)TREE_FAN] * TREE_FAN + (uint)(k % (int)TREE_FAN);
+    key[k] = j == i || j >= tree.count ? REAL_MAX : bisector_distance(seed, tree.seeds[j]);
+  }
   real reach = sqrt(cell_radius2(cell)) * 2;
-  for (int step = 0; step + 1 < count; ++step) {
+  for (;;) {
     int best = 0;
-    for (int k = 1; k < count; ++k)
+    for (int k = 1; k < leaves * (int)TREE_FAN; ++k)
       if (key[k] < key[best]) best = k;
-    if (key[best] >= reach) break; /* the plane is beyond every vertex, and so are the rest */
+    if (key[best] >= reach) return CUT_SHRUNK; /* that plane is beyond every vertex, and so are the rest */
     key[best] = REAL_MAX;
-    const uint j = first + (uint)best;
+    const uint j = leaf[best / (int)TREE_FAN] * TREE_FAN + (uint)(best % (int)TREE_FAN);
     const int cut = cut_by_seed(cell, seed, tree.seeds[j], (int)j);
     if (cut == CUT_SHRUNK) reach = sqrt(cell_radius2(cell)) * 2;
     if (cut > CUT_SHRUNK) return cut;
   }
-  return CUT_SHRUNK;
 }
 
-/* Cuts by the seeds of leaf `leaf` outside first .. last-1 that the box does not exclude. */
-static inline int cut_by_leaf(cell_t* cell, tree_t tree, uint i, uint leaf, uint first, uint last,
-                              real* low, real* high) {
+/* Cuts by the seeds of a leaf that the cell's box does not exclude. */
+static inline int cut_by_leaf(cell_t* cell, tree_t tree, uint i, uint leaf, real* low, real* high) {
   const seed_t seed = tree.seeds[i];
   const uint end = min((leaf + 1) * TREE_FAN, tree.count);
   for (uint j = leaf * TREE_FAN; j < end; ++j) {
-    if (j >= first && j < last) continue;
     const seed_t other = tree.seeds[j];
-    if (!seed_may_cut(seed, other, low, high)) continue;
+    if (j == i || !seed_may_cut(seed, other, low, high)) continue;
     const int cut = cut_by_seed(cell, seed, other, (int)j);
     if (cut == CUT_SHRUNK) cell_box(cell, low, high);
     if (cut > CUT_SHRUNK) return cut;
@@ -91,53 +160,39 @@ static inline int cut_by_leaf(cell_t* cell, tree_t tree, uint i, uint leaf, uint
   return CUT_SHRUNK;
 }
 
-/* Puts the children of a node that may cut on the stack, the likeliest on top. Returns the new depth. */
-static inline int push_children(tree_t tree, int level, uint node, seed_t seed, const real* low,
-                                const real* high, uint* stack, uchar* stack_level, int depth) {
-  real bound[TREE_FAN];
-  const int base = depth;
-  const uint first = node * TREE_FAN;
-  const uint end = min(first + TREE_FAN, tree.level_offset[level] - tree.level_offset[level - 1]);
-  for (uint child = first; child < end; ++child) {
-    const real b = node_bound(tree, tree.level_offset[level - 1] + child, seed, low, high);
-    if (b >= 0) continue;
-    int at = depth++;
-    for (; at > base && bound[at - base - 1] < b; --at) {
-      bound[at - base] = bound[at - base - 1];
-      stack[at] = stack[at - 1];
-    }
-    bound[at - base] = b;
-    stack[at] = child;
-    stack_level[depth - 1] = (uchar)(level - 1);
-  }
-  return depth;
-}
-
 /* Clips the cell of rank i, started as a region, by all other seeds. Returns a PIECE status. */
 static inline int clip_by_tree(cell_t* cell, tree_t tree, uint i) {
-  const uint first = i > WINDOW ? i - WINDOW : 0;
-  const uint last = min(i + WINDOW + 1, tree.count);
-  int cut = cut_by_window(cell, tree, i, first, last);
-  if (cut > CUT_SHRUNK) return piece_status(cut);
-  if (last - first == tree.count) return PIECE_WHOLE;
-
-  uint stack[TREE_STACK];
-  uchar stack_level[TREE_STACK];
-  real low[DIMENSION], high[DIMENSION];
+  stack_t stack;
+  uint leaf[NEAR_LEAVES];
+  real low[DIMENSION], high[DIMENSION], key[TREE_FAN];
   const seed_t seed = tree.seeds[i];
+  const int leaves = find_near_leaves(tree, seed, &stack, leaf);
+  int cut = cut_by_near(cell, tree, i, leaf, leaves);
+  if (cut > CUT_SHRUNK) return piece_status(cut);
+  if (leaves < NEAR_LEAVES) return PIECE_WHOLE;
+
   cell_box(cell, low, high);
-  int depth = 1;
-  stack[0] = 0;
-  stack_level[0] = (uchar)(tree.levels - 1);
-  while (depth > 0) {
-    const uint node = stack[--depth];
-    const int level = stack_level[depth];
-    if (node_bound(tree, tree.level_offset[level] + node, seed, low, high) >= 0) continue;
+  stack.depth = 1;
+  stack.node[0] = 0;
+  stack.level[0] = (uchar)(tree.levels - 1);
+  while (stack.depth > 0) {
+    const uint node = stack.node[--stack.depth];
+    const int level = stack.level[stack.depth];
+    if (!node_may_cut(tree, tree.level_offset[level] + node, seed, low, high)) continue;
     if (level > 0) {
-      depth = push_children(tree, level, node, seed, low, high, stack, stack_level, depth);
+      const int base = stack.depth;
+      const uint end = children_end(tree, node, level - 1);
+      for (uint child = node * TREE_FAN; child < end; ++child) {
+        const uint at = tree.level_offset[level - 1] + child;
+        if (node_may_cut(tree, at, seed, low, high))
+          push_sorted(&stack, base, key, child, level - 1, node_distance(tree, at, seed));
+      }
       continue;
     }
-    cut = cut_by_leaf(cell, tree, i, node, first, last, low, high);
+    bool done = false;
+    for (int k = 0; k < NEAR_LEAVES; ++k) done |= leaf[k] == node;
+    if (done) continue;
+    cut = cut_by_leaf(cell, tree, i, node, low, high);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
   return PIECE_WHOLE;
