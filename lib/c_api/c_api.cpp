@@ -1,0 +1,294 @@
+// The C interface: each function is the C++ one behind a guard that no exception crosses.
+#include <powercell.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <powercell/powercell.hpp>
+#include <string>
+#include <vector>
+
+struct pc_device {
+  powercell::Device device;
+};
+struct pc_domain {
+  powercell::Domain domain;
+};
+struct pc_diagram {
+  powercell::Diagram diagram;
+};
+
+namespace {
+
+using powercell::Error;
+using powercell::ErrorCode;
+
+static_assert(static_cast<int>(ErrorCode::invalid_argument) + 1 == PC_INVALID_ARGUMENT);
+static_assert(static_cast<int>(ErrorCode::no_fp64) + 1 == PC_NO_FP64);
+static_assert(static_cast<int>(ErrorCode::internal) + 1 == PC_INTERNAL);
+static_assert(static_cast<int>(powercell::SeedStatus::duplicate) == PC_SEED_DUPLICATE);
+static_assert(static_cast<int>(powercell::Precision::float32) == PC_FLOAT32);
+static_assert(static_cast<int>(powercell::Neighbors::flann) == PC_FLANN);
+
+thread_local std::string last_error;
+
+// Remembering the message must not throw either: without memory for it the status has to do.
+pc_status fail(pc_status status, const char* message) noexcept {
+  try {
+    last_error = message;
+  } catch (...) {
+    last_error.clear();
+  }
+  return status;
+}
+
+// Runs `body`; whatever it throws becomes a status and a message.
+template <class Body>
+pc_status guarded(Body&& body) noexcept {
+  try {
+    body();
+    return PC_OK;
+  } catch (const Error& error) {
+    return fail(static_cast<pc_status>(static_cast<int>(error.code()) + 1), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(PC_OUT_OF_MEMORY, "out of host memory");
+  } catch (const std::exception& error) {
+    return fail(PC_INTERNAL, error.what());
+  } catch (...) {
+    return fail(PC_INTERNAL, "an exception of unknown type");
+  }
+}
+
+void require(bool condition, const char* message) {
+  if (!condition) throw Error(ErrorCode::invalid_argument, message);
+}
+
+template <class Handle>
+Handle& checked(Handle* handle, const char* what) {
+  require(handle != nullptr, what);
+  return *handle;
+}
+
+// A result goes to the caller only when it is whole.
+template <class Handle, class... Arguments>
+void hand_over(Handle** out, Arguments&&... arguments) {
+  *out = new Handle{std::forward<Arguments>(arguments)...};
+}
+
+template <class T>
+std::span<const T> view(const T* data, std::size_t size, const char* message) {
+  require(data != nullptr || size == 0, message);
+  return {data, size};
+}
+
+template <class T, class U>
+void copy_out(const std::vector<T>& from, U* to) {
+  if (to) std::transform(from.begin(), from.end(), to, [](T value) { return static_cast<U>(value); });
+}
+
+powercell::Ring ring(const double* points, std::size_t first, std::size_t last) {
+  require(first <= last, "ring_offset must not decrease");
+  powercell::Ring result;
+  for (std::size_t i = first; i < last; ++i) result.push_back({points[2 * i], points[2 * i + 1]});
+  return result;
+}
+
+powercell::Options options_of(const pc_options& from) {
+  require(from.precision >= PC_PRECISION_AUTOMATIC && from.precision <= PC_FLOAT32,
+          "options.precision is none of pc_precision");
+  require(from.neighbors >= PC_NEIGHBORS_AUTOMATIC && from.neighbors <= PC_FLANN,
+          "options.neighbors is none of pc_neighbors");
+  powercell::Options to;
+  to.precision = static_cast<powercell::Precision>(from.precision);
+  to.neighbors = static_cast<powercell::Neighbors>(from.neighbors);
+  to.initial_neighbors = from.initial_neighbors;
+  to.threads = from.threads;
+  to.chunk_pairs = from.chunk_pairs;
+  if (from.progress)
+    to.progress = [call = from.progress, user = from.progress_user](double fraction) {
+      return call(fraction, user) != 0;
+    };
+  return to;
+}
+
+constexpr const char* null_device = "device is NULL";
+constexpr const char* null_domain = "domain is NULL";
+constexpr const char* null_diagram = "diagram is NULL";
+constexpr const char* null_result = "the pointer for the result is NULL";
+
+}  // namespace
+
+extern "C" {
+
+const char* pc_version(void) {
+  return powercell::version();
+}
+
+const char* pc_status_name(pc_status status) {
+  if (status == PC_OK) return "ok";
+  if (status == PC_OUT_OF_MEMORY) return "out_of_memory";
+  if (status < PC_OK || status > PC_OUT_OF_MEMORY) return "unknown";
+  return powercell::name(static_cast<ErrorCode>(static_cast<int>(status) - 1));
+}
+
+const char* pc_last_error(void) {
+  return last_error.c_str();
+}
+
+pc_status pc_device_create(const char* selector, pc_device** device) {
+  return guarded([&] {
+    require(device != nullptr, null_result);
+    hand_over(device, powercell::Device::choose(selector ? selector : ""));
+  });
+}
+
+void pc_device_destroy(pc_device* device) {
+  delete device;
+}
+
+const char* pc_device_name(const pc_device* device) {
+  return device ? device->device.info().name.c_str() : nullptr;
+}
+
+pc_status pc_domain_polygon(const double* points, const size_t* ring_offset, const size_t* part_offset,
+                            size_t parts, pc_domain** domain) {
+  return guarded([&] {
+    require(domain != nullptr, null_result);
+    require(points && ring_offset && part_offset, "points, ring_offset and part_offset must not be NULL");
+    std::vector<powercell::PolygonPart> polygon(parts);
+    for (size_t p = 0; p < parts; ++p) {
+      require(part_offset[p] < part_offset[p + 1], "each part needs at least its outer ring");
+      for (size_t r = part_offset[p]; r < part_offset[p + 1]; ++r) {
+        powercell::Ring next = ring(points, ring_offset[r], ring_offset[r + 1]);
+        if (r == part_offset[p])
+          polygon[p].outer = std::move(next);
+        else
+          polygon[p].holes.push_back(std::move(next));
+      }
+    }
+    hand_over(domain, powercell::Domain::polygon(polygon));
+  });
+}
+
+pc_status pc_domain_surface(const double* vertices, size_t vertex_count, const uint32_t* triangles,
+                            size_t triangle_count, pc_domain** domain) {
+  return guarded([&] {
+    require(domain != nullptr, null_result);
+    hand_over(domain, powercell::Domain::surface(view(vertices, 3 * vertex_count, "vertices is NULL"),
+                                                 view(triangles, 3 * triangle_count, "triangles is NULL")));
+  });
+}
+
+pc_status pc_domain_volume(const double* vertices, size_t vertex_count, const uint32_t* tetrahedra,
+                           size_t tetrahedron_count, pc_domain** domain) {
+  return guarded([&] {
+    require(domain != nullptr, null_result);
+    hand_over(domain,
+              powercell::Domain::volume(view(vertices, 3 * vertex_count, "vertices is NULL"),
+                                        view(tetrahedra, 4 * tetrahedron_count, "tetrahedra is NULL")));
+  });
+}
+
+pc_status pc_domain_box(const double* low, const double* high, int dimension, pc_domain** domain) {
+  return guarded([&] {
+    require(domain != nullptr, null_result);
+    require(dimension == 2 || dimension == 3, "dimension must be 2 or 3");
+    const auto d = static_cast<std::size_t>(dimension);
+    hand_over(domain, powercell::Domain::box(view(low, d, "low is NULL"), view(high, d, "high is NULL")));
+  });
+}
+
+void pc_domain_destroy(pc_domain* domain) {
+  delete domain;
+}
+
+pc_status pc_domain_measure(const pc_domain* domain, double* measure) {
+  return guarded([&] {
+    require(measure != nullptr, null_result);
+    *measure = checked(domain, null_domain).domain.measure();
+  });
+}
+
+void pc_options_init(pc_options* options) {
+  if (options) *options = pc_options{};
+}
+
+pc_status pc_diagram_create(const pc_device* device, const pc_domain* domain, const pc_options* options,
+                            pc_diagram** diagram) {
+  return guarded([&] {
+    require(diagram != nullptr, null_result);
+    hand_over(diagram,
+              powercell::Diagram(checked(device, null_device).device, checked(domain, null_domain).domain,
+                                 options ? options_of(*options) : powercell::Options{}));
+  });
+}
+
+void pc_diagram_destroy(pc_diagram* diagram) {
+  delete diagram;
+}
+
+pc_status pc_diagram_set_seeds(pc_diagram* diagram, const double* positions, const double* weights,
+                               size_t count) {
+  return guarded([&] {
+    powercell::Diagram& target = checked(diagram, null_diagram).diagram;
+    const int dimension = target.domain().dimension();
+    target.set_seeds({dimension,
+                      view(positions, count * static_cast<std::size_t>(dimension), "positions is NULL"),
+                      view(weights, weights ? count : 0, "")});
+  });
+}
+
+pc_status pc_diagram_set_weights(pc_diagram* diagram, const double* weights, size_t count) {
+  return guarded(
+      [&] { checked(diagram, null_diagram).diagram.set_weights(view(weights, count, "weights is NULL")); });
+}
+
+pc_status pc_diagram_size(const pc_diagram* diagram, size_t* count) {
+  return guarded([&] {
+    require(count != nullptr, null_result);
+    *count = checked(diagram, null_diagram).diagram.size();
+  });
+}
+
+pc_status pc_diagram_measures(pc_diagram* diagram, double* mass, double* centroid, double* second_moment,
+                              uint8_t* status) {
+  return guarded([&] {
+    const powercell::Measures& measures = checked(diagram, null_diagram).diagram.measures();
+    copy_out(measures.mass, mass);
+    copy_out(measures.centroid, centroid);
+    copy_out(measures.second_moment, second_moment);
+    copy_out(measures.status, status);
+  });
+}
+
+pc_status pc_diagram_adjacency(pc_diagram* diagram, uint64_t* offset, uint32_t* neighbor, double* wall,
+                               size_t* count) {
+  return guarded([&] {
+    require(count != nullptr, "count is NULL");
+    require(neighbor || !wall, "wall is asked for together with neighbor");
+    const powercell::Adjacency& adjacency = checked(diagram, null_diagram).diagram.adjacency();
+    const std::size_t needed = adjacency.neighbor.size();
+    const bool fits = !neighbor || *count >= needed;
+    *count = needed;
+    require(fits, "neighbor is too short: *count says how many entries are needed");
+    copy_out(adjacency.offset, offset);
+    copy_out(adjacency.neighbor, neighbor);
+    copy_out(adjacency.wall, wall);
+  });
+}
+
+pc_status pc_diagram_dual(pc_diagram* diagram, int* corners, uint32_t* simplices, size_t* count) {
+  return guarded([&] {
+    require(count != nullptr && corners != nullptr, "corners and count must not be NULL");
+    const powercell::Dual& dual = checked(diagram, null_diagram).diagram.dual();
+    const bool fits = !simplices || *count >= dual.size();
+    *corners = dual.corners;
+    *count = dual.size();
+    require(fits, "simplices is too short: *count says how many rows are needed");
+    copy_out(dual.simplices, simplices);
+  });
+}
+
+}  // extern "C"

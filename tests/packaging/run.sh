@@ -1,0 +1,65 @@
+#!/bin/sh
+# Installs a build into a folder of its own and builds consumers against that: by CMake and by pkg-config,
+# in C++ and in C, and each host program of examples/. Then runs them.
+# usage: tests/packaging/run.sh BUILD_FOLDER
+set -eu
+source=$(cd "$(dirname "$0")/../.." && pwd)
+build=$(cd "${1:?usage: run.sh BUILD_FOLDER}" && pwd)
+work=$(mktemp -d "${TMPDIR:-/tmp}/powercell-packaging.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+step() { printf '== packaging: %s\n' "$*"; }
+
+step "install"
+cmake --install "$build" --prefix "$prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
+pc=$(find "$prefix" -name powercell.pc)
+library=$(find "$prefix" -name 'libpowercell.so' -o -name 'libpowercell.a')
+[ -n "$pc" ] && [ -n "$library" ] || { echo "no powercell.pc or library was installed" >&2; exit 1; }
+PKG_CONFIG_PATH=$(dirname "$pc")
+export PKG_CONFIG_PATH
+
+step "hidden symbols"
+# Only powercell:: and pc_ may be exported; typeinfo and inline members of std types are the C++
+# run-time's way of being unique and weak.
+case $library in
+  *.so)
+    foreign=$(nm -D --defined-only "$library" | awk '$2 == "T" || $2 == "D" || $2 == "B" { print $3 }' |
+      c++filt | grep -vE '^(powercell::|pc_|(vtable|typeinfo( name)?|VTT) for powercell::)' || true)
+    [ -z "$foreign" ] || { printf 'exported, but not ours:\n%s\n' "$foreign" >&2; exit 1; }
+    readelf -d "$library" | grep -q 'SONAME.*libpowercell\.so\.[0-9]' || { echo "no SONAME" >&2; exit 1; }
+    ;;
+esac
+
+step "the moved tree: find_package"
+mv "$prefix" "$work/moved"
+prefix=$work/moved
+PKG_CONFIG_PATH=$(find "$prefix" -name pkgconfig -type d)
+cmake -S "$source/examples" -B "$work/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$work/log" ||
+  { cat "$work/log"; exit 1; }
+cmake --build "$work/examples"
+for program in host_cpp host_c own_queue; do
+  step "run $program"
+  "$work/examples/$program"
+done
+
+step "pkg-config"
+flags="$(pkg-config --cflags --libs powercell)"
+libdir=$(dirname "$(find "$prefix" -name 'libpowercell.*' | head -n 1)")
+# shellcheck disable=SC2086
+${CXX:-c++} -std=c++20 "$source/examples/host_cpp.cpp" -o "$work/by_pkg_config_cpp" $flags
+# shellcheck disable=SC2086
+${CC:-cc} -std=c99 "$source/examples/host_c.c" -o "$work/by_pkg_config_c" $flags -lm
+LD_LIBRARY_PATH=$libdir "$work/by_pkg_config_cpp"
+LD_LIBRARY_PATH=$libdir "$work/by_pkg_config_c"
+
+step "every public header compiles alone"
+for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | sort); do
+  echo "#include <$header>" | ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ \
+    -I "$prefix/include" - || { echo "header $header does not stand alone" >&2; exit 1; }
+done
+echo "#include <powercell.h>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
+  -I "$prefix/include" -
+
+step "the installed tool"
+"$prefix/bin/powercell" --version
+step "passed"
