@@ -2,6 +2,7 @@
 /// A compiled program and its kernels. Internal.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "lib/cl/buffer.hpp"
@@ -18,9 +19,14 @@ class Program {
   cl_program handle() const { return program_; }
   cl_device_id device() const { return device_; }
 
+  /// True once the program has computed a known answer on its device (lib/clip/golden.hpp).
+  bool trusted() const { return trusted_; }
+  void trust(bool yes = true) const { trusted_ = yes; }
+
  private:
   cl_program program_;
   cl_device_id device_;
+  mutable std::atomic<bool> trusted_{false};
 };
 
 /// One kernel object: set arguments, launch. Not thread-safe; make one per call or per diagram.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "lib/cl/program.hpp"
 
 namespace powercell {
+
+class Scene;
 
 /// One source of candidates. A launch is prepared for its seeds, then adds its arguments behind the
 /// common ones of the clip kernels (kernels/clip/by_*.cl).
@@ -26,6 +29,8 @@ class Candidates {
   virtual void prepare(std::span<const std::uint32_t> ranks, int round) = 0;
   /// Sets the arguments from `first` on.
   virtual void set_arguments(cl::Kernel& kernel, unsigned first) = 0;
+  /// The same source for another scene.
+  virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;
   /// Seconds spent on the host in prepare() since construction.
   virtual double host_seconds() const { return 0; }
 };

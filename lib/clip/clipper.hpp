@@ -32,6 +32,11 @@ class Clipper {
   /// \throw Error opencl, out_of_device_memory, build_failed, internal
   PieceSet clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
 
+  /// The same with rung `rung` of the capacity ladder alone: pairs that do not fit it keep PIECE_FULL or
+  /// PIECE_TANGLED.
+  PieceSet clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
+                     std::span<const std::uint32_t> pair_region);
+
   /// Moments by pair of the last chunk: rows of 2 + dimension reals of the device's precision.
   const cl::RawBuffer& moments() const { return moments_; }
   const ClipStatistics& statistics() const { return statistics_; }
@@ -49,6 +54,9 @@ class Clipper {
   void read_rows(std::size_t rows, const Capacity& capacity, PieceBatch& batch) const;
   /// Clips `active` with one rung until no pair asks for more candidates.
   void run_rung(std::size_t rung, const List& active, PieceSet& pieces, Outcome& outcome);
+  /// Takes in the pairs of a chunk; returns all of them as pending.
+  List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
+             PieceSet& pieces);
   void finish_on_host(const List& pairs, PieceSet& pieces);
   bool wants_rows() const;
 

@@ -19,6 +19,9 @@ class ListCandidates : public Candidates {
   std::size_t most_pairs(int round) const override;
   void prepare(std::span<const std::uint32_t> ranks, int round) override;
   void set_arguments(cl::Kernel& kernel, unsigned first) override;
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
+    return std::make_unique<ListCandidates>(scene, Options{});
+  }
   double host_seconds() const override { return host_seconds_; }
 
  private:

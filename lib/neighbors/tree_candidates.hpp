@@ -20,6 +20,9 @@ class TreeCandidates : public Candidates {
     kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), scene_.node_low,
                      scene_.node_high, scene_.level_offset, static_cast<cl_int>(scene_.tree().levels()));
   }
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
+    return std::make_unique<TreeCandidates>(scene);
+  }
 
  private:
   const Scene& scene_;

@@ -1,0 +1,114 @@
+#include "lib/clip/golden.hpp"
+
+#include <cmath>
+
+#include "kernels/layout.h"
+#include "lib/clip/clipper.hpp"
+
+namespace powercell {
+
+namespace {
+
+/// Along each axis two seeds at 1/4 and 3/4 of the unit interval with these weights: the wall between
+/// the layers is at 1/2 + (w_0 - w_1), and the weights of the axes add up in the seeds.
+constexpr double layer_weight[3][2] = {{0.0, 0.125}, {0.0625, 0.0}, {0.0, 0.03125}};
+
+double wall_position(int axis) { return 0.5 + layer_weight[axis][0] - layer_weight[axis][1]; }
+
+/// The unit square or cube; a surface is the square in the plane z = 1/4.
+RegionMesh golden_mesh(const Variant& variant) {
+  RegionMesh mesh;
+  mesh.kind = variant.cell_dimension == 3 ? DomainKind::volume
+              : variant.dimension == 3    ? DomainKind::surface
+                                          : DomainKind::polygon;
+  mesh.dimension = variant.dimension;
+  mesh.cell_dimension = variant.cell_dimension;
+  mesh.shape = variant.cell_dimension == 3 ? RegionShape::box : RegionShape::polygon;
+  const int corners = variant.cell_dimension == 3 ? 8 : 4;
+  for (int c = 0; c < corners; ++c) {
+    const int around = corners == 4 ? c ^ (c >> 1) : c;  // counter-clockwise for the square
+    mesh.vertices.push_back(around & 1);
+    mesh.vertices.push_back(around >> 1 & 1);
+    if (variant.dimension == 3) mesh.vertices.push_back(corners == 4 ? 0.25 : around >> 2);
+    mesh.region_vertex.push_back(static_cast<std::uint32_t>(c));
+  }
+  const std::uint32_t facets = corners == 8 ? 6 : 4;
+  for (std::uint32_t f = 0; f < facets; ++f) mesh.facet.push_back({Border::Kind::boundary, f});
+  mesh.region_offset = {0, static_cast<std::uint32_t>(corners)};
+  mesh.facet_offset = {0, facets};
+  mesh.source = {0};
+  mesh.boundary_count = facets;
+  mesh.measure = 1;
+  mesh.high = {1, 1, variant.dimension == 3 ? 1.0 : 0.0};
+  return mesh;
+}
+
+/// A seed for each choice of layers; on a surface both z-layers have seeds, and the upper ones are hidden.
+SeedSet golden_seeds(int dimension) {
+  std::vector<double> positions, weights;
+  for (int s = 0; s < 1 << dimension; ++s) {
+    double weight = 0;
+    for (int k = 0; k < dimension; ++k) {
+      positions.push_back((s >> k & 1) != 0 ? 0.75 : 0.25);
+      weight += layer_weight[k][s >> k & 1];
+    }
+    weights.push_back(weight);
+  }
+  return make_seed_set({dimension, positions, weights}, dimension, 1);
+}
+
+/// Measure of the cell of seed `s` (bits: layers).
+double golden_measure(const Variant& variant, std::uint32_t s) {
+  double product = 1;
+  for (int k = 0; k < variant.cell_dimension; ++k)
+    product *= (s >> k & 1) != 0 ? 1 - wall_position(k) : wall_position(k);
+  if (variant.dimension == 3 && variant.cell_dimension == 2 && (s >> 2 & 1) != 0) return 0;  // wall above z = 1/4
+  return product;
+}
+
+std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
+  const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds().size();
+  std::vector<double> measures(n);
+  std::vector<float> narrow(n * stride);
+  std::vector<double> wide(n * stride);
+  if (scene.float32())
+    clipper.moments().read(narrow.data(), narrow.size() * sizeof(float));
+  else
+    clipper.moments().read(wide.data(), wide.size() * sizeof(double));
+  for (std::size_t i = 0; i < n; ++i)
+    measures[i] = (scene.float32() ? static_cast<double>(narrow[i * stride]) : wide[i * stride]) *
+                  scene.frame().unit(scene.mesh().cell_dimension);
+  return measures;
+}
+
+}  // namespace
+
+void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates, const Variant& variant,
+                 std::size_t rung) {
+  const RegionMesh mesh = golden_mesh(variant);
+  const SeedSet seeds = golden_seeds(variant.dimension);
+  const PackedTree tree = build_packed_tree(seeds, 1);
+  Scene scene(context, mesh, variant.float32);
+  scene.set_seeds(seeds, tree);
+  const std::unique_ptr<Candidates> source = candidates.for_scene(scene);
+  Clipper clipper(scene, *source, variant.outputs);
+  std::vector<std::uint32_t> pair_seed, pair_region(seeds.size(), 0);
+  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank) pair_seed.push_back(rank);
+  clipper.clip_with(rung, pair_seed, pair_region);
+  const std::vector<double> measures = read_measures(clipper, scene);
+  const double tolerance = variant.float32 ? 1e-5 : 1e-13;
+  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank) {
+    const double expected = golden_measure(variant, seeds.input[rank]);
+    if (std::abs(measures[rank] - expected) <= tolerance) continue;
+    std::string options;
+    for (const std::string& define : variant.defines()) options += " -D" + define;
+    const DeviceInfo& info = context->info();
+    throw Error(ErrorCode::self_test_failed,
+                "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
+                    ") computed a known diagram wrongly: cell " + std::to_string(seeds.input[rank]) + " measures " +
+                    std::to_string(measures[rank]) + ", not " + std::to_string(expected) + ", in " +
+                    std::string(candidates.file()) + options + "; update its driver or choose another device");
+  }
+}
+
+}  // namespace powercell

@@ -1,0 +1,53 @@
+/// \file
+/// A scene of random seeds in the unit box, for tests of the clippers.
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "lib/clip/scene.hpp"
+
+namespace powercell::test {
+
+/// The device that the environment chooses; kept to the end of the process.
+inline std::shared_ptr<cl::Context> test_context() {
+  static auto* device = new Device(Device::choose());
+  return device->context();
+}
+
+inline Domain unit_box(int dimension) {
+  const std::vector<double> low(static_cast<std::size_t>(dimension), 0.0), high(low.size(), 1.0);
+  return Domain::box(low, high);
+}
+
+struct RandomScene {
+  /// \param weights uniform in [0, weights h^2] with h = n^(-1/d)
+  RandomScene(const std::shared_ptr<cl::Context>& context, int dimension, std::size_t n, double weights, bool float32)
+      : RandomScene(context, dimension, random_values(dimension, n, weights), float32) {}
+
+  RandomScene(const std::shared_ptr<cl::Context>& context, int dimension,
+              const std::pair<std::vector<double>, std::vector<double>>& values, bool float32)
+      : domain(unit_box(dimension)),
+        seeds(make_seed_set({dimension, values.first, values.second}, dimension, 1)),
+        tree(build_packed_tree(seeds, 1)),
+        scene(context, domain.mesh(), float32) {
+    scene.set_seeds(seeds, tree);
+  }
+
+  static std::pair<std::vector<double>, std::vector<double>> random_values(int dimension, std::size_t n, double weights) {
+    std::mt19937_64 generator(7);
+    const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+    const double h = std::pow(static_cast<double>(n), -1.0 / dimension);
+    std::vector<double> positions(n * static_cast<std::size_t>(dimension)), w(n);
+    for (double& x : positions) x = uniform();
+    for (double& x : w) x = weights * h * h * uniform();
+    return {positions, w};
+  }
+
+  Domain domain;
+  SeedSet seeds;
+  PackedTree tree;
+  Scene scene;
+};
+
+}  // namespace powercell::test

@@ -1,0 +1,72 @@
+#include <doctest/doctest.h>
+
+#include "lib/clip/golden.hpp"
+#include "lib/clip/variant.hpp"
+#include "lib/neighbors/list_candidates.hpp"
+#include "lib/neighbors/tree_candidates.hpp"
+#include "tests/clip/random_scene.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+std::size_t rung_of(const Variant& variant) {
+  const auto& rungs = capacities(variant.cell_dimension);
+  for (std::size_t r = 0; r < rungs.size(); ++r)
+    if (rungs[r].vertices == variant.capacity.vertices) return r;
+  return rungs.size();
+}
+
+/// A source that hides all seeds from the kernel, as a broken driver might.
+class BlindCandidates : public TreeCandidates {
+ public:
+  explicit BlindCandidates(const Scene& scene) : TreeCandidates(scene), scene_(scene) {}
+  void set_arguments(cl::Kernel& kernel, unsigned first) override {
+    kernel.args_from(first, scene_.points, cl_uint{0}, scene_.node_low, scene_.node_high, scene_.level_offset,
+                     static_cast<cl_int>(scene_.tree().levels()));
+  }
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
+    return std::make_unique<BlindCandidates>(scene);
+  }
+
+ private:
+  const Scene& scene_;
+};
+
+}  // namespace
+
+TEST_CASE("every variant compiles and computes the golden diagram") {
+  const auto context = test_context();
+  const RandomScene scene(context, 3, 50, 0.5, false);
+  const TreeCandidates tree(scene.scene);
+  const ListCandidates lists(scene.scene, Options{});
+  for (const bool float32 : {false, true}) {
+    if (!float32 && !context->info().fp64) continue;
+    for (const Variant& variant : all_variants(float32)) {
+      for (const Candidates* source : {static_cast<const Candidates*>(&tree), static_cast<const Candidates*>(&lists)}) {
+        CAPTURE(source->file());
+        CAPTURE(variant.dimension);
+        CAPTURE(variant.cell_dimension);
+        CAPTURE(variant.capacity.vertices);
+        CAPTURE(variant.outputs);
+        CAPTURE(float32);
+        REQUIRE_NOTHROW(golden_test(context, *source, variant, rung_of(variant)));
+      }
+    }
+  }
+}
+
+TEST_CASE("a device that computes the golden diagram wrongly is refused by name") {
+  const auto context = test_context();
+  const RandomScene scene(context, 2, 20, 0.5, true);
+  Variant variant = all_variants(true).front();
+  try {
+    golden_test(context, BlindCandidates(scene.scene), variant, 0);
+    FAIL("the wrong answer was believed");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::self_test_failed);
+    CHECK(std::string(error.what()).find(context->info().name) != std::string::npos);
+    CHECK(std::string(error.what()).find("REAL_BITS=32") != std::string::npos);
+  }
+}
