@@ -1,0 +1,85 @@
+// The built-in shapes of --domain.
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <powercell/shapes.hpp>
+
+#include "apps/io/read_domain.hpp"
+
+namespace powercell::io {
+namespace {
+
+struct Builtin {
+  const char* name;
+  int resolution;   // where none is given; 0: takes none
+  int least, most;  // resolutions
+};
+constexpr Builtin kBuiltins[] = {{"square", 0, 0, 0},  {"cube", 0, 0, 0},       {"disk", 256, 3, 1000000},
+                                 {"ball", 10, 1, 256}, {"sphere", 32, 1, 4096}, {"torus", 48, 3, 4096}};
+
+const Builtin* find(const std::string& spec) {
+  const std::string name = spec.substr(0, spec.find(':'));
+  for (const Builtin& builtin : kBuiltins) {
+    if (name == builtin.name) return &builtin;
+  }
+  return nullptr;
+}
+
+int resolution(const Builtin& builtin, const std::string& spec) {
+  const std::size_t colon = spec.find(':');
+  if (colon == std::string::npos) return builtin.resolution;
+  const char *begin = spec.data() + colon + 1, *end = spec.data() + spec.size();
+  int value = 0;
+  const auto [stop, code] = std::from_chars(begin, end, value);
+  if (builtin.resolution == 0) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("domain {}: {} takes no resolution", spec, builtin.name));
+  }
+  if (code != std::errc() || stop != end || value < builtin.least || value > builtin.most) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("domain {}: the resolution is not a whole number from {} to {}", spec,
+                            builtin.least, builtin.most));
+  }
+  return value;
+}
+
+// The unit cube as the six tetrahedra round its diagonal, one for each order of the axes.
+DomainArrays cube() {
+  DomainArrays arrays;
+  arrays.kind = DomainKind::volume;
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) arrays.vertices.push_back(corner >> axis & 1);
+  }
+  for (unsigned first = 1; first < 8; first *= 2) {
+    for (unsigned second = 1; second < 8; second *= 2) {
+      if (second != first) arrays.elements.insert(arrays.elements.end(), {0u, first, first | second, 7u});
+    }
+  }
+  return arrays;
+}
+
+}  // namespace
+
+bool is_builtin_domain(const std::string& spec) {
+  return find(spec) != nullptr;
+}
+
+DomainArrays builtin_domain(const std::string& spec) {
+  const Builtin* builtin = find(spec);
+  if (builtin == nullptr)
+    throw Error(ErrorCode::invalid_argument, fmt::format("domain {} is no built-in shape", spec));
+  const int n = resolution(*builtin, spec);
+  const std::string name = builtin->name;
+  if (name == "square") return {DomainKind::polygon, {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}}, {}, {}};
+  if (name == "cube") return cube();
+  if (name == "disk") return {DomainKind::polygon, {{disk(n), {}}}, {}, {}};
+  if (name == "ball") {
+    TetrahedralMesh mesh = ball(n);
+    return {DomainKind::volume, {}, std::move(mesh.vertices), std::move(mesh.tetrahedra)};
+  }
+  TriangleMesh mesh = name == "sphere" ? sphere(n) : torus(n);
+  return {DomainKind::surface, {}, std::move(mesh.vertices), std::move(mesh.triangles)};
+}
+
+}  // namespace powercell::io

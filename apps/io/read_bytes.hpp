@@ -1,0 +1,78 @@
+/// \file
+/// Numbers of a binary text in memory, in either byte order.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "apps/io/read_file.hpp"
+
+namespace powercell::io {
+
+/// The number at `bytes` (not aligned), whose order is `swapped` from the machine's.
+template <class Number>
+Number load_number(const char* bytes, bool swapped) {
+  char own[sizeof(Number)];
+  std::memcpy(own, bytes, sizeof(Number));
+  if (swapped) std::reverse(own, own + sizeof(Number));
+  Number value;
+  std::memcpy(&value, own, sizeof(Number));
+  return value;
+}
+
+inline bool swapped_from(std::endian order) {
+  return order != std::endian::native;
+}
+
+/// Reads numbers one after the other. Failures are Error invalid_file "NAME: ... at byte N".
+class ByteScanner {
+ public:
+  ByteScanner(std::string_view bytes, std::string name, std::endian order, std::size_t at = 0)
+      : bytes_(bytes), name_(std::move(name)), swapped_(swapped_from(order)), at_(at) {}
+
+  template <class Number>
+  Number next(const char* what) {
+    need(1, sizeof(Number), what);
+    const Number value = load_number<Number>(bytes_.data() + at_, swapped_);
+    at_ += sizeof(Number);
+    return value;
+  }
+
+  /// Refuses unless `count` things of `size` bytes are left.
+  void need(std::uint64_t count, std::size_t size, const char* what) const {
+    const std::size_t left = at_ < bytes_.size() ? bytes_.size() - at_ : 0;
+    if (size != 0 && count > left / size) {
+      fail(fmt::format(
+          "the file ends in {}: {} of {} bytes are needed and {} bytes are left; it is truncated or the "
+          "count wrong",
+          what, count, size, left));
+    }
+  }
+
+  void skip(std::uint64_t count, std::size_t size, const char* what) {
+    need(count, size, what);
+    at_ += static_cast<std::size_t>(count) * size;
+  }
+
+  std::size_t offset() const { return at_; }
+  void seek(std::size_t offset) { at_ = offset; }
+  void set_order(std::endian order) { swapped_ = swapped_from(order); }
+  [[noreturn]] void fail(const std::string& what) const {
+    fail_file(name_, fmt::format("at byte {}: {}", at_, what));
+  }
+
+ private:
+  std::string_view bytes_;
+  std::string name_;
+  bool swapped_;
+  std::size_t at_;
+};
+
+}  // namespace powercell::io

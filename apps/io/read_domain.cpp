@@ -1,0 +1,109 @@
+#include "apps/io/read_domain.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "apps/io/read_file.hpp"
+
+namespace powercell::io {
+namespace {
+
+const char* kind_name(DomainKind kind) {
+  return kind == DomainKind::polygon ? "polygon" : kind == DomainKind::surface ? "surface" : "volume";
+}
+
+struct MeshFormat {
+  const char* extension;
+  MeshFile (*parse)(std::string_view, const std::string&);
+};
+constexpr MeshFormat kMeshFormats[] = {{".off", parse_off}, {".obj", parse_obj},    {".ply", parse_ply},
+                                       {".stl", parse_stl}, {".mesh", parse_medit}, {".msh", parse_gmsh},
+                                       {".vtk", parse_vtk}, {".vtu", parse_vtu},    {".tet", parse_tet}};
+
+DomainArrays polygon_arrays(std::vector<PolygonPart> parts, std::optional<DomainKind> kind,
+                            const std::string& name) {
+  if (kind.value_or(DomainKind::polygon) != DomainKind::polygon) {
+    fail_file(name, fmt::format("holds a polygon, not a {}; leave out --kind", kind_name(*kind)));
+  }
+  DomainArrays arrays;
+  arrays.parts = std::move(parts);
+  return arrays;
+}
+
+Domain make_domain(const DomainArrays& arrays, const std::string& spec) {
+  if (spec == "square") return Domain::box(std::array{0.0, 0.0}, std::array{1.0, 1.0});
+  if (spec == "cube") return Domain::box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0});
+  switch (arrays.kind) {
+    case DomainKind::polygon:
+      return Domain::polygon(arrays.parts);
+    case DomainKind::surface:
+      return Domain::surface(arrays.vertices, arrays.elements);
+    default:
+      return Domain::volume(arrays.vertices, arrays.elements);
+  }
+}
+
+std::string describe(const DomainArrays& arrays, const std::string& spec) {
+  if (arrays.kind == DomainKind::polygon) {
+    std::size_t holes = 0, points = 0;
+    for (const PolygonPart& part : arrays.parts) {
+      holes += part.holes.size();
+      points += part.outer.size();
+      for (const Ring& hole : part.holes) points += hole.size();
+    }
+    return fmt::format("{}: polygon, {} parts, {} holes, {} points", spec, arrays.parts.size(), holes,
+                       points);
+  }
+  const bool volume = arrays.kind == DomainKind::volume;
+  return fmt::format("{}: {}, {} vertices, {} {}", spec, kind_name(arrays.kind), arrays.vertices.size() / 3,
+                     arrays.elements.size() / (volume ? 4 : 3), volume ? "tetrahedra" : "triangles");
+}
+
+}  // namespace
+
+DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
+                          std::optional<DomainKind> kind, const std::string& name) {
+  if (extension == ".geojson" || extension == ".json")
+    return polygon_arrays(parse_geojson(bytes, name), kind, name);
+  if (extension == ".wkt") return polygon_arrays(parse_wkt(bytes, name), kind, name);
+  if (extension == ".svg") return polygon_arrays(parse_svg(bytes, name), kind, name);
+  if (extension == ".txt") return parse_plain(bytes, kind, name);
+  for (const MeshFormat& format : kMeshFormats) {
+    if (extension != format.extension) continue;
+    MeshArrays mesh = choose_elements(format.parse(bytes, name), kind, name);
+    return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements)};
+  }
+  fail_file(name,
+            fmt::format(
+                "extension '{}' is not known; a domain is .geojson .json .wkt .svg (polygon), .off .obj .ply "
+                ".stl (surface), .mesh .msh .vtu .vtk .tet (tetrahedra), .txt (plain), or one of square cube "
+                "disk ball sphere torus",
+                extension));
+}
+
+LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind) {
+  const bool builtin = is_builtin_domain(spec);
+  DomainArrays arrays;
+  if (builtin) {
+    arrays = builtin_domain(spec);
+    if (kind.value_or(arrays.kind) != arrays.kind) {
+      throw Error(ErrorCode::invalid_argument, fmt::format("domain {} is a {}, not a {}; leave out --kind",
+                                                           spec, kind_name(arrays.kind), kind_name(*kind)));
+    }
+  } else {
+    const std::string extension = lower_extension(spec);
+    arrays = parse_domain(read_file(spec), extension, kind, spec);
+  }
+  try {
+    Domain domain = make_domain(arrays, spec);
+    std::string description = describe(arrays, spec);
+    return {std::move(domain), std::move(description), std::move(arrays.parts), std::move(arrays.vertices),
+            std::move(arrays.elements)};
+  } catch (const Error& error) {
+    throw Error(error.code(),
+                fmt::format("{}: {}", spec, error.what()));  // the library does not know the file
+  }
+}
+
+}  // namespace powercell::io

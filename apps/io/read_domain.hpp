@@ -1,0 +1,40 @@
+/// \file
+/// The argument of --domain: a file or the name of a built-in shape.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <powercell/domain.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/io/read_polygons.hpp"
+
+namespace powercell::io {
+
+/// A domain with the arrays it was made from, kept for pictures.
+struct LoadedDomain {
+  Domain domain;
+  std::string description;              ///< e.g. "bunny.off: surface, 2503 vertices, 4968 triangles"
+  std::vector<PolygonPart> parts;       ///< polygon: its rings; else empty
+  std::vector<double> vertices;         ///< surface, volume: nv x 3; else empty
+  std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4; else empty
+};
+
+/// \param spec  a file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt
+///   of the paper's kind), or square, cube (unit, from 0 to 1), disk[:N], ball[:N], sphere[:N] (radius 1
+///   about 0), torus[:N] (N: resolution)
+/// \param kind  what to make of a file that could be more than one (a mesh with faces and solids)
+/// \throw Error invalid_file (file and line), invalid_domain (file and element), invalid_argument
+LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind = std::nullopt);
+
+/// The same from memory. \param extension lower case with its dot, e.g. ".off"
+DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
+                          std::optional<DomainKind> kind, const std::string& name);
+
+/// The arrays of a built-in shape, and whether `spec` names one.
+bool is_builtin_domain(const std::string& spec);
+DomainArrays builtin_domain(const std::string& spec);
+
+}  // namespace powercell::io

@@ -1,0 +1,66 @@
+#include "apps/io/read_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+namespace powercell::io {
+
+void fail_file(const std::string& name, const std::string& what) {
+  throw Error(ErrorCode::invalid_file, fmt::format("{}: {}", name, what));
+}
+
+void fail_line(const std::string& name, std::size_t line, const std::string& what) {
+  throw Error(ErrorCode::invalid_file, fmt::format("{}:{}: {}", name, line, what));
+}
+
+std::size_t line_of(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+std::string read_file(const std::string& path) {
+  std::error_code code;
+  const auto status = std::filesystem::status(path, code);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    fail_file(path, "no such file; check the path");
+  }
+  if (std::filesystem::is_directory(status)) fail_file(path, "is a directory; name a file in it");
+
+  const auto close = [](std::FILE* file) { std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+  if (!file) fail_file(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+
+  // Read until the end, not by the size at the start: pipes such as /dev/stdin have no size.
+  std::string bytes;
+  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  const auto size = std::filesystem::file_size(path, code);
+  if (!code) bytes.reserve(size + kChunk + 1);
+  for (std::size_t used = 0;;) {
+    bytes.resize(used + kChunk);
+    const std::size_t got = std::fread(bytes.data() + used, 1, kChunk, file.get());
+    used += got;
+    if (got < kChunk) {
+      bytes.resize(used);
+      break;
+    }
+  }
+  if (std::ferror(file.get())) fail_file(path, fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (bytes.empty()) fail_file(path, "is empty");
+  return bytes;
+}
+
+}  // namespace powercell::io

@@ -1,0 +1,47 @@
+/// \file
+/// GEOS geometries as owned objects, and to and from rings.
+#pragma once
+
+#include <geos_c.h>
+
+#include <memory>
+#include <powercell/domain.hpp>
+#include <string>
+#include <vector>
+
+namespace powercell::io {
+
+/// A GEOS context that keeps its last message; geometries must not outlive it.
+class Geos {
+ public:
+  Geos();
+  struct Delete {
+    GEOSContextHandle_t handle;
+    void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(handle, geometry); }
+  };
+  using Geometry = std::unique_ptr<GEOSGeometry, Delete>;
+
+  GEOSContextHandle_t handle() const { return handle_.get(); }
+  Geometry own(GEOSGeometry* geometry) const { return Geometry(geometry, Delete{handle()}); }
+  const std::string& message() const { return message_; }  ///< of the last failure
+
+  /// Null on failure, as all GEOS calls.
+  Geometry line(const Ring& ring) const;  ///< closed: the first point is repeated if needed
+  Geometry polygon(const PolygonPart& part) const;
+  Geometry collection(int type, std::vector<Geometry> members) const;
+
+  /// Appends the polygons in `geometry`, at any depth. False where something else was in it.
+  bool parts(const GEOSGeometry* geometry, std::vector<PolygonPart>& out) const;
+
+ private:
+  struct Finish {
+    void operator()(GEOSContextHandle_HS* handle) const { GEOS_finish_r(handle); }
+  };
+  GEOSGeometry* linear(const Ring& ring, bool as_ring) const;
+  Ring ring(const GEOSGeometry* geometry) const;
+
+  std::string message_;
+  std::unique_ptr<GEOSContextHandle_HS, Finish> handle_;
+};
+
+}  // namespace powercell::io

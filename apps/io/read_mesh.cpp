@@ -1,0 +1,44 @@
+#include "apps/io/read_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "apps/io/read_file.hpp"
+
+namespace powercell::io {
+
+std::size_t checked_vertex_count(std::uint64_t count, const std::string& name) {
+  if (count > std::numeric_limits<std::uint32_t>::max()) {
+    fail_file(name, fmt::format("{} vertices are more than 32-bit indices can name", count));
+  }
+  return static_cast<std::size_t>(count);
+}
+
+MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const std::string& name) {
+  if (kind == DomainKind::polygon) {
+    fail_file(name, "holds a mesh in space, not a polygon; leave out --kind or say surface or volume");
+  }
+  MeshArrays arrays;
+  const bool solids = !mesh.tetrahedra.empty() || !mesh.other_solid.empty();
+  arrays.kind = kind.value_or(solids ? DomainKind::volume : DomainKind::surface);
+  if (arrays.kind == DomainKind::volume) {
+    if (!mesh.other_solid.empty()) {
+      fail_file(name,
+                fmt::format("has {}; only tetrahedra make a volume: split the other cells into tetrahedra",
+                            mesh.other_solid));
+    }
+    if (mesh.tetrahedra.empty()) fail_file(name, "has no tetrahedra; for its faces say --kind surface");
+    arrays.elements = std::move(mesh.tetrahedra);
+  } else {
+    if (mesh.face_count() == 0) {
+      fail_file(name, solids ? "has no faces of its own; for its solids say --kind volume"
+                             : "has neither tetrahedra nor faces");
+    }
+    arrays.elements = triangulate(mesh, name);
+  }
+  arrays.vertices = std::move(mesh.vertices);
+  return arrays;
+}
+
+}  // namespace powercell::io

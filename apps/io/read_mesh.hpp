@@ -1,0 +1,57 @@
+/// \file
+/// Meshes as files hold them, one reader a format. Every reader takes the bytes of a file and the name
+/// that messages shall use, keeps the file's order, numbers from 0 and throws Error invalid_file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <powercell/domain.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace powercell::io {
+
+/// Vertices, faces of any number of corners, tetrahedra.
+struct MeshFile {
+  std::vector<double> vertices;             ///< nv x 3, row-major
+  std::vector<std::size_t> face_offset{0};  ///< faces + 1, into face_vertex
+  std::vector<std::uint32_t> face_vertex;   ///< corners of the faces, indices from 0
+  std::vector<std::uint32_t> tetrahedra;    ///< nt x 4, indices from 0
+  /// The first solid that is not a tetrahedron, e.g. "a hexahedron in line 12"; empty if none.
+  std::string other_solid;
+
+  std::size_t vertex_count() const { return vertices.size() / 3; }
+  std::size_t face_count() const { return face_offset.size() - 1; }
+  void end_face() { face_offset.push_back(face_vertex.size()); }
+};
+
+MeshFile parse_off(std::string_view text, const std::string& name);
+MeshFile parse_obj(std::string_view text, const std::string& name);
+MeshFile parse_ply(std::string_view bytes, const std::string& name);  ///< ASCII and binary
+MeshFile parse_stl(std::string_view bytes, const std::string& name);  ///< equal corners become one vertex
+MeshFile parse_medit(std::string_view text, const std::string& name);
+MeshFile parse_gmsh(std::string_view bytes, const std::string& name);  ///< 2.2 and 4.1, ASCII and binary
+MeshFile parse_vtk(std::string_view bytes, const std::string& name);   ///< legacy, ASCII and binary
+MeshFile parse_vtu(std::string_view bytes, const std::string& name);
+MeshFile parse_tet(std::string_view text, const std::string& name);
+
+/// Number of vertices, refused above what 32-bit indices can name.
+std::size_t checked_vertex_count(std::uint64_t count, const std::string& name);
+
+/// Each face cut into triangles: corners in the face's order, faces in the file's. nt x 3.
+/// A face with fewer than 3 corners is refused, named by its number.
+std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& name);
+
+/// What a mesh file becomes.
+struct MeshArrays {
+  DomainKind kind = DomainKind::surface;  ///< surface or volume
+  std::vector<double> vertices;           ///< nv x 3
+  std::vector<std::uint32_t> elements;    ///< nt x 3 triangles or nt x 4 tetrahedra
+};
+
+/// The tetrahedra if there are any, else the faces; or what `kind` asks for.
+MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const std::string& name);
+
+}  // namespace powercell::io

@@ -1,0 +1,197 @@
+// Plain text meshes: the paper's kind (`nv nf`, points, polygons or tetrahedra) and .tet.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "apps/io/read_file.hpp"
+#include "apps/io/read_polygons.hpp"
+#include "apps/io/read_text.hpp"
+
+namespace powercell::io {
+namespace {
+
+// One row of indices, its corners in [begin, end) of one array.
+struct Rows {
+  std::vector<std::uint32_t> index;
+  std::vector<std::size_t> offset{0};
+  std::vector<std::size_t> line;
+
+  std::size_t count() const { return line.size(); }
+  std::size_t length(std::size_t row) const { return offset[row + 1] - offset[row]; }
+  const std::uint32_t* begin(std::size_t row) const { return index.data() + offset[row]; }
+};
+
+std::size_t read_points(TextScanner& scanner, std::uint64_t count, std::vector<double>& coordinates) {
+  std::size_t dimension = 0;
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto line = scanner.line();
+    if (!line) scanner.fail(fmt::format("the file ends after {} of {} points; it is truncated", v, count));
+    std::string_view rest = *line, word;
+    std::size_t columns = 0;
+    while (next_word(rest, word)) {
+      double value = 0;
+      const Parsed parsed = parse_number(word, value);
+      if (parsed != Parsed::ok) scanner.fail(fmt::format("point {} (from 0): {}", v, why_not(word, parsed)));
+      if (++columns <= 3) coordinates.push_back(value);
+    }
+    if (v == 0) dimension = columns;
+    if (columns != dimension || columns < 2 || columns > 3) {
+      scanner.fail(fmt::format("point {} (from 0) has {} coordinates; every point needs 2, or every point 3",
+                               v, columns));
+    }
+  }
+  return dimension;
+}
+
+Rows read_rows(TextScanner& scanner, std::uint64_t count) {
+  Rows rows;
+  for (std::size_t f = 0; f < count; ++f) {
+    const auto line = scanner.line();
+    if (!line) scanner.fail(fmt::format("the file ends after {} of {} elements; it is truncated", f, count));
+    std::string_view rest = *line, word;
+    while (next_word(rest, word)) {
+      std::uint32_t value = 0;
+      const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (code != std::errc() || end != word.data() + word.size()) {
+        scanner.fail(
+            fmt::format("element {} (from 0): '{}' is not an index", f, std::string(word.substr(0, 40))));
+      }
+      rows.index.push_back(value);
+    }
+    rows.offset.push_back(rows.index.size());
+    rows.line.push_back(scanner.line_number());
+  }
+  if (auto line = scanner.line())
+    scanner.fail(fmt::format("more rows after the {} elements announced", count));
+  return rows;
+}
+
+// Takes the numbers of corners off the rows, where every row begins with its own.
+// A single row of 4 numbers that begins with 3 can be meant both ways: `as_tetrahedra` decides.
+void drop_lengths(Rows& rows, bool as_tetrahedra) {
+  bool all = rows.count() > 0, all_four = true;
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    all = all && rows.length(row) > 1 && *rows.begin(row) == rows.length(row) - 1;
+    all_four = all_four && rows.length(row) == 4;
+  }
+  if (!all || (as_tetrahedra && all_four)) return;
+  Rows bare;
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    bare.index.insert(bare.index.end(), rows.begin(row) + 1, rows.begin(row) + rows.length(row));
+    bare.offset.push_back(bare.index.size());
+  }
+  bare.line = std::move(rows.line);
+  rows = std::move(bare);
+}
+
+void check_indices(const Rows& rows, std::size_t vertices, const std::string& name) {
+  const bool zero = std::find(rows.index.begin(), rows.index.end(), 0u) != rows.index.end();
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    for (const std::uint32_t* k = rows.begin(row); k != rows.begin(row) + rows.length(row); ++k) {
+      if (*k < vertices) continue;
+      const bool from_one = *k == vertices && !zero;
+      fail_line(
+          name, rows.line[row],
+          fmt::format(
+              "element {} (from 0): index {} is out of range; the file has {} points, numbered from 0{}", row,
+              *k, vertices, from_one ? " (this file seems to count from 1: subtract 1)" : ""));
+    }
+  }
+}
+
+DomainArrays polygons(const std::vector<double>& coordinates, const Rows& rows, const std::string& name) {
+  std::vector<std::vector<PolygonPart>> groups;
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    if (rows.length(row) < 3)
+      fail_line(name, rows.line[row],
+                fmt::format("polygon {} (from 0) has {} corners; it needs 3", row, rows.length(row)));
+    PolygonPart part;
+    for (std::size_t k = 0; k < rows.length(row); ++k) {
+      const std::size_t v = rows.begin(row)[k];
+      part.outer.push_back({coordinates[2 * v], coordinates[2 * v + 1]});
+    }
+    groups.push_back({std::move(part)});
+  }
+  DomainArrays arrays;
+  arrays.parts = unite(groups, name);
+  return arrays;
+}
+
+MeshFile mesh_of(std::vector<double> coordinates, const Rows& rows, bool tetrahedra,
+                 const std::string& name) {
+  MeshFile mesh;
+  mesh.vertices = std::move(coordinates);
+  if (!tetrahedra) {
+    mesh.face_vertex = rows.index;
+    mesh.face_offset = rows.offset;
+    return mesh;
+  }
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    if (rows.length(row) != 4)
+      fail_line(
+          name, rows.line[row],
+          fmt::format("element {} (from 0) has {} corners; a tetrahedron has 4", row, rows.length(row)));
+  }
+  mesh.tetrahedra = rows.index;
+  return mesh;
+}
+
+struct Counts {
+  std::uint64_t vertices, elements;
+};
+
+// `nv nf`, with or without words after the numbers ("10 vertices" and "4 tets" on lines of their own).
+Counts read_counts(TextScanner& scanner) {
+  Counts counts{};
+  counts.vertices = scanner.count({"number of points", 0});
+  if (scanner.peek() == "vertices") scanner.word({"header", 0});
+  counts.elements = scanner.count({"number of elements", 0});
+  if (scanner.peek() == "tets" || scanner.peek() == "cells") scanner.word({"header", 0});
+  if (!scanner.rest_of_line().empty()) scanner.fail("the first line is not `points elements`, two counts");
+  scanner.check_count(counts.vertices, 4, "points");
+  scanner.check_count(counts.elements, 2, "elements");
+  if (counts.vertices == 0) scanner.fail("announces no points");
+  if (counts.elements == 0) scanner.fail("announces no elements");
+  return counts;
+}
+
+}  // namespace
+
+DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, const std::string& name) {
+  TextScanner scanner(text, name);
+  const Counts counts = read_counts(scanner);
+  std::vector<double> coordinates;
+  const std::size_t dimension = read_points(scanner, counts.vertices, coordinates);
+  Rows rows = read_rows(scanner, counts.elements);
+  drop_lengths(rows, dimension == 3 && kind == DomainKind::volume);
+  check_indices(rows, checked_vertex_count(counts.vertices, name), name);
+  if (dimension == 2) {
+    if (kind.value_or(DomainKind::polygon) != DomainKind::polygon)
+      fail_file(name, "has points of 2 coordinates: a polygon, not a mesh in space");
+    return polygons(coordinates, rows, name);
+  }
+  bool all_four = true;
+  for (std::size_t row = 0; row < rows.count(); ++row) all_four = all_four && rows.length(row) == 4;
+  const bool tetrahedra = kind ? *kind == DomainKind::volume : all_four;
+  MeshArrays mesh = choose_elements(mesh_of(std::move(coordinates), rows, tetrahedra, name), kind, name);
+  DomainArrays arrays;
+  arrays.kind = mesh.kind;
+  arrays.vertices = std::move(mesh.vertices);
+  arrays.elements = std::move(mesh.elements);
+  return arrays;
+}
+
+MeshFile parse_tet(std::string_view text, const std::string& name) {
+  TextScanner scanner(text, name);
+  const Counts counts = read_counts(scanner);
+  std::vector<double> coordinates;
+  if (read_points(scanner, counts.vertices, coordinates) != 3)
+    fail_file(name, "has points of 2 coordinates; tetrahedra need 3");
+  Rows rows = read_rows(scanner, counts.elements);
+  drop_lengths(rows, true);
+  check_indices(rows, checked_vertex_count(counts.vertices, name), name);
+  return mesh_of(std::move(coordinates), rows, true, name);
+}
+
+}  // namespace powercell::io

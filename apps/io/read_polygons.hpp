@@ -1,0 +1,48 @@
+/// \file
+/// Polygons as files hold them. Every reader takes the bytes of a file and the name that messages shall
+/// use, and throws Error invalid_file. What each part's rings must satisfy is checked by Domain::polygon.
+#pragma once
+
+#include <optional>
+#include <powercell/domain.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/io/read_mesh.hpp"
+
+namespace powercell::io {
+
+/// Polygon, MultiPolygon, GeometryCollection, Feature or FeatureCollection; coordinates are taken as
+/// they stand, in the plane (longitudes and latitudes too). Several geometries are united.
+std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name);
+
+/// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION; several are united.
+std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name);
+
+/// Largest distance between a curve of an SVG file and its polygon, over the diagonal of the drawing.
+inline constexpr double kSvgTolerance = 1e-4;
+
+/// All path, polygon, polyline, rect, circle and ellipse elements, whatever their paint, but not those in
+/// defs, symbol, clipPath, mask, marker, pattern or with display="none". Transforms are applied, each
+/// element is filled by its fill-rule, the elements are united. SVG's y axis points down: y = -y(SVG).
+std::vector<PolygonPart> parse_svg(std::string_view text, const std::string& name);
+
+/// A polygon or a mesh.
+struct DomainArrays {
+  DomainKind kind = DomainKind::polygon;
+  std::vector<PolygonPart> parts;       ///< polygon
+  std::vector<double> vertices;         ///< surface, volume: nv x 3
+  std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4
+};
+
+/// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, each with or without
+/// their number in front. 2 coordinates: polygons, which are united. 3: triangles (or larger faces) or
+/// tetrahedra, by the length of the rows, or by `kind` where that leaves a doubt.
+DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, const std::string& name);
+
+/// The union of groups of parts, each group a valid polygon. \throw Error invalid_file, invalid_domain
+/// where a group is not valid (which, where)
+std::vector<PolygonPart> unite(const std::vector<std::vector<PolygonPart>>& groups, const std::string& name);
+
+}  // namespace powercell::io

@@ -1,0 +1,47 @@
+/// \file
+/// The argument of --seeds: a table of seeds, or random ones.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <powercell/domain.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace powercell::io {
+
+struct SeedTable {
+  int dimension = 0;              ///< coordinates of a seed: 2 or 3
+  std::vector<double> positions;  ///< n x dimension, row-major, in the order of the file
+  std::vector<double> weights;    ///< n, length^2
+  std::size_t count() const { return weights.size(); }
+};
+
+/// \param spec  text or CSV, `.npy`, or `random:N[:LO:HI[:SEED]]`
+/// \param domain  gives the dimension of the seeds, and the place of random ones
+/// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
+SeedTable read_seeds(const std::string& spec, const Domain& domain);
+
+/// Text or CSV from memory: `x y [z] w` a row, columns separated by blanks, one comma or one semicolon;
+/// `#` begins a comment. The first line may be a header: with columns named x, y (, z) and weight or w
+/// these are taken wherever they stand, and other columns passed over. It may instead be the number of
+/// rows. Weights are 0 if every row has exactly `dimension` columns.
+SeedTable parse_seeds_text(std::string_view text, int dimension, const std::string& name);
+
+/// NumPy's .npy from memory, versions 1 to 3: real or integer numbers, shape (n, d) or (n, d + 1).
+SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::string& name);
+
+/// N, LO, HI, SEED of `random:N[:LO:HI[:SEED]]`.
+struct RandomSeeds {
+  std::uint64_t count = 0;
+  double low = 0, high = 0;
+  std::uint64_t seed = 1;
+};
+RandomSeeds parse_random_spec(const std::string& spec);
+
+/// Seeds uniform by measure in the domain (on it, where it is a surface), weights uniform in [low, high].
+/// The same on every machine: xoshiro256** started by splitmix64, see seeds_random.cpp.
+SeedTable random_seeds(const RandomSeeds& what, const Domain& domain);
+
+}  // namespace powercell::io

@@ -1,0 +1,148 @@
+// Seeds as a NumPy array (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "apps/io/read_bytes.hpp"
+#include "apps/io/read_file.hpp"
+#include "apps/io/read_seeds.hpp"
+
+namespace powercell::io {
+namespace {
+
+struct Array {
+  char kind = 'f';  // f, i or u
+  std::size_t size = 8;
+  bool swapped = false;
+  bool fortran = false;
+  std::uint64_t rows = 0, columns = 0;
+};
+
+// What stands after `'key':` in the header, a literal of a Python dict.
+std::string_view value_of(std::string_view header, std::string_view key, const std::string& name) {
+  std::size_t at = header.find(fmt::format("'{}'", key));
+  if (at != std::string_view::npos) at = header.find(':', at);
+  if (at != std::string_view::npos) at = header.find_first_not_of(" ", at + 1);
+  if (at == std::string_view::npos) fail_file(name, fmt::format("the header of the array has no '{}'", key));
+  return header.substr(at);
+}
+
+void read_type(std::string_view header, Array& array, const std::string& name) {
+  std::string_view descr = value_of(header, "descr", name);
+  if (!descr.starts_with('\''))
+    fail_file(name, "is a structured array; save plain columns, e.g. numpy.column_stack");
+  descr = descr.substr(1, descr.find('\'', 1) == std::string_view::npos ? 0 : descr.find('\'', 1) - 1);
+  const std::string_view shown = descr;
+  if (!descr.empty() && std::string_view("<>|=").find(descr[0]) != std::string_view::npos) {
+    array.swapped =
+        (descr[0] == '>') != (std::endian::native == std::endian::big) && descr[0] != '|' && descr[0] != '=';
+    descr.remove_prefix(1);
+  }
+  const bool known = descr == "f4" || descr == "f8" || descr == "i1" || descr == "i2" || descr == "i4" ||
+                     descr == "i8" || descr == "u1" || descr == "u2" || descr == "u4" || descr == "u8";
+  if (!known)
+    fail_file(name, fmt::format("numbers of type '{}' are not read; convert with .astype(float)",
+                                shown.substr(0, 40)));
+  array.kind = descr[0];
+  array.size = static_cast<std::size_t>(descr[1] - '0');
+}
+
+void read_shape(std::string_view header, Array& array, const std::string& name) {
+  const std::string_view shape = value_of(header, "shape", name);
+  const std::size_t close = shape.find(')');
+  std::vector<std::uint64_t> extents;
+  for (std::size_t at = 1; shape.starts_with('(') && close != std::string_view::npos && at < close;) {
+    std::uint64_t extent = 0;
+    const auto [end, code] = std::from_chars(shape.data() + at, shape.data() + close, extent);
+    if (code != std::errc()) fail_file(name, "the header of the array has a shape that cannot be read");
+    extents.push_back(extent);
+    at = static_cast<std::size_t>(end - shape.data());
+    while (at < close && (shape[at] == ',' || shape[at] == ' ' || shape[at] == 'L')) ++at;
+  }
+  if (extents.size() != 2)
+    fail_file(name, fmt::format("is an array of {} dimensions; seeds are rows: shape (n, d) or (n, d + 1)",
+                                extents.size()));
+  array.rows = extents[0];
+  array.columns = extents[1];
+}
+
+// The header's end is where the numbers begin.
+Array read_header(std::string_view bytes, ByteScanner& scanner, const std::string& name) {
+  if (!bytes.starts_with("\x93NUMPY")) fail_file(name, "does not begin as a .npy file");
+  scanner.skip(6, 1, "the header");
+  const auto version = scanner.next<std::uint8_t>("the header");
+  scanner.skip(1, 1, "the header");
+  if (version < 1 || version > 3) fail_file(name, fmt::format("version {} of .npy is not known", version));
+  const std::size_t length =
+      version == 1 ? scanner.next<std::uint16_t>("the header") : scanner.next<std::uint32_t>("the header");
+  scanner.need(length, 1, "the header");
+  const std::string_view header = bytes.substr(scanner.offset(), length);
+  scanner.skip(length, 1, "the header");
+  Array array;
+  read_type(header, array, name);
+  array.fortran = value_of(header, "fortran_order", name).starts_with("True");
+  read_shape(header, array, name);
+  return array;
+}
+
+double number(const char* at, const Array& array) {
+  const bool swapped = array.swapped;
+  switch (array.kind << 4 | static_cast<int>(array.size)) {
+    case 'f' << 4 | 4:
+      return load_number<float>(at, swapped);
+    case 'f' << 4 | 8:
+      return load_number<double>(at, swapped);
+    case 'i' << 4 | 1:
+      return load_number<std::int8_t>(at, swapped);
+    case 'i' << 4 | 2:
+      return load_number<std::int16_t>(at, swapped);
+    case 'i' << 4 | 4:
+      return load_number<std::int32_t>(at, swapped);
+    case 'i' << 4 | 8:
+      return static_cast<double>(load_number<std::int64_t>(at, swapped));
+    case 'u' << 4 | 1:
+      return load_number<std::uint8_t>(at, swapped);
+    case 'u' << 4 | 2:
+      return load_number<std::uint16_t>(at, swapped);
+    case 'u' << 4 | 4:
+      return load_number<std::uint32_t>(at, swapped);
+    default:
+      return static_cast<double>(load_number<std::uint64_t>(at, swapped));
+  }
+}
+
+}  // namespace
+
+SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::string& name) {
+  ByteScanner scanner(bytes, name, std::endian::little);
+  const Array array = read_header(bytes, scanner, name);
+  const auto d = static_cast<std::uint64_t>(dimension);
+  if (array.columns != d && array.columns != d + 1) {
+    fail_file(name,
+              fmt::format("has {} columns; seeds of this domain have {} coordinates and may have a weight",
+                          array.columns, d));
+  }
+  scanner.need(array.rows, array.columns * array.size, "the array");
+  const char* begin = bytes.data() + scanner.offset();
+  SeedTable table;
+  table.dimension = dimension;
+  table.positions.resize(array.rows * d);
+  table.weights.resize(array.rows, 0.0);
+  for (std::size_t row = 0; row < array.rows; ++row) {
+    for (std::size_t column = 0; column < array.columns; ++column) {
+      const std::size_t at = array.fortran ? column * array.rows + row : row * array.columns + column;
+      const double value = number(begin + at * array.size, array);
+      if (!std::isfinite(value)) {
+        throw Error(ErrorCode::invalid_seed,
+                    fmt::format("{}: seed {} (row from 0), column {}: {} is not finite; take the seed "
+                                "out or give it a finite value",
+                                name, row, column, value));
+      }
+      (column < d ? table.positions[row * d + column] : table.weights[row]) = value;
+    }
+  }
+  return table;
+}
+
+}  // namespace powercell::io
