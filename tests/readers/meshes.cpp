@@ -1,0 +1,199 @@
+// Meshes that Gmsh, meshio and VTK wrote: every format must give the same cube.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "apps/io/read_domain.hpp"
+#include "tests/readers/fixtures.hpp"
+
+using namespace powercell;
+using namespace powercell::io;
+using namespace powercell::io::test;
+
+namespace {
+
+using Vec = std::array<double, 3>;
+
+Vec at(const DomainArrays& mesh, std::size_t element, std::size_t corner, std::size_t corners) {
+  const std::size_t v = mesh.elements[element * corners + corner];
+  return {mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2]};
+}
+Vec minus(const Vec& a, const Vec& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vec& a, const Vec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Volume of the tetrahedra, or six times the signed volume inside the triangles over six.
+double volume(const DomainArrays& mesh) {
+  const std::size_t corners = mesh.kind == DomainKind::volume ? 4 : 3;
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.elements.size() / corners; ++e) {
+    const Vec a = at(mesh, e, 0, corners), b = at(mesh, e, 1, corners), c = at(mesh, e, 2, corners);
+    if (corners == 3) {
+      sum += dot(a, cross(b, c)) / 6;
+    } else {
+      sum += std::abs(dot(minus(at(mesh, e, 3, 4), a), cross(minus(b, a), minus(c, a)))) / 6;
+    }
+  }
+  return sum;
+}
+
+double area_of(const DomainArrays& mesh) {
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.elements.size() / 3; ++e) {
+    const Vec n =
+        cross(minus(at(mesh, e, 1, 3), at(mesh, e, 0, 3)), minus(at(mesh, e, 2, 3), at(mesh, e, 0, 3)));
+    sum += std::sqrt(dot(n, n)) / 2;
+  }
+  return sum;
+}
+
+DomainArrays load(const std::string& file, std::optional<DomainKind> kind = std::nullopt) {
+  return parse_domain(data_bytes(file), lower_extension(file), kind, file);
+}
+
+const char* const kVolumes[] = {"cube.mesh",
+                                "cube_22_ascii.msh",
+                                "cube_22_binary.msh",
+                                "cube_41_ascii.msh",
+                                "cube_41_binary.msh",
+                                "cube_meshio_ascii.vtk",
+                                "cube_vtk_42_ascii.vtk",
+                                "cube_vtk_42_binary.vtk",
+                                "cube_vtk_51_ascii.vtk",
+                                "cube_vtk_51_binary.vtk",
+                                "cube_meshio_zlib.vtu",
+                                "cube_meshio_plain.vtu",
+                                "cube_vtk_ascii.vtu",
+                                "cube_vtk_base64.vtu",
+                                "cube_vtk_zlib.vtu",
+                                "cube_vtk_appended_raw.vtu",
+                                "cube_vtk_appended_base64.vtu",
+                                "cube_vtk_appended_raw_zlib.vtu",
+                                "cube_vtk_appended_base64_zlib.vtu"};
+const char* const kSurfaces[] = {"cube.off",        "cube.obj",       "cube_ascii.ply",
+                                 "cube_binary.ply", "cube_ascii.stl", "cube_binary.stl"};
+
+}  // namespace
+
+TEST_CASE("every volume format gives the same vertices and tetrahedra") {
+  const DomainArrays reference = load("cube_22_ascii.msh");
+  REQUIRE(reference.elements.size() > 4 * 20);
+  for (const char* file : kVolumes) {
+    CAPTURE(file);
+    const DomainArrays mesh = load(file);
+    CHECK(mesh.kind == DomainKind::volume);
+    CHECK(volume(mesh) == doctest::Approx(1).epsilon(1e-9));
+    REQUIRE(mesh.vertices.size() == reference.vertices.size());
+    CHECK(mesh.elements == reference.elements);
+    double worst = 0;
+    for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+      worst = std::max(worst, std::abs(mesh.vertices[k] - reference.vertices[k]));
+    }
+    CHECK(worst < 1e-9);  // text files of other programs have fewer digits
+  }
+}
+
+TEST_CASE("every surface format gives the faces of the cube") {
+  for (const char* file : kSurfaces) {
+    CAPTURE(file);
+    const DomainArrays mesh = load(file);
+    CHECK(mesh.kind == DomainKind::surface);
+    CHECK(area_of(mesh) == doctest::Approx(6).epsilon(1e-6));
+  }
+  const DomainArrays off = load("cube.off");
+  for (const char* file : {"cube.obj", "cube_ascii.ply", "cube_binary.ply"}) {
+    CAPTURE(file);
+    CHECK(load(file).elements == off.elements);
+  }
+}
+
+TEST_CASE("corners of an STL file at one place become one vertex") {
+  const DomainArrays mesh = load("cube_binary.stl");
+  std::set<Vec> places;
+  for (std::size_t v = 0; v < mesh.vertices.size() / 3; ++v) {
+    places.insert({mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2]});
+  }
+  CHECK(places.size() == mesh.vertices.size() / 3);
+  CHECK(load("cube_ascii.stl").elements == mesh.elements);
+}
+
+TEST_CASE("the faces of a volume file make a surface when asked for") {
+  for (const char* file : {"cube.mesh", "cube_22_binary.msh", "cube_41_binary.msh", "cube_vtk_51_binary.vtk",
+                           "cube_vtk_appended_raw_zlib.vtu"}) {
+    CAPTURE(file);
+    const DomainArrays mesh = load(file, DomainKind::surface);
+    CHECK(mesh.kind == DomainKind::surface);
+    CHECK(area_of(mesh) == doctest::Approx(6).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("doubles come through unrounded, in the order of the file") {
+  const std::string text = "OFF\n3 1 0\n1000000000.1 0 0\n1000000000.3 0 1e-7\n0 1 0\n3 2 0 1\n";
+  const DomainArrays mesh = parse_domain(text, ".off", std::nullopt, "t.off");
+  CHECK(mesh.vertices[0] == 1000000000.1);
+  CHECK(mesh.vertices[3] == 1000000000.3);
+  CHECK(mesh.vertices[5] == 1e-7);
+  CHECK(mesh.elements == std::vector<std::uint32_t>{2, 0, 1});
+}
+
+TEST_CASE("CRLF, comments, a byte order mark, colours and negative indices are read") {
+  const DomainArrays off = parse_domain(
+      "\xEF\xBB\xBFOFF # a comment\r\n\r\n4 1 0\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3 255 0 0\r\n",
+      ".off", std::nullopt, "t.off");
+  CHECK(off.elements == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});
+  const DomainArrays obj =
+      parse_domain("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf -3//1 -2//1 \\\n -1//1\nf 1/1 3/2/1 2\n", ".obj",
+                   std::nullopt, "t.obj");
+  CHECK(obj.elements == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 1});
+}
+
+TEST_CASE("a concave face keeps its area, in any plane") {
+  // An arrow head: the fan of its first corner would leave the face.
+  const std::string rows[] = {"0 0 0\n4 0 0\n2 1 0\n2 4 0\n", "0 0 0\n0 4 0\n0 2 1\n0 2 4\n",
+                              "0 0 0\n0 0 4\n1 0 2\n4 0 2\n"};
+  for (const std::string& points : rows) {
+    for (const char* face : {"4 0 1 2 3", "4 3 2 1 0", "4 1 2 3 0", "4 2 3 0 1"}) {
+      const DomainArrays mesh =
+          parse_domain("OFF\n4 1 0\n" + points + face + "\n", ".off", std::nullopt, "t.off");
+      CHECK(mesh.elements.size() == 6);
+      CHECK(area_of(mesh) == doctest::Approx(5));
+    }
+  }
+}
+
+TEST_CASE("quadrilaterals of a Medit file make a surface") {
+  const std::string text =
+      "MeshVersionFormatted 2\nDimension\n3\nVertices\n4\n0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n"
+      "Quadrilaterals 1\n1 2 3 4 7\nCorners 1\n1\nEnd\n";
+  CHECK(area_of(parse_domain(text, ".mesh", std::nullopt, "t.mesh")) == doctest::Approx(1));
+}
+
+TEST_CASE("plain text is a polygon, a surface or a volume") {
+  const DomainArrays plane =
+      parse_domain("4 2\n0 0\n2 0\n2 1\n0 1\n3 0 1 2\n3 0 2 3\n", ".txt", std::nullopt, "t.txt");
+  CHECK(plane.kind == DomainKind::polygon);
+  CHECK(plane.parts.size() == 1);
+  CHECK(area(plane.parts) == doctest::Approx(2));
+  const DomainArrays bare = parse_domain("4 1\n0 0\n2 0\n2 1\n0 1\n0 1 2 3\n", ".txt", std::nullopt, "t.txt");
+  CHECK(area(bare.parts) == doctest::Approx(2));
+
+  const std::string points = "4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  CHECK(volume(parse_domain(points + "0 1 2 3\n", ".txt", std::nullopt, "t.txt")) ==
+        doctest::Approx(1.0 / 6));
+  CHECK(volume(parse_domain(points + "4 0 1 2 3\n", ".txt", std::nullopt, "t.txt")) ==
+        doctest::Approx(1.0 / 6));
+  CHECK(parse_domain(points + "3 0 1 2\n", ".txt", std::nullopt, "t.txt").kind == DomainKind::surface);
+  CHECK(parse_domain(points + "3 0 1 2\n", ".txt", DomainKind::volume, "t.txt").kind == DomainKind::volume);
+  CHECK(parse_domain(points + "0 1 2\n", ".txt", std::nullopt, "t.txt").elements.size() == 3);
+  CHECK(volume(parse_domain("4 vertices\n1 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 3\n", ".tet",
+                            std::nullopt, "t.tet")) == doctest::Approx(1.0 / 6));
+}

@@ -1,0 +1,179 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "apps/io/read_domain.hpp"
+#include "apps/io/read_svg_path.hpp"
+#include "tests/readers/fixtures.hpp"
+
+using namespace powercell;
+using namespace powercell::io;
+using namespace powercell::io::test;
+
+namespace {
+
+std::string svg(const std::string& body) {
+  return "<svg xmlns='http://www.w3.org/2000/svg'>\n" + body + "\n</svg>";
+}
+std::vector<PolygonPart> draw(const std::string& body) {
+  return parse_svg(svg(body), "t.svg");
+}
+
+}  // namespace
+
+TEST_CASE("GeoJSON: a polygon with a hole, a multipolygon, features") {
+  const char* ring = "[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[1,2],[2,2],[2,1],[1,1]]";
+  const auto one = parse_geojson(std::string(R"({"type":"Polygon","coordinates":[)") + ring + "]}", "t.json");
+  CHECK(one.size() == 1);
+  CHECK(one[0].holes.size() == 1);
+  CHECK(area(one) == doctest::Approx(15));
+  const std::string island = "[[[6,0],[7,0],[7,1],[6,0]]]";
+  const auto two = parse_geojson(
+      R"({"type":"Feature","properties":{},"geometry":{"type":"MultiPolygon","coordinates":[[)" +
+          std::string(ring) + "]," + island + "]}}",
+      "t.json");
+  CHECK(two.size() == 2);
+  CHECK(area(two) == doctest::Approx(15.5));
+  // Two states with a common border become one part.
+  const auto states = parse_geojson(R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]]]}},
+    {"type":"Feature","geometry":null},
+    {"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[1,0],[2,0],[2,1],[1,1],[1,0]]]}}]})",
+                                    "t.json");
+  CHECK(states.size() == 1);
+  CHECK(area(states) == doctest::Approx(2));
+}
+
+TEST_CASE("GeoJSON: refusals name the line or the place") {
+  const auto message = [](const std::string& text) {
+    return refusal([&] { parse_geojson(text, "t.json"); });
+  };
+  CHECK(says(message("{\n\"type\": \"Polygon\",\n\"coordinates\": [[[0,0],\n"),
+             "invalid_file: t.json:4: is not JSON, or truncated"));
+  CHECK(says(message(R"({"type":"Point","coordinates":[0,0]})"), "t.json: $ is a Point; only Polygon"));
+  CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,"a"],[0,0]]]})"),
+             "$.coordinates[0][2] is no point"));
+  CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1]]]})"),
+             "$.coordinates[0] is not closed"));
+  CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1e999],[0,0]]]})"),
+             "invalid_file: t.json: is not JSON"));
+  CHECK(says(message(R"({"type":"FeatureCollection","features":[]})"), "holds no polygon"));
+  CHECK(says(message("[1, 2]"), "is no GeoJSON object"));
+  const std::string bow = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,1],[1,0],[0,1],[0,0]]]}";
+  CHECK(says(message("{\"type\":\"GeometryCollection\",\"geometries\":[" + bow + "," + bow + "]}"),
+             "invalid_domain: t.json: polygon 0 (from 0): Self-intersection at (0.5, 0.5)"));
+}
+
+TEST_CASE("WKT: polygons, multipolygons, several geometries") {
+  CHECK(area(parse_wkt("POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 2, 1 1))", "t.wkt")) ==
+        doctest::Approx(15));
+  const auto parts = parse_wkt("MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((5 5, 6 5, 6 6, 5 5)))\n", "t.wkt");
+  CHECK(parts.size() == 2);
+  CHECK(area(parse_wkt("POLYGON ((0 0, 1 0, 1 1, 0 0));\r\nPOLYGON ((5 5, 6 5, 6 6, 5 5));\r\n", "t.wkt")) ==
+        doctest::Approx(1));
+}
+
+TEST_CASE("WKT: refusals name the line") {
+  const auto message = [](const std::string& text) { return refusal([&] { parse_wkt(text, "t.wkt"); }); };
+  CHECK(says(message("\n\nPOLYGON ((0 0, 1 0, 1 x, 0 0))"), "invalid_file: t.wkt:3: is not well-known text"));
+  CHECK(says(message("POLYGON ((0 0, 1 0, 1 1"), "t.wkt:1: a geometry whose parentheses do not close"));
+  CHECK(says(message("LINESTRING (0 0, 1 0)"), "only POLYGON and MULTIPOLYGON"));
+  CHECK(says(message("POLYGON ((0 0, 1 0, nan 1, 0 0))"), "t.wkt:1"));
+  CHECK(says(message("  \n"), "holds no polygon"));
+  CHECK(says(message(std::string(1000, '(')), "nested too deeply"));
+}
+
+TEST_CASE("SVG: shapes, y upwards") {
+  const auto box = draw("<rect x='1' y='2' width='3' height='4'/>");
+  REQUIRE(box.size() == 1);
+  CHECK(area(box) == doctest::Approx(12));
+  for (const auto& p : box[0].outer) {
+    CHECK(p[1] <= -2);
+    CHECK(p[1] >= -6);
+  }
+  const double pi = std::numbers::pi;
+  CHECK(area(draw("<circle cx='5' cy='5' r='2'/>")) == doctest::Approx(4 * pi).epsilon(1e-3));
+  CHECK(area(draw("<ellipse rx='2' ry='3'/>")) == doctest::Approx(6 * pi).epsilon(1e-3));
+  CHECK(area(draw("<rect width='4' height='4' rx='1'/>")) == doctest::Approx(12 + pi).epsilon(1e-3));
+  CHECK(area(draw("<polygon points='0,0 4,0 4,4'/>")) == doctest::Approx(8));
+  CHECK(area(draw("<polygon points='0,0 4,0 4,4'/><rect x='2' y='0' width='2' height='2'/>")) ==
+        doctest::Approx(8));
+  CHECK(draw("<rect width='1' height='1'/><defs><rect x='9' width='1' height='1'/></defs>"
+             "<g style='fill: red; display : none'><rect x='5' width='1' height='1'/></g>")
+            .size() == 1);
+}
+
+TEST_CASE("SVG: path commands, absolute and relative, close together") {
+  const double expected = 12;
+  for (const char* d : {"M0 0 L4 0 L4 3 L0 3 Z", "m0,0 4,0 0,3-4,0z", "M0 0H4V3H0z", "m0 0h4v3h-4z",
+                        "M0,0 4,0 4,3 0,3", "M0 0C1 0 2 0 4 0L4 3 0 3", "M.0.0L4,.0 4e0 3 0 30e-1z"}) {
+    CAPTURE(d);
+    CHECK(area(draw(std::string("<path d='") + d + "'/>")) == doctest::Approx(expected).epsilon(1e-9));
+  }
+  const double pi = std::numbers::pi;
+  CHECK(area(draw("<path d='M-1 0 A1 1 0 0 1 1 0 A1 1 0 0 1 -1 0Z'/>")) == doctest::Approx(pi).epsilon(1e-3));
+  CHECK(area(draw("<path d='M-1 0a1 1 0 102 0 1 1 0 10-2 0z'/>")) == doctest::Approx(pi).epsilon(1e-3));
+  CHECK(area(draw("<path d='M1 0A1 1 0 1 1 0-1L0 0z'/>")) == doctest::Approx(0.75 * pi).epsilon(1e-3));
+  CHECK(area(draw("<path d='M1 0A1 1 0 0 0 0-1L0 0z'/>")) == doctest::Approx(0.25 * pi).epsilon(1e-3));
+  CHECK(area(draw("<path d='M0 0Q1 2 2 0z'/>")) == doctest::Approx(2.0 / 3 * 2).epsilon(1e-3));
+  CHECK(area(draw("<path d='M0 0Q1 2 2 0T4 0z'/>")) == doctest::Approx(2.0 / 3 * 4).epsilon(1e-3));
+  CHECK(area(draw("<path d='M0 0C0 1 2 1 2 0S4-1 4 0z'/>")) == doctest::Approx(2 * 1.2).epsilon(1e-3));
+}
+
+TEST_CASE("SVG: curves stay within the tolerance") {
+  const auto parts = draw("<circle r='7'/>");
+  const double tolerance = kSvgTolerance * 7 * 2 * std::numbers::sqrt2;
+  REQUIRE(parts.size() == 1);
+  const Ring& ring = parts[0].outer;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const auto &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    CHECK(std::abs(std::hypot((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) - 7) <= tolerance);
+  }
+  CHECK(ring.size() < 400);
+}
+
+TEST_CASE("SVG: transforms of groups and elements") {
+  CHECK(area(draw("<g transform='scale(2)'><g transform='translate(5 6) rotate(30)'><rect width='1' "
+                  "height='1'/></g></g>")) == doctest::Approx(4));
+  const auto moved =
+      draw("<g transform='matrix(1 0 0 1 10 20), rotate(90, 1, 1)'><rect width='2' height='2'/></g>");
+  REQUIRE(moved.size() == 1);
+  for (const auto& p : moved[0].outer) {
+    CHECK(p[0] >= 10 - 1e-12);
+    CHECK(p[0] <= 12 + 1e-12);
+    CHECK(p[1] <= -20 + 1e-12);
+    CHECK(p[1] >= -22 - 1e-12);
+  }
+  CHECK(area(draw("<rect width='2' height='2' transform='skewX(45)'/>")) == doctest::Approx(4));
+}
+
+TEST_CASE("SVG: the two fill rules") {
+  const std::string same = "M0 0H4V4H0zM1 1H3V3H1z", opposite = "M0 0H4V4H0zM1 1V3H3V1z";
+  CHECK(area(draw("<path d='" + same + "'/>")) == doctest::Approx(16));
+  CHECK(area(draw("<path d='" + opposite + "'/>")) == doctest::Approx(12));
+  CHECK(area(draw("<path fill-rule='evenodd' d='" + same + "'/>")) == doctest::Approx(12));
+  CHECK(area(draw("<g style='fill-rule:evenodd'><path d='" + same + "'/></g>")) == doctest::Approx(12));
+  // A pentagram: the middle counts only by the nonzero rule.
+  const std::string star = "points='0,-10 5.878,8.09 -9.511,-3.09 9.511,-3.09 -5.878,8.09'";
+  CHECK(area(draw("<polygon " + star + "/>")) >
+        area(draw("<polygon fill-rule='evenodd' " + star + "/>")) + 30);
+}
+
+TEST_CASE("SVG: refusals name the line and the element") {
+  const auto message = [](const std::string& text) { return refusal([&] { parse_svg(text, "t.svg"); }); };
+  CHECK(says(message("<svg>\n<path d='M0 0'>\n"), "t.svg:"));
+  CHECK(says(message("<svg>\n<path d='M0 0'>\n"), "is not well-formed XML"));
+  CHECK(
+      says(message(svg("<path d='L0 0'/>")), "invalid_file: t.svg:2: <path>: path data do not begin with M"));
+  CHECK(says(message(svg("<path d='M0 0 L1'/>")), "t.svg:2: <path>: a number is due"));
+  CHECK(says(message(svg("<path d='M0 0 L1 nan'/>")), "a number is due"));
+  CHECK(says(message(svg("<path d='M0 0 X1 1'/>")), "is no command"));
+  CHECK(says(message(svg("<path d='M0 0 A1 1 0 2 1 5 5'/>")), "a flag (0 or 1)"));
+  CHECK(says(message(svg("<rect width='10mm' height='1'/>")), "width='10mm' is not a number of user units"));
+  CHECK(says(message(svg("<use href='#a'/>")), "put the shape itself in its place"));
+  CHECK(says(message(svg("<g transform='turn(3)'/>")), "'turn' with 1 numbers is no transform"));
+  CHECK(says(message(svg("")), "holds no path"));
+  CHECK(says(message(svg("<path d='M0 0L1 1z'/>")), "have no area"));
+  CHECK(says(message("<html/>"), "not <svg>"));
+}

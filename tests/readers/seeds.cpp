@@ -1,0 +1,126 @@
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "apps/io/read_seeds.hpp"
+#include "tests/readers/fixtures.hpp"
+
+using namespace powercell;
+using namespace powercell::io;
+using namespace powercell::io::test;
+
+namespace {
+const std::vector<double> kPositions{0.25, 0.5, 1, -2};
+}
+
+TEST_CASE("text and CSV in every spelling give the same seeds") {
+  for (const char* text :
+       {"0.25 0.5 3\n1 -2 4\n", "0.25,0.5,3\n1,-2,4", "0.25; 0.5 ;3\r\n1;-2;4\r\n",
+        "\t0.25\t0.5\t3\n\n1\t-2\t4\n\n", "# comment\n0.25 0.5 3 # one\n1 -2 +4\n", "2\n0.25 0.5 3\n1 -2 4\n",
+        "x,y,weight\n0.25,.5,3e0\n1,-2,4\n", "a b c\n0.25 0.5 3\n1 -2 4\n",
+        "\xEF\xBB\xBF"
+        "X,Y,W\n0.25,0.5,3\n1,-2,4\n",
+        "seed,x,weight,y,status\n0,0.25,3,0.5,ok\n1,1,4,-2,hidden\n",
+        "\"w\",\"y\",\"x\"\n3,0.5,0.25\n4,-2,1\n"}) {
+    CAPTURE(text);
+    const SeedTable seeds = parse_seeds_text(text, 2, "s.txt");
+    CHECK(seeds.positions == kPositions);
+    CHECK(seeds.weights == std::vector<double>{3, 4});
+  }
+}
+
+TEST_CASE("weights are 0 where no row has one") {
+  CHECK(parse_seeds_text("0.25 0.5\n1 -2\n", 2, "s.txt").weights == std::vector<double>{0, 0});
+  CHECK(parse_seeds_text("1 2 3\n4 5 6\n", 3, "s.txt").weights == std::vector<double>{0, 0});
+  CHECK(parse_seeds_text("1 2 3 4\n", 3, "s.txt").weights == std::vector<double>{4});
+  CHECK(parse_seeds_text("0\n", 3, "s.txt").count() == 0);
+  CHECK(parse_seeds_text("x y\n", 2, "s.txt").count() == 0);
+}
+
+TEST_CASE("malformed tables are refused with line and seed") {
+  const auto message = [](const std::string& text, int d = 2) {
+    return refusal([&] { parse_seeds_text(text, d, "s.csv"); });
+  };
+  CHECK(says(message("1 2 3\n4 5\n"),
+             "invalid_file: s.csv:2: seed 1 (from 0) has 2 columns, the ones before have 3"));
+  CHECK(says(message("1 2\n4 5 6\n"), "s.csv:2: seed 1"));
+  CHECK(says(message("1 2 3\n4 nan 5\n"),
+             "invalid_seed: s.csv:2: seed 1 (from 0), column 2: 'nan' is not a finite number"));
+  CHECK(says(message("# c\n1 2 -inf\n"), "invalid_seed: s.csv:2: seed 0 (from 0), column 3"));
+  CHECK(says(message("1 2 1e999\n"), "is too large for a double"));
+  CHECK(says(message("1 2 3\n4 five 6\n"),
+             "invalid_file: s.csv:2: seed 1 (from 0), column 2: 'five' is not a number"));
+  CHECK(says(message("1,,3\n"), "column 2: is empty"));
+  CHECK(says(message("1,2,\n"), "column 3: is empty"));
+  CHECK(says(message("3\n1 2 3\n1 2 3\n"), "s.csv:1: 3 seeds are announced, but the file has 2"));
+  CHECK(says(message("1 2 3 4\n"), "s.csv:1: 4 columns"));
+  CHECK(says(message("1 2\n", 3), "s.csv:1: 2 columns"));
+  CHECK(says(message("x,y\n1,2\n", 3), "s.csv:1: the header names some of x, y, z"));
+  CHECK(says(message(std::string("1 2\0 3\n", 7)), "NUL bytes"));
+  CHECK(parse_seeds_text("1 2 1e-400\n", 2, "s.csv").weights[0] == 0);
+}
+
+TEST_CASE("NumPy arrays") {
+  const auto load = [](const char* file, int d) { return parse_seeds_npy(data_bytes(file), d, file); };
+  const SeedTable c = load("seeds_c.npy", 3), fortran = load("seeds_fortran.npy", 3),
+                  big = load("seeds_float.npy", 3);
+  CHECK(c.positions == std::vector<double>{0.25, 0.5, 0.75, 0.1, 0.2, 0.3, 1, 2, 3});
+  CHECK(c.weights == std::vector<double>{0.125, -4, 0});
+  CHECK(fortran.positions == c.positions);
+  CHECK(fortran.weights == c.weights);
+  CHECK(big.positions[3] == static_cast<double>(0.1f));
+  CHECK(big.weights == c.weights);
+  CHECK(load("seeds_int.npy", 3).positions == std::vector<double>{1, 2, 3, 4, 5, 6});
+  CHECK(load("seeds_int.npy", 2).weights == std::vector<double>{3, 6});
+}
+
+TEST_CASE("malformed NumPy arrays are refused") {
+  const auto message = [](std::string bytes, int d = 3) {
+    return refusal([&] { parse_seeds_npy(bytes, d, "s.npy"); });
+  };
+  const std::string good = data_bytes("seeds_c.npy");
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string bytes = good;
+    const auto at = bytes.find(from);
+    REQUIRE(at != std::string::npos);
+    return bytes.replace(at, from.size(), to);
+  };
+  CHECK(says(message(good.substr(0, good.size() - 1)), "the file ends in the array"));
+  CHECK(says(message(replaced("(3, 4), }      ", "(3000000000,4),")), "the file ends in the array"));
+  CHECK(says(message(replaced("<f8", "|O8")), "numbers of type '|O8' are not read"));
+  CHECK(says(message(replaced("(3, 4)", "(3, 9)")), "has 9 columns"));
+  CHECK(says(message(replaced("(3, 4)", "(12, )")), "is an array of 1 dimensions"));
+  CHECK(says(message(replaced("NUMPY", "NUMPI")), "does not begin as a .npy file"));
+  CHECK(says(message(good, 2), "has 4 columns; seeds of this domain have 2 coordinates"));
+  std::string nan = good;
+  const double value = std::numeric_limits<double>::quiet_NaN();
+  std::memcpy(nan.data() + nan.size() - 8 * 5, &value, 8);
+  CHECK(says(message(nan), "invalid_seed: s.npy: seed 1 (row from 0), column 3"));
+  for (std::size_t cut = 0; cut < good.size(); ++cut) CHECK(message(good.substr(0, cut)) != "nothing");
+}
+
+TEST_CASE("a million seeds are read in about a second") {
+  std::string text;
+  for (int k = 0; k < 1000000; ++k) text += "0.12345678901234567 0.98765432109876543 0.5 1e-3\n";
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(parse_seeds_text(text, 3, "s.txt").count() == 1000000);
+  // Ten times what it takes, so that a busy machine or a sanitizer does not fail it.
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 10);
+}
+
+TEST_CASE("the specification of random seeds") {
+  const RandomSeeds what = parse_random_spec("random:100:-1:2.5:9");
+  CHECK(what.count == 100);
+  CHECK(what.low == -1);
+  CHECK(what.high == 2.5);
+  CHECK(what.seed == 9);
+  CHECK(parse_random_spec("random:0").count == 0);
+  for (const char* spec : {"random:", "random:x", "random:5:1", "random:5:2:1", "random:5:0:1:z", "random:-5",
+                           "random:5:nan:1", "random:99999999999"}) {
+    CAPTURE(spec);
+    CHECK(says(refusal([&] { parse_random_spec(spec); }), std::string("invalid_argument: seeds '") + spec));
+  }
+}
