@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lib/seeds/seed_set.hpp"
+#include "lib/seeds/threads.hpp"
+#include "lib/verify/laws.hpp"
+
+namespace powercell {
+namespace {
+
+/// How far a point lies outside a piece, and how much of that rounding explains.
+struct Outside {
+  double distance = 0, allowed = 1;
+  double ratio() const { return distance / allowed; }
+};
+
+/// Unit normal of a region of a surface; (0, 0, 1) in the plane.
+Vector plane_normal(const RegionMesh& mesh, std::uint32_t region) {
+  if (mesh.dimension == 2) return {0, 0, 1};
+  const std::uint32_t* v = &mesh.region_vertex[mesh.region_offset[region]];
+  const double* x = mesh.vertices.data();
+  const Vector normal = cross(difference(x + 3 * v[1], x + 3 * v[0]), difference(x + 3 * v[2], x + 3 * v[0]));
+  return (1 / length(normal)) * normal;
+}
+
+struct Face {
+  Vector normal{};  // outward, unit; 0 for a face of no extent
+  Vector middle{};
+  double slant = 0;  // by how much its direction turns, at most, if its corners move by one
+};
+
+Face face_of(const std::vector<Vector>& corners, const Vector& plane) {
+  Face face;
+  for (const Vector& x : corners)
+    face.middle = face.middle + (1 / static_cast<long double>(corners.size())) * x;
+  long double extent = 0;
+  for (const Vector& x : corners) extent = std::max(extent, length(x - face.middle));
+  if (corners.size() == 2) {
+    face.normal = cross(corners[1] - corners[0], plane);
+  } else {
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      face.normal = face.normal + cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
+  }
+  const long double size = length(face.normal);  // its length, or twice its area
+  if (!(size > 0)) return {};
+  face.normal = (1 / size) * face.normal;
+  face.slant = static_cast<double>(corners.size() == 2 ? 2 / size : 2 * extent / size);
+  return face;
+}
+
+class Owners {
+ public:
+  Owners(const RegionMesh& mesh, const Cells& cells, const Rounding& rounding)
+      : mesh_(mesh), cells_(cells), rounding_(rounding), count_(cells.cell_count()) {}
+
+  /// By trying all of them.
+  std::size_t least_power(const Vector& x) const {
+    std::size_t best = 0;
+    long double least = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vector y = x - rounding_.position(i);
+      const long double power = dot(y, y) - rounding_.weight(i);
+      if (i == 0 || power < least) {
+        least = power;
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  /// How far a sample lies outside the cell of seed i.
+  Outside outside_cell(const Sample& sample, std::size_t i) const {
+    Outside best{1e300, 1};
+    bool in_region = false;
+    for (std::uint64_t p = cells_.cell_offset[i]; p < cells_.cell_offset[i + 1]; ++p) {
+      if (cells_.region[p] != sample.region) continue;
+      in_region = true;
+      best = nearer(best, outside_piece(sample.point, i, p));
+    }
+    // Too flat a piece is not kept: then the point is next to one in the region beside.
+    for (std::uint64_t p = cells_.cell_offset[i]; !in_region && p < cells_.cell_offset[i + 1]; ++p)
+      best = nearer(best, outside_piece(sample.point, i, p));
+    return best;
+  }
+
+  /// The best answer of all seeds whose bisector with the owner is as near as rounding.
+  Outside outside_ties(const Sample& sample, std::size_t owner, Outside best) const {
+    const Vector p = rounding_.position(owner);
+    for (std::size_t j = 0; j < count_; ++j) {
+      if (j == owner || rounding_.position(j) == p) continue;
+      if (-rounding_.beyond(owner, j, sample.point) > rounding_.wall_shift(owner, j)) continue;
+      best = nearer(best, outside_cell(sample, j));
+    }
+    return best;
+  }
+
+ private:
+  static Outside nearer(const Outside& a, const Outside& b) { return b.ratio() < a.ratio() ? b : a; }
+
+  Outside outside_piece(const Vector& x, std::size_t i, std::uint64_t piece) const {
+    const Vector plane = cells_.cell_dimension == 2 ? plane_normal(mesh_, cells_.region[piece]) : Vector{};
+    Outside worst;
+    for (std::uint64_t f = cells_.face_offset[piece]; f < cells_.face_offset[piece + 1]; ++f) {
+      const Face face = face_of(face_corners(cells_, piece, f), plane);
+      const double distance = static_cast<double>(dot(x - face.middle, face.normal));
+      if (distance <= 0) continue;
+      const double away = static_cast<double>(length(x - face.middle));
+      const Outside here{distance, rounding_.shift(i, cells_.border[f]) * (1 + away * face.slant)};
+      if (here.ratio() > worst.ratio()) worst = here;
+    }
+    return worst;
+  }
+
+  const RegionMesh& mesh_;
+  const Cells& cells_;
+  const Rounding& rounding_;
+  std::size_t count_;
+};
+
+std::string tell(const Sample& sample, std::size_t owner, const Outside& outside, int dimension) {
+  std::string point = digits(static_cast<double>(sample.point[0]));
+  for (std::size_t k = 1; k < static_cast<std::size_t>(dimension); ++k)
+    point += ", " + digits(static_cast<double>(sample.point[k]));
+  const std::string where = outside.distance < 1e300
+                                ? "lies " + digits(outside.distance) + " outside its cell"
+                                : "has no cell to lie in";
+  return "the point (" + point + ") of region " + std::to_string(sample.region) + " belongs to seed " +
+         std::to_string(owner) + " but " + where;
+}
+
+}  // namespace
+
+LawCheck check_owners(const std::vector<Sample>& samples, const RegionMesh& mesh, const Cells& cells,
+                      const Rounding& rounding) {
+  const Owners owners(mesh, cells, rounding);
+  std::vector<Worst> worst(samples.size());
+  parallel_for(thread_count(0), samples.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const std::size_t owner = owners.least_power(samples[s].point);
+      Outside outside = owners.outside_cell(samples[s], owner);
+      if (outside.ratio() > 1) outside = owners.outside_ties(samples[s], owner, outside);
+      worst[s].see(outside.distance, outside.allowed,
+                   [&] { return tell(samples[s], owner, outside, cells.dimension); });
+    }
+  });
+  Worst all;
+  for (const Worst& one : worst) all.see(one);
+  return all.result("ownership: random points lie in the cell of least power",
+                    rounding.unit() * rounding.diagonal());
+}
+
+}  // namespace powercell

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lib/verify/laws.hpp"
+
+namespace powercell {
+namespace {
+
+struct Sums {
+  long double measure = 0, surface = 0, extent = 0;  // extent: farthest vertex from the seed
+  Vector first{};                                    // moment about the seed
+
+  void add_triangle(const Vector& a, const Vector& b, const Vector& c) {
+    const Vector normal = cross(b - a, c - a);
+    add(length(normal) / 2, a + b + c, 3);
+  }
+  void add_tetrahedron(const Vector& apex, const Vector& a, const Vector& b, const Vector& c) {
+    add(dot(a - apex, cross(b - apex, c - apex)) / 6, apex + a + b + c, 4);
+  }
+
+ private:
+  void add(long double part, const Vector& corners, int count) {
+    measure += part;
+    first = first + (part / count) * corners;
+  }
+};
+
+void add_polygon(const Cells& cells, std::uint64_t piece, const Vector& seed, Sums& sums) {
+  const std::uint64_t begin = cells.vertex_offset[piece], end = cells.vertex_offset[piece + 1];
+  const Vector first = cell_vertex(cells, begin) - seed;
+  for (std::uint64_t v = begin; v < end; ++v) {
+    const Vector a = cell_vertex(cells, v) - seed;
+    const Vector b = cell_vertex(cells, v + 1 < end ? v + 1 : begin) - seed;
+    sums.surface += length(b - a);
+    sums.extent = std::max(sums.extent, length(a));
+    sums.add_triangle(first, a, b);
+  }
+}
+
+void add_polyhedron(const Cells& cells, std::uint64_t piece, const Vector& seed, Sums& sums) {
+  const Vector apex = cell_vertex(cells, cells.vertex_offset[piece]) - seed;
+  for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
+    std::vector<Vector> corner = face_corners(cells, piece, f);
+    for (Vector& x : corner) {
+      x = x - seed;
+      sums.extent = std::max(sums.extent, length(x));
+    }
+    for (std::size_t k = 2; k < corner.size(); ++k) {
+      sums.surface += length(cross(corner[k - 1] - corner[0], corner[k] - corner[0])) / 2;
+      sums.add_tetrahedron(apex, corner[0], corner[k - 1], corner[k]);
+    }
+  }
+}
+
+Sums sums_of(const Cells& cells, std::size_t i, const Vector& seed) {
+  Sums sums;
+  for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
+    if (cells.cell_dimension == 2) {
+      add_polygon(cells, p, seed, sums);
+    } else {
+      add_polyhedron(cells, p, seed, sums);
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
+std::vector<Vector> face_corners(const Cells& cells, std::size_t piece, std::uint64_t face) {
+  const std::uint64_t begin = cells.vertex_offset[piece], end = cells.vertex_offset[piece + 1];
+  std::vector<Vector> corners;
+  if (cells.cell_dimension == 2) {
+    const std::uint64_t a = begin + (face - cells.face_offset[piece]);
+    corners = {cell_vertex(cells, a), cell_vertex(cells, a + 1 < end ? a + 1 : begin)};
+  } else {
+    for (std::uint64_t k = cells.loop_offset[face]; k < cells.loop_offset[face + 1]; ++k)
+      corners.push_back(cell_vertex(cells, begin + cells.loop[k]));
+  }
+  return corners;
+}
+
+std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells, const Rounding& rounding) {
+  Worst mass, centroid;
+  const auto d = static_cast<std::size_t>(measures.dimension);
+  for (std::size_t i = 0; i < measures.mass.size(); ++i) {
+    const Vector seed = rounding.position(i);
+    const Sums sums = sums_of(cells, i, seed);
+    // Moving the faces of a cell by the rounding of its planes changes its measure by that times its surface.
+    const double moved = rounding.shift(i) * static_cast<double>(sums.surface);
+    const double given = measures.mass[i];
+    mass.see(std::abs(static_cast<double>(sums.measure - given)), moved, [&] {
+      return "seed " + std::to_string(i) + " has measure " + digits(given) + ", its " +
+             std::to_string(cells.cell_offset[i + 1] - cells.cell_offset[i]) + " pieces sum to " +
+             digits(static_cast<double>(sums.measure));
+    });
+    if (!(given > 0) || !(sums.measure > 0)) continue;
+    const double* c = &measures.centroid[i * d];
+    const Vector stated = Vector{c[0], c[1], d == 3 ? c[2] : 0.0} - seed;
+    const double apart = static_cast<double>(length(stated - (1 / sums.measure) * sums.first));
+    const double allowed = rounding.shift(i) + moved * static_cast<double>(sums.extent / sums.measure);
+    centroid.see(apart, allowed, [&] {
+      return "the centroid of seed " + std::to_string(i) + " is " + digits(apart) +
+             " from that of its pieces";
+    });
+  }
+  const double usual = rounding.unit() * rounding.diagonal();
+  return {mass.result("pieces: those of each cell sum to its measure", usual),
+          centroid.result("centroids: each is that of the cell's pieces", usual)};
+}
+
+}  // namespace powercell

@@ -1,0 +1,61 @@
+#include "lib/verify/rounding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace powercell {
+namespace {
+
+/// Roundings that add up in a plane: the dot products of a cut and the interpolation of its vertices.
+constexpr double roundings = 64;
+
+}  // namespace
+
+Rounding::Rounding(const Domain& domain, const SeedsView& seeds, Precision precision)
+    : seeds_(seeds),
+      low_(domain.low()),
+      high_(domain.high()),
+      unit_(precision == Precision::float32 ? 0x1p-24 : 0x1p-53) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    diagonal_ = std::hypot(diagonal_, high_[k] - low_[k]);
+    coordinate_ = std::max({coordinate_, std::abs(low_[k]), std::abs(high_[k])});
+  }
+  coordinate_ *= 4 * 0x1p-53;
+}
+
+Vector Rounding::position(std::size_t i) const {
+  const double* p = &seeds_.positions[i * static_cast<std::size_t>(seeds_.dimension)];
+  return {p[0], p[1], seeds_.dimension == 3 ? p[2] : 0.0};
+}
+
+double Rounding::reach(std::size_t i) const {
+  const Vector p = position(i);
+  double sum = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(seeds_.dimension); ++k)
+    sum =
+        std::hypot(sum, static_cast<double>(std::max(std::fabs(p[k] - low_[k]), std::fabs(p[k] - high_[k]))));
+  return sum;
+}
+
+double Rounding::shift(std::size_t i) const {
+  return roundings * unit_ * reach(i) + coordinate_;
+}
+
+double Rounding::wall_shift(std::size_t i, std::size_t j) const {
+  const Vector a = position(i), b = position(j), q{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const long double length = std::sqrt(dot(q, q));
+  return shift(i) +
+         roundings * unit_ * static_cast<double>(length + std::fabs(weight(i) - weight(j)) / length);
+}
+
+double Rounding::shift(std::size_t i, const Border& border) const {
+  return border.kind == Border::Kind::wall ? wall_shift(i, border.index) : shift(i);
+}
+
+long double Rounding::beyond(std::size_t i, std::size_t j, const Vector& x) const {
+  const Vector a = position(i), b = position(j), q{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const Vector y{x[0] - a[0], x[1] - a[1], x[2] - a[2]};
+  return (2 * dot(q, y) - dot(q, q) - weight(i) + weight(j)) / (2 * std::sqrt(dot(q, q)));
+}
+
+}  // namespace powercell

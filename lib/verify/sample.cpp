@@ -1,0 +1,97 @@
+#include "lib/verify/sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace powercell {
+namespace {
+
+/// A triangle or tetrahedron of a region, by its place among the region's vertices.
+struct Simplex {
+  std::uint32_t region;
+  std::array<std::uint32_t, 4> vertex;
+  std::size_t corners;
+};
+
+Vector vertex(const RegionMesh& mesh, std::uint32_t v) {
+  const double* x = &mesh.vertices[v * static_cast<std::size_t>(mesh.dimension)];
+  return {x[0], x[1], mesh.dimension == 3 ? x[2] : 0.0};
+}
+
+Vector minus(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// Regions as simplices: convex polygons fanned from their first vertex.
+std::vector<Simplex> simplices_of(const RegionMesh& mesh) {
+  std::vector<Simplex> list;
+  for (std::uint32_t r = 0; r < mesh.region_count(); ++r) {
+    const std::uint32_t* v = &mesh.region_vertex[mesh.region_offset[r]];
+    const std::uint32_t n = mesh.region_offset[r + 1] - mesh.region_offset[r];
+    if (mesh.shape == RegionShape::tetrahedron) {
+      list.push_back({r, {v[0], v[1], v[2], v[3]}, 4});
+    } else {
+      for (std::uint32_t k = 2; k < n; ++k) list.push_back({r, {v[0], v[k - 1], v[k], 0}, 3});
+    }
+  }
+  return list;
+}
+
+double measure_of(const RegionMesh& mesh, const Simplex& simplex) {
+  const Vector a = vertex(mesh, simplex.vertex[0]);
+  const Vector b = minus(vertex(mesh, simplex.vertex[1]), a), c = minus(vertex(mesh, simplex.vertex[2]), a);
+  const Vector normal = cross(b, c);
+  const long double twice_area = std::sqrt(dot(normal, normal));
+  if (simplex.corners == 3) return static_cast<double>(twice_area / 2);
+  return static_cast<double>(std::fabs(dot(minus(vertex(mesh, simplex.vertex[3]), a), normal)) / 6);
+}
+
+class Uniform {
+ public:
+  explicit Uniform(std::uint64_t seed) : engine_(seed) {}
+  double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  // in [0, 1)
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Sorted uniform numbers part [0, 1] into lengths that are uniform barycentric coordinates.
+Vector point_in(const RegionMesh& mesh, const Simplex& simplex, Uniform& uniform) {
+  std::array<double, 5> cut{0, 1, 1, 1, 1};
+  for (std::size_t k = 1; k < simplex.corners; ++k) cut[k] = uniform();
+  std::sort(cut.begin(), cut.end());
+  const Vector origin = vertex(mesh, simplex.vertex[0]);
+  Vector point = origin;
+  for (std::size_t c = 1; c < simplex.corners; ++c) {
+    const Vector edge = minus(vertex(mesh, simplex.vertex[c]), origin);
+    for (std::size_t k = 0; k < 3; ++k) point[k] += (static_cast<long double>(cut[c + 1]) - cut[c]) * edge[k];
+  }
+  return point;
+}
+
+}  // namespace
+
+std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std::uint64_t random_seed) {
+  Uniform uniform(random_seed);
+  std::vector<Sample> samples(count);
+  if (mesh.shape == RegionShape::box) {
+    for (Sample& sample : samples) {
+      sample = {0, {}};
+      for (std::size_t k = 0; k < 3; ++k)
+        sample.point[k] = mesh.low[k] + (static_cast<long double>(mesh.high[k]) - mesh.low[k]) * uniform();
+    }
+    return samples;
+  }
+  const std::vector<Simplex> simplices = simplices_of(mesh);
+  std::vector<double> up_to;
+  double sum = 0;
+  for (const Simplex& simplex : simplices) up_to.push_back(sum += measure_of(mesh, simplex));
+  for (Sample& sample : samples) {
+    const auto at = std::upper_bound(up_to.begin(), up_to.end() - 1, uniform() * sum);
+    const Simplex& simplex = simplices[static_cast<std::size_t>(at - up_to.begin())];
+    sample = {simplex.region, point_in(mesh, simplex, uniform)};
+  }
+  return samples;
+}
+
+}  // namespace powercell

@@ -1,0 +1,59 @@
+#include <cstdio>
+#include <powercell/verify.hpp>
+
+#include "lib/verify/laws.hpp"
+
+namespace powercell {
+namespace {
+
+/// Masses are sums over cells whose shared faces move alike, so the error of the total does not grow with
+/// their number.
+constexpr double partition_double = 1e-12, partition_float = 1e-5;
+
+LawCheck check_partition(const Measures& measures, Precision precision) {
+  const double tolerance = precision == Precision::float32 ? partition_float : partition_double;
+  const bool covered = !measures.mass.empty();  // no seeds have no cells
+  const double error = covered ? measures.relative_error() : 0;
+  LawCheck check{
+      "partition: the measures sum to the domain's (relative)", error <= tolerance, error, tolerance, {}};
+  if (!check.passed)
+    check.detail = "the cells sum to " + digits(measures.total()) + ", the domain has " +
+                   digits(measures.domain_measure);
+  return check;
+}
+
+void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
+  if (seeds.dimension == diagram.domain().dimension() && seeds.size() == diagram.size()) return;
+  throw Error(ErrorCode::invalid_argument,
+              std::to_string(seeds.size()) + " seeds in " + std::to_string(seeds.dimension) +
+                  "D were given to check a diagram of " + std::to_string(diagram.size()) + " seeds in " +
+                  std::to_string(diagram.domain().dimension()) + "D: give the seeds that the diagram has");
+}
+
+}  // namespace
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const VerifyOptions& options) {
+  check_same_seeds(diagram, seeds);
+  const Domain& domain = diagram.domain();
+  const Rounding rounding(domain, seeds, diagram.precision());
+  const Cells& cells = diagram.cells();
+  const Measures& measures = diagram.measures();
+
+  std::vector<LawCheck> checks;
+  checks.push_back(check_partition(measures, diagram.precision()));
+  checks.push_back(check_statuses(measures, cells, seeds));
+  checks.push_back(check_walls(diagram.adjacency(), domain.cell_dimension(), rounding));
+  for (LawCheck& check : check_pieces(measures, cells, rounding)) checks.push_back(std::move(check));
+  const std::size_t samples = seeds.size() > 0 ? options.samples : 0;
+  checks.push_back(check_owners(random_points(domain.mesh(), samples, options.random_seed), domain.mesh(),
+                                cells, rounding));
+  return checks;
+}
+
+}  // namespace powercell

@@ -1,0 +1,75 @@
+#include <doctest/doctest.h>
+
+#include <powercell/verify.hpp>
+
+#include "tests/support/domains.hpp"
+#include "tests/support/setups.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+void expect_laws(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
+  Diagram diagram(setup.device, domain, setup.options);
+  diagram.set_seeds(seeds);
+  const std::vector<LawCheck> checks = verify(diagram, seeds, {200, test_seed()});
+  CHECK(checks.size() == 6);
+  for (const LawCheck& check : checks) {
+    INFO(setup.name << ": " << check.law << ": " << check.value << " of " << check.tolerance << "; "
+                    << check.detail);
+    CHECK(check.passed);
+    CHECK(check.value <= check.tolerance);
+    CHECK(check.detail.empty());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("random diagrams of every kind of domain obey the laws") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const auto& list : {polygon_domains(), surface_domains(), volume_domains(), box_domains()}) {
+    for (const NamedDomain& named : list) {
+      INFO("domain " << named.name);
+      for (const WeightRange range : {WeightRange::W0, WeightRange::W2}) {
+        const SeedArray seeds = seeds_for(named.domain, Distribution::white, range, 150, random);
+        for (const Setup& setup : all_setups()) expect_laws(setup, named.domain, seeds.view());
+      }
+    }
+  }
+}
+
+TEST_CASE("degenerate seeds obey the laws") {
+  Random random(test_seed());
+  for (const Setup& setup : main_setups()) {
+    INFO(setup.name);
+    for (const int d : {2, 3}) {
+      expect_laws(setup, unit_box(d), SeedsView{d, {}, {}});
+      expect_laws(setup, unit_box(d), grid(4, d).view());
+      expect_laws(setup, unit_box(d), cospherical(20, d).view());
+      SeedArray repeated = grid(3, d);
+      repeated.positions.insert(repeated.positions.end(), repeated.positions.begin(),
+                                repeated.positions.end());
+      repeated.weights.resize(repeated.size(), 0.001);
+      expect_laws(setup, unit_box(d), repeated.view());
+    }
+  }
+}
+
+TEST_CASE("other seeds than the diagram's are refused, or found out") {
+  Random random(test_seed());
+  const SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
+  const SeedArray others = scatter(Distribution::white, 50, 2, {}, random);
+  const Setup& setup = main_setups().front();
+  Diagram diagram(setup.device, unit_box(2), setup.options);
+  diagram.set_seeds(seeds.view());
+  CHECK_THROWS_AS(verify(diagram, scatter(Distribution::white, 49, 2, {}, random).view()), Error);
+  CHECK_THROWS_AS(verify(diagram, scatter(Distribution::white, 50, 3, {}, random).view()), Error);
+  std::size_t failed = 0;
+  for (const LawCheck& check : verify(diagram, others.view())) {
+    failed += !check.passed;
+    CHECK(check.detail.empty() == check.passed);
+  }
+  CHECK(failed > 0);
+}

@@ -1,0 +1,130 @@
+// Each law finds the fault it is there for, put into results that were right.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "lib/verify/laws.hpp"
+#include "tests/support/domains.hpp"
+#include "tests/support/setups.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+/// Results of a diagram of white seeds in the unit square or cube, to be spoilt.
+struct Results {
+  explicit Results(int dimension)
+      : domain(unit_box(dimension)),
+        rounding(domain, (seeds = make_seeds(dimension)).view(), Precision::float64) {
+    Setup setup = main_setups().front();
+    setup.options.precision = Precision::automatic;
+    Diagram diagram(setup.device, domain, setup.options);
+    diagram.set_seeds(seeds.view());
+    measures = diagram.measures();
+    adjacency = diagram.adjacency();
+    cells = diagram.cells();
+    if (diagram.precision() == Precision::float32)
+      rounding = Rounding(domain, seeds.view(), Precision::float32);
+  }
+  static SeedArray make_seeds(int dimension) {
+    Random random(test_seed());
+    return random_seeds(Distribution::white, WeightRange::W1, 60, dimension, random);
+  }
+
+  SeedArray seeds;
+  Domain domain;
+  Rounding rounding;
+  Measures measures;
+  Adjacency adjacency;
+  Cells cells;
+
+  LawCheck owners() const {
+    return check_owners(random_points(domain.mesh(), 300, 1), domain.mesh(), cells, rounding);
+  }
+  bool pieces_pass() const {
+    const std::vector<LawCheck> checks = check_pieces(measures, cells, rounding);
+    return checks[0].passed && checks[1].passed;
+  }
+  LawCheck statuses() const { return check_statuses(measures, cells, seeds.view()); }
+};
+
+}  // namespace
+
+TEST_CASE("a moved vertex breaks the law of pieces") {
+  for (const int d : {2, 3}) {
+    Results results(d);
+    CHECK(results.pieces_pass());
+    results.cells.vertices[10] += 1e-4;
+    CHECK_FALSE(results.pieces_pass());
+  }
+}
+
+TEST_CASE("a wrong centroid breaks the law of centroids, and not-a-number too") {
+  Results results(2);
+  const double right = results.measures.centroid[7];
+  for (const double wrong : {right + 1e-4, std::numeric_limits<double>::quiet_NaN()}) {
+    results.measures.centroid[7] = wrong;
+    const std::vector<LawCheck> checks = check_pieces(results.measures, results.cells, results.rounding);
+    CHECK(checks[0].passed);
+    CHECK_FALSE(checks[1].passed);
+    CHECK(checks[1].detail.find("seed 3") != std::string::npos);
+  }
+}
+
+TEST_CASE("cells of seeds with other weights break the law of ownership") {
+  for (const int d : {2, 3}) {
+    Results results(d);
+    CHECK(results.owners().passed);
+    results.seeds.weights[5] += 0.02;
+    const LawCheck check = results.owners();
+    CHECK_FALSE(check.passed);
+    CHECK(check.value > check.tolerance);
+    CHECK(check.detail.find("belongs to seed 5 ") != std::string::npos);
+  }
+}
+
+TEST_CASE("one-sided and unequal walls break the law of symmetry") {
+  const Results results(2);
+  CHECK(check_walls(results.adjacency, 2, results.rounding).passed);
+  Adjacency uneven = results.adjacency;
+  uneven.wall[3] *= 1 + 1e-3;
+  CHECK_FALSE(check_walls(uneven, 2, results.rounding).passed);
+  Adjacency lopsided = results.adjacency;
+  lopsided.asymmetry = 0.01;
+  CHECK_FALSE(check_walls(lopsided, 2, results.rounding).passed);
+  Adjacency descending = results.adjacency;
+  std::swap(descending.neighbor[0], descending.neighbor[1]);
+  CHECK_FALSE(check_walls(descending, 2, results.rounding).passed);
+}
+
+TEST_CASE("statuses that contradict the measures or positions are found") {
+  Results results(3);
+  CHECK(results.statuses().passed);
+  const Measures right = results.measures;
+  results.measures.status[4] = SeedStatus::duplicate;
+  CHECK(results.statuses().detail.find("seed 4 ") == 0);
+  results.measures = right;
+  results.measures.status[8] = SeedStatus::hidden;
+  CHECK_FALSE(results.statuses().passed);
+  results.measures = right;
+  for (std::size_t k = 0; k < 3; ++k)
+    results.seeds.positions[3 * 20 + k] = results.seeds.positions[3 * 10 + k];
+  CHECK(results.statuses().value == 1);  // one of the two should be a duplicate
+}
+
+TEST_CASE("random points are uniform, in their region, and the same every time") {
+  Random random(test_seed());
+  const Domain domain = volume_of(cube_tetrahedra(2, 0.2, random));
+  const std::vector<Sample> samples = random_points(domain.mesh(), 20000, 7);
+  const std::vector<Sample> again = random_points(domain.mesh(), 20000, 7);
+  Vector sum{};
+  std::size_t low = 0;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    CHECK(samples[s].point == again[s].point);
+    sum = sum + samples[s].point;
+    low += samples[s].point[0] < 0.25L;
+  }
+  for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(static_cast<double>(sum[k]) / 20000 - 0.5) < 0.01);
+  CHECK(std::abs(static_cast<double>(low) / 20000 - 0.25) < 0.015);
+}
