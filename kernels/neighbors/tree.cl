@@ -8,8 +8,9 @@
 #define TREE_FAN 8u
 #define TREE_LEVELS 12 /* 8^11 leaves hold more seeds than a rank can number */
 #define TREE_STACK (7 * TREE_LEVELS + 8)
-#define NEAR_LEAVES 8 /* leaves whose seeds are tried first */
-#define NEAR_SEEDS 64 /* NEAR_LEAVES * TREE_FAN */
+#define NEAR_LEAVES (CELL_DIMENSION == 3 ? 8 : 4) /* leaves whose seeds are tried first */
+#define NEAR_LEAVES_MOST 8
+#define NEAR_SEEDS 64 /* NEAR_LEAVES_MOST * TREE_FAN */
 
 typedef struct {
   __global const seed_t* seeds;       /* by rank */
@@ -23,20 +24,29 @@ typedef struct {
 /* Nodes still to visit, the next on top. */
 typedef struct {
   uint node[TREE_STACK]; /* number within its level */
+  real key[TREE_STACK];  /* power distance of the node */
   uchar level[TREE_STACK];
   int depth;
 } stack_t;
 
-/* Sorts a child into the entries above `base`, whose keys are key[0..], the least on top. */
-static inline void push_sorted(stack_t* stack, int base, real* key, uint node, int level, real k) {
+/* Sorts a child into the entries above `base`, the least key on top. */
+static inline void push_sorted(stack_t* stack, int base, uint node, int level, real key) {
   int at = stack->depth++;
   stack->level[at] = (uchar)level;
-  for (; at > base && key[at - base - 1] < k; --at) {
-    key[at - base] = key[at - base - 1];
+  for (; at > base && stack->key[at - 1] < key; --at) {
+    stack->key[at] = stack->key[at - 1];
     stack->node[at] = stack->node[at - 1];
   }
-  key[at - base] = k;
+  stack->key[at] = key;
   stack->node[at] = node;
+}
+
+/* The root alone. */
+static inline void push_root(stack_t* stack, tree_t tree) {
+  stack->depth = 1;
+  stack->node[0] = 0;
+  stack->key[0] = -REAL_MAX;
+  stack->level[0] = (uchar)(tree.levels - 1);
 }
 
 /* The nodes of level `level` below node `node` of the level above end before this. */
@@ -94,22 +104,20 @@ static inline real bisector_distance(seed_t seed, seed_t other) {
 
 /* The NEAR_LEAVES leaves nearest to the seed, nearest first; returns how many there are. */
 static inline int find_near_leaves(tree_t tree, seed_t seed, stack_t* stack, uint* leaf) {
-  real best[NEAR_LEAVES], key[TREE_FAN];
+  real best[NEAR_LEAVES_MOST];
   int found = 0;
-  stack->depth = 1;
-  stack->node[0] = 0;
-  stack->level[0] = (uchar)(tree.levels - 1);
+  push_root(stack, tree);
   while (stack->depth > 0) {
     const uint node = stack->node[--stack->depth];
     const int level = stack->level[stack->depth];
-    const real d = node_distance(tree, tree.level_offset[level] + node, seed);
+    const real d = stack->key[stack->depth];
     if (found == NEAR_LEAVES && d >= best[found - 1]) continue;
     if (level > 0) {
       const int base = stack->depth;
       const uint end = children_end(tree, node, level - 1);
       for (uint child = node * TREE_FAN; child < end; ++child) {
         const real k = node_distance(tree, tree.level_offset[level - 1] + child, seed);
-        if (found < NEAR_LEAVES || k < best[found - 1]) push_sorted(stack, base, key, child, level - 1, k);
+        if (found < NEAR_LEAVES || k < best[found - 1]) push_sorted(stack, base, child, level - 1, k);
       }
       continue;
     }
@@ -146,25 +154,29 @@ static inline int cut_by_near(cell_t* cell, tree_t tree, uint i, const uint* lea
   }
 }
 
-/* Cuts by the seeds of a leaf that the cell's box does not exclude. */
+/* Cuts by the seeds of a leaf that the cell's box does not exclude, and keeps the box. */
 static inline int cut_by_leaf(cell_t* cell, tree_t tree, uint i, uint leaf, real* low, real* high) {
   const seed_t seed = tree.seeds[i];
   const uint end = min((leaf + 1) * TREE_FAN, tree.count);
+  int result = CUT_NONE;
   for (uint j = leaf * TREE_FAN; j < end; ++j) {
     const seed_t other = tree.seeds[j];
     if (j == i || !seed_may_cut(seed, other, low, high)) continue;
     const int cut = cut_by_seed(cell, seed, other, (int)j);
-    if (cut == CUT_SHRUNK) cell_box(cell, low, high);
     if (cut > CUT_SHRUNK) return cut;
+    if (cut == CUT_SHRUNK) {
+      cell_box(cell, low, high);
+      result = CUT_SHRUNK;
+    }
   }
-  return CUT_SHRUNK;
+  return result;
 }
 
 /* Clips the cell of rank i, started as a region, by all other seeds. Returns a PIECE status. */
 static inline int clip_by_tree(cell_t* cell, tree_t tree, uint i) {
   stack_t stack;
-  uint leaf[NEAR_LEAVES];
-  real low[DIMENSION], high[DIMENSION], key[TREE_FAN];
+  uint leaf[NEAR_LEAVES_MOST];
+  real low[DIMENSION], high[DIMENSION];
   const seed_t seed = tree.seeds[i];
   const int leaves = find_near_leaves(tree, seed, &stack, leaf);
   int cut = cut_by_near(cell, tree, i, leaf, leaves);
@@ -172,20 +184,22 @@ static inline int clip_by_tree(cell_t* cell, tree_t tree, uint i) {
   if (leaves < NEAR_LEAVES) return PIECE_WHOLE;
 
   cell_box(cell, low, high);
-  stack.depth = 1;
-  stack.node[0] = 0;
-  stack.level[0] = (uchar)(tree.levels - 1);
+  push_root(&stack, tree);
+  int tested = 0; /* entries from here on were tested against the present box */
   while (stack.depth > 0) {
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
-    if (!node_may_cut(tree, tree.level_offset[level] + node, seed, low, high)) continue;
+    if (stack.depth < tested) {
+      tested = stack.depth;
+      if (!node_may_cut(tree, tree.level_offset[level] + node, seed, low, high)) continue;
+    }
     if (level > 0) {
       const int base = stack.depth;
       const uint end = children_end(tree, node, level - 1);
       for (uint child = node * TREE_FAN; child < end; ++child) {
         const uint at = tree.level_offset[level - 1] + child;
         if (node_may_cut(tree, at, seed, low, high))
-          push_sorted(&stack, base, key, child, level - 1, node_distance(tree, at, seed));
+          push_sorted(&stack, base, child, level - 1, node_distance(tree, at, seed));
       }
       continue;
     }
@@ -193,6 +207,7 @@ static inline int clip_by_tree(cell_t* cell, tree_t tree, uint i) {
     for (int k = 0; k < NEAR_LEAVES; ++k) done |= leaf[k] == node;
     if (done) continue;
     cut = cut_by_leaf(cell, tree, i, node, low, high);
+    if (cut == CUT_SHRUNK) tested = stack.depth;
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
   return PIECE_WHOLE;
