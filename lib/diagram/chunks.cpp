@@ -13,6 +13,8 @@ namespace {
 
 /// Pairs in device memory at once, unless options say otherwise.
 constexpr std::uint64_t default_chunk_pairs = std::uint64_t{1} << 18;
+/// Where device memory does not suffice, chunks are halved down to this before the error is passed on.
+constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Of a cell's largest wall: a one-sided wall below it is rounding (docs/mathematics.md).
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
@@ -60,35 +62,48 @@ void ChunkRun::gather(std::uint64_t begin, std::uint64_t end, std::uint32_t firs
   gather_kernel_->launch(clear.size());
 }
 
-void ChunkRun::clip_all() {
+void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   const Pairs& pairs = s_.pairs;
-  const std::uint64_t total = pairs.region.size();
+  const std::uint32_t first = rank_of(begin), last = rank_of(end - 1);
+  std::vector<std::uint32_t> pair_seed;
+  pair_seed.reserve(end - begin);
+  for (std::uint32_t rank = first; rank <= last; ++rank) {
+    const std::uint64_t from = std::max(begin, pairs.offset[rank]), to = std::min(end, pairs.offset[rank + 1]);
+    pair_seed.insert(pair_seed.end(), to > from ? to - from : 0, rank);
+  }
+  const std::span pair_region(pairs.region.data() + begin, end - begin);
+  const PieceSet pieces = clipper_->clip(pair_seed, pair_region);
+  gather(begin, end, first, last);
+  Stopwatch watch;
+  if (want_adjacency_) walls_.add(pair_seed, pieces);
+  if (want_cells_) geometry_.add(pair_seed, pair_region, pieces);
+  collect_seconds_ += watch.seconds();
+}
+
+void ChunkRun::clip_all() {
+  const std::uint64_t total = s_.pairs.region.size();
   clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_);
   const double neighbor_seconds = s_.candidates->host_seconds();
-  double collect = 0;
   Stopwatch watch;
-  std::vector<std::uint32_t> pair_seed;
-  for (std::uint64_t begin = 0; begin < total; begin += chunk_pairs()) {
-    const std::uint64_t end = std::min(total, begin + chunk_pairs());
-    const std::uint32_t first = rank_of(begin), last = rank_of(end - 1);
-    pair_seed.clear();
-    for (std::uint32_t rank = first; rank <= last; ++rank) {
-      const std::uint64_t from = std::max(begin, pairs.offset[rank]), to = std::min(end, pairs.offset[rank + 1]);
-      pair_seed.insert(pair_seed.end(), to > from ? to - from : 0, rank);
+  std::uint64_t chunk = chunk_pairs();
+  for (std::uint64_t begin = 0; begin < total;) {
+    const std::uint64_t end = std::min(total, begin + chunk);
+    try {
+      clip_chunk(begin, end);
+    } catch (const Error& error) {
+      // Nothing of the chunk has been collected yet: smaller ones may fit.
+      if (error.code() != ErrorCode::out_of_device_memory || chunk <= least_chunk_pairs) throw;
+      chunk = std::max(least_chunk_pairs, chunk / 2);
+      clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_);  // gives its buffers back
+      continue;
     }
-    const std::span pair_region(pairs.region.data() + begin, end - begin);
-    const PieceSet pieces = clipper_->clip(pair_seed, pair_region);
-    gather(begin, end, first, last);
-    Stopwatch collect_watch;
-    if (want_adjacency_) walls_.add(pair_seed, pieces);
-    if (want_cells_) geometry_.add(pair_seed, pair_region, pieces);
-    collect += collect_watch.seconds();
+    begin = end;
     if (s_.options.progress && !s_.options.progress(static_cast<double>(end) / static_cast<double>(total)))
       throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
   }
   s_.timings.neighbors += s_.candidates->host_seconds() - neighbor_seconds;
-  s_.timings.collect = collect;
-  s_.timings.clip = watch.seconds() - collect - (s_.candidates->host_seconds() - neighbor_seconds);
+  s_.timings.collect = collect_seconds_;
+  s_.timings.clip = watch.seconds() - collect_seconds_ - (s_.candidates->host_seconds() - neighbor_seconds);
   s_.timings.retried = clipper_->statistics().retried;
   s_.timings.on_host = clipper_->statistics().on_host;
   s_.timings.rounds = clipper_->statistics().rounds;

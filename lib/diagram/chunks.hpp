@@ -18,6 +18,8 @@ class ChunkRun {
 
  private:
   void clip_all();
+  /// Clips, gathers and collects the pairs [begin, end).
+  void clip_chunk(std::uint64_t begin, std::uint64_t end);
   /// Adds the moments of the pairs [begin, end) of the chunk, of the ranks [first_rank, last_rank], to
   /// the sums.
   void gather(std::uint64_t begin, std::uint64_t end, std::uint32_t first_rank, std::uint32_t last_rank);
@@ -35,6 +37,7 @@ class ChunkRun {
   std::unique_ptr<Clipper> clipper_;
   WallCollector walls_;
   GeometryCollector geometry_;
+  double collect_seconds_ = 0;
 };
 
 }  // namespace powercell
