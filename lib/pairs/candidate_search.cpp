@@ -13,7 +13,7 @@ constexpr std::uint64_t few_seeds = 48;
 constexpr std::size_t enough_for_part = 32;
 constexpr std::size_t enough_for_box = 48;
 // Splits in a row that may fail to thin out the seeds in question before splitting is given up.
-constexpr int most_failures = 4;
+constexpr int most_failures = 5;
 
 template <int D>
 double radius(const Part<D>& part, const Point<D>& centroid) {
@@ -117,8 +117,10 @@ void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
   std::tie(halves.first.part, halves.second.part) = split(step.part);
-  refine(halves.first, step.frontier, step.testers, enough_for_part, true);
-  refine(halves.second, step.frontier, step.testers, enough_for_part, true);
+  // Where splitting did not help, the nodes may be too coarse for the spread of their weights.
+  const std::size_t enough = enough_for_part << failures;
+  refine(halves.first, step.frontier, step.testers, enough, true);
+  refine(halves.second, step.frontier, step.testers, enough, true);
   const bool paid = halves.first.open + halves.second.open < step.open + step.open / 5 * 4;
   visit(halves.first, depth + 1, paid ? 0 : failures + 1);
   visit(halves.second, depth + 1, paid ? 0 : failures + 1);

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "lib/pairs/enumerate.hpp"
@@ -103,6 +104,20 @@ TEST_CASE("clusters far below the size of the regions that they straddle stay ch
   Enumerated all{make_seed_set(seeds.view(), 2, 2), {}};
   all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
   CHECK(all.pairs.region.size() < 20000 + 6 * 142);
+  check_owners(mesh, all, 300);
+}
+
+TEST_CASE("weights over six decades: nodes of mixed weights are refined, not given up") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 50000, 3, random);
+  const double h = spacing(1, seeds.size(), 3);
+  for (double& w : seeds.weights) w = h * h * std::pow(10.0, random.uniform(-3, 3));
+  const RegionMesh mesh = cube_surface(10);
+  Enumerated all{make_seed_set(seeds.view(), 3, 2), {}};
+  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  // A few hundred heavy seeds share the 1200 triangles.
+  CHECK(all.pairs.region.size() < 3 * mesh.region_count());
   check_owners(mesh, all, 300);
 }
 
