@@ -59,7 +59,9 @@ class POWERCELL_API Diagram {
 POWERCELL_API Measures measure(const Device& device, const Domain& domain, const SeedsView& seeds,
                                const Options& options = {});
 
-/// Pieces of one cell joined across the regions of the domain (see JoinedCells).
+/// Pieces of one cell joined across the regions of the domain (see JoinedCells). A facet between two pieces
+/// stays, and still says interior, where the piece behind it was too thin to be kept (single precision).
+/// \throw Error invalid_argument if the cells are not of this kind of domain
 POWERCELL_API JoinedCells join(const Domain& domain, const Cells& cells);
 
 }  // namespace powercell

@@ -27,7 +27,11 @@ bool by_key(const Row<C>& a, const Row<C>& b) {
 template <std::size_t C>
 void keep_distinct(std::vector<Row<C>>& rows, std::size_t begin) {
   const auto first = rows.begin() + static_cast<std::ptrdiff_t>(begin);
-  std::stable_sort(first, rows.end(), by_key<C>);
+  if constexpr (C == 3) {
+    std::stable_sort(first, rows.end(), by_key<C>);  // the first found gives the orientation
+  } else {
+    std::sort(first, rows.end(), by_key<C>);
+  }
   rows.erase(std::unique(first, rows.end(), [](const auto& a, const auto& b) { return key(a) == key(b); }),
              rows.end());
 }

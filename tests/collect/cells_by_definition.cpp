@@ -101,4 +101,30 @@ Cells cells_by_definition(const Domain& domain, const SeedsView& seeds, double n
   return cells;
 }
 
+Cells without_piece(const Cells& cells, std::uint64_t piece) {
+  const auto d = static_cast<std::size_t>(cells.dimension);
+  const auto cut = [](auto& values, std::size_t begin, std::size_t end) {
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                 values.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  const auto cut_offsets = [&](std::vector<std::uint64_t>& offset, std::size_t begin, std::size_t end) {
+    const std::uint64_t gone = offset[end] - offset[begin];
+    cut(offset, begin + 1, end + 1);
+    for (std::size_t k = begin + 1; k < offset.size(); ++k) offset[k] -= gone;
+  };
+  Cells out = cells;
+  const std::uint64_t face = cells.face_offset[piece], face_end = cells.face_offset[piece + 1];
+  cut(out.vertices, d * cells.vertex_offset[piece], d * cells.vertex_offset[piece + 1]);
+  cut(out.border, face, face_end);
+  if (cells.cell_dimension == 3) {
+    cut(out.loop, cells.loop_offset[face], cells.loop_offset[face_end]);
+    cut_offsets(out.loop_offset, face, face_end);
+  }
+  cut(out.region, piece, piece + 1);
+  cut_offsets(out.vertex_offset, piece, piece + 1);
+  cut_offsets(out.face_offset, piece, piece + 1);
+  for (std::uint64_t& offset : out.cell_offset) offset -= offset > piece;
+  return out;
+}
+
 }  // namespace powercell::test
