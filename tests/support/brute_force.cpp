@@ -1,6 +1,7 @@
 #include "tests/support/brute_force.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -75,22 +76,93 @@ Corner corner_of(std::vector<std::uint32_t> seeds) {
   return corner;
 }
 
+template <class Visit>
+void for_each_interior_side(Polygon& piece, Visit visit) {
+  for (std::size_t k = 0; k < piece.vertices.size(); ++k)
+    if (piece.border[k].kind == Border::Kind::interior)
+      visit(piece.border[k], {piece.vertices[k], piece.vertices[(k + 1) % piece.vertices.size()]});
+}
+
+template <class Visit>
+void for_each_interior_side(Polyhedron& piece, Visit visit) {
+  for (Polyhedron::Face& face : piece.faces) {
+    if (face.border.kind != Border::Kind::interior) continue;
+    std::vector<Vec> corners;
+    for (const std::uint32_t v : face.ring) corners.push_back(piece.vertices[v]);
+    visit(face.border, corners);
+  }
+}
+
+/// How fast the rim of a wall moves within the wall's plane when both planes that meet there at the angle
+/// with that sine are moved by one.
+Real rim_speed(Real sine) {
+  constexpr Real least = 1e-9L;  // planes of a corner that rounding has made
+  return 2 / std::max(sine, least);
+}
+
+/// The direction of the first edge of some length from `k` on, stepping by `step`; edges of no length are
+/// what ties leave behind.
+Vec edge_direction(const Polygon& piece, std::size_t k, std::size_t step) {
+  const std::size_t n = piece.vertices.size();
+  for (std::size_t tries = 0; tries < n; ++tries, k = (k + step) % n) {
+    const Vec edge = piece.vertices[(k + 1) % n] - piece.vertices[k];
+    if (length(edge) > 0) return (1 / length(edge)) * edge;
+  }
+  return {};
+}
+
 void record(ReferenceDiagram& diagram, std::uint32_t i, const Polygon& piece) {
   const std::size_t n = piece.vertices.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Real wall = edge_length(piece, k);
     diagram.surface[i] += wall;
     if (piece.border[k].kind != Border::Kind::wall || wall == 0) continue;
-    diagram.wall[{i, piece.border[k].index}] += wall;
+    const std::uint32_t j = piece.border[k].index;
+    diagram.wall[{i, j}] += wall;
+    const Vec along = edge_direction(piece, k, 1);
+    diagram.rim[{i, j}] += rim_speed(length(cross(along, edge_direction(piece, (k + n - 1) % n, n - 1)))) +
+                           rim_speed(length(cross(along, edge_direction(piece, (k + 1) % n, 1))));
     const Border& next = piece.border[(k + 1) % n];
-    if (next.kind == Border::Kind::wall && next.index != piece.border[k].index)
-      diagram.simplices.insert(corner_of({i, piece.border[k].index, next.index}));
+    if (next.kind == Border::Kind::wall && next.index != j)
+      diagram.simplices.insert(corner_of({i, j, next.index}));
   }
+}
+
+/// Unit normals of the faces; zero for faces of no area, which ties leave behind.
+std::vector<Vec> face_normals(const Polyhedron& piece) {
+  std::vector<Vec> normals;
+  for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+    const Vec twice = twice_face_area(piece, f);
+    normals.push_back(length(twice) > 0 ? (1 / length(twice)) * twice : Vec{});
+  }
+  return normals;
+}
+
+/// The rim speeds of all faces summed over their edges.
+std::vector<Real> rims(const Polyhedron& piece) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_at;
+  const auto each_edge = [&](auto visit) {
+    for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+      const auto& ring = piece.faces[f].ring;
+      for (std::size_t k = 0; k < ring.size(); ++k) visit(f, ring[k], ring[(k + 1) % ring.size()]);
+    }
+  };
+  each_edge([&](std::size_t f, std::uint32_t a, std::uint32_t b) { face_at[{a, b}] = f; });
+  const std::vector<Vec> normals = face_normals(piece);
+  std::vector<Real> sum(piece.faces.size(), 0);
+  each_edge([&](std::size_t f, std::uint32_t a, std::uint32_t b) {
+    const Vec& other = normals[face_at.at({b, a})];
+    const Real edge = length(piece.vertices[b] - piece.vertices[a]);
+    if (length(normals[f]) > 0 && length(other) > 0)
+      sum[f] += edge * rim_speed(length(cross(normals[f], other)));
+  });
+  return sum;
 }
 
 void record(ReferenceDiagram& diagram, std::uint32_t i, const Polyhedron& piece) {
   std::vector<std::set<std::uint32_t>> walls_at(piece.vertices.size());
   std::vector<int> faces_at(piece.vertices.size(), 0);
+  const std::vector<Real> rim = rims(piece);
   for (std::size_t f = 0; f < piece.faces.size(); ++f) {
     const Real area = face_area(piece, f);
     diagram.surface[i] += area;
@@ -99,7 +171,9 @@ void record(ReferenceDiagram& diagram, std::uint32_t i, const Polyhedron& piece)
       ++faces_at[v];
       if (border.kind == Border::Kind::wall) walls_at[v].insert(border.index);
     }
-    if (border.kind == Border::Kind::wall) diagram.wall[{i, border.index}] += area;
+    if (border.kind != Border::Kind::wall) continue;
+    diagram.wall[{i, border.index}] += area;
+    diagram.rim[{i, border.index}] += rim[f];
   }
   for (std::size_t v = 0; v < walls_at.size(); ++v) {
     if (walls_at[v].size() != 3 || faces_at[v] != 3) continue;
@@ -109,17 +183,39 @@ void record(ReferenceDiagram& diagram, std::uint32_t i, const Polyhedron& piece)
   }
 }
 
+/// A side of the region may itself lie in a bisector: then the wall is there, seen from the region on
+/// whose side seed i is.
+template <class Piece>
+void name_walls_in_facets(Piece& piece, const SeedsView& seeds, std::uint32_t i,
+                          std::span<const std::uint32_t> candidates, const std::vector<SeedStatus>& status) {
+  constexpr Real rounding = 64 * std::numeric_limits<Real>::epsilon();
+  for_each_interior_side(piece, [&](Border& border, const std::vector<Vec>& corners) {
+    for (const std::uint32_t j : candidates) {
+      if (j == i || status[j] == SeedStatus::duplicate) continue;
+      const HalfSpace half = bisector(seeds, i, j);
+      const bool lies_in = std::all_of(corners.begin(), corners.end(), [&](const Vec& y) {
+        return std::abs(half.excess(y)) <=
+               rounding * (length(half.normal) * length(y) + std::abs(half.offset));
+      });
+      if (!lies_in) continue;
+      border = {Border::Kind::wall, j};
+      return;
+    }
+  });
+}
+
 /// Cuts `piece` by every candidate in turn and adds what is left to seed i.
 template <class Piece>
 void cut_piece(ReferenceDiagram& diagram, const SeedsView& seeds, std::uint32_t i, Piece piece,
                std::span<const std::uint32_t> candidates) {
   for (const std::uint32_t j : candidates) {
     if (j == i || diagram.status[j] == SeedStatus::duplicate) continue;
-    piece = clip(piece, bisector(seeds, i, j), {Border::Kind::wall, j});
+    piece = clip(std::move(piece), bisector(seeds, i, j), {Border::Kind::wall, j});
     if (piece.empty()) return;
   }
   const Moments sum = moments(piece);
   if (!(sum.measure > 0)) return;
+  name_walls_in_facets(piece, seeds, i, candidates, diagram.status);
   diagram.mass[i] += sum.measure;
   diagram.first[i] = diagram.first[i] + sum.first;
   diagram.second_moment[i] += sum.second;
@@ -158,7 +254,8 @@ Real ReferenceDiagram::total() const {
 
 HalfSpace bisector(const SeedsView& seeds, std::size_t i, std::size_t j) {
   const Vec q = position(seeds, j) - position(seeds, i);
-  return {2 * q, dot(q, q) + weight(seeds, i) - weight(seeds, j)};
+  // The weights first: a large constant in both cancels without an error.
+  return {2 * q, dot(q, q) + (weight(seeds, i) - weight(seeds, j))};
 }
 
 ReferenceDiagram brute_force(const RegionMesh& mesh, const SeedsView& seeds) {

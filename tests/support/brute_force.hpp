@@ -26,6 +26,9 @@ struct ReferenceDiagram {
   std::vector<SeedStatus> status;   ///< n; hidden means no piece has a measure above zero
   /// Directed walls: {i, j} from the pieces of i, {j, i} from those of j.
   std::map<std::pair<std::uint32_t, std::uint32_t>, Real> wall;
+  /// By how much each wall changes when all planes are moved by one: the length of its rim over the sine
+  /// of the angle between the planes that meet there (twice that, as both move). For error bounds.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Real> rim;
   /// Corners, ascending, of each point of the domain where exactly d+1 cells meet (third or fourth
   /// seed absent on polygons and surfaces: the last entry is then repeated). Only sure in general position.
   std::set<std::array<std::uint32_t, 4>> simplices;

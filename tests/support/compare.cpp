@@ -11,7 +11,8 @@ namespace {
 
 /// The c of Tolerances: a cut's dot products and interpolation, a few tens of roundings.
 constexpr double roundings = 64;
-constexpr double inverse_least_angle = 100;
+/// The rim, in units of the seeds' spacing, of a wall that only one side has.
+constexpr double unseen_rim = 100;
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
@@ -63,6 +64,10 @@ Tolerances::Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView&
     const double gap = std::abs(weight_of(seeds, pair.first) - weight_of(seeds, pair.second));
     offset[pair.first] = std::max(offset[pair.first], q + gap / q);
   }
+  for (const auto& [pair, rim] : reference.rim) {
+    double& both = rim_[std::minmax(pair.first, pair.second)];
+    both = std::max(both, static_cast<double>(rim));
+  }
   const double h = n ? spacing(mesh.measure, n, mesh.cell_dimension) : 1;
   extent_ = mesh.cell_dimension == 3 ? h : 1;
   const double floor = mesh.cell_dimension == 3 ? h * h : h;
@@ -76,7 +81,10 @@ Tolerances::Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView&
 }
 
 double Tolerances::wall(std::size_t i, std::size_t j) const {
-  return inverse_least_angle * std::max(shift_[i], shift_[j]) * extent_;
+  const auto pair = std::minmax(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+  const auto found = rim_.find(pair);
+  return std::max(shift_[i], shift_[j]) *
+         std::max(found == rim_.end() ? 0 : found->second, unseen_rim * extent_);
 }
 
 namespace {

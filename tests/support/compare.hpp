@@ -17,22 +17,27 @@ using Differences = std::vector<std::string>;
 /// A computation in floating point with unit roundoff u is the exact one for bisectors moved by
 /// `shift` = c u (reach + |q| + |w_i - w_j| / |q|), where `reach` is how far the domain extends from the
 /// seed. Moving the planes of a cell by `shift` changes its measure by at most shift times its surface.
+/// Coordinates given back are doubles whatever the kernels compute in; far from 0 their rounding counts too.
 class Tolerances {
  public:
   Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView& seeds,
              const ReferenceDiagram& reference);
 
-  double shift(std::size_t i) const { return shift_[i]; }
   double reach(std::size_t i) const { return reach_[i]; }
   double mass(std::size_t i) const { return mass_[i]; }
-  /// Of a wall between i and j. Its rim moves by shift over the sine of the angle between two planes,
-  /// which random seeds keep above 1e-2 or so; hence the hundredfold.
+  /// Of a wall between i and j: its rim moves by `shift` over the sine of the angle of the planes there.
+  /// Of a wall that the reference does not have: what a sliver of that thickness may show.
   double wall(std::size_t i, std::size_t j) const;
-  /// Of a coordinate given back, on top of the local error: positions far from 0 are rounded once more.
   double coordinate() const { return coordinate_; }
+  /// Of a measure worked out from coordinates that were given back.
+  double mass_from_geometry(std::size_t i) const { return mass_[i] * (1 + coordinate_ / shift_[i]); }
+  double wall_from_geometry(std::size_t i, std::size_t j) const {
+    return wall(i, j) * (1 + coordinate_ / std::min(shift_[i], shift_[j]));
+  }
 
  private:
   std::vector<double> shift_, reach_, mass_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> rim_;  // i < j
   double extent_ = 0;  // spacing of the seeds to the power of the dimension of a wall's rim
   double coordinate_ = 0;
 };

@@ -133,14 +133,9 @@ void compare_piece_walls(Differences& out, Walls walls, const Adjacency& adjacen
     for (std::uint64_t k = adjacency.offset[i]; k < adjacency.offset[i + 1]; ++k)
       walls[{i, adjacency.neighbor[k]}] -= adjacency.wall[k];
   for (const auto& [pair, defect] : walls)
-    if (!(std::abs(static_cast<double>(defect)) <= tolerances.wall(pair.first, pair.second)))
+    if (!(std::abs(static_cast<double>(defect)) <= tolerances.wall_from_geometry(pair.first, pair.second)))
       out.push_back(text("wall %u-%u: its faces differ from the adjacency by %.3g", pair.first, pair.second,
                          static_cast<double>(defect)));
-}
-
-/// Geometry is given in coordinates rounded to double: the rounding moves the planes once more.
-double mass_tolerance(const Tolerances& tolerances, std::size_t i) {
-  return tolerances.mass(i) * (1 + tolerances.coordinate() / tolerances.shift(i));
 }
 
 }  // namespace
@@ -162,11 +157,11 @@ Differences check_cells(const Cells& cells, const Domain& domain, const Measures
         check_border(out, cells.border[f], i, n, mesh);
       const Real part =
           solid ? polyhedron_piece(out, cells, p, i, walls) : polygon_piece(cells, p, mesh, i, walls);
-      if (part < -mass_tolerance(tolerances, i))
+      if (part < -tolerances.mass_from_geometry(i))
         out.push_back(text("cell %u: a piece of measure %.3g", i, static_cast<double>(part)));
       sum += part;
     }
-    if (!(std::abs(static_cast<double>(sum) - measures.mass[i]) <= mass_tolerance(tolerances, i)))
+    if (!(std::abs(static_cast<double>(sum) - measures.mass[i]) <= tolerances.mass_from_geometry(i)))
       out.push_back(text("cell %u: its pieces measure %.17g, not %.17g", i, static_cast<double>(sum),
                          measures.mass[i]));
   }
@@ -184,16 +179,20 @@ std::vector<Vec> joined_vertices(const JoinedCells& j, std::size_t cell) {
 }
 
 /// Area of a polygon cell (rings are signed) or of a surface cell (a face in each triangle).
-Real joined_area(Differences& out, const JoinedCells& j, std::uint32_t cell, const std::vector<Vec>& vertices,
-                 DomainKind kind) {
+/// `interior` receives the length of the interior edges left in a polygon cell.
+Real joined_area(const JoinedCells& j, std::uint32_t cell, const std::vector<Vec>& vertices, DomainKind kind,
+                 Real& interior) {
   Real sum = 0;
   for (std::uint64_t f = j.face_offset[cell]; f < j.face_offset[cell + 1]; ++f) {
     std::vector<Vec> ring;
     for (std::uint64_t k = j.loop_offset[f]; k < j.loop_offset[f + 1]; ++k) {
       if (j.loop[k] >= vertices.size()) return NAN;
       ring.push_back(vertices[j.loop[k]]);
-      if (kind == DomainKind::polygon && j.edge_border[k].kind == Border::Kind::interior)
-        out.push_back(text("cell %u: an interior edge is left", cell));
+    }
+    for (std::uint64_t k = j.loop_offset[f]; kind == DomainKind::polygon && k < j.loop_offset[f + 1]; ++k) {
+      const std::size_t at = k - j.loop_offset[f];
+      if (j.edge_border[k].kind == Border::Kind::interior)
+        interior += length(ring[(at + 1) % ring.size()] - ring[at]);
     }
     const Vec twice = ring_area(ring);
     sum += kind == DomainKind::polygon ? twice.z / 2 : length(twice) / 2;
@@ -201,14 +200,14 @@ Real joined_area(Differences& out, const JoinedCells& j, std::uint32_t cell, con
   return sum;
 }
 
+/// Volume of a joined cell; `interior` receives the area of the interior faces left.
 Real joined_volume(Differences& out, const JoinedCells& j, std::uint32_t cell,
-                   const std::vector<Vec>& vertices) {
+                   const std::vector<Vec>& vertices, Real& interior) {
   const std::uint64_t first = j.face_offset[cell], last = j.face_offset[cell + 1];
   if (first == last) return 0;
   const std::span<const std::uint64_t> offsets(&j.loop_offset[first], last - first + 1);
-  return closed_volume(out, cell, vertices, offsets, j.loop, [&](std::size_t f, Real) {
-    if (j.face_border[first + f].kind == Border::Kind::interior)
-      out.push_back(text("cell %u: an interior face is left", cell));
+  return closed_volume(out, cell, vertices, offsets, j.loop, [&](std::size_t f, Real area) {
+    if (j.face_border[first + f].kind == Border::Kind::interior) interior += area;
   });
 }
 
@@ -227,9 +226,14 @@ Differences check_joined(const JoinedCells& joined, const Domain& domain, const 
     return {"sizes of the joined cells' arrays do not fit"};
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::vector<Vec> vertices = joined_vertices(joined, i);
-    const Real sum = solid ? joined_volume(out, joined, i, vertices)
-                           : joined_area(out, joined, i, vertices, domain.kind());
-    if (!(std::abs(static_cast<double>(sum) - measures.mass[i]) <= mass_tolerance(tolerances, i)))
+    Real interior = 0;
+    const Real sum = solid ? joined_volume(out, joined, i, vertices, interior)
+                           : joined_area(joined, i, vertices, domain.kind(), interior);
+    // Pieces no thicker than rounding may lack their counterpart.
+    if (!(static_cast<double>(interior) <= tolerances.wall_from_geometry(i, i)))
+      out.push_back(
+          text("joined cell %u: interior faces of measure %.3g are left", i, static_cast<double>(interior)));
+    if (!(std::abs(static_cast<double>(sum) - measures.mass[i]) <= tolerances.mass_from_geometry(i)))
       out.push_back(
           text("joined cell %u measures %.17g, not %.17g", i, static_cast<double>(sum), measures.mass[i]));
   }

@@ -49,7 +49,7 @@ void SeedArray::push(std::initializer_list<double> position, double weight) {
   weights.push_back(weight);
 }
 
-const char* name(Distribution distribution) {
+std::string name(Distribution distribution) {
   switch (distribution) {
     case Distribution::white:
       return "white";
@@ -61,7 +61,7 @@ const char* name(Distribution distribution) {
   return "?";
 }
 
-const char* name(WeightRange range) {
+std::string name(WeightRange range) {
   switch (range) {
     case WeightRange::W0:
       return "W0";

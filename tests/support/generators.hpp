@@ -56,8 +56,8 @@ struct Box {
 
 enum class Distribution { white, blue, cluster };
 enum class WeightRange { W0, W1, W2 };  ///< zero; uniform in [0, h^2/2]; uniform in [0, 4 h^2]
-const char* name(Distribution distribution);
-const char* name(WeightRange range);
+std::string name(Distribution distribution);
+std::string name(WeightRange range);
 
 /// n positions in a box, weights zero. white: uniform; blue: a jittered grid; cluster: 80 % in six
 /// Gaussian blobs (draws outside the box are drawn again), the rest white.

@@ -1,8 +1,8 @@
 #include "tests/support/polytope.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 namespace powercell::test {
@@ -132,11 +132,6 @@ class Cut {
   }
 
   std::vector<Vec> take_vertices() { return std::move(vertices_); }
-  bool cuts() const {
-    for (const Real e : excess_)
-      if (e > 0) return true;
-    return false;
-  }
 
  private:
   std::uint32_t crossing_vertex(std::uint32_t in, std::uint32_t out) {
@@ -168,9 +163,11 @@ void compact(Polyhedron& polyhedron) {
 
 }  // namespace
 
-Polyhedron clip(const Polyhedron& polyhedron, const HalfSpace& half_space, Border border) {
+Polyhedron clip(Polyhedron polyhedron, const HalfSpace& half_space, Border border) {
+  const auto outside = [&](const Vec& v) { return half_space.excess(v) > 0; };
+  if (std::none_of(polyhedron.vertices.begin(), polyhedron.vertices.end(), outside)) return polyhedron;
+  if (std::all_of(polyhedron.vertices.begin(), polyhedron.vertices.end(), outside)) return {};
   Cut cut(polyhedron, half_space);
-  if (!cut.cuts()) return polyhedron;
   Polyhedron kept;
   for (const auto& face : polyhedron.faces) {
     std::vector<std::uint32_t> ring = cut.clip_ring(face.ring);
@@ -210,14 +207,18 @@ Real edge_length(const Polygon& polygon, std::size_t edge) {
   return length(polygon.vertices[(edge + 1) % polygon.vertices.size()] - polygon.vertices[edge]);
 }
 
-Real face_area(const Polyhedron& polyhedron, std::size_t face) {
+Vec twice_face_area(const Polyhedron& polyhedron, std::size_t face) {
   const auto& ring = polyhedron.faces[face].ring;
   Vec twice;
   for (std::size_t k = 2; k < ring.size(); ++k) {
     const Vec& origin = polyhedron.vertices[ring[0]];
     twice = twice + cross(polyhedron.vertices[ring[k - 1]] - origin, polyhedron.vertices[ring[k]] - origin);
   }
-  return length(twice) / 2;
+  return twice;
+}
+
+Real face_area(const Polyhedron& polyhedron, std::size_t face) {
+  return length(twice_face_area(polyhedron, face)) / 2;
 }
 
 }  // namespace powercell::test

@@ -57,11 +57,12 @@ struct Polyhedron {
 /// What is left of the polygon or polyhedron in the half-space; points on its plane are kept, and the
 /// edge or face made by the cut gets `border`.
 Polygon clip(const Polygon& polygon, const HalfSpace& half_space, Border border);
-Polyhedron clip(const Polyhedron& polyhedron, const HalfSpace& half_space, Border border);
+Polyhedron clip(Polyhedron polyhedron, const HalfSpace& half_space, Border border);
 
 Moments moments(const Polygon& polygon);
 Moments moments(const Polyhedron& polyhedron);
 Real edge_length(const Polygon& polygon, std::size_t edge);
+Vec twice_face_area(const Polyhedron& polyhedron, std::size_t face);  ///< along the outer normal
 Real face_area(const Polyhedron& polyhedron, std::size_t face);
 
 }  // namespace powercell::test

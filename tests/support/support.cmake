@@ -9,7 +9,7 @@ if(NOT TARGET powercell_support)
   target_compile_options(powercell_support PRIVATE -Wall -Wextra)
   target_link_libraries(powercell_support PUBLIC powercell_test_lib)
   if(POWERCELL_FLANN)
-    target_compile_definitions(powercell_support PRIVATE POWERCELL_TEST_FLANN)
+    target_compile_definitions(powercell_support PUBLIC POWERCELL_TEST_FLANN)
   endif()
 
   find_package(CGAL REQUIRED)
