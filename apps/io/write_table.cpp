@@ -1,0 +1,71 @@
+#include "apps/io/write_table.hpp"
+
+#include <cmath>
+
+#include "apps/io/atomic_file.hpp"
+
+namespace powercell::io {
+
+const char* status_name(SeedStatus status) {
+  switch (status) {
+    case SeedStatus::ok:
+      return "ok";
+    case SeedStatus::hidden:
+      return "hidden";
+    case SeedStatus::duplicate:
+      return "duplicate";
+  }
+  return "unknown";
+}
+
+void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
+                 const Adjacency& adjacency) {
+  AtomicFile file(path);
+  const bool space = seeds.dimension == 3;
+  file.write(space ? "seed,x,y,z,weight,status,measure,cx,cy,cz,second_moment,neighbors\n"
+                   : "seed,x,y,weight,status,measure,cx,cy,second_moment,neighbors\n");
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    file.number(std::uint64_t{i});
+    for (std::size_t k = 0; k < d; ++k) {
+      file.write(',');
+      file.number(seeds.positions[i * d + k]);
+    }
+    file.write(',');
+    file.number(seeds.weights.empty() ? 0.0 : seeds.weights[i]);
+    file.write(',');
+    file.write(status_name(measures.status[i]));
+    file.write(',');
+    file.number(measures.mass[i]);
+    for (std::size_t k = 0; k < d; ++k) {
+      file.write(',');
+      const double c = measures.centroid[i * d + k];
+      if (std::isfinite(c)) file.number(c);
+    }
+    file.write(',');
+    file.number(measures.second_moment[i]);
+    file.write(',');
+    const bool listed = i + 1 < adjacency.offset.size();
+    file.number(listed ? adjacency.offset[i + 1] - adjacency.offset[i] : std::uint64_t{0});
+    file.write('\n');
+  }
+  file.commit();
+}
+
+void write_walls(const std::string& path, const Adjacency& adjacency) {
+  AtomicFile file(path);
+  file.write("seed,neighbor,measure\n");
+  for (std::size_t i = 0; i + 1 < adjacency.offset.size(); ++i) {
+    for (std::uint64_t e = adjacency.offset[i]; e < adjacency.offset[i + 1]; ++e) {
+      file.number(std::uint64_t{i});
+      file.write(',');
+      file.number(std::uint64_t{adjacency.neighbor[e]});
+      file.write(',');
+      file.number(adjacency.wall[e]);
+      file.write('\n');
+    }
+  }
+  file.commit();
+}
+
+}  // namespace powercell::io
