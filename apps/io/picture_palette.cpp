@@ -1,0 +1,125 @@
+#include "apps/io/picture_palette.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace powercell::io {
+namespace {
+
+// Muted hues that also differ in lightness, from deep blue through sand to brick.
+constexpr std::array<Colour, 8> palette = {{
+    {0x3a, 0x6b, 0x9c},  // deep blue
+    {0x7f, 0xb2, 0xd9},  // sky
+    {0x3c, 0x95, 0x94},  // teal
+    {0xf3, 0xd2, 0x7f},  // sand
+    {0xee, 0x9b, 0x52},  // amber
+    {0xd3, 0x5f, 0x4b},  // brick
+    {0xa8, 0xd5, 0xc2},  // mint
+    {0xf4, 0xe6, 0xd0},  // shell
+}};
+
+std::uint32_t hash(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+std::uint8_t channel(double value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
+
+// Cells with the fewest walls to cells not yet removed come off first; coloured in reverse, each then
+// has few coloured neighbours (at most five in the plane).
+std::vector<std::uint32_t> smallest_last_order(const Adjacency& adjacency, std::size_t n) {
+  std::vector<std::uint32_t> degree(n);
+  std::uint32_t highest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    degree[i] = static_cast<std::uint32_t>(adjacency.offset[i + 1] - adjacency.offset[i]);
+    highest = std::max(highest, degree[i]);
+  }
+  std::vector<std::vector<std::uint32_t>> bucket(highest + 1);
+  for (std::size_t i = 0; i < n; ++i) bucket[degree[i]].push_back(static_cast<std::uint32_t>(i));
+  std::vector<bool> removed(n);
+  std::vector<std::uint32_t> order;
+  order.reserve(n);
+  for (std::size_t low = 0; order.size() < n;) {
+    if (bucket[low].empty()) {
+      ++low;
+      continue;
+    }
+    const std::uint32_t i = bucket[low].back();
+    bucket[low].pop_back();
+    if (removed[i] || degree[i] != low) continue;  // an old entry; the cell stands in another bucket
+    removed[i] = true;
+    order.push_back(i);
+    for (std::uint64_t e = adjacency.offset[i]; e < adjacency.offset[i + 1]; ++e) {
+      const std::uint32_t j = adjacency.neighbor[e];
+      if (removed[j]) continue;
+      bucket[--degree[j]].push_back(j);
+      low = std::min<std::size_t>(low, degree[j]);
+    }
+  }
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+// The palette entry least bordered by, then the one liked best by the seed's hash.
+std::size_t choose(std::uint32_t seed, const std::array<double, palette.size()>& bordered) {
+  std::size_t best = 0;
+  std::uint32_t best_liking = 0;
+  for (std::size_t c = 0; c < palette.size(); ++c) {
+    const std::uint32_t liking = hash(seed * 8u + static_cast<std::uint32_t>(c));
+    if (c == 0 || bordered[c] < bordered[best] || (bordered[c] == bordered[best] && liking > best_liking)) {
+      best = c;
+      best_liking = liking;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string hex(Colour colour) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text = "#";
+  for (const std::uint8_t c : {colour.red, colour.green, colour.blue}) {
+    text += digits[c >> 4];
+    text += digits[c & 15];
+  }
+  return text;
+}
+
+Colour mix(Colour colour, Colour other, double share) {
+  const auto between = [share](std::uint8_t a, std::uint8_t b) { return channel(a + (b - a) * share); };
+  return {between(colour.red, other.red), between(colour.green, other.green),
+          between(colour.blue, other.blue)};
+}
+
+std::vector<Colour> cell_colours(const Adjacency& adjacency, std::size_t cells) {
+  constexpr std::size_t none = palette.size();
+  std::vector<std::size_t> chosen(cells, none);
+  std::vector<std::uint32_t> order(cells);
+  const bool known = adjacency.offset.size() == cells + 1;
+  if (known)
+    order = smallest_last_order(adjacency, cells);
+  else
+    std::iota(order.begin(), order.end(), 0u);
+  for (const std::uint32_t i : order) {
+    std::array<double, palette.size()> bordered{};
+    for (std::uint64_t e = known ? adjacency.offset[i] : 0; known && e < adjacency.offset[i + 1]; ++e) {
+      const std::size_t c = chosen[adjacency.neighbor[e]];
+      if (c != none) bordered[c] += adjacency.wall[e];
+    }
+    chosen[i] = choose(i, bordered);
+  }
+  std::vector<Colour> colours(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double shift = hash(static_cast<std::uint32_t>(i) ^ 0x5bd1e995u) / 4294967296.0 - 0.5;
+    const Colour end = shift > 0 ? paper : ink;
+    colours[i] = mix(palette[chosen[i]], end, std::abs(shift) * 0.22);
+  }
+  return colours;
+}
+
+}  // namespace powercell::io

@@ -1,0 +1,33 @@
+/// \file
+/// Colours of cells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <powercell/results.hpp>
+#include <string>
+#include <vector>
+
+namespace powercell::io {
+
+/// sRGB, 8 bits a channel.
+struct Colour {
+  std::uint8_t red = 0, green = 0, blue = 0;
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// "#rrggbb".
+std::string hex(Colour colour);
+/// Each channel towards `other` by `share` in [0, 1].
+Colour mix(Colour colour, Colour other, double share);
+
+constexpr Colour ink{0x1d, 0x2b, 0x3a};    ///< outlines and seeds
+constexpr Colour paper{0xff, 0xff, 0xff};  ///< background and walls of 2D pictures
+
+/// One colour a cell. Hues come from a small palette that stays apart under the common colour vision
+/// deficiencies, chosen greedily so that cells with a common wall differ; where a cell has neighbours
+/// of every hue (in space), it takes the one it shares the least wall with. Lightness
+/// varies a little from seed to seed. The same diagram has the same colours every time.
+std::vector<Colour> cell_colours(const Adjacency& adjacency, std::size_t cells);
+
+}  // namespace powercell::io

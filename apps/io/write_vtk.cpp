@@ -1,0 +1,170 @@
+#include "apps/io/write_vtk.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "apps/io/write_polygons.hpp"
+#include "apps/io/write_vtk_file.hpp"
+
+namespace powercell::io {
+namespace {
+
+constexpr std::uint8_t vtk_polygon = 7;
+constexpr std::uint8_t vtk_polyhedron = 42;
+
+using Point = std::array<double, 3>;
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double weight_of(const DiagramOutput& output, std::uint32_t seed) {
+  return output.seeds.weights.empty() ? 0.0 : output.seeds.weights[seed];
+}
+
+// The pieces as VTK's arrays: connectivity and offsets, and for polyhedra the stream of faces.
+struct Grid {
+  std::vector<double> points;  // np x 3
+  std::vector<std::int64_t> connectivity, offsets, faces, face_offsets;
+  std::vector<std::uint32_t> seed, region;
+  std::vector<double> weight, measure, piece_measure;
+
+  Point point(std::uint64_t v) const { return {points[3 * v], points[3 * v + 1], points[3 * v + 2]}; }
+  Point from(std::uint64_t v, const Point& o) const {
+    const Point p = point(v);
+    return {p[0] - o[0], p[1] - o[1], p[2] - o[2]};
+  }
+};
+
+double polygon_area(const Grid& grid, std::uint64_t first, std::uint64_t end) {
+  const Point o = grid.point(first);
+  Point sum{};
+  for (std::uint64_t v = first + 1; v + 1 < end; ++v) {
+    const Point n = cross(grid.from(v, o), grid.from(v + 1, o));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += n[k];
+  }
+  return 0.5 * std::hypot(sum[0], sum[1], sum[2]);
+}
+
+double add_faces(Grid& grid, const Cells& cells, std::uint64_t piece) {
+  const std::uint64_t first = cells.vertex_offset[piece];
+  const Point o = grid.point(first);
+  double six_volumes = 0;
+  grid.faces.push_back(static_cast<std::int64_t>(cells.face_offset[piece + 1] - cells.face_offset[piece]));
+  for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
+    const std::uint64_t begin = cells.loop_offset[f], end = cells.loop_offset[f + 1];
+    grid.faces.push_back(static_cast<std::int64_t>(end - begin));
+    for (std::uint64_t e = begin; e < end; ++e) {
+      grid.faces.push_back(static_cast<std::int64_t>(first + cells.loop[e]));
+    }
+    for (std::uint64_t e = begin + 1; e + 1 < end; ++e) {
+      const Point a = grid.from(first + cells.loop[begin], o);
+      const Point n = cross(grid.from(first + cells.loop[e], o), grid.from(first + cells.loop[e + 1], o));
+      six_volumes += a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
+    }
+  }
+  grid.face_offsets.push_back(static_cast<std::int64_t>(grid.faces.size()));
+  return six_volumes / 6;
+}
+
+Grid grid_of_pieces(const DiagramOutput& output) {
+  const Cells& cells = output.cells;
+  const auto d = static_cast<std::size_t>(cells.dimension);
+  Grid grid;
+  for (std::size_t v = 0; d > 0 && v + d <= cells.vertices.size(); v += d) {
+    for (std::size_t k = 0; k < 3; ++k) grid.points.push_back(k < d ? cells.vertices[v + k] : 0.0);
+  }
+  grid.connectivity.resize(grid.points.size() / 3);
+  for (std::size_t v = 0; v < grid.connectivity.size(); ++v) {
+    grid.connectivity[v] = static_cast<std::int64_t>(v);
+  }
+  for (std::size_t i = 0; i < cells.cell_count(); ++i) {
+    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
+      const auto seed = static_cast<std::uint32_t>(i);
+      grid.offsets.push_back(static_cast<std::int64_t>(cells.vertex_offset[p + 1]));
+      grid.seed.push_back(seed);
+      grid.region.push_back(cells.region[p]);
+      grid.weight.push_back(weight_of(output, seed));
+      grid.measure.push_back(output.measures.mass[i]);
+      grid.piece_measure.push_back(
+          cells.cell_dimension == 3 ? add_faces(grid, cells, p)
+                                    : polygon_area(grid, cells.vertex_offset[p], cells.vertex_offset[p + 1]));
+    }
+  }
+  return grid;
+}
+
+template <class T>
+std::span<const T> view(const std::vector<T>& values) {
+  return values;
+}
+
+std::string count(const char* what, std::size_t n) {
+  return std::string(what) + "=\"" + std::to_string(n) + "\"";
+}
+
+void write_points(VtkFile& file, const std::vector<double>& points) {
+  file.open("Points");
+  file.array("Points", view(points), 3);
+  file.close("Points");
+}
+
+}  // namespace
+
+void write_vtu(const std::string& path, const DiagramOutput& output) {
+  const Grid grid = grid_of_pieces(output);
+  const bool solid = output.cells.cell_dimension == 3;
+  VtkFile file(path, "UnstructuredGrid");
+  file.open("Piece",
+            count("NumberOfPoints", grid.points.size() / 3) + " " + count("NumberOfCells", grid.seed.size()));
+  write_points(file, grid.points);
+  file.open("Cells");
+  file.array("connectivity", view(grid.connectivity));
+  file.array("offsets", view(grid.offsets));
+  const std::vector<std::uint8_t> types(grid.seed.size(), solid ? vtk_polyhedron : vtk_polygon);
+  file.array("types", view(types));
+  if (solid) {
+    file.array("faces", view(grid.faces));
+    file.array("faceoffsets", view(grid.face_offsets));
+  }
+  file.close("Cells");
+  file.open("CellData", "Scalars=\"seed\"");
+  file.array("seed", view(grid.seed));
+  file.array("region", view(grid.region));
+  file.array("weight", view(grid.weight));
+  file.array("measure", view(grid.measure));
+  file.array("piece_measure", view(grid.piece_measure));
+  file.close("CellData");
+  file.close("Piece");
+  file.finish();
+}
+
+void write_vtp(const std::string& path, const DiagramOutput& output) {
+  const PolygonSoup soup = polygon_soup(output);
+  std::vector<std::int64_t> connectivity(soup.corner.begin(), soup.corner.end());
+  std::vector<std::int64_t> offsets(soup.offset.begin() + 1, soup.offset.end());
+  std::vector<double> weight, measure;
+  for (const std::uint32_t seed : soup.seed) {
+    weight.push_back(weight_of(output, seed));
+    measure.push_back(output.measures.mass[seed]);
+  }
+  VtkFile file(path, "PolyData");
+  file.open("Piece", count("NumberOfPoints", soup.vertex_count()) + " " +
+                         count("NumberOfPolys", soup.size()) +
+                         " NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\"");
+  write_points(file, soup.vertices);
+  file.open("Polys");
+  file.array("connectivity", view(connectivity));
+  file.array("offsets", view(offsets));
+  file.close("Polys");
+  file.open("CellData", "Scalars=\"seed\"");
+  file.array("seed", view(soup.seed));
+  file.array("weight", view(weight));
+  file.array("measure", view(measure));
+  if (output.domain.cell_dimension() == 3) file.array("neighbor", view(soup.neighbor));
+  file.close("CellData");
+  file.close("Piece");
+  file.finish();
+}
+
+}  // namespace powercell::io

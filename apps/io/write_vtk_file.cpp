@@ -1,0 +1,85 @@
+#include "apps/io/write_vtk_file.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <powercell/error.hpp>
+#include <vector>
+
+namespace powercell::io {
+namespace {
+
+constexpr std::size_t block_size = std::size_t{1} << 20;
+
+}  // namespace
+
+VtkFile::VtkFile(const std::string& path, std::string_view type) : file_(path), type_(type) {
+  const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+  file_.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type_ + "\" version=\"1.0\" byte_order=\"" +
+              order + "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n");
+  open(type_);
+}
+
+void VtkFile::open(std::string_view element, std::string_view attributes) {
+  file_.write('<');
+  file_.write(element);
+  if (!attributes.empty()) file_.write(' ');
+  file_.write(attributes);
+  file_.write(">\n");
+}
+
+void VtkFile::close(std::string_view element) {
+  file_.write("</");
+  file_.write(element);
+  file_.write(">\n");
+}
+
+// The format: a header of 64-bit integers (number of blocks, size of a block, size of the last one if
+// it is shorter else 0, compressed size of each block), then the blocks; each part in its own base64.
+void VtkFile::array_bytes(std::string_view name, std::string_view type, int components,
+                          std::string_view bytes) {
+  file_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + std::string(name) +
+              "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"binary\">\n");
+  const std::size_t blocks = (bytes.size() + block_size - 1) / block_size;
+  std::vector<std::uint64_t> header = {blocks, block_size, bytes.size() % block_size};
+  std::string packed;
+  std::vector<Bytef> block(compressBound(block_size));
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const auto part = bytes.substr(b * block_size, block_size);
+    uLongf size = block.size();
+    if (compress2(block.data(), &size, reinterpret_cast<const Bytef*>(part.data()), part.size(), 3) != Z_OK) {
+      throw Error(ErrorCode::write_failed, "zlib could not compress the array " + std::string(name));
+    }
+    header.push_back(size);
+    packed.append(reinterpret_cast<const char*>(block.data()), size);
+  }
+  base64({reinterpret_cast<const char*>(header.data()), header.size() * sizeof(std::uint64_t)});
+  base64(packed);
+  file_.write("\n</DataArray>\n");
+}
+
+void VtkFile::base64(std::string_view bytes) {
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+    }
+    const std::array<char, 4> text = {digits[group >> 18], digits[group >> 12 & 63],
+                                      count > 1 ? digits[group >> 6 & 63] : '=',
+                                      count > 2 ? digits[group & 63] : '='};
+    file_.write(std::string_view(text.data(), text.size()));
+  }
+}
+
+void VtkFile::finish() {
+  close(type_);
+  close("VTKFile");
+  file_.commit();
+}
+
+}  // namespace powercell::io

@@ -1,0 +1,54 @@
+/// \file
+/// VTK's XML files: elements, attributes and compressed arrays.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "apps/io/atomic_file.hpp"
+
+namespace powercell::io {
+
+/// One VTK XML file. Arrays are written inline as base64 of zlib blocks, so that the file stays
+/// well-formed XML (VTK's raw appended data does not) and every reader of the format takes it.
+class VtkFile {
+ public:
+  /// \param type "UnstructuredGrid" or "PolyData"
+  VtkFile(const std::string& path, std::string_view type);
+
+  /// Opens an element; `attributes` as in `NumberOfPoints="8"`, already escaped.
+  void open(std::string_view element, std::string_view attributes = {});
+  void close(std::string_view element);
+
+  template <class T>
+  void array(std::string_view name, std::span<const T> values, int components = 1) {
+    array_bytes(name, type_name<T>(), components,
+                {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  }
+  /// Ends the file and gives it its name. \throw Error write_failed
+  void finish();
+
+ private:
+  template <class T>
+  static constexpr std::string_view type_name() {
+    if constexpr (std::is_same_v<T, double>)
+      return "Float64";
+    else if constexpr (std::is_same_v<T, std::int64_t>)
+      return "Int64";
+    else if constexpr (std::is_same_v<T, std::uint32_t>)
+      return "UInt32";
+    else {
+      static_assert(std::is_same_v<T, std::uint8_t>);
+      return "UInt8";
+    }
+  }
+  void array_bytes(std::string_view name, std::string_view type, int components, std::string_view bytes);
+  void base64(std::string_view bytes);
+
+  AtomicFile file_;
+  std::string type_;
+};
+
+}  // namespace powercell::io
