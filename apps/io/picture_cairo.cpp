@@ -1,0 +1,177 @@
+#include "apps/io/picture_cairo.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo.h>
+
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <powercell/error.hpp>
+
+#include "apps/io/atomic_file.hpp"
+
+namespace powercell::io {
+namespace {
+
+struct SurfaceDeleter {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+struct ContextDeleter {
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
+using Context = std::unique_ptr<cairo_t, ContextDeleter>;
+
+// What cairo writes goes to a file; an exception must not pass through cairo's C frames.
+struct Sink {
+  AtomicFile file;
+  std::exception_ptr error;
+
+  static cairo_status_t write(void* self, const unsigned char* data, unsigned int length) {
+    auto* sink = static_cast<Sink*>(self);
+    if (sink->error) return CAIRO_STATUS_WRITE_ERROR;
+    try {
+      sink->file.write({reinterpret_cast<const char*>(data), length});
+      return CAIRO_STATUS_SUCCESS;
+    } catch (...) {
+      sink->error = std::current_exception();
+      return CAIRO_STATUS_WRITE_ERROR;
+    }
+  }
+  void commit(const std::string& path, cairo_status_t status) {
+    if (error) std::rethrow_exception(error);
+    if (status != CAIRO_STATUS_SUCCESS) {
+      throw Error(ErrorCode::write_failed, path + ": cairo: " + cairo_status_to_string(status));
+    }
+    file.commit();
+  }
+};
+
+void set_colour(cairo_t* to, Colour colour, double opacity = 1) {
+  cairo_set_source_rgba(to, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
+}
+
+void add_rings(cairo_t* to, const Scene::Rings& rings, std::uint64_t first, std::uint64_t end) {
+  for (std::uint64_t r = first; r < end; ++r) {
+    for (std::uint64_t v = rings.offset[r]; v < rings.offset[r + 1]; ++v) {
+      cairo_line_to(to, rings.points[2 * v], rings.points[2 * v + 1]);
+    }
+    cairo_close_path(to);
+    cairo_new_sub_path(to);
+  }
+}
+
+void draw_disc(cairo_t* to, const Scene& scene, const Scene::Disc& disc) {
+  cairo_new_path(to);
+  if (disc.mark == Scene::Mark::duplicate) {
+    cairo_move_to(to, disc.x - disc.radius, disc.y - disc.radius);
+    cairo_line_to(to, disc.x + disc.radius, disc.y + disc.radius);
+    cairo_move_to(to, disc.x + disc.radius, disc.y - disc.radius);
+    cairo_line_to(to, disc.x - disc.radius, disc.y + disc.radius);
+  } else {
+    cairo_arc(to, disc.x, disc.y, disc.radius, 0, 2 * std::acos(-1.0));
+  }
+  cairo_set_line_width(to, scene.disc_line);
+  const double dash = 3.5 * scene.disc_line;
+  cairo_set_dash(to, &dash, disc.mark == Scene::Mark::negative ? 1 : 0, 0);
+  switch (disc.mark) {
+    case Scene::Mark::dot:
+      set_colour(to, ink);
+      cairo_fill(to);
+      return;
+    case Scene::Mark::positive:
+      set_colour(to, ink, 0.13);
+      cairo_fill_preserve(to);
+      set_colour(to, ink, 0.65);
+      break;
+    case Scene::Mark::hidden:
+      set_colour(to, paper);
+      cairo_fill_preserve(to);
+      set_colour(to, ink);
+      break;
+    case Scene::Mark::negative:
+      set_colour(to, ink, 0.75);
+      break;
+    case Scene::Mark::duplicate:
+      set_colour(to, ink);
+      break;
+  }
+  cairo_stroke(to);
+}
+
+void draw(cairo_t* to, const Scene& scene) {
+  set_colour(to, paper);
+  cairo_paint(to);
+  cairo_set_line_join(to, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_fill_rule(to, CAIRO_FILL_RULE_EVEN_ODD);
+  cairo_set_line_width(to, scene.wall_width);
+  for (const Scene::Cell& cell : scene.cells) {
+    cairo_new_path(to);
+    add_rings(to, scene.cell_rings, cell.first_ring, cell.end_ring);
+    set_colour(to, cell.fill);
+    cairo_fill_preserve(to);
+    set_colour(to, paper);
+    cairo_stroke(to);
+  }
+  cairo_new_path(to);
+  add_rings(to, scene.outline, 0, scene.outline.size());
+  set_colour(to, ink);
+  cairo_set_line_width(to, scene.outline_width);
+  cairo_stroke(to);
+  for (const Scene::Disc& disc : scene.discs) draw_disc(to, scene, disc);
+}
+
+void write_image(const std::string& path, cairo_surface_t* image) {
+  Sink sink{AtomicFile(path), {}};
+  const cairo_status_t status = cairo_surface_write_to_png_stream(image, Sink::write, &sink);
+  sink.commit(path, status);
+}
+
+}  // namespace
+
+void draw_png(const std::string& path, const Scene& scene) {
+  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(scene.width),
+                                                 static_cast<int>(scene.height)));
+  const Context context(cairo_create(image.get()));
+  draw(context.get(), scene);
+  if (cairo_status(context.get()) != CAIRO_STATUS_SUCCESS) {
+    throw Error(ErrorCode::write_failed,
+                path + ": cairo: " + cairo_status_to_string(cairo_status(context.get())));
+  }
+  write_image(path, image.get());
+}
+
+void draw_pdf(const std::string& path, const Scene& scene) {
+  Sink sink{AtomicFile(path), {}};
+  // A PDF's unit is 1/72 inch, a pixel 1/96 inch.
+  const Surface page(
+      cairo_pdf_surface_create_for_stream(Sink::write, &sink, scene.width * 0.75, scene.height * 0.75));
+  cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_TITLE, scene.title.c_str());
+  cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_SUBJECT, scene.description.c_str());
+  const Context context(cairo_create(page.get()));
+  cairo_scale(context.get(), 0.75, 0.75);
+  draw(context.get(), scene);
+  const cairo_status_t drawn = cairo_status(context.get());
+  cairo_surface_finish(page.get());
+  sink.commit(path, drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(page.get()));
+}
+
+void write_pixels(const std::string& path, const std::vector<std::uint8_t>& rgb, int width, int height) {
+  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+  unsigned char* pixels = cairo_image_surface_get_data(image.get());
+  const int stride = cairo_image_surface_get_stride(image.get());
+  if (!pixels) throw Error(ErrorCode::write_failed, path + ": no memory for a picture of that size");
+  for (int y = 0; y < height; ++y) {
+    auto* row = reinterpret_cast<std::uint32_t*>(pixels + std::ptrdiff_t{y} * stride);
+    for (int x = 0; x < width; ++x) {
+      const std::uint8_t* p =
+          &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               3];
+      row[x] = static_cast<std::uint32_t>(p[0] << 16 | p[1] << 8 | p[2]);
+    }
+  }
+  cairo_surface_mark_dirty(image.get());
+  write_image(path, image.get());
+}
+
+}  // namespace powercell::io

@@ -1,0 +1,33 @@
+#include "apps/io/picture_camera.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace powercell::io {
+
+Camera fit_camera(Vec3 view, const std::vector<Vec3>& points, int long_side) {
+  Camera camera;
+  camera.forward = normalized(view) * -1;
+  camera.right = normalized(cross(camera.forward, {0, 0, 1}));
+  camera.up = cross(camera.right, camera.forward);
+  camera.eye = camera.forward * -camera_distance;
+  float low_x = std::numeric_limits<float>::max(), low_y = low_x, high_x = -low_x, high_y = -low_x;
+  for (const Vec3& point : points) {
+    const Projected at = camera.project(point);
+    low_x = std::min(low_x, at.x);
+    high_x = std::max(high_x, at.x);
+    low_y = std::min(low_y, at.y);
+    high_y = std::max(high_y, at.y);
+  }
+  if (points.empty()) low_x = low_y = -0.1f, high_x = high_y = 0.1f;
+  const float extent = std::max({high_x - low_x, high_y - low_y, 1e-6f});
+  const float margin = 0.03f * static_cast<float>(long_side);
+  camera.scale = (static_cast<float>(long_side) - 2 * margin) / extent;
+  camera.left = margin - low_x * camera.scale;
+  camera.top = margin - low_y * camera.scale;
+  camera.width = std::max(1, static_cast<int>(std::ceil(2 * margin + (high_x - low_x) * camera.scale)));
+  camera.height = std::max(1, static_cast<int>(std::ceil(2 * margin + (high_y - low_y) * camera.scale)));
+  return camera;
+}
+
+}  // namespace powercell::io

@@ -1,0 +1,28 @@
+/// \file
+/// Normals of a triangle mesh for smooth shading.
+#pragma once
+
+#include <vector>
+
+#include "apps/io/picture_vector.hpp"
+#include "lib/domain/region_mesh.hpp"
+
+namespace powercell::io {
+
+/// Maps the domain into the ball of radius 1 about the origin.
+struct Normalization {
+  double centre[3] = {0, 0, 0};
+  double scale = 1;
+  Vec3 operator()(const double* point) const {
+    return {static_cast<float>((point[0] - centre[0]) * scale),
+            static_cast<float>((point[1] - centre[1]) * scale),
+            static_cast<float>((point[2] - centre[2]) * scale)};
+  }
+};
+Normalization normalization(const Domain& domain);
+
+/// Three normals a triangle: the mean over the triangles around a corner that meet at a small angle;
+/// creases stay sharp. Corners at one place count as one, and neighbours may be oriented either way.
+std::vector<Vec3> corner_normals(const RegionMesh& mesh, const Normalization& normalize);
+
+}  // namespace powercell::io
