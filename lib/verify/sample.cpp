@@ -84,6 +84,7 @@ std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std
   }
   const std::vector<Simplex> simplices = simplices_of(mesh);
   std::vector<double> up_to;
+  up_to.reserve(simplices.size());
   double sum = 0;
   for (const Simplex& simplex : simplices) up_to.push_back(sum += measure_of(mesh, simplex));
   for (Sample& sample : samples) {
