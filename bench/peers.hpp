@@ -1,0 +1,24 @@
+/// \file
+/// Other libraries doing the same work: the measure of every power cell in a box. Each is used as its
+/// own documentation advises, so that a ratio to it means something.
+#pragma once
+
+#include <vector>
+
+#include "tests/support/generators.hpp"
+
+namespace powercell::bench {
+
+using test::Box;
+
+/// CGAL's regular triangulation, points inserted in bulk; cells inside the box are measured from the
+/// dual, those that meet its faces by clipping. \return n measures
+std::vector<double> cgal_measures_2d(const SeedsView& seeds, const Box& box);
+std::vector<double> cgal_measures_3d(const SeedsView& seeds, const Box& box);
+/// The same with CGAL's parallel insertion and with all loops over edges and cells in TBB.
+std::vector<double> cgal_parallel_measures_3d(const SeedsView& seeds, const Box& box);
+
+/// voro++ radical cells in a box (space only, all seeds in the box), computed in its own block order.
+std::vector<double> voro_measures(const SeedsView& seeds, const Box& box);
+
+}  // namespace powercell::bench
