@@ -125,15 +125,14 @@ class Merge {
 
 }  // namespace
 
-void append_convex_pieces(geos::Context& geos, const IndexedRings& rings, std::size_t first, std::size_t last,
-                          Pieces& pieces) {
-  const auto& outer = rings.rings[first].vertex;
-  const bool no_holes = last - first == 1;
-  if (no_holes && outer.size() <= piece_capacity && is_convex(rings, outer, false))
+void append_convex_pieces(const IndexedRings& vertices, std::span<const IndexedRing> rings, Pieces& pieces) {
+  const auto& outer = rings[0].vertex;
+  const bool no_holes = rings.size() == 1;
+  if (no_holes && outer.size() <= piece_capacity && is_convex(vertices, outer, false))
     return append(pieces, outer);
-  if (no_holes && is_convex(rings, outer, true)) return append_halves(pieces, outer);
-  const Triangulation mesh = triangulate(geos, rings, first, last);
-  Merge(rings, mesh).append_to(pieces);
+  if (no_holes && is_convex(vertices, outer, true)) return append_halves(pieces, outer);
+  const Triangulation mesh = triangulate(vertices, rings);
+  Merge(vertices, mesh).append_to(pieces);
 }
 
 }  // namespace powercell

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "lib/domain/geos.hpp"
 #include "lib/domain/rings.hpp"
 
 namespace powercell {
@@ -20,10 +19,9 @@ struct Pieces {
   std::vector<std::uint32_t> vertex;
 };
 
-/// Appends the pieces of the part with the rings [first, last). All their vertices are vertices of the
+/// Appends the pieces of the part with these rings. All their vertices are vertices of the
 /// rings, and a vertex on an edge of a piece is a vertex of both pieces beside it. A convex part of at
 /// most `piece_capacity` vertices is one piece.
-void append_convex_pieces(geos::Context& geos, const IndexedRings& rings, std::size_t first, std::size_t last,
-                          Pieces& pieces);
+void append_convex_pieces(const IndexedRings& vertices, std::span<const IndexedRing> rings, Pieces& pieces);
 
 }  // namespace powercell

@@ -27,12 +27,15 @@ GEOSCoordSequence* Context::sequence(const std::vector<double>& xy) {
   return points;
 }
 
-Geometry Context::polygon(const IndexedRings& rings, std::size_t first, std::size_t last) {
+Geometry Context::polygon(const IndexedRings& vertices, std::span<const IndexedRing> rings) {
   std::vector<Geometry> closed;
-  for (std::size_t r = first; r < last; ++r) {
+  for (const IndexedRing& ring : rings) {
     std::vector<double> xy;
-    for (std::uint32_t v : rings.rings[r].vertex) xy.insert(xy.end(), {rings.at(v)[0], rings.at(v)[1]});
-    xy.insert(xy.end(), {xy[0], xy[1]});
+    for (std::uint32_t v : ring.vertex) {
+      xy.insert(xy.end(), {vertices.at(v)[0], vertices.at(v)[1]});
+    }
+    const double x = xy[0], y = xy[1];
+    xy.insert(xy.end(), {x, y});
     closed.push_back(own(GEOSGeom_createLinearRing_r(handle_, sequence(xy)), "making a ring"));
   }
   std::vector<GEOSGeometry*> raw;
@@ -81,25 +84,6 @@ std::optional<Defect> Context::overlap(const Geometry& a, const Geometry& b) {
   GEOSGeomGetX_r(handle_, inside.get(), &found.x);
   GEOSGeomGetY_r(handle_, inside.get(), &found.y);
   return found;
-}
-
-std::vector<double> Context::triangulate(const Geometry& polygon) {
-  const Geometry all(GEOSConstrainedDelaunayTriangulation_r(handle_, polygon.get()), Destroy{handle_});
-  std::vector<double> corners;
-  if (!all) return corners;
-  const int count = GEOSGetNumGeometries_r(handle_, all.get());
-  corners.reserve(6 * static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    const GEOSGeometry* triangle = GEOSGetGeometryN_r(handle_, all.get(), k);
-    const GEOSGeometry* ring = GEOSGetExteriorRing_r(handle_, triangle);
-    const GEOSCoordSequence* points = ring ? GEOSGeom_getCoordSeq_r(handle_, ring) : nullptr;
-    for (unsigned c = 0; c < 3; ++c) {
-      double x = 0, y = 0;
-      if (!points || !GEOSCoordSeq_getXY_r(handle_, points, c, &x, &y)) fail("reading a triangle");
-      corners.insert(corners.end(), {x, y});
-    }
-  }
-  return corners;
 }
 
 Tree::Tree(Context& context)

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,16 +39,14 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// The rings [first, last): one outer ring and its holes.
-  Geometry polygon(const IndexedRings& rings, std::size_t first, std::size_t last);
+  /// One outer ring and its holes.
+  Geometry polygon(const IndexedRings& vertices, std::span<const IndexedRing> rings);
   Geometry multipolygon(const std::vector<Geometry>& polygons);
   Geometry segment(const double* a, const double* b);
 
   std::optional<Defect> defect(const Geometry& geometry);
   /// A point in the overlap, if the interiors of a and b meet.
   std::optional<Defect> overlap(const Geometry& a, const Geometry& b);
-  /// Corners of the triangles, 3 x 2 numbers each; empty if GEOS cannot triangulate the polygon.
-  std::vector<double> triangulate(const Geometry& polygon);
 
  private:
   friend class Tree;

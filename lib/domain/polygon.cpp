@@ -24,7 +24,7 @@ std::vector<std::size_t> first_rings(const IndexedRings& rings) {
 void validate(geos::Context& geos, const IndexedRings& rings, const std::vector<std::size_t>& first) {
   std::vector<geos::Geometry> polygons;
   for (std::uint32_t p = 0; p < rings.parts; ++p) {
-    polygons.push_back(geos.polygon(rings, first[p], first[p + 1]));
+    polygons.push_back(geos.polygon(rings, rings.part(first[p], first[p + 1])));
     if (const auto defect = geos.defect(polygons.back())) {
       throw Error(ErrorCode::invalid_domain,
                   "part " + std::to_string(p) + ": " + defect->reason + " at " + place(defect->x, defect->y) +
@@ -100,7 +100,7 @@ RegionMeshPtr build_polygon(std::span<const PolygonPart> parts) {
   mesh->dimension = mesh->cell_dimension = 2;
   Pieces pieces;
   for (std::uint32_t p = 0; p < rings.parts; ++p) {
-    append_convex_pieces(geos, rings, first[p], first[p + 1], pieces);
+    append_convex_pieces(rings, rings.part(first[p], first[p + 1]), pieces);
     mesh->source.resize(pieces.offset.size() - 1, p);
   }
   CompensatedSum area;

@@ -24,6 +24,10 @@ struct IndexedRings {
   std::uint32_t parts = 0;
 
   const double* at(std::uint32_t v) const { return &vertices[2 * std::size_t{v}]; }
+  /// The rings [first, last).
+  std::span<const IndexedRing> part(std::size_t first, std::size_t last) const {
+    return std::span(rings).subspan(first, last - first);
+  }
   /// The vertex at (x, y), or the number of vertices if there is none.
   std::uint32_t find(double x, double y) const;
   std::size_t vertex_count() const { return vertices.size() / 2; }

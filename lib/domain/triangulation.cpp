@@ -4,6 +4,7 @@
 
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/orient2d.hpp"
+#include "lib/domain/sweep.hpp"
 #include "lib/domain/touching.hpp"
 
 namespace powercell {
@@ -13,30 +14,21 @@ std::uint32_t next_in_triangle(std::uint32_t h) {
   return h % 3 == 2 ? h - 2 : h + 1;
 }
 
-/// Corners as vertex indices, each triangle counter-clockwise; empty if one is flat or has a corner
-/// that is no vertex.
-std::vector<std::uint32_t> index_corners(const IndexedRings& rings, const std::vector<double>& xy) {
-  std::vector<std::uint32_t> corner(xy.size() / 2);
-  for (std::size_t k = 0; k < corner.size(); ++k) {
-    corner[k] = rings.find(xy[2 * k], xy[2 * k + 1]);
-    if (corner[k] == rings.vertex_count()) return {};
-  }
+bool all_positive(const IndexedRings& vertices, const std::vector<std::uint32_t>& corner) {
   for (std::size_t k = 0; k < corner.size(); k += 3) {
-    const int turn = orient2d(rings.at(corner[k]), rings.at(corner[k + 1]), rings.at(corner[k + 2]));
-    if (turn == 0) return {};
-    if (turn < 0) std::swap(corner[k + 1], corner[k + 2]);
+    if (orient2d(vertices.at(corner[k]), vertices.at(corner[k + 1]), vertices.at(corner[k + 2])) <= 0)
+      return false;
   }
-  return corner;
+  return !corner.empty();
 }
 
 using DirectedEdge = std::array<std::uint32_t, 2>;
 
-std::vector<DirectedEdge> ring_edges(const IndexedRings& rings, std::size_t first, std::size_t last) {
+std::vector<DirectedEdge> ring_edges(std::span<const IndexedRing> rings) {
   std::vector<DirectedEdge> edges;
-  for (std::size_t r = first; r < last; ++r) {
-    const auto& vertex = rings.rings[r].vertex;
-    for (std::size_t k = 0; k < vertex.size(); ++k)
-      edges.push_back({vertex[k], vertex[(k + 1) % vertex.size()]});
+  for (const IndexedRing& ring : rings) {
+    const std::size_t n = ring.vertex.size();
+    for (std::size_t k = 0; k < n; ++k) edges.push_back({ring.vertex[k], ring.vertex[(k + 1) % n]});
   }
   std::ranges::sort(edges);
   return edges;
@@ -69,17 +61,20 @@ bool link(Triangulation& mesh, const std::vector<DirectedEdge>& boundary) {
 
 }  // namespace
 
-Triangulation triangulate(geos::Context& geos, const IndexedRings& rings, std::size_t first,
-                          std::size_t last) {
+Triangulation triangulate(const IndexedRings& vertices, std::span<const IndexedRing> rings) {
+  const std::vector<DirectedEdge> boundary = ring_edges(rings);
   Triangulation mesh;
-  mesh.corner = index_corners(rings, geos.triangulate(geos.polygon(rings, first, last)));
-  if (mesh.corner.empty() || !link(mesh, ring_edges(rings, first, last))) {
-    const double* at = rings.at(rings.rings[first].vertex[0]);
-    throw Error(ErrorCode::internal, "part " + std::to_string(rings.rings[first].part) + " (from " +
-                                         place(at[0], at[1]) +
-                                         "): no exact triangulation found; please report the polygon");
+  mesh.corner = sweep_triangulate(vertices, rings);
+  bool good = link(mesh, boundary);
+  if (good) {
+    make_delaunay(vertices, mesh);
+    good = all_positive(vertices, mesh.corner) && link(mesh, boundary);
   }
-  return mesh;
+  if (good) return mesh;
+  const double* at = vertices.at(rings[0].vertex[0]);
+  throw Error(ErrorCode::invalid_domain,
+              "part " + std::to_string(rings[0].part) + " (from " + place(at[0], at[1]) +
+                  "): edges cross by less than rounding; snap its points to a grid");
 }
 
 }  // namespace powercell

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "lib/domain/geos.hpp"
 #include "lib/domain/rings.hpp"
 
 namespace powercell {
@@ -20,11 +20,14 @@ struct Triangulation {
   std::vector<std::uint32_t> twin;    ///< 3 a triangle
 };
 
-/// The constrained Delaunay triangulation of the part with the rings [first, last).
-/// The result is checked exactly: all triangles are positive, and their edges cancel but for the rings,
-/// so they cover each point as often as the rings wind around it: once inside and never outside.
-/// \throw Error internal if no such triangulation was found
-Triangulation triangulate(geos::Context& geos, const IndexedRings& rings, std::size_t first,
-                          std::size_t last);
+/// The constrained Delaunay triangulation of the part with these rings, up to near-ties.
+/// What comes out is checked exactly: all triangles are positive, and their edges cancel but for the
+/// rings, so they cover each point as often as the rings wind around it: once inside, never outside.
+/// \throw Error invalid_domain if edges of the rings cross
+Triangulation triangulate(const IndexedRings& vertices, std::span<const IndexedRing> rings);
+
+/// Flips diagonals until the triangulation is Delaunay, constrained by the rings, up to near-ties and a
+/// bound on the work.
+void make_delaunay(const IndexedRings& vertices, Triangulation& mesh);
 
 }  // namespace powercell
