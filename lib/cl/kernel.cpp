@@ -148,6 +148,14 @@ void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
   }
 }
 
+void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
+  if (global == 0) return;
+  const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
+                      "running the kernel " + name_ + " on " + context_->info().name};
+  if (local == 0) local = choose_group_size(launch);
+  enqueue(launch, (global + local - 1) / local * local, local, done);
+}
+
 void Kernel::set_memory(cl_uint index, cl_mem memory) {
   set_bytes(index, sizeof memory, &memory);
 }

@@ -52,6 +52,9 @@ class Kernel {
   /// the event's device time to `seconds` when it is not null (waits for it then).
   /// local = 0 lets the class choose: a power of two within the queried limits of device and kernel.
   void launch(std::size_t global, std::size_t local = 0, double* seconds = nullptr);
+  /// The same without ever waiting, also where the driver compiles at the first launch: for queues that
+  /// hold back until the caller signals them. \param done  the caller's to release, if not null
+  void submit(std::size_t global, std::size_t local = 0, cl_event* done = nullptr);
 
  private:
   template <class T>
