@@ -1,0 +1,21 @@
+/* Stream compaction: which entries of an array have a wanted value. */
+
+/* places[k] = 1 where values[k] is `wanted`, else 0; places[count] = 0. */
+__kernel void mark_wanted(const uint count, __global const uint* values, const uint wanted,
+                          __global uint* places) {
+  const uint k = (uint)get_global_id(0);
+  if (k > count) return;
+  places[k] = k < count && values[k] == wanted ? 1u : 0u;
+}
+
+/* With the prefix sums of those marks: their indices, ascending, and how many there are. */
+__kernel void list_marked(const uint count, __global const uint* places, __global uint* indices,
+                          __global uint* found) {
+  const uint k = (uint)get_global_id(0);
+  if (k > count) return;
+  const uint at = places[k];
+  if (k == count)
+    found[0] = at;
+  else if (places[k + 1] != at)
+    indices[at] = k;
+}

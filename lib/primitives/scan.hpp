@@ -1,0 +1,33 @@
+/// \file
+/// Exclusive prefix sums on the device. Internal.
+#pragma once
+
+#include <cstdint>
+
+#include "lib/cl/program.hpp"
+
+namespace powercell {
+
+/// Enqueues without waiting. Owns its scratch memory: one scan at a time in flight per queue order.
+class ExclusiveScan {
+ public:
+  enum class Type { uint32, uint64 };
+  /// Builds the kernels. \throw Error build_failed, opencl
+  ExclusiveScan(const std::shared_ptr<cl::Context>& context, Type type);
+
+  /// Replaces each of the first `count` values by the sum of those before it, modulo 2^32 or 2^64.
+  /// With a last value of 0 the last sum is the total.
+  /// \param local size of a work-group; 0 chooses. The result does not depend on it.
+  /// \throw Error out_of_device_memory, opencl
+  void enqueue(cl_mem values, std::uint32_t count, std::size_t local = 0);
+
+ private:
+  void scan_level(cl_mem values, std::uint32_t from, std::uint32_t count, std::uint32_t to,
+                  std::size_t local);
+
+  std::size_t value_bytes_;
+  cl::Kernel sum_, scan_;
+  cl::RawBuffer sums_;  // level after level
+};
+
+}  // namespace powercell
