@@ -17,6 +17,26 @@
 #define CUT_FULL 3
 #define CUT_TANGLED 4
 
+/* What became of a seed (powercell::SeedStatus, then what only a diagram in device memory can meet). */
+#define SEED_OK 0
+#define SEED_HIDDEN 1
+#define SEED_DUPLICATE 2
+#define SEED_INVALID 3    /* not finite, or out of the range in which squares are finite */
+#define SEED_UNFINISHED 4 /* a piece fits no variant on the device, or no memory was set aside for it */
+
+/* The frame of a scene in device memory: FRAME_SIZE reals (lib/clip/frame.hpp). */
+#define FRAME_CENTRE 0     /* 3: high parts of the centre */
+#define FRAME_CENTRE_LOW 3 /* 3: low parts (0 in double precision) */
+#define FRAME_SCALE 6      /* a power of two */
+#define FRAME_UNIT 7       /* 1 / scale */
+#define FRAME_SIZE 8
+
+/* What seeds are sorted by, the least significant first. */
+#define KEY_WEIGHT 0 /* the largest first */
+#define KEY_HASH 1   /* brings equal positions together */
+#define KEY_FINE 2   /* Hilbert curve within a grid cell */
+#define KEY_COARSE 3 /* Hilbert curve over all seeds */
+
 /* What a clip kernel writes besides the status: a sum of these is its define OUTPUTS. */
 #define OUTPUT_MOMENTS 1
 #define OUTPUT_WALLS 2

@@ -1,0 +1,115 @@
+/* Sort keys of the seeds, and the seeds in their final order. */
+#include "base/point.cl"
+#include "seeds/hilbert.cl"
+
+/* The grid of the curve: low corner, then cells per unit of length, a power of two. */
+__kernel void make_grid(const uint tiles, __global const stored_real* boxes, __global stored_real* grid) {
+  if (get_global_id(0) != 0) return;
+  real side = 0;
+  for (int k = 0; k < DIMENSION; ++k) {
+    real low = REAL_MAX, high = -REAL_MAX;
+    for (uint t = 0; t < tiles; ++t) {
+      low = fmin(low, boxes[(size_t)t * 2 * DIMENSION + (size_t)k]);
+      high = fmax(high, boxes[(size_t)t * 2 * DIMENSION + DIMENSION + (size_t)k]);
+    }
+    grid[k] = low <= high ? low : 0; /* no valid seed, no box */
+    if (low <= high) side = fmax(side, high - low);
+  }
+  int exponent = LEAST_EXPONENT;
+  if (side > 0) {
+    frexp(side, &exponent);
+    exponent = max(exponent, LEAST_EXPONENT);
+  }
+  grid[3] = ldexp((real)1, HILBERT_BITS - exponent);
+}
+
+/* The cell of number `x` (>= 0) on a grid of unit cells, and what is left, in cells of the next grid. */
+static inline uint take_cell(real* high, real* low) {
+  const real whole = floor(*high), rest = (*high - whole) + *low, more = floor(rest);
+  const long most = ((long)1 << HILBERT_BITS) - 1;
+  const long cell = (long)whole + (long)more;
+  *high = (rest - more) * ((ulong)1 << HILBERT_BITS);
+  *low = 0;
+  return (uint)clamp(cell, (long)0, most);
+}
+
+static inline ulong curve_key(const parts_t* p, __global const stored_real* grid, bool fine) {
+  uint cell[DIMENSION];
+  for (int k = 0; k < DIMENSION; ++k) {
+    real low, high = exact_difference(p->high[k], grid[k], &low);
+    low += p->low[k];
+    high *= grid[3];
+    low *= grid[3];
+    cell[k] = take_cell(&high, &low);
+    if (fine) cell[k] = take_cell(&high, &low);
+  }
+  return hilbert_key(cell);
+}
+
+/* 32 bits that differ for different positions but by chance. */
+static inline ulong position_hash(const parts_t* p) {
+  ulong h = 0;
+  for (int k = 0; k < DIMENSION; ++k) {
+    h = (h ^ ordered_bits(p->high[k])) * (ulong)0x9e3779b97f4a7c15;
+    h = (h ^ (h >> 29) ^ ordered_bits(p->low[k])) * (ulong)0xbf58476d1ce4e5b9;
+    h ^= h >> 32;
+  }
+  return h & 0xffffffffu;
+}
+
+/* keys[t] of the seed order[t]: KEY_... of layout.h. Seeds that are not valid come last. */
+__kernel void make_keys(const uint count, const int kind, __global const uint* order,
+                        __global const seed_t* points, __global const uint* status,
+                        __global const stored_real* grid, __global ulong* keys) {
+  const uint t = (uint)get_global_id(0);
+  if (t >= count) return;
+  const uint i = order[t];
+  const parts_t p = parts_of(points[i]);
+  ulong key = kind == KEY_COARSE ? (ulong)1 << 63 : 0;
+  if (status[i] == SEED_OK) {
+    if (kind == KEY_WEIGHT) {
+      const ulong middle = (ulong)1 << (WEIGHT_KEY_BITS - 1);
+      key = (middle - 1) + middle - ordered_bits(p.high[3]);
+    } else if (kind == KEY_HASH) {
+      key = position_hash(&p);
+    } else {
+      key = curve_key(&p, grid, kind == KEY_FINE);
+    }
+  }
+  keys[t] = key;
+}
+
+__kernel void number_seeds(const uint count, __global uint* order) {
+  const uint i = (uint)get_global_id(0);
+  if (i < count) order[i] = i;
+}
+
+/* True if a seed before rank t is at the same position. Sorting has put the seeds of one position side
+   by side, the one that stays first; only different positions of one hash may lie between. */
+static inline bool is_duplicate(uint t, const parts_t* p, __global const uint* order,
+                                __global const seed_t* points) {
+  const ulong hash = position_hash(p);
+  for (uint k = t; k > 0; --k) {
+    const parts_t before = parts_of(points[order[k - 1]]);
+    if (same_position(&before, p)) return true;
+    if (position_hash(&before) != hash) return false;
+  }
+  return false;
+}
+
+/* The seeds by rank, and what is known of them: SEED_OK, _DUPLICATE or _INVALID. */
+__kernel void place_seeds(const uint count, __global const uint* order, __global const seed_t* points,
+                          __global const uint* status, __global seed_t* placed, __global uint* state) {
+  const uint t = (uint)get_global_id(0);
+  if (t >= count) return;
+  const uint i = order[t];
+  parts_t p = parts_of(points[i]);
+  uint result = status[i];
+  if (result == SEED_OK && is_duplicate(t, &p, order, points)) result = SEED_DUPLICATE;
+  if (result != SEED_OK) {
+    p.high[3] = DEAD_WEIGHT;
+    p.low[3] = 0;
+  }
+  placed[t] = seed_of(p);
+  state[t] = result;
+}

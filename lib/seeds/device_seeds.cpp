@@ -1,0 +1,70 @@
+#include "lib/seeds/device_seeds.hpp"
+
+#include <algorithm>
+
+#include "kernels/layout.h"
+#include "lib/clip/frame.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr std::uint32_t most_box_tiles = 1024, smallest_box_tile = 64;
+
+}  // namespace
+
+DeviceSeeds::DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
+                         bool float32)
+    : points(context),
+      order(context),
+      state(context),
+      float32_(float32),
+      pack_(context, context->program("seeds/pack.cl", defines), "pack_seeds"),
+      box_(context, context->program("seeds/pack.cl", defines), "box_of_tiles"),
+      grid_(context, context->program("seeds/order.cl", defines), "make_grid"),
+      number_(context, context->program("seeds/order.cl", defines), "number_seeds"),
+      keys_kernel_(context, context->program("seeds/order.cl", defines), "make_keys"),
+      place_(context, context->program("seeds/order.cl", defines), "place_seeds"),
+      sort_(context),
+      packed_(context),
+      boxes_(context),
+      grid_box_(context),
+      keys_(context),
+      status_(context) {}
+
+void DeviceSeeds::find_box(std::uint32_t count) {
+  const std::uint32_t wanted = std::clamp(count / smallest_box_tile, 1u, most_box_tiles);
+  const std::uint32_t tile = (count - 1) / wanted + 1, tiles = (count - 1) / tile + 1;
+  boxes_.reserve(std::size_t{tiles} * 6 * sizeof(double));
+  grid_box_.reserve(4 * sizeof(double));
+  box_.args(tiles, tile, count, packed_, status_, boxes_).submit(tiles);
+  grid_.args(tiles, boxes_, grid_box_).submit(1);
+}
+
+void DeviceSeeds::sort_by(int kind, std::uint32_t count, unsigned bits) {
+  keys_kernel_.args(count, static_cast<cl_int>(kind), order, packed_, status_, grid_box_, keys_)
+      .submit(count);
+  sort_.enqueue(keys_.handle(), order.handle(), count, bits);
+}
+
+void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count) {
+  packed_.reserve(count * Frame::point_bytes);
+  points.reserve(count * Frame::point_bytes);
+  keys_.reserve(count * sizeof(cl_ulong));
+  status_.resize(count);
+  state.resize(count);
+  order.resize(count);
+  pack_
+      .args(count, frame, positions, weights ? weights : positions, cl_int{weights != nullptr}, packed_,
+            status_)
+      .submit(count);
+  find_box(count);
+  number_.args(count, order).submit(count);
+  // The least significant key first; each sort is stable.
+  if (weights) sort_by(KEY_WEIGHT, count, float32_ ? 32 : 64);
+  sort_by(KEY_HASH, count, 32);
+  sort_by(KEY_FINE, count, 63);
+  sort_by(KEY_COARSE, count, 64);
+  place_.args(count, order, packed_, status_, points, state).submit(count);
+}
+
+}  // namespace powercell

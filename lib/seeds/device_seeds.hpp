@@ -1,0 +1,39 @@
+/// \file
+/// The caller's seeds in device memory, checked, packed and ordered there. Internal.
+#pragma once
+
+#include <cstdint>
+
+#include "lib/primitives/radix_sort.hpp"
+
+namespace powercell {
+
+/// Seeds by rank, as SeedSet is on the host: along a Hilbert curve, equal positions side by side. Seeds that
+/// take no part keep a rank, since only the device knows how many there are; their weight is so low that
+/// no cell feels them (kernels/base/point.cl). Enqueues without waiting.
+class DeviceSeeds {
+ public:
+  /// Builds the kernels. \param defines  of Variant for the precision and dimension
+  DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
+              bool float32);
+
+  /// \param frame      FRAME_SIZE reals (kernels/layout.h)
+  /// \param positions  count x d reals  \param weights  count reals, or null  \param count  at least 1
+  void enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count);
+
+  cl::RawBuffer points;             ///< seed_t by rank
+  cl::Buffer<std::uint32_t> order;  ///< by rank: index of the seed as given
+  cl::Buffer<std::uint32_t> state;  ///< by rank: SEED_OK, SEED_DUPLICATE or SEED_INVALID
+
+ private:
+  void find_box(std::uint32_t count);
+  void sort_by(int kind, std::uint32_t count, unsigned bits);
+
+  bool float32_;
+  cl::Kernel pack_, box_, grid_, number_, keys_kernel_, place_;
+  RadixSort sort_;
+  cl::RawBuffer packed_, boxes_, grid_box_, keys_;
+  cl::Buffer<std::uint32_t> status_;
+};
+
+}  // namespace powercell
