@@ -12,8 +12,6 @@
 
 namespace powercell {
 
-namespace {
-
 Precision choose_precision(const Device& device, Precision asked) {
   const bool fp64 = device.info().fp64;
   if (asked == Precision::automatic) return fp64 ? Precision::float64 : Precision::float32;
@@ -22,6 +20,8 @@ Precision choose_precision(const Device& device, Precision asked) {
                                         "\" has no double precision; use single precision or another device");
   return asked;
 }
+
+namespace {
 
 Neighbors choose_neighbors(Neighbors asked) {
 #ifndef POWERCELL_HAS_FLANN

@@ -14,6 +14,9 @@
 
 namespace powercell {
 
+/// The precision that the option means on this device. \throw Error no_fp64
+Precision choose_precision(const Device& device, Precision asked);
+
 struct Diagram::State {
   Device device;
   Domain domain;

@@ -1,0 +1,139 @@
+#include "lib/diagram/device_diagram.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernels/layout.h"
+#include "lib/clip/variant.hpp"
+#include "lib/diagram/state.hpp"
+
+namespace powercell {
+namespace {
+
+static_assert(SEED_OK == static_cast<int>(SeedStatus::ok) &&
+              SEED_OK == static_cast<int>(DeviceSeedStatus::ok));
+static_assert(SEED_HIDDEN == static_cast<int>(SeedStatus::hidden) &&
+              SEED_HIDDEN == static_cast<int>(DeviceSeedStatus::hidden));
+static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
+              SEED_DUPLICATE == static_cast<int>(DeviceSeedStatus::duplicate));
+static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
+static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
+
+/// Pairs of one launch, unless options say otherwise: short enough for a display driver's watchdog.
+constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
+
+Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
+  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
+          OUTPUT_MOMENTS};
+}
+
+/// Of the kernels that hold no cell.
+std::vector<std::string> plain_defines(const Domain& domain, Precision precision) {
+  return variant(domain, precision, {1, 1}).defines();
+}
+
+}  // namespace
+
+DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_in)
+    : device(std::move(device_in)),
+      domain(std::move(domain_in)),
+      options(std::move(options_in)),
+      precision(choose_precision(device, options.precision)),
+      scene(device.context(), domain.mesh(), precision == Precision::float32),
+      frame_(device.context()),
+      seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
+      tree_(device.context(), plain_defines(domain, precision)),
+      pairs_(device.context()),
+      compaction_(device.context()),
+      pair_all_(device.context(), device.context()->program("pairs/one_region.cl", {}), "pair_all"),
+      finish_(device.context(),
+              device.context()->program("diagram/finish.cl", plain_defines(domain, precision)),
+              "write_measures"),
+      piece_status_(device.context()),
+      list_(device.context()),
+      found_(device.context()),
+      moments_(device.context()) {
+  for (const Capacity& capacity : capacities(domain.cell_dimension())) {
+    auto program =
+        device.context()->program("diagram/clip_pairs.cl", variant(domain, precision, capacity).defines());
+    clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
+  }
+  upload_frame();
+}
+
+void DeviceDiagram::State::upload_frame() {
+  const Frame& frame = scene.frame();
+  if (frame.split &&
+      !(std::isnormal(static_cast<float>(frame.scale)) && std::isnormal(static_cast<float>(1 / frame.scale))))
+    throw Error(ErrorCode::unsupported,
+                "the size of the domain is not in the range of single precision; choose Precision::float64");
+  std::array<double, FRAME_SIZE> numbers{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double high = frame.split ? static_cast<float>(frame.centre[k]) : frame.centre[k];
+    numbers[FRAME_CENTRE + k] = high;
+    numbers[FRAME_CENTRE_LOW + k] = frame.centre[k] - high;
+  }
+  numbers[FRAME_SCALE] = frame.scale;
+  numbers[FRAME_UNIT] = 1 / frame.scale;
+  if (!frame.split) {
+    frame_.reserve(sizeof numbers);
+    frame_.write(numbers.data(), sizeof numbers);
+    return;
+  }
+  std::array<float, FRAME_SIZE> narrow{};
+  std::copy(numbers.begin(), numbers.end(), narrow.begin());
+  frame_.reserve(sizeof narrow);
+  frame_.write(narrow.data(), sizeof narrow);
+}
+
+void DeviceDiagram::State::find_pairs(std::uint32_t n) {
+  pairs_.capacity = n;
+  pairs_.seed.resize(n);
+  pairs_.region.resize(n);
+  pairs_.offset.resize(std::size_t{n} + 1);
+  pair_all_.args(n, pairs_.seed, pairs_.region, pairs_.offset).submit(std::size_t{n} + 1);
+}
+
+void DeviceDiagram::State::clip_rung(std::size_t rung, bool listed, std::uint32_t n) {
+  const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : default_launch_pairs;
+  for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
+    const auto first = static_cast<cl_uint>(begin);
+    const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
+    clip_[rung]
+        .args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
+              seeds_.state, scene.corners, scene.region_offset, scene.region_vertex, scene.shape,
+              piece_status_, moments_, seeds_.points, n, tree_.node_low, tree_.node_high, tree_.level_offset,
+              cl_int{tree_.levels()})
+        .submit(end - first);
+  }
+}
+
+void DeviceDiagram::State::clip(std::uint32_t n) {
+  const std::size_t real = precision == Precision::float32 ? sizeof(float) : sizeof(double);
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  piece_status_.resize(pairs_.capacity);
+  list_.resize(pairs_.capacity);
+  found_.resize(1);
+  moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real);
+  piece_status_.zero();
+  clip_rung(0, false, n);
+  for (std::size_t rung = 1; rung < clip_.size(); ++rung) {
+    compaction_.enqueue(piece_status_.handle(), pairs_.capacity, PIECE_FULL, list_.handle(), found_.handle());
+    clip_rung(rung, true, n);
+  }
+}
+
+void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures,
+                                   cl_mem status, cl_event* done) {
+  seeds_.enqueue(frame_.handle(), positions, weights, n);
+  tree_.enqueue(seeds_.points.handle(), n);
+  find_pairs(n);
+  clip(n);
+  finish_
+      .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,
+            frame_, positions, measures, status)
+      .submit(n, 0, done);
+}
+
+}  // namespace powercell
