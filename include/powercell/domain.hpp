@@ -28,17 +28,25 @@ enum class DomainKind { polygon, surface, volume };
 /// An immutable, validated domain; copies share one state. Safe to share between threads.
 class POWERCELL_API Domain {
  public:
-  /// The union of parts with disjoint interiors. \throw Error invalid_domain (which part, where)
+  /// The union of parts with disjoint interiors. Rings and parts may touch in points, and parts along
+  /// edges: what they share there is inside the domain. A ring may not touch itself.
+  /// Boundary edges are numbered by part, ring and edge: outer rings counter-clockwise, holes clockwise,
+  /// each from its first corner, with corners also where another ring touches an edge.
+  /// \throw Error invalid_domain (which part, where)
   static Domain polygon(std::span<const PolygonPart> parts);
 
   /// A triangle mesh in space: open, closed or non-manifold.
   /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
-  /// Triangles of zero area are left out. \throw Error invalid_domain (which triangle)
+  /// Vertices at the same position count as one. Triangles of zero area are left out: those whose least
+  /// height is at most 2^-50 of their longest edge. \throw Error invalid_domain (which triangle)
   static Domain surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
   /// A tetrahedral mesh, each tetrahedron in either orientation.
   /// \param vertices nv x 3, row-major   \param tetrahedra nt x 4 indices from 0
-  /// Flat tetrahedra are left out. \throw Error invalid_domain (which tetrahedron)
+  /// Vertices at the same position count as one. Flat tetrahedra are left out: those whose least height
+  /// is at most 2^-50 of their longest edge. Two tetrahedra on the same side of a shared facet are
+  /// refused; any other overlap is not looked for, and counts twice.
+  /// \throw Error invalid_domain (which tetrahedron)
   static Domain volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
   /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain

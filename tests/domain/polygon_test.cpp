@@ -121,7 +121,6 @@ TEST_CASE("any scale and any place") {
     for (const double offset : {0.0, 0x1p30 * scale, 1e9}) {
       Ring ring = shape;
       for (auto& [x, y] : ring) x = x * scale + offset, y = y * scale - offset;
-      const double side = ring[3][0] - ring[0][0], length = ring[1][0] - ring[0][0];
       const Domain domain = polygon({{ring, {}}});
       CAPTURE(scale);
       CAPTURE(offset);
@@ -129,7 +128,6 @@ TEST_CASE("any scale and any place") {
       CHECK(domain.region_count() == 2);
       if (scale * 0x1p50 > offset)
         CHECK(domain.measure() == doctest::Approx(5 * scale * scale).epsilon(1e-9));
-      CHECK(length > side);
     }
   }
 }
