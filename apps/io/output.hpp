@@ -25,10 +25,10 @@ std::string_view known_outputs();
 /// Whether `write_output` knows the extension of `path` (upper or lower case).
 bool known_output(const std::string& path);
 /// Refuses, before anything is computed, what `write_output` would refuse for this kind of domain.
-/// \throw Error invalid_file (unknown extension), unsupported (a vector picture of a surface or volume)
+/// \throw Error invalid_file (unknown extension), unsupported (a flat format for a surface or volume)
 void check_output(const std::string& path, DomainKind kind);
 
-/// Writes a picture (.svg .png .pdf), geometry (.vtu .vtp .obj .ply .off) or everything (.json), by
+/// Writes a picture (.svg .png .pdf), geometry (.vtu .vtp .obj .ply .off, .geojson) or everything (.json), by
 /// the extension of `path`.
 /// \throw Error as check_output; write_failed
 void write_output(const std::string& path, const DiagramOutput& output);

@@ -5,6 +5,7 @@
 
 #include "apps/io/output.hpp"
 #include "apps/io/picture.hpp"
+#include "apps/io/write_geojson.hpp"
 #include "apps/io/write_json.hpp"
 #include "apps/io/write_mesh.hpp"
 #include "apps/io/write_vtk.hpp"
@@ -14,11 +15,11 @@ namespace {
 
 struct Format {
   std::string_view extension;
-  bool flat_only;  // a vector picture, which only polygons have
+  bool flat_only;  // vector pictures and GeoJSON, which only polygons have
   void (*write)(const std::string& path, const DiagramOutput& output);
 };
 
-constexpr std::array<Format, 9> formats = {{
+constexpr std::array<Format, 10> formats = {{
     {".svg", true, write_svg},
     {".png", false, write_png},
     {".pdf", true, write_pdf},
@@ -28,6 +29,7 @@ constexpr std::array<Format, 9> formats = {{
     {".ply", false, write_ply},
     {".off", false, write_off},
     {".json", false, write_json},
+    {".geojson", true, write_geojson},
 }};
 
 const Format* find_format(const std::string& path) {
@@ -48,7 +50,8 @@ const Format& checked_format(const std::string& path, DomainKind kind) {
   if (format->flat_only && kind != DomainKind::polygon) {
     throw Error(ErrorCode::unsupported,
                 path + ": " + std::string(format->extension) +
-                    " holds flat pictures, of polygon domains; for a surface or volume use .png");
+                    " holds flat shapes, of polygon domains; for a surface or volume use .png for a picture, "
+                    ".vtu for geometry");
   }
   return *format;
 }

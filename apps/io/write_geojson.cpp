@@ -1,0 +1,139 @@
+#include "apps/io/write_geojson.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/write_table.hpp"
+
+namespace powercell::io {
+namespace {
+
+using Point = std::array<double, 2>;
+using Points = std::vector<Point>;
+
+/// An outer ring and the holes in it.
+struct Part {
+  Points outer;
+  double area = 0;
+  std::vector<Points> holes;
+};
+
+// Twice the signed area would do as well: only signs and comparisons are made of it.
+double signed_area(const Points& ring) {
+  double twice = 0;
+  const Point& o = ring[0];
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+    const Point &a = ring[k], &b = ring[k + 1];
+    twice += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  }
+  return twice / 2;
+}
+
+bool contains(const Points& ring, const Point& p) {
+  bool inside = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+    inside ^= p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+  }
+  return inside;
+}
+
+// The smallest part around a hole. A hole may touch its outer ring in a vertex, so the middle of an edge
+// is tested.
+Part* part_around(std::vector<Part>& parts, const Points& hole) {
+  const Point middle = {(hole[0][0] + hole[1][0]) / 2, (hole[0][1] + hole[1][1]) / 2};
+  Part* found = nullptr;
+  for (Part& part : parts)
+    if (contains(part.outer, middle) && (!found || part.area < found->area)) found = &part;
+  return found;
+}
+
+std::vector<Part> parts_of(const JoinedCells& joined, std::size_t cell) {
+  std::vector<Part> parts;
+  std::vector<Points> holes;
+  for (std::uint64_t f = joined.face_offset[cell]; f < joined.face_offset[cell + 1]; ++f) {
+    Points ring;
+    for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
+      const double* vertex = &joined.vertices[(joined.vertex_offset[cell] + joined.loop[e]) * 2];
+      ring.push_back({vertex[0], vertex[1]});
+    }
+    const double area = signed_area(ring);
+    if (area > 0)
+      parts.push_back({std::move(ring), area, {}});
+    else
+      holes.push_back(std::move(ring));
+  }
+  for (Points& hole : holes) {
+    Part* part = part_around(parts, hole);
+    if (!part)
+      throw Error(ErrorCode::internal, "the cell of seed " + std::to_string(cell) + " has a hole outside of its parts");
+    part->holes.push_back(std::move(hole));
+  }
+  return parts;
+}
+
+void write_ring(AtomicFile& file, const Points& ring) {
+  file.write('[');
+  for (std::size_t k = 0; k <= ring.size(); ++k) {
+    const Point& p = ring[k % ring.size()];
+    file.write(k > 0 ? ",[" : "[");
+    file.number(p[0]);
+    file.write(',');
+    file.number(p[1]);
+    file.write(']');
+  }
+  file.write(']');
+}
+
+void write_part(AtomicFile& file, const Part& part) {
+  file.write('[');
+  write_ring(file, part.outer);
+  for (const Points& hole : part.holes) {
+    file.write(',');
+    write_ring(file, hole);
+  }
+  file.write(']');
+}
+
+void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
+  if (parts.empty()) {
+    file.write("null");
+    return;
+  }
+  file.write(parts.size() == 1 ? R"({"type":"Polygon","coordinates":)" : R"({"type":"MultiPolygon","coordinates":[)");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) file.write(',');
+    write_part(file, parts[k]);
+  }
+  file.write(parts.size() == 1 ? "}" : "]}");
+}
+
+}  // namespace
+
+void write_geojson(const std::string& path, const DiagramOutput& output) {
+  AtomicFile file(path);
+  file.write("{\"type\":\"FeatureCollection\",\"features\":[\n");
+  for (std::size_t i = 0; i < output.seeds.size(); ++i) {
+    file.write(i > 0 ? ",\n" : "");
+    file.write("{\"type\":\"Feature\",\"id\":");
+    file.number(std::uint64_t{i});
+    file.write(",\"properties\":{\"seed\":");
+    file.number(std::uint64_t{i});
+    file.write(",\"weight\":");
+    file.number(output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
+    file.write(",\"status\":\"");
+    file.write(status_name(output.measures.status[i]));
+    file.write("\",\"measure\":");
+    file.number(output.measures.mass[i]);
+    file.write("},\"geometry\":");
+    write_shape(file, parts_of(output.joined, i));
+    file.write('}');
+  }
+  file.write("\n]}\n");
+  file.commit();
+}
+
+}  // namespace powercell::io
