@@ -1,5 +1,5 @@
 /* Cutting a cell by the bisector of two seeds, in coordinates relative to the cell's seed
-   (docs/mathematics.md: kept is 2 q.y <= |q|^2 + w_i - w_j). */
+   (docs/mathematics.md (3): kept is 2 q.y <= |q|^2 + w_i - w_j). */
 #ifndef POWERCELL_CLIP_BISECTOR
 #define POWERCELL_CLIP_BISECTOR
 #include "base/cell.cl"

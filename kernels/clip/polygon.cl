@@ -116,7 +116,7 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
 
 static inline int cell_faces(const cell_t* cell) { return cell->vertices; }
 
-/* Adds the integrals of 1, y and |y|^2 over triangle (0, b, c) to `moments` (docs/mathematics.md). */
+/* Adds the integrals of 1, y and |y|^2 over triangle (0, b, c) to `moments` (docs/mathematics.md (13)). */
 static inline void triangle_moments(const cell_t* cell, int b, int c, real* moments) {
   real u[DIMENSION], v[DIMENSION], sum2 = 0, squares = 0;
   for (int k = 0; k < DIMENSION; ++k) {

@@ -173,7 +173,7 @@ static inline void cell_finish(cell_t* cell) {
 }
 
 /* The integrals of 1, y and |y|^2: tetrahedra from vertex 0 over a fan of each face
-   (docs/mathematics.md). Needs cell_finish. */
+   (docs/mathematics.md (14)). Needs cell_finish. */
 static inline void cell_moments(const cell_t* cell, real* moments) {
   for (int k = 0; k < 5; ++k) moments[k] = 0;
   for (int v = 0; v < cell->vertices; ++v)

@@ -1,6 +1,6 @@
 /* Candidates from a list of nearest lifted neighbours, nearest first, with the paper's stopping rule:
    with R^2 = max |y_v|^2 + h_i^2 over the vertices, every seed at lifted distance >= 2R from the
-   query leaves the cell as it is (paper, sections 4-5; docs/mathematics.md). */
+   query leaves the cell as it is (paper, sections 4-5; docs/mathematics.md (8)). */
 #ifndef POWERCELL_NEIGHBORS_LIST
 #define POWERCELL_NEIGHBORS_LIST
 #include "clip/bisector.cl"
@@ -15,7 +15,7 @@ typedef struct {
   int twins;  /* the query was (p_i, -h_i), else (p_i, h_i) */
 } lists_t;
 
-/* Squared lifted distance of seed j from the query of seed i. */
+/* Squared lifted distance of seed j from the query of seed i (docs/mathematics.md (7)). */
 static inline real lifted_distance2(lists_t lists, uint i, uint j) {
   real q[DIMENSION];
   difference(lists.seeds[j], lists.seeds[i], q);

@@ -69,7 +69,7 @@ static inline real node_distance(tree_t tree, uint node, seed_t seed) {
 
 /* True if some seed of the node may cut the box [low, high] of the cell: the least value of
    |y-p_j|^2 - w_j - |y|^2 + w_i over the box and the seeds j of the node is below 0
-   (docs/mathematics.md). A rounding margin is taken off. */
+   (docs/mathematics.md (9)). A rounding margin is taken off. */
 static inline bool node_may_cut(tree_t tree, uint node, seed_t seed, const real* low, const real* high) {
   real a[DIMENSION], b[DIMENSION], value = 0, size = 0;
   const seed_t node_low = tree.node_low[node];
@@ -86,7 +86,7 @@ static inline bool node_may_cut(tree_t tree, uint node, seed_t seed, const real*
   return value + dw < 8 * REAL_EPSILON * (size + fabs(dw));
 }
 
-/* The same for one seed, over the corner of the box that is worst. */
+/* The same for one seed, over the corner of the box that is worst (docs/mathematics.md (10)). */
 static inline bool seed_may_cut(seed_t seed, seed_t other, const real* low, const real* high) {
   real q[DIMENSION], reach = 0;
   difference(other, seed, q);
@@ -94,7 +94,7 @@ static inline bool seed_may_cut(seed_t seed, seed_t other, const real* low, cons
   return 2 * reach > norm2(q) + weight_difference(seed, other);
 }
 
-/* Signed distance of the bisector from the seed, times a common positive factor for sorting. */
+/* Twice the signed distance of the bisector from the seed (docs/mathematics.md (4)). */
 static inline real bisector_distance(seed_t seed, seed_t other) {
   real q[DIMENSION];
   difference(other, seed, q);
