@@ -1,7 +1,9 @@
 #include "apps/io/write_vtk.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "apps/io/write_polygons.hpp"
 #include "apps/io/write_vtk_file.hpp"
@@ -67,6 +69,24 @@ double add_faces(Grid& grid, const Cells& cells, std::uint64_t piece) {
   return six_volumes / 6;
 }
 
+// Seeds and their pieces, in volumes those with fewer vertices first: meshio gathers polyhedra by their
+// number of vertices, and gives the data of one group to another unless they come in that order.
+std::vector<std::pair<std::uint32_t, std::uint64_t>> ordered_pieces(const Cells& cells) {
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> order;
+  order.reserve(cells.piece_count());
+  for (std::size_t i = 0; i < cells.cell_count(); ++i) {
+    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
+      order.emplace_back(static_cast<std::uint32_t>(i), p);
+    }
+  }
+  const auto vertices = [&](std::uint64_t p) { return cells.vertex_offset[p + 1] - cells.vertex_offset[p]; };
+  if (cells.cell_dimension == 3) {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const auto& a, const auto& b) { return vertices(a.second) < vertices(b.second); });
+  }
+  return order;
+}
+
 Grid grid_of_pieces(const DiagramOutput& output) {
   const Cells& cells = output.cells;
   const auto d = static_cast<std::size_t>(cells.dimension);
@@ -74,22 +94,18 @@ Grid grid_of_pieces(const DiagramOutput& output) {
   for (std::size_t v = 0; d > 0 && v + d <= cells.vertices.size(); v += d) {
     for (std::size_t k = 0; k < 3; ++k) grid.points.push_back(k < d ? cells.vertices[v + k] : 0.0);
   }
-  grid.connectivity.resize(grid.points.size() / 3);
-  for (std::size_t v = 0; v < grid.connectivity.size(); ++v) {
-    grid.connectivity[v] = static_cast<std::int64_t>(v);
-  }
-  for (std::size_t i = 0; i < cells.cell_count(); ++i) {
-    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
-      const auto seed = static_cast<std::uint32_t>(i);
-      grid.offsets.push_back(static_cast<std::int64_t>(cells.vertex_offset[p + 1]));
-      grid.seed.push_back(seed);
-      grid.region.push_back(cells.region[p]);
-      grid.weight.push_back(weight_of(output, seed));
-      grid.measure.push_back(output.measures.mass[i]);
-      grid.piece_measure.push_back(
-          cells.cell_dimension == 3 ? add_faces(grid, cells, p)
-                                    : polygon_area(grid, cells.vertex_offset[p], cells.vertex_offset[p + 1]));
+  for (const auto& [seed, p] : ordered_pieces(cells)) {
+    for (std::uint64_t v = cells.vertex_offset[p]; v < cells.vertex_offset[p + 1]; ++v) {
+      grid.connectivity.push_back(static_cast<std::int64_t>(v));
     }
+    grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+    grid.seed.push_back(seed);
+    grid.region.push_back(cells.region[p]);
+    grid.weight.push_back(weight_of(output, seed));
+    grid.measure.push_back(output.measures.mass[seed]);
+    grid.piece_measure.push_back(
+        cells.cell_dimension == 3 ? add_faces(grid, cells, p)
+                                  : polygon_area(grid, cells.vertex_offset[p], cells.vertex_offset[p + 1]));
   }
   return grid;
 }
@@ -99,8 +115,11 @@ std::span<const T> view(const std::vector<T>& values) {
   return values;
 }
 
-std::string count(const char* what, std::size_t n) {
-  return std::string(what) + "=\"" + std::to_string(n) + "\"";
+std::string count(std::string_view what, std::size_t n) {
+  std::string text(what);
+  text += "=\"";
+  text += std::to_string(n);
+  return text += '"';
 }
 
 void write_points(VtkFile& file, const std::vector<double>& points) {

@@ -40,8 +40,11 @@ void VtkFile::close(std::string_view element) {
 // it is shorter else 0, compressed size of each block), then the blocks; each part in its own base64.
 void VtkFile::array_bytes(std::string_view name, std::string_view type, int components,
                           std::string_view bytes) {
-  file_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + std::string(name) +
-              "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"binary\">\n");
+  // One component is the default; saying so makes meshio read a column of a matrix.
+  const std::string shape =
+      components == 1 ? "" : "\" NumberOfComponents=\"" + std::to_string(components);
+  file_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + std::string(name) + shape +
+              "\" format=\"binary\">\n");
   const std::size_t blocks = (bytes.size() + block_size - 1) / block_size;
   std::vector<std::uint64_t> header = {blocks, block_size, bytes.size() % block_size};
   std::string packed;
