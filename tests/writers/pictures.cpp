@@ -1,0 +1,221 @@
+#include <cairo.h>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <pugixml.hpp>
+#include <set>
+
+#include "apps/io/output.hpp"
+#include "apps/io/picture_outline.hpp"
+#include "apps/io/picture_palette.hpp"
+#include "apps/io/picture_scene.hpp"
+#include "apps/io/picture_solid.hpp"
+#include "tests/writers/clip_pieces.hpp"
+#include "tests/writers/made_diagram.hpp"
+#include "tests/writers/temporary_folder.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+// Area inside the rings of an SVG path of M, l (relative) and z, the only commands written.
+double path_area(const std::string& d) {
+  double area = 0, x = 0, y = 0, first_x = 0, first_y = 0;
+  const char* at = d.c_str();
+  while (*at) {
+    const char command = *at++;
+    if (command == 'z') {
+      area += (x * first_y - first_x * y) / 2;
+      continue;
+    }
+    REQUIRE((command == 'M' || command == 'l'));
+    char* end;
+    const double u = std::strtod(at, &end);
+    const double v = std::strtod(end, &end);
+    at = end;
+    if (command == 'M') {
+      first_x = x = u;
+      first_y = y = v;
+      continue;
+    }
+    area += (x * (y + v) - (x + u) * y) / 2;
+    x += u;
+    y += v;
+  }
+  return -area;  // y runs down
+}
+
+double ring_area(const Ring& ring) {
+  double twice = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const auto &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    twice += a[0] * b[1] - a[1] * b[0];
+  }
+  return twice / 2;
+}
+
+double triangle_area(const io::Model::Triangle& t) {
+  return 0.5 *
+         static_cast<double>(io::length(io::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0])));
+}
+
+}  // namespace
+
+TEST_CASE("the outline of a polygon is its boundary, not that of its convex pieces") {
+  const MadeDiagram made = polygon_diagram(1);
+  const auto rings = io::boundary_rings(made.domain);
+  REQUIRE(rings.size() == 2);
+  CHECK(ring_area(rings[0]) * ring_area(rings[1]) < 0);  // the hole runs the other way
+  CHECK(ring_area(rings[0]) + ring_area(rings[1]) == doctest::Approx(made.domain.measure()).epsilon(1e-12));
+}
+
+TEST_CASE("an SVG has one path for each cell, addressable, of the cell's area") {
+  TemporaryFolder folder;
+  const MadeDiagram made = polygon_diagram(80);
+  io::write_output(folder.file("d.svg"), made.output());
+  pugi::xml_document document;
+  REQUIRE(document.load_file(folder.file("d.svg").c_str()));
+  const auto svg = document.child("svg");
+  CHECK(std::string(svg.child("title").text().get()).find("80 seeds") != std::string::npos);
+  CHECK(svg.child("desc"));
+  const double extent = std::max(svg.attribute("width").as_double(), svg.attribute("height").as_double());
+  CHECK(extent == 1600);
+  double scale = 0;
+  const auto low = made.domain.low(), high = made.domain.high();
+  scale = 1600 * 0.96 / std::max(high[0] - low[0], high[1] - low[1]);
+  std::size_t cells = 0;
+  for (const auto path : svg.find_child_by_attribute("class", "cells").children("path")) {
+    const auto seed = path.attribute("data-seed").as_ullong();
+    CHECK(path.attribute("id").as_string() == "cell-" + std::to_string(seed));
+    const double area = path_area(path.attribute("d").as_string()) / (scale * scale);
+    CHECK(area == doctest::Approx(made.measures.mass.at(seed)).epsilon(0.01));
+    ++cells;
+  }
+  CHECK(cells == made.measures.count(SeedStatus::ok));
+}
+
+TEST_CASE("discs show signs, hidden seeds and duplicates") {
+  const MadeDiagram made = polygon_diagram(80);
+  const io::Scene scene = io::make_scene(made.output());
+  std::size_t positive = 0, negative = 0, duplicates = 0;
+  for (const io::Scene::Disc& disc : scene.discs) {
+    const double w = made.weights[disc.seed];
+    const SeedStatus status = made.measures.status[disc.seed];
+    if (disc.mark == io::Scene::Mark::positive) CHECK(w > 0);
+    if (disc.mark == io::Scene::Mark::negative) CHECK(w < 0);
+    if (disc.mark == io::Scene::Mark::hidden) CHECK(status == SeedStatus::hidden);
+    if (disc.mark == io::Scene::Mark::dot) CHECK(status == SeedStatus::ok);
+    positive += disc.mark == io::Scene::Mark::positive;
+    negative += disc.mark == io::Scene::Mark::negative;
+    duplicates += disc.mark == io::Scene::Mark::duplicate;
+  }
+  CHECK(positive > 0);
+  CHECK(negative > 0);
+  CHECK(duplicates == 1);
+}
+
+TEST_CASE("cells with a common wall differ in colour") {
+  const MadeDiagram made = polygon_diagram(200);
+  const auto colours = io::cell_colours(made.adjacency, made.weights.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    for (std::uint64_t e = made.adjacency.offset[i]; e < made.adjacency.offset[i + 1]; ++e) {
+      const io::Colour a = colours[i], b = colours[made.adjacency.neighbor[e]];
+      const int apart = std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue);
+      CHECK(apart > 30);
+    }
+  }
+}
+
+TEST_CASE("a PNG can be read, has its size and shows cells on white") {
+  TemporaryFolder folder;
+  const MadeDiagram flat = polygon_diagram(60), surface = surface_diagram(15), solid = volume_diagram(20);
+  for (const MadeDiagram* made : {&flat, &surface, &solid}) {
+    io::write_output(folder.file("d.png"), made->output());
+    cairo_surface_t* image = cairo_image_surface_create_from_png(folder.file("d.png").c_str());
+    REQUIRE(cairo_surface_status(image) == CAIRO_STATUS_SUCCESS);
+    const int width = cairo_image_surface_get_width(image), height = cairo_image_surface_get_height(image);
+    CHECK(std::abs(std::max(width, height) - 1600) <= 1);
+    const unsigned char* pixels = cairo_image_surface_get_data(image);
+    const int stride = cairo_image_surface_get_stride(image);
+    std::set<std::uint32_t> colours;
+    int coloured = 0;
+    for (int y = 0; y < height; y += 7) {
+      for (int x = 0; x < width; x += 7) {
+        std::uint32_t pixel;
+        std::memcpy(&pixel, pixels + std::ptrdiff_t{y} * stride + 4 * x, 4);
+        colours.insert(pixel & 0xffffff);
+        const int r = pixel >> 16 & 255, b = pixel & 255;
+        coloured += std::abs(r - b) > 12;
+      }
+    }
+    CHECK(colours.count(0xffffff) == 1);
+    CHECK(colours.size() > 8);
+    CHECK(coloured > (height / 7) * (width / 7) / 6);
+    cairo_surface_destroy(image);
+  }
+}
+
+TEST_CASE("the picture of a surface holds all of it, walls once") {
+  const MadeDiagram made = surface_diagram(30);
+  const io::Model model = io::surface_model(made.output());
+  double area = 0, length = 0;
+  for (const auto& triangle : model.triangles) area += triangle_area(triangle);
+  for (const auto& line : model.lines) length += static_cast<double>(io::length(line.to - line.from));
+  const auto low = made.domain.low(), high = made.domain.high();
+  const double radius = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
+  CHECK(area * radius * radius == doctest::Approx(made.domain.measure()).epsilon(1e-4));
+  double walls = 0;
+  for (const double wall : made.adjacency.wall) walls += wall / 2;
+  CHECK(length * radius < walls);  // those that face the camera
+  CHECK(length * radius > 0.3 * walls);
+}
+
+TEST_CASE("a volume is opened: cells of the octant towards the camera are left out") {
+  const MadeDiagram made = volume_diagram(64);
+  const io::Model model = io::volume_model(made.output());
+  CHECK(model.closed);
+  const io::Vec3 view = io::view_direction();
+  double six_volumes = 0;
+  for (const auto& t : model.triangles)
+    six_volumes += static_cast<double>(dot(t.corner[0], io::cross(t.corner[1], t.corner[2])));
+  double kept = 0;
+  for (std::size_t i = 0; i < made.weights.size(); ++i) {
+    const double* c = &made.measures.centroid[3 * i];
+    const bool front = (c[0] - 0.5) * view.x > 0 && (c[1] - 0.5) * view.y > 0 && (c[2] - 0.5) * view.z > 0;
+    if (!front && made.measures.mass[i] > 0) kept += made.measures.mass[i];
+  }
+  const double scale = 2 / std::sqrt(3.0);
+  CHECK(kept < 0.95);
+  CHECK(six_volumes / 6 / std::pow(scale * 0.88, 3) == doctest::Approx(kept).epsilon(1e-4));
+}
+
+TEST_CASE("pictures are the same every time") {
+  const io::Model model = io::volume_model(volume_diagram(10).output());
+  CHECK(io::render(model, 200).rgb == io::render(model, 200).rgb);
+  TemporaryFolder folder;
+  const MadeDiagram made = polygon_diagram(30);
+  for (const std::string extension : {".svg", ".png"}) {
+    io::write_output(folder.file("a" + extension), made.output());
+    io::write_output(folder.file("b" + extension), made.output());
+    CHECK(read_all(folder.file("a" + extension)) == read_all(folder.file("b" + extension)));
+  }
+}
+
+// Started by read_back.py, which hands the files to other programs.
+TEST_CASE("files for other programs" * doctest::skip(std::getenv("POWERCELL_WRITERS_FOLDER") == nullptr)) {
+  const char* to = std::getenv("POWERCELL_WRITERS_FOLDER");
+  REQUIRE(to);
+  const std::string folder = std::string(to) + "/";
+  const MadeDiagram flat = polygon_diagram(120), surface = surface_diagram(40), solid = volume_diagram(60);
+  for (const std::string extension : {".vtu", ".vtp", ".ply", ".obj", ".json", ".png"}) {
+    io::write_output(folder + "polygon" + extension, flat.output());
+    io::write_output(folder + "surface" + extension, surface.output());
+    io::write_output(folder + "volume" + extension, solid.output());
+  }
+  io::write_output(folder + "polygon.svg", flat.output());
+  io::write_output(folder + "polygon.pdf", flat.output());
+  CHECK(std::filesystem::exists(folder + "volume.vtu"));
+}

@@ -1,0 +1,150 @@
+"""Reads what the writers wrote by other programs: VTK, meshio, rsvg-convert, pdftoppm where they are.
+
+read_back.py TEST_WRITERS. Exit code 77 where VTK is not importable."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+try:
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+    import numpy
+except ImportError as error:
+    print("skipped:", error)
+    sys.exit(77)
+
+try:
+    import meshio
+except ImportError:
+    meshio = None
+
+
+def check(condition, what):
+    if not condition:
+        sys.exit("FAILED: " + what)
+
+
+def read(reader, path):
+    reader.SetFileName(path)
+    reader.Update()
+    check(reader.GetErrorCode() == 0, path + ": VTK reports an error")
+    return reader.GetOutput()
+
+
+def arrays(data):
+    cell = data.GetCellData()
+    return {cell.GetArrayName(k): vtk_to_numpy(cell.GetArray(k)) for k in range(cell.GetNumberOfArrays())}
+
+
+def areas(data):
+    sizer = vtk.vtkCellSizeFilter()
+    sizer.SetInputData(data)
+    sizer.Update()
+    return arrays(sizer.GetOutput())["Area"]
+
+
+def polyhedron_volumes(data):
+    """By the divergence theorem on the faces as VTK has them (its own sizes of polyhedra are rough)."""
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    volume = numpy.zeros(data.GetNumberOfCells())
+    for cell in range(len(volume)):
+        faces = vtk.vtkIdList()
+        data.GetFaceStream(cell, faces)
+        at = 1
+        for _ in range(faces.GetId(0)):
+            count = faces.GetId(at)
+            p = points[[faces.GetId(at + 1 + k) for k in range(count)]]
+            volume[cell] += sum(numpy.dot(p[0], numpy.cross(p[k], p[k + 1])) for k in range(1, count - 1)) / 6
+            at += count + 1
+    return volume
+
+
+def near(a, b, tolerance=1e-9):
+    return numpy.allclose(a, b, rtol=tolerance, atol=tolerance * max(1e-300, numpy.max(numpy.abs(b))))
+
+
+def check_grid(folder, kind, measures):
+    data = read(vtk.vtkXMLUnstructuredGridReader(), f"{folder}/{kind}.vtu")
+    fields = arrays(data)
+    size = polyhedron_volumes(data) if kind == "volume" else areas(data)
+    check(near(size, fields["piece_measure"]), f"{kind}.vtu: VTK's sizes are not the piece measures")
+    check(near(numpy.bincount(fields["seed"], size, len(measures)), measures), f"{kind}.vtu: sizes by seed")
+    check(near(fields["measure"], measures[fields["seed"]]), f"{kind}.vtu: measure of the cell")
+    return data.GetNumberOfCells()
+
+
+def check_meshio(folder, kind, pieces, measures):
+    if meshio is None:
+        return
+    mesh = meshio.read(f"{folder}/{kind}.vtu")
+    check(sum(len(block.data) for block in mesh.cells) == pieces, f"{kind}.vtu: meshio reads other cells")
+    found = numpy.zeros(len(measures))
+    for seeds, sizes in zip(mesh.cell_data["seed"], mesh.cell_data["piece_measure"]):
+        found += numpy.bincount(numpy.ravel(seeds), numpy.ravel(sizes), len(measures))
+    check(near(found, measures), f"{kind}.vtu: sizes by seed as meshio reads them")
+
+
+def check_polygons(folder, kind, measures):
+    data = read(vtk.vtkXMLPolyDataReader(), f"{folder}/{kind}.vtp")
+    area = areas(data).sum()
+    if kind == "volume":
+        closed(data, arrays(data)["seed"], measures)
+    else:
+        check(near(area, measures.sum()), f"{kind}.vtp: area")
+    for extension, reader in (("ply", vtk.vtkPLYReader()), ("obj", vtk.vtkOBJReader())):
+        other = read(reader, f"{folder}/{kind}.{extension}")
+        check(other.GetNumberOfCells() == data.GetNumberOfCells(), f"{kind}.{extension}: polygons")
+        check(near(areas(other).sum(), area, 1e-5), f"{kind}.{extension}: area")  # VTK reads these as float
+
+
+def closed(data, seeds, measures):
+    """The faces of each cell enclose its volume, by the divergence theorem."""
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    volume = numpy.zeros(len(measures))
+    for cell in range(data.GetNumberOfCells()):
+        ids = data.GetCell(cell).GetPointIds()
+        p = points[[ids.GetId(k) for k in range(ids.GetNumberOfIds())]]
+        for k in range(1, len(p) - 1):
+            volume[seeds[cell]] += numpy.dot(p[0], numpy.cross(p[k], p[k + 1])) / 6
+    check(near(volume, measures), "volume.vtp: the faces do not enclose the cells")
+
+
+def pixels(path):
+    image = read(vtk.vtkPNGReader(), path)
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(float)
+
+
+def check_pictures(folder):
+    flat = pixels(f"{folder}/polygon.png")
+    if shutil.which("rsvg-convert"):
+        subprocess.run(["rsvg-convert", f"{folder}/polygon.svg", "-o", f"{folder}/svg.png"], check=True)
+        other = pixels(f"{folder}/svg.png")
+        check(other.shape == flat.shape, "polygon.svg: another size than the PNG")
+        check(numpy.abs(other - flat).mean() < 2, "polygon.svg: another picture than the PNG")
+    if shutil.which("pdftoppm"):
+        subprocess.run(["pdftoppm", "-png", "-r", "96", "-singlefile", f"{folder}/polygon.pdf", f"{folder}/pdf"],
+                       check=True)
+        other = pixels(f"{folder}/pdf.png")
+        rows, columns = min(other.shape[0], flat.shape[0]), min(other.shape[1], flat.shape[1])
+        check(abs(other.shape[0] - flat.shape[0]) < 3, "polygon.pdf: another size than the PNG")
+        check(numpy.abs(other[-rows:, :columns] - flat[-rows:, :columns]).mean() < 6, "polygon.pdf: another picture")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        environment = dict(os.environ, POWERCELL_WRITERS_FOLDER=folder)
+        subprocess.run([sys.argv[1], "--test-case=files for other programs"], env=environment, check=True)
+        for kind in ("polygon", "surface", "volume"):
+            with open(f"{folder}/{kind}.json") as file:
+                measures = numpy.array([cell["measure"] for cell in json.load(file)["cells"]])
+            check_meshio(folder, kind, check_grid(folder, kind, measures), measures)
+            check_polygons(folder, kind, measures)
+        check_pictures(folder)
+    print("read back by VTK" + (" and meshio" if meshio else ""))
+
+
+main()
