@@ -74,6 +74,7 @@ Tolerances::Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView&
   for (std::size_t i = 0; i < n; ++i) {
     shift_.push_back(roundings * roundoff * (reach_[i] + offset[i]));
     mass_.push_back(shift_[i] * std::max(static_cast<double>(reference.surface[i]), floor));
+    may_vanish_.push_back(reference.mass[i] > 0 && reference.mass[i] <= static_cast<Real>(mass_[i]));
   }
   for (std::size_t k = 0; k < 3; ++k)
     coordinate_ = std::max({coordinate_, std::abs(mesh.low[k]), std::abs(mesh.high[k])});
@@ -81,6 +82,7 @@ Tolerances::Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView&
 }
 
 double Tolerances::wall(std::size_t i, std::size_t j) const {
+  if (may_vanish_[i] || may_vanish_[j]) return std::numeric_limits<double>::infinity();
   const auto pair = std::minmax(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
   const auto found = rim_.find(pair);
   return std::max(shift_[i], shift_[j]) *

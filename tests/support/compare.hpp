@@ -26,7 +26,8 @@ class Tolerances {
   double reach(std::size_t i) const { return reach_[i]; }
   double mass(std::size_t i) const { return mass_[i]; }
   /// Of a wall between i and j: its rim moves by `shift` over the sine of the angle of the planes there.
-  /// Of a wall that the reference does not have: what a sliver of that thickness may show.
+  /// Of a wall that the reference does not have: what a sliver of that thickness may show. Unbounded for
+  /// walls of a cell so thin that moving its planes may make it vanish.
   double wall(std::size_t i, std::size_t j) const;
   double coordinate() const { return coordinate_; }
   /// Of a measure worked out from coordinates that were given back.
@@ -40,6 +41,7 @@ class Tolerances {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> rim_;  // i < j
   double extent_ = 0;  // spacing of the seeds to the power of the dimension of a wall's rim
   double coordinate_ = 0;
+  std::vector<bool> may_vanish_;
 };
 
 /// Masses, centroids, second moments and statuses.
