@@ -1,0 +1,110 @@
+#include "apps/common.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <map>
+#include <memory>
+
+#include "apps/interrupt.hpp"
+#include "apps/progress.hpp"
+
+namespace powercell::app {
+namespace {
+
+const std::map<std::string, Precision> precisions = {
+    {"auto", Precision::automatic}, {"double", Precision::float64}, {"float", Precision::float32}};
+const std::map<std::string, Neighbors> providers = {
+    {"auto", Neighbors::automatic}, {"tree", Neighbors::tree}, {"flann", Neighbors::flann}};
+
+}  // namespace
+
+void add_output_options(CLI::App& command, CommonOptions& options) {
+  command.add_flag("--json", options.json, "One JSON object on stdout and nothing else there");
+  command.add_flag("--quiet", options.quiet, "No report and no progress bar; errors are still told");
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--device", options.device,
+                     "Part of a device's name, its number P:D, cpu or gpu (see 'powercell devices'); "
+                     "else POWERCELL_DEVICE, else the best GPU, else the CPU");
+  command.add_option("--precision", options.precision, "auto, double or float")
+      ->check(CLI::IsMember({"auto", "double", "float"}));
+  command
+      .add_option("--neighbors", options.neighbors,
+                  "Where candidate neighbours come from: auto, tree or flann")
+      ->check(CLI::IsMember({"auto", "tree", "flann"}));
+  command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
+      ->check(CLI::NonNegativeNumber);
+  add_output_options(command, options);
+}
+
+void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,
+                          bool required) {
+  command
+      .add_option(
+          "--domain", domain,
+          "A file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt), or "
+          "square, cube, disk, ball, sphere, torus (with :N for resolution)")
+      ->required(required);
+  command
+      .add_option("--seeds", seeds,
+                  "Rows 'x y [z] w' as text or CSV, an .npy file, or random:N[:LO:HI[:SEED]] with weights "
+                  "from LO to HI")
+      ->required(required);
+  command
+      .add_option("--kind", kind, "What a file is that could be more than one: polygon, surface or volume")
+      ->check(CLI::IsMember({"polygon", "surface", "volume"}));
+}
+
+std::optional<DomainKind> domain_kind(const std::string& kind) {
+  if (kind == "polygon") return DomainKind::polygon;
+  if (kind == "surface") return DomainKind::surface;
+  if (kind == "volume") return DomainKind::volume;
+  return std::nullopt;
+}
+
+Options library_options(const CommonOptions& options, std::string_view what) {
+  Options result;
+  result.precision = precisions.at(options.precision);
+  result.neighbors = providers.at(options.neighbors);
+  result.threads = options.threads;
+  auto bar = std::make_shared<ProgressBar>(std::string(what), options.quiet || options.json);
+  result.progress = [bar](double fraction) {
+    bar->update(fraction);
+    return !interrupted();
+  };
+  return result;
+}
+
+Device open_device(const CommonOptions& options) {
+  if (options.threads > 0) {
+    // Read once by PoCL when the first platform is asked for; a value of the user's own wins.
+    const std::string count = std::to_string(options.threads);
+    setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 0);
+    setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 0);
+  }
+  std::optional<Device> device;
+  compute([&] { device = Device::choose(options.device); });
+  return *device;
+}
+
+const char* precision_name(Precision precision) {
+  return precision == Precision::float32 ? "float" : "double";
+}
+
+const char* neighbors_name(Neighbors neighbors) {
+  return neighbors == Neighbors::flann ? "flann" : "tree";
+}
+
+std::string with_commas(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t place = digits.size(); place > 3;) {
+    place -= 3;
+    digits.insert(place, ",");
+  }
+  return digits;
+}
+
+}  // namespace powercell::app

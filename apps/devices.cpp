@@ -1,0 +1,77 @@
+// powercell devices: what --device accepts.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+
+namespace powercell::app {
+namespace {
+
+const char* type_name(DeviceInfo::Type type) {
+  switch (type) {
+    case DeviceInfo::Type::cpu:
+      return "cpu";
+    case DeviceInfo::Type::gpu:
+      return "gpu";
+    case DeviceInfo::Type::accelerator:
+      return "accelerator";
+    case DeviceInfo::Type::other:
+      break;
+  }
+  return "other";
+}
+
+nlohmann::json as_json(const DeviceInfo& device) {
+  return {{"device", device.selector()},
+          {"platform", device.platform_name},
+          {"name", device.name},
+          {"vendor", device.vendor},
+          {"type", type_name(device.type)},
+          {"fp64", device.fp64},
+          {"compute_units", device.compute_units},
+          {"clock_mhz", device.clock_mhz},
+          {"memory_bytes", device.memory_bytes},
+          {"largest_allocation", device.largest_allocation},
+          {"max_work_group_size", device.max_work_group_size},
+          {"opencl_c_version", device.opencl_c_version},
+          {"driver_version", device.driver_version}};
+}
+
+int run(const CommonOptions& options) {
+  const std::vector<DeviceInfo> all = devices();
+  if (options.json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const DeviceInfo& device : all) list.push_back(as_json(device));
+    fmt::print("{}\n", nlohmann::json({{"devices", list}, {"version", version()}}).dump(2));
+    return 0;
+  }
+  if (all.empty())
+    throw Error(
+        ErrorCode::device_not_found,
+        "no OpenCL device is installed; on Debian, 'apt-get install pocl-opencl-icd' runs on the CPU");
+  fmt::print("{:<8}{:<6}{:<6}{:>6}{:>12}  {}\n", "device", "type", "fp64", "units", "memory", "name");
+  for (const DeviceInfo& device : all)
+    fmt::print("{:<8}{:<6}{:<6}{:>6}{:>8.1f} GiB  {} ({}, {})\n", device.selector(), type_name(device.type),
+               device.fp64 ? "yes" : "no", device.compute_units,
+               static_cast<double>(device.memory_bytes) / (1024.0 * 1024.0 * 1024.0), device.name,
+               device.platform_name, device.driver_version);
+  return 0;
+}
+
+}  // namespace
+
+Command add_devices(CLI::App& app) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* command = app.add_subcommand("devices", "List the OpenCL devices that --device accepts");
+  add_output_options(*command, *options);
+  command->footer(
+      "Examples:\n  powercell devices\n  powercell devices --json\n"
+      "Any part of a name, or the number in the first column, chooses a device:\n"
+      "  powercell diagram --device 0:0 ...     powercell diagram --device nvidia ...");
+  return [options] { return run(*options); };
+}
+
+}  // namespace powercell::app

@@ -1,0 +1,112 @@
+// powercell diagram: the main job, from files to files.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/io/output.hpp"
+#include "apps/io/read_domain.hpp"
+#include "apps/io/read_seeds.hpp"
+#include "apps/io/write_table.hpp"
+#include "apps/report.hpp"
+
+namespace powercell::app {
+namespace {
+
+struct DiagramArguments : CommonOptions {
+  std::string domain, kind, seeds, table, walls;
+  std::vector<std::string> outputs;
+};
+
+// Everything the files asked for are made from; what none of them needs is not computed.
+void write_files(const DiagramArguments& arguments, Diagram& diagram, const SeedsView& seeds,
+                 RunReport& report) {
+  if (arguments.outputs.empty() && arguments.table.empty() && arguments.walls.empty()) return;
+  const Measures& measures = diagram.measures();
+  compute([&] {
+    diagram.adjacency();
+    if (!arguments.outputs.empty()) diagram.cells();
+  });
+  Stopwatch watch;
+  if (!arguments.outputs.empty()) {
+    const JoinedCells joined = join(diagram.domain(), diagram.cells());
+    const io::DiagramOutput output{diagram.domain(), seeds,  measures,
+                                   diagram.cells(),  joined, diagram.adjacency()};
+    for (const std::string& path : arguments.outputs) {
+      io::write_output(path, output);
+      report.files.push_back(path);
+    }
+  }
+  if (!arguments.table.empty()) {
+    io::write_table(arguments.table, seeds, measures, diagram.adjacency());
+    report.files.push_back(arguments.table);
+  }
+  if (!arguments.walls.empty()) {
+    io::write_walls(arguments.walls, diagram.adjacency());
+    report.files.push_back(arguments.walls);
+  }
+  report.write = watch.lap();
+}
+
+void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, const RunReport& report) {
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(report).dump(2));
+  } else if (!arguments.quiet) {
+    fmt::print("{}\n", domain.description);
+    for (const std::string& path : report.files) fmt::print("wrote {}\n", path);
+    fmt::print("{}\n", self_check_line(report));
+  }
+}
+
+int run(const DiagramArguments& arguments) {
+  Stopwatch watch;
+  const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
+  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
+  const SeedsView seeds{table.dimension, table.positions, table.weights};
+  const double read = watch.lap();
+
+  Diagram diagram(open_device(arguments), domain.domain, library_options(arguments, "cells"));
+  diagram.set_seeds(seeds);
+  compute([&] { diagram.measures(); });
+  RunReport report = report_of(diagram);
+  report.read = read;
+  require_partition(report);
+  write_files(arguments, diagram, seeds, report);
+  report.build = diagram.device().build_seconds();  // geometry may have needed kernels of its own
+  tell(arguments, domain, report);
+  return 0;
+}
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
+    "  powercell diagram --domain italy.geojson --seeds towns.csv -o map.png --table areas.csv\n"
+    "  powercell diagram --domain part.mesh --seeds random:5000:0:4:7 -o grains.vtu --json\n"
+    "  powercell diagram --domain mesh.off --seeds s.npy --precision float --device gpu --walls walls.csv\n"
+    "A weight is a length squared: for a disc or ball of radius r it is r * r.";
+
+}  // namespace
+
+Command add_diagram(CLI::App& app) {
+  auto arguments = std::make_shared<DiagramArguments>();
+  CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
+  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "File to write, as often as wanted: " + std::string(io::known_outputs()))
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--table", arguments->table, "CSV with one row a seed")->type_name("FILE.csv");
+  command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
+      ->type_name("FILE.csv");
+  add_common_options(*command, *arguments);
+  command->footer(examples);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace powercell::app

@@ -1,0 +1,76 @@
+// The command line tool: one file a subcommand. Exit codes: 0 done, 1 failed, 2 wrong usage,
+// 130 interrupted.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <new>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+
+namespace {
+
+enum ExitCode { done = 0, failed = 1, wrong_usage = 2, was_interrupted = 130 };
+
+int report(int code, std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  fmt::print(stderr, "powercell: error: {}\n", message);
+  return code;
+}
+
+// What is wrong with the arguments, in one line, and where to read on.
+int report_usage(const CLI::App& app, const CLI::ParseError& error) {
+  std::string command = "powercell";
+  for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
+  return report(wrong_usage, fmt::format("{} (see '{} --help')", error.what(), command));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Power diagrams (weighted Voronoi diagrams) of polygons, surfaces and volumes on OpenCL."};
+  app.name("powercell");
+  app.set_version_flag("--version", std::string(powercell::version()));
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  powercell demo                                       pictures of three real shapes\n"
+      "  powercell devices                                    what --device accepts\n"
+      "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
+      "  powercell verify --device cpu                        does this device compute rightly?\n"
+      "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_LOG.");
+  const std::map<std::string, powercell::app::Command> commands = {
+      {"devices", powercell::app::add_devices(app)},
+      {"diagram", powercell::app::add_diagram(app)},
+      {"verify", powercell::app::add_verify(app)},
+      {"demo", powercell::app::add_demo(app)},
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return report_usage(app, error);
+  }
+  powercell::app::catch_interrupts();
+  const int code = commands.at(app.get_subcommands().front()->get_name())();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    return report(failed, "standard output could not be written whole");
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const powercell::Error& error) {
+    if (error.code() == powercell::ErrorCode::interrupted) return report(was_interrupted, "interrupted");
+    return report(failed, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(failed, "out of memory; fewer seeds or a smaller domain may fit");
+  } catch (const std::exception& error) {
+    return report(failed, fmt::format("{} (not foreseen: please report)", error.what()));
+  }
+}

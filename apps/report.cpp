@@ -1,0 +1,90 @@
+#include "apps/report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+
+namespace powercell::app {
+
+double Stopwatch::lap() {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  return seconds;
+}
+
+RunReport report_of(Diagram& diagram) {
+  const Measures& measures = diagram.measures();
+  RunReport report;
+  report.seeds = diagram.size();
+  report.cells = measures.count(SeedStatus::ok);
+  report.hidden = measures.count(SeedStatus::hidden);
+  report.duplicate = measures.count(SeedStatus::duplicate);
+  report.measure = measures.total();
+  report.domain_measure = measures.domain_measure;
+  report.relative_error = measures.relative_error();
+  report.device = diagram.device().info().name;
+  report.precision = precision_name(diagram.precision());
+  report.neighbors = neighbors_name(diagram.neighbors());
+  report.timings = diagram.timings();
+  report.build = diagram.device().build_seconds();
+  return report;
+}
+
+nlohmann::json as_json(const RunReport& report) {
+  const Timings& t = report.timings;
+  return {{"seeds", report.seeds},
+          {"cells", report.cells},
+          {"hidden", report.hidden},
+          {"duplicate", report.duplicate},
+          {"measure", report.measure},
+          {"domain_measure", report.domain_measure},
+          {"relative_error", report.relative_error},
+          {"device", report.device},
+          {"precision", report.precision},
+          {"neighbors", report.neighbors},
+          {"version", version()},
+          {"seconds",
+           {{"total", t.total},
+            {"prepare", t.prepare},
+            {"pairs", t.pairs},
+            {"neighbors", t.neighbors},
+            {"clip", t.clip},
+            {"collect", t.collect},
+            {"read", report.read},
+            {"build", report.build},
+            {"write", report.write}}},
+          {"pairs", t.pair_count},
+          {"retried", t.retried},
+          {"on_host", t.on_host},
+          {"rounds", t.rounds},
+          {"files", report.files}};
+}
+
+std::string self_check_line(const RunReport& report) {
+  const double defect = report.domain_measure > 0 ? report.measure / report.domain_measure - 1 : 0;
+  std::string line = fmt::format(
+      "{} cells, {} hidden, {} duplicate; sum of measures / domain = 1 {} {:.1e}; {}, {}, {}; {:.3f} s",
+      with_commas(report.cells), with_commas(report.hidden), with_commas(report.duplicate),
+      defect < 0 ? '-' : '+', std::abs(defect), report.device, report.precision, report.neighbors,
+      report.timings.total);
+  line += fmt::format(" (and {:.3f} s reading, {:.3f} s writing", report.read, report.write);
+  if (report.build > 0) line += fmt::format(", {:.1f} s building kernels", report.build);
+  return line + ")";
+}
+
+void require_partition(const RunReport& report) {
+  if (report.seeds == 0) return;
+  const double allowed = report.precision == "float" ? 1e-3 : 1e-9;
+  if (report.relative_error <= allowed) return;
+  throw Error(
+      ErrorCode::internal,
+      fmt::format("self-check failed: the measures of the cells sum to {:.17g}, the domain's is {:.17g} "
+                  "(relative error {:.1e}, allowed {:.0e}); do not use these results, and please report "
+                  "the input ('powercell verify' tells more)",
+                  report.measure, report.domain_measure, report.relative_error, allowed));
+}
+
+}  // namespace powercell::app

@@ -1,0 +1,44 @@
+/// \file
+/// How a run is told: the self-check line for people, one JSON object for programs.
+#pragma once
+
+#include <chrono>
+#include <nlohmann/json_fwd.hpp>
+#include <powercell/powercell.hpp>
+#include <string>
+#include <vector>
+
+namespace powercell::app {
+
+/// Seconds since it was made or last asked.
+class Stopwatch {
+ public:
+  double lap();
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// What a run did, gathered while it goes.
+struct RunReport {
+  std::size_t seeds = 0, cells = 0, hidden = 0, duplicate = 0;
+  double measure = 0, domain_measure = 0, relative_error = 0;
+  std::string device, precision, neighbors;
+  Timings timings;
+  double read = 0, build = 0, write = 0;  ///< seconds beside `timings.total`
+  std::vector<std::string> files;
+};
+
+/// Fills in everything but the seconds of reading and writing and the files. Computes the measures.
+RunReport report_of(Diagram& diagram);
+
+/// The keys that programs may rely on are written down in README.md.
+nlohmann::json as_json(const RunReport& report);
+
+/// "4,812 cells, 188 hidden, 0 duplicate; sum of measures / domain = 1 + 2.2e-16; ..."
+std::string self_check_line(const RunReport& report);
+
+/// \throw Error internal if the measures do not sum to the domain's within what the precision allows.
+void require_partition(const RunReport& report);
+
+}  // namespace powercell::app

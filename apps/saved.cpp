@@ -1,0 +1,110 @@
+#include "apps/saved.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace powercell::app {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(
+      ErrorCode::invalid_file,
+      fmt::format("{}: {}; a saved diagram is what 'powercell diagram -o FILE.json' writes", path, what));
+}
+
+// A number that may be missing (null) reads as not a number.
+double number(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+SeedStatus status_of(const std::string& name) {
+  if (name == "ok") return SeedStatus::ok;
+  if (name == "hidden") return SeedStatus::hidden;
+  if (name == "duplicate") return SeedStatus::duplicate;
+  throw std::invalid_argument("unknown status '" + name + "'");
+}
+
+DomainKind kind_of(const std::string& name) {
+  if (name == "polygon") return DomainKind::polygon;
+  if (name == "surface") return DomainKind::surface;
+  if (name == "volume") return DomainKind::volume;
+  throw std::invalid_argument("unknown kind of domain '" + name + "'");
+}
+
+std::optional<std::int64_t> border_of(const json& value, std::size_t cells) {
+  if (value.is_null()) return std::nullopt;
+  const auto border = value.get<std::int64_t>();
+  if (border >= static_cast<std::int64_t>(cells))
+    throw std::invalid_argument("a border names a seed there is not");
+  return border;
+}
+
+SavedFace face_of(const json& loop, const json& border, bool volume, std::size_t vertices,
+                  std::size_t cells) {
+  SavedFace face;
+  face.loop = loop.get<std::vector<std::uint32_t>>();
+  for (const std::uint32_t v : face.loop)
+    if (v >= vertices) throw std::invalid_argument("a face names a vertex there is not");
+  if (volume) {
+    face.border.push_back(border_of(border, cells));
+  } else {
+    for (const json& edge : border) face.border.push_back(border_of(edge, cells));
+    if (face.border.size() != face.loop.size())
+      throw std::invalid_argument("borders and edges differ in number");
+  }
+  return face;
+}
+
+SavedCell cell_of(const json& from, const SavedDiagram& diagram, std::size_t cells) {
+  SavedCell cell;
+  cell.position = from.at("position").get<std::vector<double>>();
+  if (cell.position.size() != static_cast<std::size_t>(diagram.dimension))
+    throw std::invalid_argument("'position' has the wrong number of coordinates");
+  cell.weight = from.at("weight").get<double>();
+  cell.measure = number(from.at("measure"));
+  cell.status = status_of(from.at("status").get<std::string>());
+  for (const json& vertex : from.at("vertices")) {
+    const auto x = vertex.get<std::vector<double>>();
+    if (x.size() != cell.position.size())
+      throw std::invalid_argument("a vertex has the wrong number of coordinates");
+    cell.vertices.insert(cell.vertices.end(), x.begin(), x.end());
+  }
+  const json& faces = from.at("faces");
+  const json& borders = from.at("borders");
+  if (faces.size() != borders.size()) throw std::invalid_argument("'faces' and 'borders' differ in number");
+  const std::size_t vertices = cell.vertices.size() / cell.position.size();
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    cell.faces.push_back(face_of(faces[f], borders[f], diagram.kind == DomainKind::volume, vertices, cells));
+  return cell;
+}
+
+}  // namespace
+
+SavedDiagram read_saved(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) refuse(path, "cannot be read");
+  SavedDiagram diagram;
+  std::size_t reading = 0;
+  bool in_cells = false;
+  try {
+    const json whole = json::parse(file);
+    diagram.kind = kind_of(whole.at("domain").at("kind").get<std::string>());
+    diagram.dimension = diagram.kind == DomainKind::polygon ? 2 : 3;
+    diagram.domain_measure = whole.at("domain").at("measure").get<double>();
+    const json& cells = whole.at("cells");
+    in_cells = true;
+    for (; reading < cells.size(); ++reading)
+      diagram.cells.push_back(cell_of(cells[reading], diagram, cells.size()));
+  } catch (const json::parse_error& error) {
+    refuse(path, fmt::format("not JSON at byte {}", error.byte));
+  } catch (const std::exception& error) {
+    refuse(path, in_cells ? fmt::format("cell {}: {}", reading, error.what()) : std::string(error.what()));
+  }
+  return diagram;
+}
+
+}  // namespace powercell::app

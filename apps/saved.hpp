@@ -1,0 +1,44 @@
+/// \file
+/// A diagram read back from the JSON that `diagram -o FILE.json` writes, and the laws on it. Nothing of
+/// the library computes here: measures and walls are derived again from the vertices in the file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <powercell/powercell.hpp>
+#include <string>
+#include <vector>
+
+namespace powercell::app {
+
+/// A face of a saved cell. Polygons and surfaces: `border` has one entry an edge, the edge that starts at
+/// the vertex of the same place; volumes: one entry.
+struct SavedFace {
+  std::vector<std::uint32_t> loop;                  ///< places in the cell's vertices
+  std::vector<std::optional<std::int64_t>> border;  ///< a seed; -1-facet of the boundary; none: goes on
+};
+
+struct SavedCell {
+  std::vector<double> position, vertices;  ///< d; d a vertex
+  double weight = 0, measure = 0;
+  SeedStatus status = SeedStatus::ok;
+  std::vector<SavedFace> faces;
+};
+
+struct SavedDiagram {
+  DomainKind kind = DomainKind::polygon;
+  int dimension = 2;
+  double domain_measure = 0;
+  std::vector<SavedCell> cells;  ///< in the order of the seeds
+};
+
+/// \throw Error invalid_file (what, and which cell)
+SavedDiagram read_saved(const std::string& path);
+
+/// The laws that a file can show: partition; each cell's measure from its own vertices; walls the same
+/// from both sides; every vertex on the bisectors it borders; no seed nearer to a vertex than its cell's.
+/// \param samples  vertices that are held against all seeds
+std::vector<LawCheck> check_saved(const SavedDiagram& diagram, Precision precision,
+                                  const VerifyOptions& options);
+
+}  // namespace powercell::app

@@ -1,0 +1,226 @@
+// The laws on a saved diagram (docs/mathematics.md, 17-20), from nothing but the numbers in the file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "apps/saved.hpp"
+
+namespace powercell::app {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point point(const double* x, int dimension) {
+  return {x[0], x[1], dimension > 2 ? x[2] : 0};
+}
+Point minus(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double length(const Point& a) {
+  return std::sqrt(dot(a, a));
+}
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Everything about one cell is taken relative to its seed, so that nothing cancels far from the origin.
+Point seed_of(const SavedCell& cell, int d) {
+  return point(cell.position.data(), d);
+}
+Point vertex_of(const SavedCell& cell, std::size_t v, int d) {
+  return minus(point(&cell.vertices[v * static_cast<std::size_t>(d)], d), seed_of(cell, d));
+}
+
+// Twice the area vector of a loop, about the seed.
+Point area_vector(const SavedCell& cell, const SavedFace& face, int d) {
+  Point sum{};
+  const Point first = face.loop.empty() ? Point{} : vertex_of(cell, face.loop[0], d);
+  for (std::size_t k = 1; k + 1 < face.loop.size(); ++k) {
+    const Point c = cross(minus(vertex_of(cell, face.loop[k], d), first),
+                          minus(vertex_of(cell, face.loop[k + 1], d), first));
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += c[axis];
+  }
+  return sum;
+}
+
+double measure_from_vertices(const SavedCell& cell, const SavedDiagram& diagram) {
+  double sum = 0;
+  for (const SavedFace& face : cell.faces) {
+    const Point area = area_vector(cell, face, diagram.dimension);
+    switch (diagram.kind) {
+      case DomainKind::polygon:
+        sum += area[2] / 2;
+        break;  // holes run clockwise and count against it
+      case DomainKind::surface:
+        sum += length(area) / 2;
+        break;
+      case DomainKind::volume:
+        if (!face.loop.empty()) sum += dot(area, vertex_of(cell, face.loop[0], diagram.dimension)) / 6;
+        break;
+    }
+  }
+  return sum;
+}
+
+// Half-width of the box of all vertices: the scale that defects are compared with.
+double extent(const SavedDiagram& diagram) {
+  const auto d = static_cast<std::size_t>(diagram.dimension);
+  double size = 0;
+  for (std::size_t axis = 0; axis < d; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const SavedCell& cell : diagram.cells)
+      for (std::size_t k = axis; k < cell.vertices.size(); k += d) {
+        low = std::min(low, cell.vertices[k]);
+        high = std::max(high, cell.vertices[k]);
+      }
+    if (high > low) size = std::hypot(size, high - low);
+  }
+  return size;
+}
+
+// How far `y` (seen from seed i) lies on the side of seed j, as a distance; rounding taken off.
+double beyond(const SavedDiagram& diagram, std::size_t i, std::size_t j, const Point& y) {
+  const Point q =
+      minus(seed_of(diagram.cells[j], diagram.dimension), seed_of(diagram.cells[i], diagram.dimension));
+  const double wi = diagram.cells[i].weight, wj = diagram.cells[j].weight, distance = length(q);
+  const double defect = 2 * dot(q, y) - dot(q, q) - (wi - wj);
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() *
+                          (distance * (length(y) + distance) + std::abs(wi) + std::abs(wj));
+  if (std::abs(defect) <= rounding) return 0;
+  const double sure = defect - std::copysign(rounding, defect);
+  return distance > 0 ? sure / (2 * distance) : (sure > 0 ? std::numeric_limits<double>::infinity() : 0);
+}
+
+// The largest defect so far and where it was.
+struct Worst {
+  double value = 0;
+  std::string where;
+  void see(double defect, auto&& describe) {
+    if (!(defect <= value)) {  // also true for what is not a number
+      value = defect;
+      where = describe();
+    }
+  }
+  LawCheck law(std::string name, double tolerance) const {
+    return {std::move(name), value <= tolerance, value, tolerance, where};
+  }
+};
+
+LawCheck partition(const SavedDiagram& diagram, double tolerance) {
+  long double sum = 0;
+  for (const SavedCell& cell : diagram.cells) sum += cell.measure;
+  Worst worst;
+  if (!diagram.cells.empty())
+    worst.see(static_cast<double>(std::abs(sum / diagram.domain_measure - 1)), [&] {
+      return fmt::format("sum {:.17g}, domain {:.17g}", static_cast<double>(sum), diagram.domain_measure);
+    });
+  return worst.law("partition: the measures sum to the domain's", tolerance);
+}
+
+LawCheck own_measure(const SavedDiagram& diagram, double tolerance) {
+  const double mean =
+      diagram.domain_measure / static_cast<double>(std::max<std::size_t>(1, diagram.cells.size()));
+  Worst worst;
+  for (std::size_t i = 0; i < diagram.cells.size(); ++i) {
+    const SavedCell& cell = diagram.cells[i];
+    const double again = measure_from_vertices(cell, diagram);
+    worst.see(std::abs(again - cell.measure) / std::max(mean, cell.measure), [&] {
+      return fmt::format("seed {}: {:.17g} in the file, {:.17g} from its vertices", i, cell.measure, again);
+    });
+    const bool should_be_empty = cell.status != SeedStatus::ok;
+    if (should_be_empty && (cell.measure != 0 || !cell.faces.empty()))
+      worst.see(1, [&] { return fmt::format("seed {} is said to be empty and has a cell", i); });
+  }
+  return worst.law("geometry: each cell's vertices give its measure", tolerance);
+}
+
+// Wall measures as seen from each side.
+std::map<std::pair<std::size_t, std::size_t>, double> walls(const SavedDiagram& diagram) {
+  std::map<std::pair<std::size_t, std::size_t>, double> result;
+  for (std::size_t i = 0; i < diagram.cells.size(); ++i)
+    for (const SavedFace& face : diagram.cells[i].faces)
+      for (std::size_t k = 0; k < face.border.size(); ++k) {
+        if (!face.border[k] || *face.border[k] < 0) continue;
+        const SavedCell& cell = diagram.cells[i];
+        const double measure =
+            diagram.kind == DomainKind::volume
+                ? length(area_vector(cell, face, 3)) / 2
+                : length(minus(vertex_of(cell, face.loop[k], diagram.dimension),
+                               vertex_of(cell, face.loop[(k + 1) % face.loop.size()], diagram.dimension)));
+        result[{i, static_cast<std::size_t>(*face.border[k])}] += measure;
+      }
+  return result;
+}
+
+LawCheck symmetry(const SavedDiagram& diagram, double size, double tolerance) {
+  const auto all = walls(diagram);
+  const double unit = diagram.kind == DomainKind::volume ? size * size : size;
+  Worst worst;
+  for (const auto& wall : all) {
+    const auto [i, j] = wall.first;
+    const auto back = all.find({j, i});
+    const double here = wall.second, there = back == all.end() ? 0 : back->second;
+    worst.see(std::abs(here - there) / unit, [&, i = i, j = j] {
+      return fmt::format("wall of seeds {} and {}: {:.17g} and {:.17g}", i, j, here, there);
+    });
+  }
+  return worst.law("symmetry: a wall measures the same from both sides", tolerance);
+}
+
+LawCheck on_bisectors(const SavedDiagram& diagram, double size, double tolerance) {
+  Worst worst;
+  for (std::size_t i = 0; i < diagram.cells.size(); ++i)
+    for (const SavedFace& face : diagram.cells[i].faces)
+      for (std::size_t k = 0; k < face.loop.size(); ++k) {
+        // A volume's face has one border for all of its vertices, an edge's border holds for both ends.
+        const std::size_t here = diagram.kind == DomainKind::volume ? 0 : k;
+        if (!face.border[here] || *face.border[here] < 0) continue;
+        const auto j = static_cast<std::size_t>(*face.border[here]);
+        for (const std::size_t v : {k, (k + 1) % face.loop.size()})
+          worst.see(
+              std::abs(beyond(diagram, i, j, vertex_of(diagram.cells[i], face.loop[v], diagram.dimension))) /
+                  size,
+              [&] { return fmt::format("a vertex of the wall of seeds {} and {}", i, j); });
+      }
+  return worst.law("bisectors: walls lie where two power distances agree", tolerance);
+}
+
+LawCheck ownership(const SavedDiagram& diagram, double size, const VerifyOptions& options, double tolerance) {
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < diagram.cells.size(); ++i)
+    if (!diagram.cells[i].vertices.empty()) cells.push_back(i);
+  Worst worst;
+  std::mt19937_64 random(options.random_seed);
+  for (std::size_t sample = 0; !cells.empty() && sample < options.samples; ++sample) {
+    const std::size_t i = cells[random() % cells.size()];
+    const SavedCell& cell = diagram.cells[i];
+    const std::size_t count = cell.vertices.size() / static_cast<std::size_t>(diagram.dimension);
+    const Point y = vertex_of(cell, random() % count, diagram.dimension);
+    for (std::size_t j = 0; j < diagram.cells.size(); ++j)
+      worst.see(beyond(diagram, i, j, y) / size,
+                [&] { return fmt::format("a vertex of the cell of seed {} belongs to seed {}", i, j); });
+  }
+  return worst.law("ownership: no seed is nearer to a vertex than its cell's", tolerance);
+}
+
+}  // namespace
+
+std::vector<LawCheck> check_saved(const SavedDiagram& diagram, Precision precision,
+                                  const VerifyOptions& options) {
+  // Sums of measures are good to a few thousand roundings, positions of nearly parallel cuts to fewer digits.
+  const bool single = precision == Precision::float32;
+  const double sums = single ? 1e-4 : 1e-11, places = single ? 1e-4 : 1e-9;
+  const double size = std::max(extent(diagram), std::numeric_limits<double>::min());
+  return {partition(diagram, sums), own_measure(diagram, places), symmetry(diagram, size, places),
+          on_bisectors(diagram, size, places), ownership(diagram, size, options, places)};
+}
+
+}  // namespace powercell::app

@@ -1,0 +1,185 @@
+// powercell verify: checks a device, a diagram of given files, or a saved diagram by the laws.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/io/read_domain.hpp"
+#include "apps/io/read_seeds.hpp"
+#include "apps/saved.hpp"
+
+namespace powercell::app {
+namespace {
+
+struct VerifyArguments : CommonOptions {
+  std::string file, domain, seeds, kind;
+  std::size_t count = 2000;
+  std::size_t samples = 1000;
+  std::uint64_t random_seed = 1;
+};
+
+// Checks of one diagram under a title such as "sphere, equal weights".
+struct Checked {
+  std::string title;
+  std::vector<LawCheck> laws;
+};
+
+bool passed(const Checked& checked) {
+  return std::all_of(checked.laws.begin(), checked.laws.end(),
+                     [](const LawCheck& law) { return law.passed; });
+}
+
+// Random positions in the box of the domain, a little beyond it, so that some seeds lie outside.
+std::vector<double> random_positions(const Domain& domain, std::size_t count, std::mt19937_64& random) {
+  const auto low = domain.low(), high = domain.high();
+  std::uniform_real_distribution<double> unit(-0.02, 1.02);
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < count; ++i)
+    for (int k = 0; k < domain.dimension(); ++k)
+      positions.push_back(low[k] + unit(random) * (high[k] - low[k]));
+  return positions;
+}
+
+// Weights of either sign, spread over `spread` squares of the mean spacing: at 4 about half of the
+// seeds are hidden.
+std::vector<double> random_weights(const Domain& domain, std::size_t count, double spread,
+                                   std::mt19937_64& random) {
+  const double spacing =
+      std::pow(domain.measure() / static_cast<double>(count), 1.0 / domain.cell_dimension());
+  std::uniform_real_distribution<double> weight(-0.5, 0.5);
+  std::vector<double> weights(count);
+  for (double& w : weights) w = spread * spacing * spacing * weight(random);
+  return weights;
+}
+
+void tell(const Checked& checked, bool quiet) {
+  if (quiet) return;
+  fmt::print("{}\n", checked.title);
+  for (const LawCheck& law : checked.laws) {
+    fmt::print("  {}  {:<58}  {:9.2e}  (allowed {:.1e})\n", law.passed ? "ok  " : "FAIL", law.law, law.value,
+               law.tolerance);
+    if (!law.passed && !law.detail.empty()) fmt::print("        {}\n", law.detail);
+  }
+}
+
+// The laws on one diagram, told at once.
+Checked check(const VerifyArguments& arguments, const Device& device, const Domain& domain,
+              const SeedsView& seeds, std::string title) {
+  Checked checked{std::move(title), {}};
+  compute([&] {
+    Diagram diagram(device, domain, library_options(arguments, "cells"));
+    diagram.set_seeds(seeds);
+    checked.laws = verify(diagram, seeds, {arguments.samples, arguments.random_seed});
+  });
+  tell(checked, arguments.quiet || arguments.json);
+  return checked;
+}
+
+std::vector<Checked> check_device(const VerifyArguments& arguments, const Device& device) {
+  std::vector<Checked> all;
+  std::mt19937_64 random(arguments.random_seed);
+  for (const char* shape : {"square", "cube", "sphere"}) {
+    const Domain domain = io::read_domain(shape).domain;
+    for (const auto& [name, spread] : {std::pair{"equal weights", 0.0}, std::pair{"weights", 0.5},
+                                       std::pair{"weights that hide many", 4.0}}) {
+      const std::vector<double> positions = random_positions(domain, arguments.count, random);
+      const std::vector<double> weights = random_weights(domain, arguments.count, spread, random);
+      all.push_back(check(arguments, device, domain, {domain.dimension(), positions, weights},
+                          fmt::format("{}, {} random seeds, {}", shape, with_commas(arguments.count), name)));
+    }
+  }
+  return all;
+}
+
+std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
+  const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
+  const SeedsView seeds{table.dimension, table.positions, table.weights};
+  return {check(arguments, device, domain.domain, seeds,
+                fmt::format("{} with {}", arguments.domain, arguments.seeds))};
+}
+
+std::vector<Checked> check_saved_file(const VerifyArguments& arguments) {
+  const Precision precision = arguments.precision == "float" ? Precision::float32 : Precision::float64;
+  Checked checked{arguments.file, check_saved(read_saved(arguments.file), precision,
+                                              {arguments.samples, arguments.random_seed})};
+  tell(checked, arguments.quiet || arguments.json);
+  return {std::move(checked)};
+}
+
+nlohmann::json as_json(const std::vector<Checked>& all) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Checked& checked : all) {
+    nlohmann::json laws = nlohmann::json::array();
+    for (const LawCheck& law : checked.laws)
+      laws.push_back({{"law", law.law},
+                      {"passed", law.passed},
+                      {"value", law.value},
+                      {"tolerance", law.tolerance},
+                      {"detail", law.detail}});
+    list.push_back({{"diagram", checked.title}, {"passed", passed(checked)}, {"laws", laws}});
+  }
+  return list;
+}
+
+int conclude(const VerifyArguments& arguments, const std::string& subject, const std::vector<Checked>& all) {
+  const bool good = std::all_of(all.begin(), all.end(), passed);
+  if (arguments.json)
+    fmt::print("{}\n",
+               nlohmann::json(
+                   {{"subject", subject}, {"passed", good}, {"checks", as_json(all)}, {"version", version()}})
+                   .dump(2));
+  else if (!arguments.quiet)
+    fmt::print("{}: {}\n", subject, good ? "all laws hold" : "SOME LAWS ARE BROKEN");
+  return good ? 0 : 1;
+}
+
+int run(const VerifyArguments& arguments) {
+  if (!arguments.file.empty() && !arguments.domain.empty())
+    throw Error(ErrorCode::invalid_argument, "give a saved diagram, or --domain and --seeds, not both");
+  if (arguments.domain.empty() != arguments.seeds.empty())
+    throw Error(ErrorCode::invalid_argument,
+                "--domain and --seeds go together: give both, or neither to check "
+                "the device");
+  if (!arguments.file.empty()) return conclude(arguments, arguments.file, check_saved_file(arguments));
+  const Device device = open_device(arguments);
+  return conclude(
+      arguments, device.info().name,
+      arguments.domain.empty() ? check_device(arguments, device) : check_files(arguments, device));
+}
+
+}  // namespace
+
+Command add_verify(CLI::App& app) {
+  auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* command =
+      app.add_subcommand("verify", "Check a device, or a saved diagram, by the laws of power diagrams");
+  command->add_option("FILE", arguments->file,
+                      "A diagram saved by 'diagram -o FILE.json'; its precision by --precision");
+  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, false);
+  command->add_option("--count", arguments->count, "Random seeds of each diagram that checks a device")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--samples", arguments->samples, "Random points whose owner is sought by trying all seeds")
+      ->capture_default_str();
+  command->add_option("--random-seed", arguments->random_seed, "Start of all random numbers")
+      ->capture_default_str();
+  add_common_options(*command, *arguments);
+  command->footer(
+      "Examples:\n"
+      "  powercell verify                                     the default device\n"
+      "  powercell verify --device gpu --precision float --count 100000\n"
+      "  powercell verify --domain part.mesh --seeds grains.txt\n"
+      "  powercell verify cells.json                          a saved diagram, from its numbers alone\n"
+      "Exits with 1 if a law is broken.");
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace powercell::app

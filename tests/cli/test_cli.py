@@ -1,0 +1,334 @@
+#!/usr/bin/env python3
+"""The tool from outside: every subcommand, every way to fail, and what it leaves on the disk.
+
+usage: test_cli.py PATH_OF_POWERCELL [unittest options]
+"""
+
+import csv
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TOOL = sys.argv.pop(1)
+DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
+SHAPES = {"italy.geojson": 2, "pretzel.off": 3, "bracket.mesh": 3}
+
+
+def run(*arguments, cwd=None, env=None, timeout=300):
+    return subprocess.run([TOOL, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
+                          stdin=subprocess.DEVNULL, capture_output=True,
+                          env={**os.environ, **(env or {})})
+
+
+class ToolTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def good(self, *arguments, **options):
+        done = run(*arguments, cwd=self.folder, **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def report(self, *arguments, **options):
+        return json.loads(self.good(*arguments, "--json", **options).stdout)
+
+    def bad(self, code, pattern, *arguments, **options):
+        """Fails with `code` and says `pattern`; a message, not a dump, and no file left."""
+        before = sorted(self.folder.rglob("*"))
+        done = run(*arguments, cwd=self.folder, **options)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertTrue(done.stderr.startswith("powercell: error: "), done.stderr)
+        self.assertRegex(done.stderr, pattern)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
+        return done
+
+    def rows(self, name):
+        with (self.folder / name).open() as file:
+            return list(csv.DictReader(file))
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+
+class Usage(ToolTest):
+    def test_help_has_examples(self):
+        for command in ([], ["devices"], ["diagram"], ["verify"], ["demo"]):
+            self.assertIn("Examples:", self.good(*command, "--help").stdout)
+
+    def test_version(self):
+        self.assertRegex(self.good("--version").stdout, r"^\d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage_is_one_line_and_2(self):
+        for arguments in ([], ["no-such"], ["diagram"], ["diagram", "--domain", "square"],
+                          ["diagram", "--domain", "square", "--seeds", "random:5", "--precision", "half"],
+                          ["diagram", "--domain", "square", "--seeds", "random:5", "--neighbors", "best"],
+                          ["diagram", "--domain", "square", "--seeds", "random:5", "--threads", "-1"],
+                          ["diagram", "--domain", "square", "--seeds", "random:5", "--kind", "solid"],
+                          ["verify", "--count", "0"], ["demo", "--frobnicate"]):
+            with self.subTest(arguments=arguments):
+                done = self.bad(2, "--help", *arguments)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+
+class Devices(ToolTest):
+    def test_table_and_json_agree(self):
+        devices = self.report("devices")["devices"]
+        self.assertGreater(len(devices), 0)
+        table = self.good("devices").stdout
+        for device in devices:
+            self.assertRegex(device["device"], r"^\d+:\d+$")
+            self.assertIn(device["name"], table)
+            self.assertGreater(device["memory_bytes"], 0)
+
+    def test_number_and_name_choose_a_device(self):
+        device = self.report("devices")["devices"][0]
+        for selector in (device["device"], device["name"].upper()):
+            report = self.report("diagram", "--domain", "square", "--seeds", "random:10", "--device", selector)
+            self.assertEqual(report["device"], device["name"])
+
+    def test_unknown_device_lists_those_there_are(self):
+        name = self.report("devices")["devices"][0]["name"]
+        arguments = ("diagram", "--domain", "square", "--seeds", "random:10")
+        self.bad(1, re.escape(name), *arguments, "--device", "no such device")
+        self.bad(1, re.escape(name), *arguments, env={"POWERCELL_DEVICE": "99:99"})
+
+
+class Diagram(ToolTest):
+    def test_report_has_the_promised_keys(self):
+        report = self.report("diagram", "--domain", "square", "--seeds", "random:1000:0:0.002")
+        for key in ("seeds", "cells", "hidden", "duplicate", "measure", "domain_measure", "relative_error", "device",
+                    "precision", "neighbors", "version", "seconds", "files"):
+            self.assertIn(key, report)
+        for key in ("total", "prepare", "pairs", "neighbors", "clip", "collect", "read", "build", "write"):
+            self.assertGreaterEqual(report["seconds"][key], 0)
+        self.assertEqual(report["cells"] + report["hidden"] + report["duplicate"], 1000)
+        self.assertGreater(report["hidden"], 0)
+        self.assertEqual(report["domain_measure"], 1)
+
+    def test_ends_with_the_self_check(self):
+        out = self.good("diagram", "--domain", "cube", "--seeds", "random:50").stdout
+        self.assertRegex(out.splitlines()[-1], r"^50 cells, 0 hidden, 0 duplicate; sum of measures / domain = 1 [+-] ")
+
+    def test_quiet_says_nothing(self):
+        done = self.good("diagram", "--domain", "square", "--seeds", "random:50", "-o", "a.svg", "--quiet")
+        self.assertEqual(done.stdout + done.stderr, "")
+        self.assertTrue((self.folder / "a.svg").exists())
+
+    def test_shipped_shapes_in_either_precision(self):
+        for shape in SHAPES:
+            for precision, allowed in (("double", 1e-12), ("float", 1e-5)):
+                with self.subTest(shape=shape, precision=precision):
+                    report = self.report("diagram", "--domain", DATA / shape, "--seeds", "random:5000:-0.5:0.5:3",
+                                         "--precision", precision)
+                    self.assertEqual(report["precision"], precision)
+                    self.assertLessEqual(report["relative_error"], allowed)
+
+    def test_neighbour_providers_agree(self):
+        masses = []
+        for neighbors in ("tree", "flann"):
+            self.report("diagram", "--domain", "cube", "--seeds", "random:500:0:0.02:4", "--neighbors", neighbors,
+                        "--table", "t.csv")
+            rows = self.rows("t.csv")
+            masses.append([(row["status"], float(row["measure"])) for row in rows])
+        for tree, flann in zip(*masses):
+            self.assertEqual(tree[0], flann[0])
+            self.assertAlmostEqual(tree[1], flann[1], delta=1e-12)
+
+    def test_the_same_bits_every_time(self):
+        tables = []
+        for threads in (1, 2):
+            self.good("diagram", "--domain", DATA / "italy.geojson", "--seeds", "random:500", "--table", "t.csv",
+                      "--threads", threads)
+            tables.append((self.folder / "t.csv").read_bytes())
+        self.assertEqual(*tables)
+
+    def test_every_output_format(self):
+        common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".json"]
+        for shape, dimension in SHAPES.items():
+            for extension in common + ([".svg", ".pdf"] if dimension == 2 else []):
+                with self.subTest(shape=shape, extension=extension):
+                    name = "out" + extension
+                    report = self.report("diagram", "--domain", DATA / shape, "--seeds", "random:60", "-o", name)
+                    self.assertEqual(report["files"], [name])
+                    self.assertGreater((self.folder / name).stat().st_size, 200)
+                    self.assertEqual([p.name for p in self.folder.iterdir()], [name])
+                    (self.folder / name).unlink()
+
+    def test_tables(self):
+        self.good("diagram", "--domain", "square", "--seeds", "random:200:0:0.01", "--table", "t.csv", "--walls",
+                  "w.csv", "-o", "a.json", "-o", "a.svg")
+        rows = self.rows("t.csv")
+        self.assertEqual([int(row["seed"]) for row in rows], list(range(200)))
+        self.assertEqual(list(rows[0]), "seed,x,y,weight,status,measure,cx,cy,second_moment,neighbors".split(","))
+        self.assertAlmostEqual(sum(float(row["measure"]) for row in rows), 1, delta=1e-12)
+        for row in rows:
+            self.assertIn(row["status"], ("ok", "hidden"))
+            self.assertEqual(row["cx"] == "", row["status"] == "hidden")
+        walls = {(int(r["seed"]), int(r["neighbor"])): float(r["measure"])
+                 for r in self.rows("w.csv")}
+        for (i, j), measure in walls.items():
+            self.assertEqual(walls[j, i], measure)
+        for row in rows:
+            self.assertEqual(int(row["neighbors"]), sum(1 for i, _ in walls if i == int(row["seed"])))
+
+    def test_few_and_equal_seeds(self):
+        for text, cells, duplicate in (("# none\n", 0, 0), ("0.5 0.5 0\n", 1, 0), ("0.5 0.5 0\n" * 3, 1, 2),
+                                       ("0.2 0.5 1\n0.8 0.5 1\n", 2, 0)):
+            with self.subTest(text=text):
+                report = self.report("diagram", "--domain", "square", "--seeds", self.write("s.txt", text))
+                self.assertEqual((report["cells"], report["duplicate"]), (cells, duplicate))
+
+
+class DiagramErrors(ToolTest):
+    def diagram(self, *arguments):
+        return ("diagram", "--domain", "square", "--seeds", "random:20", *arguments)
+
+    def test_what_cannot_be_read(self):
+        self.bad(1, "no-such.off", "diagram", "--domain", "no-such.off", "--seeds", "random:20")
+        self.bad(1, "no-such.csv", "diagram", "--domain", "square", "--seeds", "no-such.csv")
+        self.write("d.xyz", "1 2 3\n")
+        self.bad(1, r"d\.xyz", "diagram", "--domain", "d.xyz", "--seeds", "random:20")
+
+    def test_bad_seeds_name_file_and_line(self):
+        self.bad(1, r"s\.txt:2", "diagram", "--domain", "square", "--seeds", self.write("s.txt", "0 0 0\n0 nan 0\n"))
+        self.bad(1, r"s\.txt:3", "diagram", "--domain", "square",
+                 "--seeds", self.write("s.txt", "0 0 0\n.5 .5 0\n0 zero 0\n"))
+        self.bad(1, "random", "diagram", "--domain", "square", "--seeds", "random:many")
+
+    def test_bad_domains_name_the_element(self):
+        self.write("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+        self.bad(1, r"m\.off", "diagram", "--domain", "m.off", "--seeds", "random:5")
+        self.write("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n")
+        self.bad(1, r"m\.off", "diagram", "--domain", "m.off", "--seeds", "random:5")
+        self.write("bow.wkt", "POLYGON((0 0, 1 1, 1 0, 0 1, 0 0))")
+        self.bad(1, "bow", "diagram", "--domain", "bow.wkt", "--seeds", "random:5")
+
+    def test_outputs_are_refused_before_anything_is_computed(self):
+        self.bad(1, r"\.xyz", *self.diagram("-o", "a.xyz", "-o", "a.svg"))
+        self.bad(1, "svg", "diagram", "--domain", "cube", "--seeds", "random:20", "-o", "a.svg")
+
+    def test_what_cannot_be_written(self):
+        self.bad(1, "missing", *self.diagram("-o", "missing/a.svg"))
+        self.bad(1, "missing", *self.diagram("--table", "missing/t.csv"))
+        if os.path.exists("/dev/full"):
+            self.bad(1, "/dev/full", *self.diagram("--table", "/dev/full"))
+
+    def test_an_older_file_survives_a_failure(self):
+        self.write("a.svg", "older")
+        self.bad(1, "missing", *self.diagram("--table", "missing/t.csv"))
+        self.assertEqual((self.folder / "a.svg").read_text(), "older")
+
+    def test_a_full_standard_output_is_an_error(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full here")
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([TOOL, *self.diagram()], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("standard output", done.stderr)
+
+    def test_interrupt_leaves_nothing(self):
+        for wait in (0.4, 1.5):
+            process = subprocess.Popen([TOOL, "diagram", "--domain", "cube", "--seeds", "random:3000000", "-o",
+                                        "a.vtu", "--table", "t.csv"], cwd=self.folder, stderr=subprocess.PIPE,
+                                       stdout=subprocess.PIPE, text=True)
+            time.sleep(wait)
+            process.send_signal(signal.SIGINT)
+            out, error = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 130, error)
+            self.assertEqual(error, "powercell: error: interrupted\n")
+            self.assertEqual(out, "")
+            self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Verify(ToolTest):
+    def test_a_device(self):
+        report = self.report("verify", "--count", 300, "--samples", 200)
+        self.assertTrue(report["passed"])
+        self.assertEqual(len(report["checks"]), 9)
+        for check in report["checks"]:
+            self.assertGreaterEqual(len(check["laws"]), 3)
+            for law in check["laws"]:
+                self.assertTrue(law["passed"])
+                self.assertLessEqual(law["value"], law["tolerance"])
+
+    def test_files(self):
+        out = self.good("verify", "--domain", DATA / "italy.geojson", "--seeds", "random:300:0:500").stdout
+        self.assertIn("all laws hold", out)
+        self.bad(1, "together", "verify", "--domain", "square")
+
+    def saved(self, shape):
+        self.good("diagram", "--domain", shape, "--seeds", "random:80:0:0.02:5", "-o", "a.json", "--quiet")
+        return json.loads((self.folder / "a.json").read_text())
+
+    def test_a_saved_diagram(self):
+        for shape in ("square", "disk", "cube", "sphere"):
+            with self.subTest(shape=shape):
+                self.saved(shape)
+                out = self.good("verify", "a.json").stdout
+                self.assertEqual(out.count("  ok "), 5, out)
+
+    def broken(self, saved, law):
+        self.write("a.json", json.dumps(saved))
+        done = run("verify", "a.json", cwd=self.folder)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, "FAIL *" + law)
+
+    def test_a_tampered_one_is_found_out(self):
+        saved = self.saved("square")
+        cell = next(c for c in saved["cells"] if c["status"] == "ok")
+        cell["measure"] *= 1.001
+        self.broken(saved, "partition")
+        self.broken(saved, "geometry")
+        saved = self.saved("square")
+        cell = next(c for c in saved["cells"] if any(b is not None and b >= 0 for f in c["borders"] for b in f))
+        cell["weight"] += 0.01
+        self.broken(saved, "bisectors")
+        self.broken(saved, "ownership")
+
+    def test_what_is_no_saved_diagram(self):
+        self.bad(1, "cannot be read", "verify", "none.json")
+        self.bad(1, "not JSON", "verify", self.write("a.json", '{"domain": {'))
+        self.bad(1, "a.json", "verify", self.write("a.json", '{"cells": []}'))
+        self.bad(1, "cell 0", "verify", self.write(
+            "a.json", '{"domain": {"kind": "polygon", "measure": 1}, "cells": [{"seed": 0}]}'))
+
+
+class Demo(ToolTest):
+    def test_pictures_of_all_three(self):
+        start = time.monotonic()
+        out = self.good("demo").stdout
+        self.assertLess(time.monotonic() - start, 60)
+        folder = self.folder / "powercell-demo"
+        for shape in SHAPES:
+            stem = shape.split(".")[0]
+            self.assertEqual((folder / shape).read_bytes(), (DATA / shape).read_bytes())
+            self.assertGreater((folder / f"{stem}.png").stat().st_size, 20000)
+            self.assertIn(f"{stem}.png", (folder / "index.html").read_text())
+        self.assertIn("index.html", out)
+        self.assertEqual(out.count("sum of measures / domain = 1"), 3)
+        # The command it prints works as it stands.
+        command = re.search(r"powercell (diagram .*)", out).group(1).split()
+        self.good(*command)
+
+    def test_folder_and_json(self):
+        report = self.report("demo", "-o", "here/there")
+        self.assertEqual(len(report["shapes"]), 3)
+        self.assertTrue((self.folder / report["open"]).exists())
+
+    def test_a_folder_that_cannot_be_made(self):
+        self.write("taken", "")
+        self.bad(1, "taken", "demo", "-o", "taken")
+
+
+unittest.main(verbosity=1)
