@@ -30,7 +30,7 @@ enum class DeviceSeedStatus : std::uint32_t {
 
 /// Power diagrams from device memory to device memory: seeds come as cl_mem, measures go as cl_mem, and
 /// nothing is copied to the host in between. Calls enqueue on the queue of the device
-/// (device_from_queue) and return without waiting for it.
+/// (device_from_queue) and return without waiting for it (but see set_pair_capacity).
 ///
 /// Scratch memory is kept from call to call and reused in the order of the queue. Not thread-safe; use one
 /// object for each thread. Results do not depend on sizes of work-groups and launches, bit for bit.
@@ -44,8 +44,8 @@ class POWERCELL_API DeviceDiagram {
   /// Uploads the domain and builds the kernels; this waits.
   /// \param options  `precision` is that of the caller's arrays and of the computation; `chunk_pairs` is
   ///   the most pairs of one kernel launch; what concerns the host (`threads`, `progress`) is not used
-  /// \throw Error no_fp64; unsupported (a domain of several convex regions; Neighbors::flann, which works
-  ///   on the host; a domain whose size is not in the range of the precision); build_failed, opencl
+  /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a domain whose size is
+  ///   not in the range of the precision); build_failed, opencl
   DeviceDiagram(Device device, Domain domain, Options options = {});
   DeviceDiagram(DeviceDiagram&&) noexcept;
   DeviceDiagram& operator=(DeviceDiagram&&) noexcept;
@@ -54,6 +54,13 @@ class POWERCELL_API DeviceDiagram {
   const Device& device() const;
   const Domain& domain() const;
   Precision precision() const;  ///< float64: `real` below is cl_double; float32: cl_float
+
+  /// For domains of several convex regions (Domain::region_count): room for this many pairs of a seed and a
+  /// region that may meet, 20 bytes and 2 + d reals each. If there are more, the seeds whose pairs find no
+  /// room are `unfinished`. A few pairs for each seed and each region suffice in most cases. With 0, the
+  /// default, enqueue() makes room for as many as there are. It must read one number of 8 bytes to know, so
+  /// it waits for the queue and for the wait list; this is the only case in which it does.
+  void set_pair_capacity(std::uint32_t pairs);
 
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the
   /// caller's, of the context of the device, and must not change between the wait list and `done`.

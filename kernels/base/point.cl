@@ -78,4 +78,12 @@ static inline bool same_position(const parts_t* a, const parts_t* b) {
   return same;
 }
 
+/* About the middle of a box, with weight 0. */
+static inline seed_t middle_of(seed_t low, seed_t high) {
+  const parts_t a = parts_of(low), b = parts_of(high);
+  parts_t middle = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+  for (int k = 0; k < DIMENSION; ++k) middle.high[k] = a.high[k] + (b.high[k] - a.high[k]) / 2;
+  return seed_of(middle);
+}
+
 #endif

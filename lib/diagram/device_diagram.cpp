@@ -44,9 +44,8 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       frame_(device.context()),
       seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
       tree_(device.context(), plain_defines(domain, precision)),
-      pairs_(device.context()),
+      pairs_(scene, plain_defines(domain, precision)),
       compaction_(device.context()),
-      pair_all_(device.context(), device.context()->program("pairs/one_region.cl", {}), "pair_all"),
       finish_(device.context(),
               device.context()->program("diagram/finish.cl", plain_defines(domain, precision)),
               "write_measures"),
@@ -87,14 +86,6 @@ void DeviceDiagram::State::upload_frame() {
   frame_.write(narrow.data(), sizeof narrow);
 }
 
-void DeviceDiagram::State::find_pairs(std::uint32_t n) {
-  pairs_.capacity = n;
-  pairs_.seed.resize(n);
-  pairs_.region.resize(n);
-  pairs_.offset.resize(std::size_t{n} + 1);
-  pair_all_.args(n, pairs_.seed, pairs_.region, pairs_.offset).submit(std::size_t{n} + 1);
-}
-
 void DeviceDiagram::State::clip_rung(std::size_t rung, bool listed, std::uint32_t n) {
   const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : default_launch_pairs;
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
@@ -127,8 +118,8 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
 void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures,
                                    cl_mem status, cl_event* done) {
   seeds_.enqueue(frame_.handle(), positions, weights, n);
-  tree_.enqueue(seeds_.points.handle(), n);
-  find_pairs(n);
+  tree_.enqueue(seeds_.points.handle(), seeds_.points.handle(), n);
+  pairs_.enqueue(seeds_, tree_, n, pair_capacity);
   clip(n);
   finish_
       .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,

@@ -4,22 +4,10 @@
 
 #include <powercell/opencl.hpp>
 
-#include "lib/clip/scene.hpp"
-#include "lib/neighbors/device_tree.hpp"
+#include "lib/pairs/device_pairs.hpp"
 #include "lib/primitives/compaction.hpp"
-#include "lib/seeds/device_seeds.hpp"
 
 namespace powercell {
-
-/// Pairs in device memory, by seed (as Pairs on the host).
-struct DevicePairs {
-  explicit DevicePairs(const std::shared_ptr<cl::Context>& context)
-      : seed(context), region(context), offset(context) {}
-  cl::Buffer<std::uint32_t> seed;  ///< rank
-  cl::Buffer<std::uint32_t> region;
-  cl::Buffer<std::uint64_t> offset;  ///< seeds + 1; the last one is how many there are
-  std::uint32_t capacity = 0;        ///< room in seed and region
-};
 
 struct DeviceDiagram::State {
   State(Device device, Domain domain, Options options);
@@ -32,10 +20,10 @@ struct DeviceDiagram::State {
   Options options;
   Precision precision;
   Scene scene;
+  std::uint32_t pair_capacity = 0;  // 0: as many as there are
 
  private:
   void upload_frame();
-  void find_pairs(std::uint32_t n);
   void clip(std::uint32_t n);
   /// One rung over all pairs, or over those listed.
   void clip_rung(std::size_t rung, bool listed, std::uint32_t n);
@@ -45,7 +33,7 @@ struct DeviceDiagram::State {
   DeviceTree tree_;
   DevicePairs pairs_;
   Compaction compaction_;
-  cl::Kernel pair_all_, finish_;
+  cl::Kernel finish_;
   std::vector<cl::Kernel> clip_;  // per rung
   cl::Buffer<std::uint32_t> piece_status_, list_, found_;
   cl::RawBuffer moments_;

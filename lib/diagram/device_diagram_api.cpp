@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <powercell/opencl.hpp>
 
 #include "lib/diagram/device_diagram.hpp"
@@ -37,10 +38,6 @@ DeviceDiagram::DeviceDiagram(Device device, Domain domain, Options options) {
     throw Error(ErrorCode::unsupported,
                 "neighbour lists come from FLANN on the host; a diagram in device memory has the tree only: "
                 "use Neighbors::tree, or Diagram");
-  if (domain.region_count() != 1)
-    throw Error(ErrorCode::unsupported,
-                "a diagram in device memory needs a domain of one convex region, this one has " +
-                    std::to_string(domain.region_count()) + "; use Diagram");
   state_ = std::make_unique<State>(std::move(device), std::move(domain), std::move(options));
 }
 DeviceDiagram::DeviceDiagram(DeviceDiagram&&) noexcept = default;
@@ -55,6 +52,10 @@ const Domain& DeviceDiagram::domain() const {
 }
 Precision DeviceDiagram::precision() const {
   return state_->precision;
+}
+
+void DeviceDiagram::set_pair_capacity(std::uint32_t pairs) {
+  state_->pair_capacity = pairs;
 }
 
 void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,

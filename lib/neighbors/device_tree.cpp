@@ -1,5 +1,6 @@
 #include "lib/neighbors/device_tree.hpp"
 
+#include <numeric>
 #include <vector>
 
 #include "lib/clip/frame.hpp"
@@ -28,12 +29,11 @@ DeviceTree::DeviceTree(const std::shared_ptr<cl::Context>& context, const std::v
       lay_out_(context, context->program("neighbors/build_tree.cl", defines), "lay_out_levels"),
       build_(context, context->program("neighbors/build_tree.cl", defines), "build_level") {}
 
-void DeviceTree::enqueue(cl_mem points, std::uint32_t count) {
+void DeviceTree::enqueue(cl_mem low, cl_mem high, std::uint32_t count) {
   const std::vector<std::uint32_t> sizes = level_sizes(count);
-  std::size_t nodes = 0;
-  for (const std::uint32_t size : sizes) nodes += size;
-  node_low.reserve(nodes * Frame::point_bytes);
-  node_high.reserve(nodes * Frame::point_bytes);
+  node_count_ = std::accumulate(sizes.begin(), sizes.end(), std::uint32_t{0});
+  node_low.reserve(node_count_ * Frame::point_bytes);
+  node_high.reserve(node_count_ * Frame::point_bytes);
   level_offset.resize(sizes.size() + 1);
   levels_ = static_cast<int>(sizes.size());
 
@@ -41,9 +41,10 @@ void DeviceTree::enqueue(cl_mem points, std::uint32_t count) {
   lay_out_.args(count, level_offset).submit(1);
   std::uint32_t from = 0, to = 0, children = count;
   for (std::size_t level = 0; level < sizes.size(); ++level) {
-    const cl_mem low = level == 0 ? points : node_low.handle(),
-                 high = level == 0 ? points : node_high.handle();
-    build_.args(sizes[level], to, children, from, low, high, node_low, node_high).submit(sizes[level]);
+    const cl_mem child_low = level == 0 ? low : node_low.handle();
+    const cl_mem child_high = level == 0 ? high : node_high.handle();
+    build_.args(sizes[level], to, children, from, child_low, child_high, node_low, node_high)
+        .submit(sizes[level]);
     children = sizes[level];
     from = to;
     to += sizes[level];

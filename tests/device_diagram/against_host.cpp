@@ -89,3 +89,25 @@ TEST_CASE("measures from device memory equal those of Diagram") {
         }
     }
 }
+
+TEST_CASE("measures in domains of several regions equal those of Diagram") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller))
+    for (const auto& family : {polygon_domains(), surface_domains(), volume_domains(), box_domains()})
+      for (const NamedDomain& domain : family) {
+        Options options;
+        options.precision = precision;
+        DeviceDiagram diagram(caller.device(), domain.domain, options);
+        for (const WeightRange weights : {WeightRange::W0, WeightRange::W2})
+          for (const std::size_t n : {3u, 500u}) {
+            CAPTURE(domain.name);
+            CAPTURE(n);
+            CAPTURE(name(weights));
+            CAPTURE(static_cast<int>(precision));
+            check_against_host(caller, diagram,
+                               seeds_for(domain.domain, Distribution::white, weights, n, random));
+          }
+      }
+}

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <powercell/diagram.hpp>
+#include <powercell/shapes.hpp>
 
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/domains.hpp"
@@ -43,35 +44,44 @@ bool same(const Output& a, const Output& b) {
          a.status == b.status;
 }
 
+/// Enqueues behind a gate that only this thread opens: a call that waited would never come back.
+void check_gate(cl_command_queue_properties properties, const Domain& domain, std::uint32_t pair_capacity) {
+  Caller caller(properties);
+  Random random(test_seed());
+  const int d = domain.dimension();
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 2000, d, random);
+  DeviceDiagram diagram(caller.device(), domain);
+  diagram.set_pair_capacity(pair_capacity);
+  cl_int status = CL_SUCCESS;
+  cl_event gate = clCreateUserEvent(caller.context(), &status);
+  REQUIRE(status == CL_SUCCESS);
+  cl_event done = nullptr;
+  const Job job(caller, diagram.precision(), seeds.view());
+  job.enqueue(diagram, 1, &gate, &done);
+  REQUIRE(done != nullptr);
+  CHECK(execution_status(done) > CL_COMPLETE);
+  // The next call grows and reuses the scratch memory of the first, which has not begun.
+  const SeedArray others = random_seeds(Distribution::white, WeightRange::W0, 5000, d, random);
+  const Job next(caller, diagram.precision(), others.view());
+  next.enqueue(diagram);
+  REQUIRE(clSetUserEventStatus(gate, CL_COMPLETE) == CL_SUCCESS);
+  REQUIRE(clWaitForEvents(1, &done) == CL_SUCCESS);
+  CHECK(execution_status(done) == CL_COMPLETE);
+  clReleaseEvent(done);
+  clReleaseEvent(gate);
+  const Output first = job.read(), second = next.read();
+  CHECK(first.count(DeviceSeedStatus::unfinished) == 0);
+  CHECK(same(first, run(caller, diagram, seeds.view())));
+  CHECK(same(second, run(caller, diagram, others.view())));
+}
+
 }  // namespace
 
 TEST_CASE("a call returns before its wait list is complete, and its work comes after") {
   for (const cl_command_queue_properties properties :
        {cl_command_queue_properties{0}, cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE}}) {
-    Caller caller(properties);
-    Random random(test_seed());
-    const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 2000, 2, random);
-    DeviceDiagram diagram(caller.device(), unit_box(2));
-    cl_int status = CL_SUCCESS;
-    cl_event gate = clCreateUserEvent(caller.context(), &status);
-    REQUIRE(status == CL_SUCCESS);
-    cl_event done = nullptr;
-    const Job job(caller, diagram.precision(), seeds.view());
-    // A call that waited would never come back: nobody else opens the gate.
-    job.enqueue(diagram, 1, &gate, &done);
-    REQUIRE(done != nullptr);
-    CHECK(execution_status(done) > CL_COMPLETE);
-    // The next call reuses the scratch memory of the first while that has not begun.
-    const SeedArray others = random_seeds(Distribution::white, WeightRange::W0, 5000, 2, random);
-    const Job next(caller, diagram.precision(), others.view());
-    next.enqueue(diagram);
-    REQUIRE(clSetUserEventStatus(gate, CL_COMPLETE) == CL_SUCCESS);
-    REQUIRE(clWaitForEvents(1, &done) == CL_SUCCESS);
-    CHECK(execution_status(done) == CL_COMPLETE);
-    clReleaseEvent(done);
-    clReleaseEvent(gate);
-    CHECK(same(job.read(), run(caller, diagram, seeds.view())));
-    CHECK(same(next.read(), run(caller, diagram, others.view())));
+    check_gate(properties, unit_box(2), 0);
+    check_gate(properties, Domain::polygon(square_with_holes()), 60000);
   }
 }
 
@@ -220,6 +230,48 @@ TEST_CASE("a cell that fits no variant is unfinished, not partial") {
   CHECK(std::isnan(output.centroid[2000]));
   CHECK(std::isnan(output.second_moment[1000]));
   CHECK(output.count(DeviceSeedStatus::ok) == 1000);
+}
+
+TEST_CASE("pairs that find no room leave their seeds unfinished, and the others as they are") {
+  Caller caller;
+  Random random(test_seed());
+  const Domain domain = Domain::polygon(square_with_holes());
+  REQUIRE(domain.region_count() > 1);
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 1000, 2, random);
+  DeviceDiagram diagram(caller.device(), domain);
+  const Output all = run(caller, diagram, seeds.view());
+  CHECK(all.count(DeviceSeedStatus::unfinished) == 0);
+  diagram.set_pair_capacity(500);
+  const Output some = run(caller, diagram, seeds.view());
+  const std::size_t unfinished = some.count(DeviceSeedStatus::unfinished);
+  CHECK(unfinished > 0);
+  CHECK(unfinished < 1000);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    wrong += some.status[i] == DeviceSeedStatus::unfinished
+                 ? !std::isnan(some.mass[i])
+                 : some.mass[i] != all.mass[i] || some.status[i] != all.status[i];
+  CHECK(wrong == 0);
+  // Enough room again: nothing is left over from the call before.
+  diagram.set_pair_capacity(100000);
+  CHECK(same(run(caller, diagram, seeds.view()), all));
+}
+
+TEST_CASE("few pairs are found that meet in nothing") {
+  Caller caller;
+  Random random(test_seed());
+  const TetrahedralMesh mesh = ball(6);
+  const Domain domain = Domain::volume(mesh.vertices, mesh.tetrahedra);
+  for (const std::size_t n : {5u, 4000u}) {
+    const SeedArray seeds = seeds_for(domain, Distribution::white, WeightRange::W1, n, random);
+    Diagram host(caller.device(), domain);
+    host.set_seeds(seeds.view());
+    host.measures();
+    // The host splits regions to test them; here they are tested as they are.
+    DeviceDiagram diagram(caller.device(), domain);
+    diagram.set_pair_capacity(static_cast<std::uint32_t>(host.timings().pair_count * 3 / 2));
+    CHECK(run(caller, diagram, seeds.view()).count(DeviceSeedStatus::unfinished) == 0);
+  }
 }
 
 TEST_CASE("results do not depend on the size of launches") {

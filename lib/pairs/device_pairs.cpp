@@ -1,0 +1,126 @@
+#include "lib/pairs/device_pairs.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "lib/pairs/region_order.hpp"
+
+namespace powercell {
+namespace {
+
+void upload(cl::RawBuffer& buffer, const std::vector<std::byte>& bytes) {
+  buffer.reserve(bytes.size());
+  if (!bytes.empty()) buffer.write(bytes.data(), bytes.size());
+}
+
+/// Boxes of the regions in the given order: rows of dimension coordinates.
+struct Boxes {
+  std::vector<double> low, high;
+};
+
+Boxes boxes_of(const RegionMesh& mesh, const std::vector<std::uint32_t>& order) {
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  Boxes boxes{std::vector<double>(order.size() * d, std::numeric_limits<double>::infinity()),
+              std::vector<double>(order.size() * d, -std::numeric_limits<double>::infinity())};
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::uint32_t slot = mesh.region_offset[order[k]]; slot < mesh.region_offset[order[k] + 1]; ++slot)
+      for (std::size_t axis = 0; axis < d; ++axis) {
+        const double x = mesh.vertices[std::size_t{mesh.region_vertex[slot]} * d + axis];
+        boxes.low[k * d + axis] = std::min(boxes.low[k * d + axis], x);
+        boxes.high[k * d + axis] = std::max(boxes.high[k * d + axis], x);
+      }
+  return boxes;
+}
+
+}  // namespace
+
+DevicePairs::RegionTree::RegionTree(const Scene& scene, const std::vector<std::string>& defines)
+    : count(static_cast<std::uint32_t>(scene.mesh().region_count())),
+      region(scene.context()),
+      low(scene.context()),
+      high(scene.context()),
+      nodes(scene.context(), defines),
+      owner(scene.context()),
+      node_owner(scene.context()),
+      find_owners(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_owners"),
+      find_pairs(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_pairs") {
+  const std::vector<std::uint32_t> order = pairs::region_order(scene.mesh(), 1);
+  const Boxes boxes = boxes_of(scene.mesh(), order);
+  region.upload(order);
+  upload(low, scene.frame().pack(scene.mesh().dimension, boxes.low, {}));
+  upload(high, scene.frame().pack(scene.mesh().dimension, boxes.high, {}));
+  nodes.enqueue(low.handle(), high.handle(), count);
+  owner.resize(count);
+  node_owner.resize(nodes.node_count());
+}
+
+DevicePairs::DevicePairs(const Scene& scene, const std::vector<std::string>& defines)
+    : seed(scene.context()),
+      region(scene.context()),
+      offset(scene.context()),
+      scene_(scene),
+      scan_(scene.context(), ExclusiveScan::Type::uint64) {
+  if (scene.mesh().region_count() == 1)
+    pair_all_.emplace(scene.context(), scene.context()->program("pairs/one_region.cl", {}), "pair_all");
+  else
+    regions_.emplace(scene, defines);
+}
+
+void DevicePairs::reserve(std::uint32_t pairs) {
+  seed.resize(pairs);
+  region.resize(pairs);
+  capacity = pairs;
+}
+
+void DevicePairs::find_owners(const DeviceSeeds& seeds, const DeviceTree& tree, std::uint32_t n) {
+  RegionTree& r = *regions_;
+  const auto find = [&](const cl::RawBuffer& low, const cl::RawBuffer& high,
+                        cl::Buffer<std::uint32_t>& owner) {
+    const auto count = static_cast<cl_uint>(owner.size());
+    r.find_owners
+        .args(count, low, high, owner, seeds.points, n, tree.node_low, tree.node_high, tree.level_offset,
+              cl_int{tree.levels()})
+        .submit(count);
+  };
+  find(r.low, r.high, r.owner);
+  find(r.nodes.node_low, r.nodes.node_high, r.node_owner);
+}
+
+void DevicePairs::find(const DeviceSeeds& seeds, const DeviceTree& tree, std::uint32_t n, bool write) {
+  RegionTree& r = *regions_;
+  r.find_pairs
+      .args(n, cl_int{write}, seeds.state, seeds.points, tree.node_low, tree.node_high, tree.level_offset,
+            cl_int{tree.levels()}, r.count, r.region, r.low, r.high, r.nodes.node_low, r.nodes.node_high,
+            r.nodes.level_offset, cl_int{r.nodes.levels()}, r.owner, r.node_owner, scene_.corners,
+            scene_.region_offset, scene_.region_vertex, cl_ulong{capacity}, offset, seed, region)
+      .submit(std::size_t{n} + 1);
+}
+
+std::uint32_t DevicePairs::read_number(std::uint32_t n) const {
+  std::uint64_t number = 0;
+  offset.download(std::span(&number, 1), n);
+  if (number > most_pairs)
+    throw Error(ErrorCode::out_of_device_memory,
+                std::to_string(number) +
+                    " pairs of a seed and a region that may meet are more than a diagram in "
+                    "device memory can hold; use Diagram, which takes them in chunks");
+  return static_cast<std::uint32_t>(number);
+}
+
+void DevicePairs::enqueue(const DeviceSeeds& seeds, const DeviceTree& tree, std::uint32_t n,
+                          std::uint32_t most) {
+  offset.resize(std::size_t{n} + 1);
+  if (pair_all_) {
+    reserve(n);
+    pair_all_->args(n, seed, region, offset).submit(std::size_t{n} + 1);
+    return;
+  }
+  reserve(most);
+  find_owners(seeds, tree, n);
+  find(seeds, tree, n, false);
+  scan_.enqueue(offset.handle(), n + 1);
+  if (most == 0) reserve(read_number(n));
+  find(seeds, tree, n, true);
+}
+
+}  // namespace powercell
