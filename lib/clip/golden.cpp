@@ -13,9 +13,12 @@ namespace {
 /// the layers is at 1/2 + (w_0 - w_1), and the weights of the axes add up in the seeds.
 constexpr double layer_weight[3][2] = {{0.0, 0.125}, {0.0625, 0.0}, {0.0, 0.03125}};
 
-double wall_position(int axis) { return 0.5 + layer_weight[axis][0] - layer_weight[axis][1]; }
+double wall_position(int axis) {
+  return 0.5 + layer_weight[axis][0] - layer_weight[axis][1];
+}
 
-/// The unit square or cube; a surface is the square in the plane z = 1/4.
+}  // namespace
+
 RegionMesh golden_mesh(const Variant& variant) {
   RegionMesh mesh;
   mesh.kind = variant.cell_dimension == 3 ? DomainKind::volume
@@ -43,7 +46,7 @@ RegionMesh golden_mesh(const Variant& variant) {
   return mesh;
 }
 
-/// A seed for each choice of layers; on a surface both z-layers have seeds, and the upper ones are hidden.
+// A seed for each choice of layers; on a surface both z-layers have seeds, and the upper ones are hidden.
 SeedSet golden_seeds(int dimension) {
   std::vector<double> positions, weights;
   for (int s = 0; s < 1 << dimension; ++s) {
@@ -57,14 +60,31 @@ SeedSet golden_seeds(int dimension) {
   return make_seed_set({dimension, positions, weights}, dimension, 1);
 }
 
-/// Measure of the cell of seed `s` (bits: layers).
+// The bits of `s` are its layers.
 double golden_measure(const Variant& variant, std::uint32_t s) {
   double product = 1;
   for (int k = 0; k < variant.cell_dimension; ++k)
     product *= (s >> k & 1) != 0 ? 1 - wall_position(k) : wall_position(k);
-  if (variant.dimension == 3 && variant.cell_dimension == 2 && (s >> 2 & 1) != 0) return 0;  // wall above z = 1/4
+  if (variant.dimension == 3 && variant.cell_dimension == 2 && (s >> 2 & 1) != 0)
+    return 0;  // wall above z = 1/4
   return product;
 }
+
+void require_golden(const cl::Context& context, std::string_view program, const Variant& variant,
+                    std::uint32_t s, double measure) {
+  const double expected = golden_measure(variant, s), tolerance = variant.float32 ? 1e-5 : 1e-13;
+  if (std::abs(measure - expected) <= tolerance) return;
+  std::string options;
+  for (const std::string& define : variant.defines()) options += " -D" + define;
+  const DeviceInfo& info = context.info();
+  throw Error(ErrorCode::self_test_failed,
+              "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
+                  ") computed a known diagram wrongly: cell " + std::to_string(s) + " measures " +
+                  std::to_string(measure) + ", not " + std::to_string(expected) + ", in " +
+                  std::string(program) + options + "; update its driver or choose another device");
+}
+
+namespace {
 
 std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
   const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds().size();
@@ -83,8 +103,8 @@ std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
 
 }  // namespace
 
-void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates, const Variant& variant,
-                 std::size_t rung) {
+void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates,
+                 const Variant& variant, std::size_t rung) {
   const RegionMesh mesh = golden_mesh(variant);
   const SeedSet seeds = golden_seeds(variant.dimension);
   const PackedTree tree = build_packed_tree(seeds, 1);
@@ -96,19 +116,8 @@ void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& 
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank) pair_seed.push_back(rank);
   clipper.clip_with(rung, pair_seed, pair_region);
   const std::vector<double> measures = read_measures(clipper, scene);
-  const double tolerance = variant.float32 ? 1e-5 : 1e-13;
-  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank) {
-    const double expected = golden_measure(variant, seeds.input[rank]);
-    if (std::abs(measures[rank] - expected) <= tolerance) continue;
-    std::string options;
-    for (const std::string& define : variant.defines()) options += " -D" + define;
-    const DeviceInfo& info = context->info();
-    throw Error(ErrorCode::self_test_failed,
-                "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
-                    ") computed a known diagram wrongly: cell " + std::to_string(seeds.input[rank]) + " measures " +
-                    std::to_string(measures[rank]) + ", not " + std::to_string(expected) + ", in " +
-                    std::string(candidates.file()) + options + "; update its driver or choose another device");
-  }
+  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
+    require_golden(*context, candidates.file(), variant, seeds.input[rank], measures[rank]);
 }
 
 }  // namespace powercell

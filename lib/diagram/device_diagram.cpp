@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/clip/golden.hpp"
 #include "lib/clip/variant.hpp"
 #include "lib/diagram/state.hpp"
 
@@ -22,6 +23,7 @@ static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished))
 
 /// Pairs of one launch, unless options say otherwise: short enough for a display driver's watchdog.
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
+constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
@@ -31,6 +33,40 @@ Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
 /// Of the kernels that hold no cell.
 std::vector<std::string> plain_defines(const Domain& domain, Precision precision) {
   return variant(domain, precision, {1, 1}).defines();
+}
+
+template <class Real>
+cl::Buffer<Real> uploaded(const Device& device, const std::vector<double>& values) {
+  cl::Buffer<Real> buffer(device.context());
+  buffer.upload(std::vector<Real>(values.begin(), values.end()));
+  return buffer;
+}
+
+/// Computes the known diagram (lib/clip/golden.hpp) in device memory, beginning with one rung.
+template <class Real>
+void run_golden(DeviceDiagram::State& state, const Variant& variant) {
+  const SeedSet seeds = golden_seeds(variant.dimension);
+  const auto n = static_cast<std::uint32_t>(seeds.size());
+  const std::size_t columns = 2 + static_cast<std::size_t>(variant.dimension);
+  const auto positions = uploaded<Real>(state.device, seeds.positions);
+  const auto weights = uploaded<Real>(state.device, seeds.weights);
+  cl::Buffer<Real> measures(state.device.context());
+  cl::Buffer<std::uint32_t> status(state.device.context());
+  measures.resize(n * columns);
+  status.resize(n);
+  state.enqueue(positions.handle(), weights.handle(), n, measures.handle(), status.handle(), nullptr);
+  const std::vector<Real> rows = measures.download();
+  for (std::uint32_t i = 0; i < n; ++i)
+    require_golden(*state.device.context(), clip_file, variant, seeds.input[i], rows[i * columns]);
+}
+
+/// A program that a driver miscompiles is refused, not believed. \throw Error self_test_failed
+void test_rung(const Device& device, const Variant& variant, std::size_t rung) {
+  Options options;
+  options.precision = variant.float32 ? Precision::float32 : Precision::float64;
+  DeviceDiagram::State state(device, Domain(std::make_shared<RegionMesh>(golden_mesh(variant))), options);
+  state.first_rung = rung;
+  variant.float32 ? run_golden<float>(state, variant) : run_golden<double>(state, variant);
 }
 
 }  // namespace
@@ -53,12 +89,23 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       list_(device.context()),
       found_(device.context()),
       moments_(device.context()) {
-  for (const Capacity& capacity : capacities(domain.cell_dimension())) {
-    auto program =
-        device.context()->program("diagram/clip_pairs.cl", variant(domain, precision, capacity).defines());
-    clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
-  }
   upload_frame();
+  for (std::size_t rung = 0; rung < capacities(domain.cell_dimension()).size(); ++rung) add_rung(rung);
+}
+
+void DeviceDiagram::State::add_rung(std::size_t rung) {
+  const Variant rung_variant = variant(domain, precision, capacities(domain.cell_dimension())[rung]);
+  auto program = device.context()->program(clip_file, rung_variant.defines());
+  if (!program->trusted()) {
+    program->trust();  // the diagram of the test asks for this program again
+    try {
+      test_rung(device, rung_variant, rung);
+    } catch (...) {
+      program->trust(false);
+      throw;
+    }
+  }
+  clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
 }
 
 void DeviceDiagram::State::upload_frame() {
@@ -108,8 +155,8 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
   found_.resize(1);
   moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real);
   piece_status_.zero();
-  clip_rung(0, false, n);
-  for (std::size_t rung = 1; rung < clip_.size(); ++rung) {
+  clip_rung(first_rung, false, n);
+  for (std::size_t rung = first_rung + 1; rung < clip_.size(); ++rung) {
     compaction_.enqueue(piece_status_.handle(), pairs_.capacity, PIECE_FULL, list_.handle(), found_.handle());
     clip_rung(rung, true, n);
   }

@@ -21,9 +21,12 @@ struct DeviceDiagram::State {
   Precision precision;
   Scene scene;
   std::uint32_t pair_capacity = 0;  // 0: as many as there are
+  std::size_t first_rung = 0;       // of the capacity ladder
 
  private:
   void upload_frame();
+  /// The program of a rung; computes a known diagram with it if it has not yet.
+  void add_rung(std::size_t rung);
   void clip(std::uint32_t n);
   /// One rung over all pairs, or over those listed.
   void clip_rung(std::size_t rung, bool listed, std::uint32_t n);
