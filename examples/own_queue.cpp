@@ -1,9 +1,52 @@
-// A diagram on the caller's own OpenCL context and command queue, beside kernels of the caller.
+// A diagram between kernels of the caller: seeds and measures are buffers in the caller's own OpenCL context,
+// commands go to the caller's own queue, and nothing is copied to the host in between.
+#include <cmath>
 #include <cstdio>
 #include <powercell/opencl.hpp>
 #include <powercell/powercell.hpp>
 #include <random>
 #include <vector>
+
+namespace {
+
+// n seeds in the unit cube -> measures of their cells, all in device memory. Returns the sum of the volumes.
+double volume_of_cells(cl_context context, cl_command_queue queue, cl_uint n) {
+  const powercell::Device device = powercell::device_from_queue(queue);  // retains queue and context
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  powercell::Options options;
+  options.precision = powercell::Precision::float32;  // of our buffers: cl_float
+  powercell::DeviceDiagram diagram(device, powercell::Domain::box(low, high), options);
+
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<cl_float> numbers(3 * n);
+  for (cl_float& x : numbers) x = unit(random);
+  cl_mem positions = clCreateBuffer(context, CL_MEM_READ_ONLY, 3 * n * sizeof(cl_float), nullptr, nullptr);
+  cl_mem measures = clCreateBuffer(context, CL_MEM_READ_WRITE, 5 * n * sizeof(cl_float), nullptr, nullptr);
+  cl_mem status = clCreateBuffer(context, CL_MEM_READ_WRITE, n * sizeof(cl_uint), nullptr, nullptr);
+
+  // A kernel of ours would make the seeds; here a copy that is not waited for stands in its place.
+  cl_event seeds_ready = nullptr, diagram_done = nullptr;
+  clEnqueueWriteBuffer(queue, positions, CL_FALSE, 0, numbers.size() * sizeof(cl_float), numbers.data(), 0,
+                       nullptr, &seeds_ready);
+  diagram.enqueue(positions, nullptr, n, measures, status, 1, &seeds_ready, &diagram_done);
+
+  // A kernel of ours would use the measures; here they are read at last.
+  std::vector<cl_float> rows(5 * n);  // volume, centroid x y z, second moment
+  clEnqueueReadBuffer(queue, measures, CL_TRUE, 0, rows.size() * sizeof(cl_float), rows.data(), 1,
+                      &diagram_done, nullptr);
+  double volume = 0;
+  for (cl_uint i = 0; i < n; ++i) volume += rows[5 * i];
+  std::printf("%u cells on %s in the caller's queue and buffers, volume %.6f\n", n,
+              device.info().name.c_str(), volume);
+
+  clReleaseEvent(seeds_ready);
+  clReleaseEvent(diagram_done);
+  for (cl_mem memory : {positions, measures, status}) clReleaseMemObject(memory);
+  return volume;
+}
+
+}  // namespace
 
 int main() try {
   cl_platform_id platform = nullptr;
@@ -20,24 +63,10 @@ int main() try {
     std::fprintf(stderr, "no context or queue: OpenCL error %d\n", status);
     return 1;
   }
-
-  double error = 1;
-  {
-    const powercell::Device device = powercell::device_from_queue(queue);  // retains queue and context
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<double> positions(3 * 1000);
-    for (double& x : positions) x = unit(random);
-    const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
-    const powercell::Measures measures =
-        powercell::measure(device, powercell::Domain::box(low, high), {3, positions, {}});
-    error = measures.relative_error();
-    std::printf("%zu cells on %s in the caller's queue, relative error of the volume %.1e\n",
-                measures.count(powercell::SeedStatus::ok), device.info().name.c_str(), error);
-  }  // the device lets go of the queue here
+  const double volume = volume_of_cells(context, queue, 1000);
   clReleaseCommandQueue(queue);
   clReleaseContext(context);
-  return error < 1e-5 ? 0 : 1;
+  return std::abs(volume - 1) < 1e-4 ? 0 : 1;
 } catch (const powercell::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;
