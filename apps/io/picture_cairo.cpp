@@ -111,7 +111,7 @@ void draw(cairo_t* to, const Scene& scene) {
     set_colour(to, cell.fill);
     cairo_fill_preserve(to);
     set_colour(to, paper);
-    cairo_stroke(to);
+    if (scene.wall_width > 0) cairo_stroke(to);
   }
   cairo_new_path(to);
   add_rings(to, scene.outline, 0, scene.outline.size());

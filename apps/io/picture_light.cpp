@@ -95,7 +95,7 @@ float obscurance(const Strip& picture, const Camera& camera, int x, int y) {
 }  // namespace
 
 Vec3 light_direction(const Camera& camera) {
-  return normalized(camera.right * -0.45f + camera.up * 0.62f - camera.forward * 0.62f + Vec3{0, 0, 0.55f});
+  return normalized(camera.right * -0.45f + camera.up * 0.62f - camera.forward * 0.62f + Vec3{0, 0, 1.0f});
 }
 
 Shadow::Shadow(const Model& model, Vec3 to_light) : to_light_(to_light) {

@@ -133,7 +133,7 @@ std::vector<Vec3> framed_points(const Model& model, Vec3 to_light, float floor) 
   for (const Model::Triangle& triangle : model.triangles) {
     for (const Vec3& corner : triangle.corner) {
       points.push_back(corner);
-      points.push_back(corner - to_light * (1.1f * (corner.z - floor) / to_light.z));
+      points.push_back(corner - to_light * (0.7f * (corner.z - floor) / to_light.z));
     }
   }
   return points;

@@ -80,9 +80,11 @@ Scene make_scene(const DiagramOutput& output, double long_side) {
   }
   const double cells = static_cast<double>(std::max<std::size_t>(scene.cells.size(), 1));
   const double spacing = std::sqrt(output.domain.measure() / cells);
-  scene.wall_width = std::clamp(0.035 * spacing * placement.scale, 0.3, 2.6);
+  // Between cells of a few pixels the soft edges of the fills are wall enough.
+  const double pixels = spacing * placement.scale;
+  scene.wall_width = pixels < 4 ? 0 : std::clamp(0.035 * pixels, 0.3, 2.6);
   scene.outline_width = std::clamp(1.6 * scene.wall_width, 1.2, 3.6);
-  scene.disc_line = std::clamp(0.02 * spacing * placement.scale, 0.5, 1.6);
+  scene.disc_line = std::clamp(0.02 * pixels, 0.5, 1.6);
   const bool discs = output.seeds.size() <= most_discs;
   const double magnification = disc_magnification(output.seeds, spacing);
   if (discs) {

@@ -47,7 +47,7 @@ struct Scene {
   std::string title, description;
   Rings cell_rings;
   std::vector<Cell> cells;
-  double wall_width = 1;  ///< of the line around each cell, in the colour of paper
+  double wall_width = 1;  ///< of the line around each cell, in the colour of paper; 0: none
   Rings outline;          ///< of the domain
   double outline_width = 3;
   std::vector<Disc> discs;  ///< in drawing order

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t most_apart = 20'000;  // with more cells the gaps would be finer than a pixel
 constexpr float shrink = 0.88f;
+constexpr float crease = 0.8f;  // cosine of the angle from which an edge of the domain is sharp
 
 struct VolumeDrawing {
   const DiagramOutput& output;
@@ -64,23 +65,30 @@ void VolumeDrawing::add_cell(std::size_t cell) {
   if (line_width > 0) add_edges(cell, points, normals);
 }
 
-// Edges between faces in different planes; a face of the domain may be cut into many coplanar ones.
+// Edges between faces in different planes: a flat face of the domain may be cut into many. Two faces on the
+// domain's boundary must meet at a crease: a curved boundary is not a heap of facets.
 void VolumeDrawing::add_edges(std::size_t cell, const std::vector<Vec3>& points,
                               const std::vector<Vec3>& normals) {
   const JoinedCells& joined = output.joined;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> open;  // edges met once, with that face's normal
-  const auto draw = [&](std::uint32_t a, std::uint32_t b) {
-    model.lines.push_back({points[a], points[b], mix(colours[cell], ink, 0.62), line_width});
+  struct Side {
+    Vec3 normal;
+    bool boundary;
   };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Side> open;  // edges met once, with that face
   for (std::size_t f = 0; f < normals.size(); ++f) {
-    const auto loop = loop_of(joined, joined.face_offset[cell] + f);
+    const std::uint64_t face = joined.face_offset[cell] + f;
+    const Side side{normals[f], joined.face_border[face].kind == Border::Kind::boundary};
+    const auto loop = loop_of(joined, face);
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const std::uint32_t a = loop[k], b = loop[(k + 1) % loop.size()];
-      const auto [at, first] = open.try_emplace(std::minmax(a, b), normals[f]);
+      const auto [at, first] = open.try_emplace(std::minmax(a, b), side);
       if (first) continue;
-      const bool front = faces_camera(points[a], at->second) || faces_camera(points[a], normals[f]);
-      if (front && dot(at->second, normals[f]) < 0.999f) draw(a, b);
+      const Side other = at->second;
       open.erase(at);
+      const bool front = faces_camera(points[a], other.normal) || faces_camera(points[a], side.normal);
+      const float flat = side.boundary && other.boundary ? crease : 0.999f;
+      if (!front || dot(other.normal, side.normal) >= flat) continue;
+      model.lines.push_back({points[a], points[b], mix(colours[cell], ink, 0.62), line_width});
     }
   }
 }
