@@ -27,7 +27,8 @@ class POWERCELL_API Diagram {
   ~Diagram();
 
   /// Copies the seeds. At most 2^31 - 2 of them.
-  /// \throw Error invalid_argument (sizes), invalid_seed (NaN or infinity, which)
+  /// \throw Error invalid_argument (sizes), invalid_seed (which: NaN, infinity, or so large that
+  /// its square is not finite in the precision)
   void set_seeds(const SeedsView& seeds);
   /// New weights for the same positions; re-does only what depends on weights.
   /// \throw Error invalid_argument (size), invalid_seed

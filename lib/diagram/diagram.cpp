@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/collect/dual.hpp"
+#include "lib/diagram/range.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/seeds/validate.hpp"
@@ -19,6 +20,7 @@ void Diagram::set_seeds(const SeedsView& seeds) {
   State& s = *state_;
   Stopwatch watch;
   SeedSet ordered = make_seed_set(seeds, s.domain.dimension(), thread_count(s.options.threads));
+  require_in_range(seeds, s.scene.frame());
   s.forget_results();
   s.ready = false;
   s.seeds = std::move(ordered);
@@ -44,6 +46,7 @@ void Diagram::set_weights(std::span<const double> weights) {
     return;
   }
   validate_seeds(seeds, seeds.dimension, thread_count(s.options.threads));
+  require_in_range(seeds, s.scene.frame());
   s.forget_results();
   s.ready = false;
   s.input_weights.assign(weights.begin(), weights.end());
