@@ -16,6 +16,8 @@
 #define CUT_EMPTY 2
 #define CUT_FULL 3
 #define CUT_TANGLED 4
+#define CUT_TOUCH 5  /* nothing cut off, but a face may lie in the cutting plane */
+#define CUT_WITHIN 6 /* the whole cell lies in the cutting plane, to rounding */
 
 /* What became of a seed (powercell::SeedStatus, then what only a diagram in device memory can meet). */
 #define SEED_OK 0
@@ -54,5 +56,9 @@ typedef struct {
   int next[3][SHAPE_VERTICES];
   int face[3][SHAPE_VERTICES];
 } region_shape_t;
+
+/* Behind a facet of a region lies nothing, or a region: then the corner of it that is not on the facet
+   (surfaces), or any number from 0. */
+#define BEHIND_NOTHING (-1)
 
 #endif

@@ -51,6 +51,7 @@ struct Border {
 };
 
 /// The geometry of the cells as convex pieces, one for each region of the domain that a cell meets.
+/// A piece thinner than rounding is kept, so that cells have no gaps, but adds nothing to the measures.
 /// Cell i owns the pieces [cell_offset[i], cell_offset[i+1]).
 /// Piece p has the vertices [vertex_offset[p], vertex_offset[p+1]) and the faces
 /// [face_offset[p], face_offset[p+1]). For polygons and surfaces a face is an edge: face k of a piece

@@ -1,7 +1,8 @@
-/* The cell type of this variant: both define cell_t and the functions cell_... on it. */
+/* The cell type of this variant: both define cell_t and the functions cell_... on it. What they include
+   themselves is included here first: the host expands an include once, also where #if leaves it out. */
 #ifndef POWERCELL_BASE_CELL
 #define POWERCELL_BASE_CELL
-#include "base/real.cl"
+#include "base/regions.cl"
 #if CELL_DIMENSION == 3
 #include "clip/polyhedron.cl"
 #else

@@ -6,14 +6,41 @@
 
 /* A side value within TOLERANCE_FACTOR rounding errors of its terms counts as zero. */
 
-/* Cuts the cell of `seed` by its bisector with `other`, known as `border`. Returns a CUT code. */
+/* What lies behind a face with border `old` that lies in the bisector of `border` (docs/mathematics.md,
+   "Walls in facets"): of two seeds the farther one; behind a facet of the region the new seed, unless
+   the facet bounds the domain or, on a surface, the region behind it is on this side of the bisector. */
+static inline int border_behind(const cell_t* cell, int old, const real* q, real level, real tolerance,
+                                int border) {
+  real p[DIMENSION];
+  const seed_t seed = cell->seeds[cell->self];
+  if (old >= 0) {
+    difference(cell->seeds[old], seed, p);
+    return norm2(q) > norm2(p) ? border : old;
+  }
+  const int behind = cell->behind[~old];
+  if (behind == BEHIND_NOTHING) return old;
+  if (DIMENSION == CELL_DIMENSION) return border;
+  difference(cell->corner[behind], seed, p);
+  real s = -level;
+  for (int k = 0; k < DIMENSION; ++k) s += 2 * q[k] * p[k];
+  return s > tolerance || (s >= -tolerance && (uint)border < cell->self) ? border : old;
+}
+
+/* Cuts the cell by the bisector with `other`, whose rank is `border`. Of two seeds that share a region
+   within their bisector, as a triangle can lie, the one of lower rank has it. Returns a CUT code. */
 static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
   real q[DIMENSION], sum = 0;
   difference(other, seed, q);
   for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
   const real q2 = norm2(q), dw = weight_difference(seed, other);
   const real tolerance = TOLERANCE_FACTOR * REAL_EPSILON * (2 * sum * cell->reach + q2 + fabs(dw));
-  return cell_cut(cell, q, q2 + dw, tolerance, border);
+  const int cut = cell_cut(cell, q, q2 + dw, tolerance, border);
+  if (cut == CUT_WITHIN) return cell->self < (uint)border ? CUT_NONE : CUT_EMPTY;
+  if (cut != CUT_TOUCH) return cut;
+  for (int f = 0; f < cell_faces(cell); ++f)
+    if (cell_face_touches(cell, f, tolerance))
+      cell->border[f] = border_behind(cell, cell->border[f], q, q2 + dw, tolerance, border);
+  return CUT_NONE;
 }
 
 /* Largest squared distance of a vertex from the seed. */

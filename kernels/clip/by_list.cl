@@ -7,7 +7,8 @@
 __kernel void clip_by_list_kernel(
     const uint count, __global const uint* active, __global const uint* pair_seed,
     __global const uint* pair_region, __global const seed_t* corners, __global const uint* region_offset,
-    __global const uint* region_vertex, __global const region_shape_t* shape, __global uint* status,
+    __global const uint* region_vertex, __global const int* behind,
+    __global const region_shape_t* shape, __global uint* status,
     __global stored_real* moments, __global uint* faces, __global int* border, __global stored_real* wall,
     __global uint* vertices, __global stored_real* vertex, __global uint* link,
     __global const seed_t* seeds, const uint seed_count, __global const stored_real* lift,
@@ -19,8 +20,8 @@ __kernel void clip_by_list_kernel(
   const lists_t lists = {seeds, lift, neighbor, stride, list_count, seed_count, twins};
   const output_t out = {moments, faces, border, wall, vertices, vertex, link};
   cell_t cell;
-  int result =
-      cell_start(&cell, seeds[i], corners, region_offset, region_vertex, shape, pair_region[pair]);
+  const regions_t regions = {corners, region_offset, region_vertex, behind, shape};
+  int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
   if (result == PIECE_WHOLE) result = clip_by_list(&cell, lists, i, active_list[row]);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

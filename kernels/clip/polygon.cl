@@ -2,7 +2,7 @@
    seed. Edge k goes from vertex k to vertex k+1 and has what lies behind it in border[k]. */
 #ifndef POWERCELL_CLIP_POLYGON
 #define POWERCELL_CLIP_POLYGON
-#include "base/real.cl"
+#include "base/regions.cl"
 
 typedef struct {
   STORAGE_ROWS(real, x, DIMENSION, VERTEX_CAPACITY);
@@ -10,22 +10,29 @@ typedef struct {
   STORAGE(real, side, VERTEX_CAPACITY);
   int vertices;
   real reach; /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  uint self;                      /* rank of the seed */
+  __global const seed_t* seeds;   /* all seeds, by rank */
+  __global const seed_t* corner;  /* vertices of the domain */
+  __global const int* behind;     /* what lies behind the facets of the region */
   HOST_MEMBERS
 } cell_t;
 
-/* The region as a cell of `seed`. Returns a PIECE status. */
-static inline int cell_start(cell_t* cell, seed_t seed, __global const seed_t* corners,
-                             __global const uint* region_offset, __global const uint* region_vertex,
-                             __global const region_shape_t* shape, uint region) {
-  (void)shape;
-  const uint first = region_offset[region];
-  const int count = (int)(region_offset[region + 1] - first);
+/* The region as the cell of seed `self`. Returns a PIECE status. */
+static inline int cell_start(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint self,
+                             uint region) {
+  const uint first = regions.offset[region];
+  const int count = (int)(regions.offset[region + 1] - first);
   if (count > VERTEX_CAPACITY) return PIECE_FULL;
   cell->vertices = count;
   cell->reach = 0;
+  cell->self = self;
+  cell->seeds = seeds;
+  cell->corner = regions.corner;
+  cell->behind = regions.behind + first;
+  const seed_t seed = seeds[self];
   for (int v = 0; v < count; ++v) {
     real y[DIMENSION];
-    difference(corners[region_vertex[first + (uint)v]], seed, y);
+    difference(regions.corner[regions.vertex[first + (uint)v]], seed, y);
     real sum = 0;
     for (int k = 0; k < DIMENSION; ++k) {
       cell->x[k][v] = y[k];
@@ -54,16 +61,19 @@ static inline void set_vertex(cell_t* cell, int v, const real* p, int border) {
   cell->border[v] = border;
 }
 
-/* side[v] = 2 q.y_v - level for all vertices; returns how many exceed the tolerance. */
-static inline int cell_sides(cell_t* cell, const real* q, real level, real tolerance) {
-  int outside = 0;
+/* side[v] = 2 q.y_v - level for all vertices; returns how many exceed the tolerance,
+   and in `inside` how many are below its negative. */
+static inline int cell_sides(cell_t* cell, const real* q, real level, real tolerance, int* inside) {
+  int outside = 0, below = 0;
   for (int v = 0; v < cell->vertices; ++v) {
     real s = q[0] * cell->x[0][v];
     for (int k = 1; k < DIMENSION; ++k) s += q[k] * cell->x[k][v];
     s = 2 * s - level;
     cell->side[v] = s;
     outside += s > tolerance;
+    below += s < -tolerance;
   }
+  *inside = below;
   return outside;
 }
 
@@ -92,13 +102,14 @@ static inline void replace_run(cell_t* cell, int first, int last, int border) {
   set_vertex(cell, at + 1, b, behind);
 }
 
-/* Keeps the part with 2 q.y <= level. Vertices within the tolerance of the line count as inside.
-   Returns a CUT code. */
+/* Keeps the part with 2 q.y <= level. Vertices within the tolerance of the line are kept,
+   unless nothing else is. Returns a CUT code; after CUT_TOUCH side[] holds. */
 static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
-  const int outside = cell_sides(cell, q, level, tolerance);
+  int inside;
+  const int outside = cell_sides(cell, q, level, tolerance, &inside);
   const int n = cell->vertices;
-  if (outside == 0) return CUT_NONE;
-  if (outside == n) return CUT_EMPTY;
+  if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
+  if (outside == 0) return n - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
   if (n + 1 > VERTEX_CAPACITY) return CUT_FULL;
   int first = -1, runs = 0;
   for (int v = 0; v < n; ++v) {
@@ -112,6 +123,12 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   const int last = first + outside - 1;
   replace_run(cell, first, last < n ? last : last - n, border);
   return CUT_SHRUNK;
+}
+
+/* Whether face f lies in the plane that side[] was computed for and that nothing is outside of. */
+static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) {
+  const int next = f + 1 == cell->vertices ? 0 : f + 1;
+  return cell->side[f] >= -tolerance && cell->side[next] >= -tolerance;
 }
 
 static inline int cell_faces(const cell_t* cell) { return cell->vertices; }

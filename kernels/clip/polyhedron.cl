@@ -3,7 +3,7 @@
    lies between next[k][v] and next[k+1][v], and its loop goes from v on to next[k][v]. */
 #ifndef POWERCELL_CLIP_POLYHEDRON
 #define POWERCELL_CLIP_POLYHEDRON
-#include "base/real.cl"
+#include "base/regions.cl"
 
 #define NO_VERTEX ((index_t)(-1))
 
@@ -17,24 +17,32 @@ typedef struct {
   int vertices;
   int faces; /* face numbers given out; some may no longer be in use */
   real reach; /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  uint self;                      /* rank of the seed */
+  __global const seed_t* seeds;   /* all seeds, by rank */
+  __global const seed_t* corner;  /* vertices of the domain */
+  __global const int* behind;     /* what lies behind the facets of the region */
   HOST_MEMBERS
 } cell_t;
 
-/* The region as a cell of `seed`. Returns a PIECE status. */
-static inline int cell_start(cell_t* cell, seed_t seed, __global const seed_t* corners,
-                             __global const uint* region_offset, __global const uint* region_vertex,
-                             __global const region_shape_t* shape, uint region) {
-  const uint first = region_offset[region];
-  cell->vertices = shape->vertices;
-  cell->faces = shape->faces;
+/* The region as the cell of seed `self`. Returns a PIECE status. */
+static inline int cell_start(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint self,
+                             uint region) {
+  const uint first = regions.offset[region];
+  cell->vertices = regions.shape->vertices;
+  cell->faces = regions.shape->faces;
   cell->reach = 0;
+  cell->self = self;
+  cell->seeds = seeds;
+  cell->corner = regions.corner;
+  cell->behind = regions.behind + region * (uint)regions.shape->faces;
+  const seed_t seed = seeds[self];
   for (int v = 0; v < cell->vertices; ++v) {
     real y[3];
-    difference(corners[region_vertex[first + (uint)v]], seed, y);
+    difference(regions.corner[regions.vertex[first + (uint)v]], seed, y);
     for (int k = 0; k < 3; ++k) {
       cell->x[k][v] = y[k];
-      cell->next[k][v] = (index_t)shape->next[k][v];
-      cell->face[k][v] = (index_t)shape->face[k][v];
+      cell->next[k][v] = (index_t)regions.shape->next[k][v];
+      cell->face[k][v] = (index_t)regions.shape->face[k][v];
     }
     cell->reach = fmax(cell->reach, fabs(y[0]) + fabs(y[1]) + fabs(y[2]));
   }
@@ -42,15 +50,18 @@ static inline int cell_start(cell_t* cell, seed_t seed, __global const seed_t* c
   return PIECE_WHOLE;
 }
 
-/* side[v] = 2 q.y_v - level for all vertices; returns how many exceed the tolerance. */
-static inline int cell_sides(cell_t* cell, const real* q, real level, real tolerance) {
-  int outside = 0;
+/* side[v] = 2 q.y_v - level for all vertices; returns how many exceed the tolerance,
+   and in `inside` how many are below its negative. */
+static inline int cell_sides(cell_t* cell, const real* q, real level, real tolerance, int* inside) {
+  int outside = 0, below = 0;
   const real a = 2 * q[0], b = 2 * q[1], c = 2 * q[2];
   for (int v = 0; v < cell->vertices; ++v) {
     const real s = a * cell->x[0][v] + b * cell->x[1][v] + c * cell->x[2][v] - level;
     cell->side[v] = s;
     outside += s > tolerance;
+    below += s < -tolerance;
   }
+  *inside = below;
   return outside;
 }
 
@@ -127,13 +138,15 @@ static inline void drop_outside(cell_t* cell, int n, int count, real tolerance) 
   cell->vertices = last + 1;
 }
 
-/* Keeps the part with 2 q.y <= level. Vertices within the tolerance of the plane count as inside.
-   Returns a CUT code; after CUT_FULL and CUT_TANGLED the cell is no longer usable. */
+/* Keeps the part with 2 q.y <= level. Vertices within the tolerance of the plane are kept,
+   unless nothing else is. Returns a CUT code; after CUT_FULL and CUT_TANGLED the cell is no longer
+   usable, after CUT_TOUCH side[] holds. */
 static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
-  const int outside = cell_sides(cell, q, level, tolerance);
+  int inside;
+  const int outside = cell_sides(cell, q, level, tolerance, &inside);
   const int n = cell->vertices;
-  if (outside == 0) return CUT_NONE;
-  if (outside == n) return CUT_EMPTY;
+  if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
+  if (outside == 0) return n - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
   if (cell->faces == FACE_CAPACITY) collect_faces(cell);
   if (cell->faces == FACE_CAPACITY) return CUT_FULL;
   const int cut = cell->faces++;
@@ -153,6 +166,18 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   if (link_cut(cell, n, count) != CUT_SHRUNK) return CUT_TANGLED;
   drop_outside(cell, n, count, tolerance);
   return CUT_SHRUNK;
+}
+
+/* Whether face f lies in the plane that side[] was computed for and that nothing is outside of. */
+static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) {
+  bool used = false;
+  for (int v = 0; v < cell->vertices; ++v)
+    for (int k = 0; k < 3; ++k) {
+      if (cell->face[k][v] != (index_t)f) continue;
+      if (cell->side[v] < -tolerance) return false;
+      used = true;
+    }
+  return used;
 }
 
 static inline int cell_faces(const cell_t* cell) { return cell->faces; }

@@ -10,7 +10,8 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
                          __global const uint* pair_seed, __global const uint* pair_region,
                          __global const uint* state, __global const seed_t* corners,
                          __global const uint* region_offset, __global const uint* region_vertex,
-                         __global const region_shape_t* shape, __global uint* status,
+                         __global const int* behind, __global const region_shape_t* shape,
+                         __global uint* status,
                          __global stored_real* moments, __global const seed_t* seeds, const uint seed_count,
                          __global const seed_t* node_low, __global const seed_t* node_high,
                          __global const uint* level_offset, const int levels) {
@@ -19,10 +20,11 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
   const uint pair = listed ? list[entry] : entry, i = pair_seed[pair];
   const tree_t tree = {seeds, node_low, node_high, level_offset, levels, seed_count};
   const output_t out = {moments, 0, 0, 0, 0, 0, 0};
+  const regions_t regions = {corners, region_offset, region_vertex, behind, shape};
   cell_t cell;
   int result = state[i] == SEED_OK ? PIECE_WHOLE : PIECE_EMPTY;
   if (result == PIECE_WHOLE)
-    result = cell_start(&cell, seeds[i], corners, region_offset, region_vertex, shape, pair_region[pair]);
+    result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
   if (result == PIECE_WHOLE) result = clip_by_tree(&cell, tree, i);
   status[pair] = (uint)write_piece(&cell, out, result, pair, 0);
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
 /// Arguments that all clip kernels share come first; those of the candidates follow.
-constexpr unsigned common_arguments = 16;
+constexpr unsigned common_arguments = 17;
 
 /// `count` reals of the device's precision as doubles.
 void read_reals(const cl::RawBuffer& buffer, bool float32, std::size_t count, std::vector<double>& to) {
@@ -122,7 +122,7 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
 
   cl::Kernel& call = kernel(rung);
   call.args(static_cast<cl_uint>(rows), active_, seed_, region_, scene_.corners, scene_.region_offset,
-            scene_.region_vertex, scene_.shape, status_, moments_, faces_, border_, wall_, vertices_, vertex_,
+            scene_.region_vertex, scene_.behind, scene_.shape, status_, moments_, faces_, border_, wall_, vertices_, vertex_,
             link_);
   candidates_.set_arguments(call, common_arguments);
   call.launch(rows, 0, &statistics_.kernel_seconds);

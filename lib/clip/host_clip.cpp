@@ -25,6 +25,7 @@ HostScene make_host_scene(const Scene& scene) {
           frame.pack(seeds.dimension, seeds.positions, seeds.weights),
           frame.pack(tree.dimension, tree.low, tree.weight),
           frame.pack(tree.dimension, tree.high, {}),
+          regions_behind(mesh),
           region_shape(mesh.shape),
           &mesh,
           &tree};

@@ -22,6 +22,7 @@ struct HostPiece {
 /// Points packed as kernels see them, in double.
 struct HostScene {
   std::vector<std::byte> corners, points, node_low, node_high;
+  std::vector<std::int32_t> behind;
   region_shape_t shape;
   const RegionMesh* mesh;
   const PackedTree* tree;

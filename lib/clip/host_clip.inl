@@ -83,8 +83,9 @@ HostPiece clip(const HostScene& scene, std::uint32_t rank, std::uint32_t region,
   piece.moments.resize(2 + DIMENSION);
   const output_t out = {piece.moments.data(), batch.faces.data(),  batch.border.data(), batch.wall.data(),
                         batch.vertices.data(), batch.vertex.data(), batch.link.data()};
-  int status = cell_start(&cell, tree.seeds[rank], as_seeds(scene.corners), scene.mesh->region_offset.data(),
-                          scene.mesh->region_vertex.data(), &scene.shape, region);
+  const regions_t regions = {as_seeds(scene.corners), scene.mesh->region_offset.data(),
+                             scene.mesh->region_vertex.data(), scene.behind.data(), &scene.shape};
+  int status = cell_start(&cell, regions, tree.seeds, rank, region);
   if (status == PIECE_WHOLE) status = clip_by_tree(&cell, tree, rank);
   piece.status = write_piece(&cell, out, status, 0, 0);
   return piece;

@@ -1,5 +1,7 @@
 #include "lib/clip/scene.hpp"
 
+#include <algorithm>
+
 namespace powercell {
 
 namespace {
@@ -40,6 +42,37 @@ region_shape_t region_shape(RegionShape kind) {
   return shape;
 }
 
+namespace {
+
+/// The corner of triangle `region` that is at neither end of edge `slot` of triangle `beside`, by position,
+/// since meshes may repeat vertices.
+std::int32_t corner_off_edge(const RegionMesh& mesh, std::uint32_t region, std::uint32_t beside, std::uint32_t slot) {
+  const auto same = [&](std::uint32_t a, std::uint32_t b) {
+    return std::equal(&mesh.vertices[a * 3], &mesh.vertices[a * 3] + 3, &mesh.vertices[b * 3]);
+  };
+  const std::uint32_t* ends = &mesh.region_vertex[mesh.region_offset[beside]];
+  const std::uint32_t from = ends[slot], to = ends[(slot + 1) % 3];
+  for (std::uint32_t k = mesh.region_offset[region]; k < mesh.region_offset[region + 1]; ++k) {
+    const std::uint32_t corner = mesh.region_vertex[k];
+    if (!same(corner, from) && !same(corner, to)) return static_cast<std::int32_t>(corner);
+  }
+  return BEHIND_NOTHING;  // the same edge twice: a flat triangle, which domains leave out
+}
+
+}  // namespace
+
+std::vector<std::int32_t> regions_behind(const RegionMesh& mesh) {
+  std::vector<std::int32_t> behind(mesh.facet.size(), BEHIND_NOTHING);
+  for (std::uint32_t region = 0; region < mesh.region_count(); ++region)
+    for (std::uint32_t f = mesh.facet_offset[region]; f < mesh.facet_offset[region + 1]; ++f) {
+      if (mesh.facet[f].kind != Border::Kind::interior) continue;
+      behind[f] = mesh.kind == DomainKind::surface
+                      ? corner_off_edge(mesh, mesh.facet[f].index, region, f - mesh.facet_offset[region])
+                      : 0;
+    }
+  return behind;
+}
+
 Scene::Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool float32)
     : corners(context),
       points(context),
@@ -48,6 +81,7 @@ Scene::Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool 
       region_offset(context),
       region_vertex(context),
       level_offset(context),
+      behind(context),
       shape(context),
       context_(context),
       mesh_(mesh),
@@ -55,6 +89,7 @@ Scene::Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool 
   upload(corners, frame_.pack(mesh.dimension, mesh.vertices, {}));
   region_offset.upload(mesh.region_offset);
   region_vertex.upload(mesh.region_vertex);
+  behind.upload(regions_behind(mesh));
   const region_shape_t start = region_shape(mesh.shape);
   shape.upload({&start, 1});
 }

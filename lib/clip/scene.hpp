@@ -15,6 +15,9 @@ namespace powercell {
 /// The graph that all volume regions of one shape start from.
 region_shape_t region_shape(RegionShape shape);
 
+/// What the kernels know of the regions behind the facets of `mesh` (BEHIND_NOTHING in kernels/layout.h).
+std::vector<std::int32_t> regions_behind(const RegionMesh& mesh);
+
 /// Domain, seeds and tree on the device. Buffers are kept between uploads.
 class Scene {
  public:
@@ -34,6 +37,7 @@ class Scene {
 
   cl::RawBuffer corners, points, node_low, node_high;  // seed_t
   cl::Buffer<std::uint32_t> region_offset, region_vertex, level_offset;
+  cl::Buffer<std::int32_t> behind;  // per facet: BEHIND_NOTHING or a corner (kernels/layout.h)
   cl::Buffer<region_shape_t> shape;
 
  private:

@@ -51,7 +51,7 @@ void GeometryCollector::add_loops(const PieceBatch& batch, std::size_t row) {
 void GeometryCollector::add(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
                             const PieceSet& pieces) {
   for (std::size_t k = 0; k < pair_seed.size(); ++k) {
-    if (pieces.status[k] != PIECE_WHOLE) continue;
+    if (pieces.status[k] != PIECE_WHOLE && pieces.status[k] != PIECE_FLAT) continue;
     const PieceBatch& batch = pieces.batches[pieces.batch[k]];
     const std::size_t row = pieces.row[k];
     piece_rank_.push_back(pair_seed[k]);
@@ -78,16 +78,19 @@ void append_row(std::vector<T>& to, const std::vector<T>& values, std::uint64_t 
 
 }  // namespace
 
-Cells GeometryCollector::finish() {
+Cells GeometryCollector::finish(const std::vector<SeedStatus>& status) {
   Cells out;
   out.dimension = cells_.dimension;
   out.cell_dimension = cells_.cell_dimension;
   out.cell_offset.assign(seeds_.input_count + 1, 0);
-  for (const std::uint32_t rank : piece_rank_) ++out.cell_offset[seeds_.input[rank] + 1];
+  const auto ok = [&](std::uint32_t rank) { return status[seeds_.input[rank]] == SeedStatus::ok; };
+  for (const std::uint32_t rank : piece_rank_)
+    if (ok(rank)) ++out.cell_offset[seeds_.input[rank] + 1];
   std::partial_sum(out.cell_offset.begin(), out.cell_offset.end(), out.cell_offset.begin());
-  std::vector<std::uint64_t> order(piece_rank_.size());
+  std::vector<std::uint64_t> order(out.cell_offset.back());
   std::vector<std::uint64_t> at(out.cell_offset.begin(), out.cell_offset.end() - 1);
-  for (std::uint64_t p = 0; p < piece_rank_.size(); ++p) order[at[seeds_.input[piece_rank_[p]]]++] = p;
+  for (std::uint64_t p = 0; p < piece_rank_.size(); ++p)
+    if (ok(piece_rank_[p])) order[at[seeds_.input[piece_rank_[p]]]++] = p;
 
   const bool loops = cells_.cell_dimension == 3;
   const auto d = static_cast<std::size_t>(cells_.dimension);

@@ -19,12 +19,12 @@ class GeometryCollector {
  public:
   GeometryCollector(const RegionMesh& mesh, const SeedSet& seeds, const Frame& frame);
 
-  /// Adds the whole pieces of a chunk, in the order of the pairs.
+  /// Adds the pieces of a chunk, in the order of the pairs.
   void add(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
            const PieceSet& pieces);
 
-  /// The cells in input order.
-  Cells finish();
+  /// The cells in input order, of the seeds whose status is ok.
+  Cells finish(const std::vector<SeedStatus>& status);
 
  private:
   void add_vertices(const PieceBatch& batch, std::size_t row, std::uint32_t rank);

@@ -161,7 +161,7 @@ void ChunkRun::run() {
   if (want_adjacency_)
     s_.adjacency = walls_.finish(s_.seeds, measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
                                  s_.scene.float32() ? negligible_float : negligible_double);
-  if (want_cells_) s_.cells = geometry_.finish();
+  if (want_cells_) s_.cells = geometry_.finish(measures.status);
   s_.measures = std::move(measures);
   s_.timings.collect += watch.seconds();
 }

@@ -33,10 +33,24 @@ Neighbors choose_neighbors(Neighbors asked) {
 
 }  // namespace
 
+namespace {
+
+Options checked(Options options) {
+  const auto refuse = [](const char* name, int value) {
+    throw Error(ErrorCode::invalid_argument,
+                std::string(name) + " is " + std::to_string(value) + "; it must not be negative (0 lets the library choose)");
+  };
+  if (options.initial_neighbors < 0) refuse("initial_neighbors", options.initial_neighbors);
+  if (options.threads < 0) refuse("threads", options.threads);
+  return options;
+}
+
+}  // namespace
+
 Diagram::State::State(Device device_in, Domain domain_in, Options options_in)
     : device(std::move(device_in)),
       domain(std::move(domain_in)),
-      options(std::move(options_in)),
+      options(checked(std::move(options_in))),
       precision(choose_precision(device, options.precision)),
       neighbors(choose_neighbors(options.neighbors)),
       scene(device.context(), domain.mesh(), precision == Precision::float32) {}

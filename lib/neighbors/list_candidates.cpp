@@ -13,9 +13,6 @@ namespace {
 constexpr std::size_t most_entries = std::size_t{1} << 25;
 
 std::size_t initial_neighbors(const Options& options, int cell_dimension) {
-  if (options.initial_neighbors < 0)
-    throw Error(ErrorCode::invalid_argument,
-                "initial_neighbors is " + std::to_string(options.initial_neighbors) + "; it must not be negative");
   if (options.initial_neighbors > 0) return static_cast<std::size_t>(options.initial_neighbors);
   return cell_dimension == 3 ? 32 : 16;
 }

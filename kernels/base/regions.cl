@@ -1,0 +1,14 @@
+/* The convex regions of the domain, from which cells start. */
+#ifndef POWERCELL_BASE_REGIONS
+#define POWERCELL_BASE_REGIONS
+#include "base/real.cl"
+
+typedef struct {
+  __global const seed_t* corner;        /* vertices of the domain */
+  __global const uint* offset;          /* per region: its first vertex */
+  __global const uint* vertex;          /* corners of the regions */
+  __global const int* behind;           /* per facet of each region: BEHIND_NOTHING, or a corner */
+  __global const region_shape_t* shape; /* of volume regions */
+} regions_t;
+
+#endif
