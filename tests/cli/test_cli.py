@@ -156,7 +156,7 @@ class Diagram(ToolTest):
     def test_every_output_format(self):
         common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".json"]
         for shape, dimension in SHAPES.items():
-            for extension in common + ([".svg", ".pdf"] if dimension == 2 else []):
+            for extension in common + ([".svg", ".pdf", ".geojson"] if dimension == 2 else []):
                 with self.subTest(shape=shape, extension=extension):
                     name = "out" + extension
                     report = self.report("diagram", "--domain", DATA / shape, "--seeds", "random:60", "-o", name)
