@@ -15,11 +15,7 @@ __kernel void make_grid(const uint tiles, __global const stored_real* boxes, __g
     grid[k] = low <= high ? low : 0; /* no valid seed, no box */
     if (low <= high) side = fmax(side, high - low);
   }
-  int exponent = LEAST_EXPONENT;
-  if (side > 0) {
-    frexp(side, &exponent);
-    exponent = max(exponent, LEAST_EXPONENT);
-  }
+  const int exponent = side > 0 ? max(ilogb(side) + 1, LEAST_EXPONENT) : LEAST_EXPONENT; /* side < 2^exponent */
   grid[3] = ldexp((real)1, HILBERT_BITS - exponent);
 }
 
