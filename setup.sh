@@ -18,7 +18,7 @@ build_packages="cmake ninja-build g++ pkg-config
 # What the tests need besides: the peers that results are compared with, and the programs that read
 # written files back.
 test_packages="doctest-dev libcgal-dev libeigen3-dev voro++-dev libtbb-dev
-  clang oclgrind librsvg2-bin libxml2-utils python3 python3-meshio python3-vtk9"
+  clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-meshio python3-shapely python3-vtk9"
 
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
 fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }

@@ -21,15 +21,10 @@ struct DiagramArguments : CommonOptions {
   std::vector<std::string> outputs;
 };
 
-// Everything the files asked for are made from; what none of them needs is not computed.
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const SeedsView& seeds,
                  RunReport& report) {
   if (arguments.outputs.empty() && arguments.table.empty() && arguments.walls.empty()) return;
   const Measures& measures = diagram.measures();
-  compute([&] {
-    diagram.adjacency();
-    if (!arguments.outputs.empty()) diagram.cells();
-  });
   Stopwatch watch;
   if (!arguments.outputs.empty()) {
     const JoinedCells joined = join(diagram.domain(), diagram.cells());
@@ -71,7 +66,9 @@ int run(const DiagramArguments& arguments) {
 
   Diagram diagram(open_device(arguments), domain.domain, library_options(arguments, "cells"));
   diagram.set_seeds(seeds);
-  compute([&] { diagram.measures(); });
+  // One pass for all that the files are made from; what none of them needs is not computed.
+  const bool geometry = !arguments.outputs.empty();
+  compute([&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
   RunReport report = report_of(diagram);
   report.read = read;
   require_partition(report);
