@@ -79,9 +79,9 @@ typedef struct {
   __global const seed_t* corners;
   __global const uint* offset;
   __global const uint* vertex;
-} regions_t;
+} region_corners_t;
 
-static inline bool region_is_outside(const half_space_t* h, regions_t regions, uint region, seed_t seed) {
+static inline bool region_is_outside(const half_space_t* h, region_corners_t regions, uint region, seed_t seed) {
   for (uint slot = regions.offset[region]; slot < regions.offset[region + 1]; ++slot) {
     real y[DIMENSION], value = -h->level, size = h->scale;
     difference(regions.corners[regions.vertex[slot]], seed, y);
@@ -94,7 +94,7 @@ static inline bool region_is_outside(const half_space_t* h, regions_t regions, u
   return true;
 }
 
-static inline bool region_is_excluded(const testers_t* testers, bool owned, regions_t regions, uint region,
+static inline bool region_is_excluded(const testers_t* testers, bool owned, region_corners_t regions, uint region,
                                       seed_t seed) {
   if (owned && region_is_outside(&testers->space[TESTERS], regions, region, seed)) return true;
   for (int k = 0; k < testers->count; ++k)
@@ -170,7 +170,7 @@ __kernel void find_pairs(const uint count, const int write, __global const uint*
   }
   const tree_t tree = {seeds, node_low, node_high, level_offset, levels, count};
   const tree_t groups = {region_low, group_low, group_high, group_offset, group_levels, region_count};
-  const regions_t regions = {corners, region_offset, region_vertex};
+  const region_corners_t regions = {corners, region_offset, region_vertex};
   const seed_t seed = seeds[i];
   stack_t stack;
   testers_t testers;
