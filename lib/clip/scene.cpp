@@ -46,7 +46,8 @@ namespace {
 
 /// The corner of triangle `region` that is at neither end of edge `slot` of triangle `beside`, by position,
 /// since meshes may repeat vertices.
-std::int32_t corner_off_edge(const RegionMesh& mesh, std::uint32_t region, std::uint32_t beside, std::uint32_t slot) {
+std::int32_t corner_off_edge(const RegionMesh& mesh, std::uint32_t region, std::uint32_t beside,
+                             std::uint32_t slot) {
   const auto same = [&](std::uint32_t a, std::uint32_t b) {
     return std::equal(&mesh.vertices[a * 3], &mesh.vertices[a * 3] + 3, &mesh.vertices[b * 3]);
   };
@@ -73,7 +74,7 @@ std::vector<std::int32_t> regions_behind(const RegionMesh& mesh) {
   return behind;
 }
 
-Scene::Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool float32)
+Scene::Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32)
     : corners(context),
       points(context),
       node_low(context),

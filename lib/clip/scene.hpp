@@ -21,7 +21,7 @@ std::vector<std::int32_t> regions_behind(const RegionMesh& mesh);
 /// Domain, seeds and tree on the device. Buffers are kept between uploads.
 class Scene {
  public:
-  Scene(std::shared_ptr<cl::Context> context, const RegionMesh& mesh, bool float32);
+  Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32);
 
   /// Uploads positions, weights and tree; keeps references to both until the next call.
   void set_seeds(const SeedSet& seeds, const PackedTree& tree);
