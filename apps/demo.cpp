@@ -57,7 +57,7 @@ void relax(Diagram& diagram, std::vector<double>& positions, int rounds) {
   }
 }
 
-// Discs of different radii, one in 45 large enough to hide neighbours.
+// Discs of different radii, one in 60 large enough to hide neighbours.
 std::vector<double> weights_of_discs(const Domain& domain, std::size_t count) {
   const double spacing =
       std::pow(domain.measure() / static_cast<double>(count), 1.0 / domain.cell_dimension());
@@ -66,7 +66,7 @@ std::vector<double> weights_of_discs(const Domain& domain, std::size_t count) {
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<double> weights(count);
   for (double& weight : weights) {
-    const double radius = spacing * (unit() < 1.0 / 45 ? 1.2 : 0.1 + 0.5 * unit());
+    const double radius = spacing * (unit() < 1.0 / 60 ? 1.5 : 0.1 + 0.5 * unit());
     weight = radius * radius;
   }
   return weights;
