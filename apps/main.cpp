@@ -39,7 +39,7 @@ int run(int argc, char** argv) {
       "  powercell devices                                    what --device accepts\n"
       "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
       "  powercell verify --device cpu                        does this device compute rightly?\n"
-      "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_LOG.");
+      "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE.");
   const std::map<std::string, powercell::app::Command> commands = {
       {"devices", powercell::app::add_devices(app)},
       {"diagram", powercell::app::add_diagram(app)},

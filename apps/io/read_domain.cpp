@@ -52,8 +52,11 @@ std::string describe(const DomainArrays& arrays, const std::string& spec) {
       points += part.outer.size();
       for (const Ring& hole : part.holes) points += hole.size();
     }
-    return fmt::format("{}: polygon, {} parts, {} holes, {} points", spec, arrays.parts.size(), holes,
-                       points);
+    const auto counted = [](std::size_t count, const char* what) {
+      return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    return fmt::format("{}: polygon, {}, {}, {} points", spec, counted(arrays.parts.size(), "part"),
+                       counted(holes, "hole"), points);
   }
   const bool volume = arrays.kind == DomainKind::volume;
   return fmt::format("{}: {}, {} vertices, {} {}", spec, kind_name(arrays.kind), arrays.vertices.size() / 3,

@@ -69,7 +69,8 @@ std::vector<Part> parts_of(const JoinedCells& joined, std::size_t cell) {
   for (Points& hole : holes) {
     Part* part = part_around(parts, hole);
     if (!part)
-      throw Error(ErrorCode::internal, "the cell of seed " + std::to_string(cell) + " has a hole outside of its parts");
+      throw Error(ErrorCode::internal,
+                  "the cell of seed " + std::to_string(cell) + " has a hole outside of its parts");
     part->holes.push_back(std::move(hole));
   }
   return parts;
@@ -103,7 +104,8 @@ void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
     file.write("null");
     return;
   }
-  file.write(parts.size() == 1 ? R"({"type":"Polygon","coordinates":)" : R"({"type":"MultiPolygon","coordinates":[)");
+  file.write(parts.size() == 1 ? R"({"type":"Polygon","coordinates":)"
+                               : R"({"type":"MultiPolygon","coordinates":[)");
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (k > 0) file.write(',');
     write_part(file, parts[k]);

@@ -47,7 +47,9 @@ Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs)
       wall_(scene.context()),
       vertex_(scene.context()) {}
 
-bool Clipper::wants_rows() const { return (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0; }
+bool Clipper::wants_rows() const {
+  return (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0;
+}
 
 cl::Kernel& Clipper::kernel(std::size_t rung) {
   const auto found = kernels_.find(rung);
@@ -122,8 +124,8 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
 
   cl::Kernel& call = kernel(rung);
   call.args(static_cast<cl_uint>(rows), active_, seed_, region_, scene_.corners, scene_.region_offset,
-            scene_.region_vertex, scene_.behind, scene_.shape, status_, moments_, faces_, border_, wall_, vertices_, vertex_,
-            link_);
+            scene_.region_vertex, scene_.behind, scene_.shape, status_, moments_, faces_, border_, wall_,
+            vertices_, vertex_, link_);
   candidates_.set_arguments(call, common_arguments);
   call.launch(rows, 0, &statistics_.kernel_seconds);
 
@@ -207,7 +209,8 @@ PieceSet Clipper::clip_with(std::size_t rung, std::span<const std::uint32_t> pai
 PieceSet Clipper::clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region) {
   PieceSet pieces;
   List pending = begin(pair_seed, pair_region, pieces), last_resort;
-  for (std::size_t rung = 0; rung < capacities(scene_.mesh().cell_dimension).size() && !pending.empty(); ++rung) {
+  for (std::size_t rung = 0; rung < capacities(scene_.mesh().cell_dimension).size() && !pending.empty();
+       ++rung) {
     if (rung > 0) statistics_.retried += pending.size();
     Outcome outcome;
     run_rung(rung, pending, pieces, outcome);

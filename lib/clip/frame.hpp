@@ -14,9 +14,9 @@
 namespace powercell {
 
 struct Frame {
-  double scale = 1;                 ///< device coordinate = scale * (coordinate - centre)
-  std::array<double, 3> centre{};   ///< 0 for double precision, where differences need no shift
-  bool split = false;               ///< floats: each number is the sum of a high and a low float
+  double scale = 1;                ///< device coordinate = scale * (coordinate - centre)
+  std::array<double, 3> centre{};  ///< 0 for double precision, where differences need no shift
+  bool split = false;              ///< floats: each number is the sum of a high and a low float
 
   /// \param float32 coordinates are shifted to the domain's centre and split into two floats
   static Frame of(const RegionMesh& mesh, bool float32);

@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <powercell/results.hpp>
 #include <span>
 #include <vector>
-
-#include <powercell/results.hpp>
 
 #include "lib/clip/frame.hpp"
 #include "lib/clip/pieces.hpp"
@@ -34,7 +33,7 @@ class GeometryCollector {
   const RegionMesh& mesh_;
   const SeedSet& seeds_;
   const Frame& frame_;
-  Cells cells_;                          // by rank; cell_offset unused until finish
+  Cells cells_;  // by rank; cell_offset unused until finish
   std::vector<std::uint32_t> piece_rank_;
 };
 

@@ -12,7 +12,8 @@ WallCollector::WallCollector(std::size_t ranks, int threads) : threads_(threads)
 
 void WallCollector::merge(std::vector<Wall>& row) {
   // Sums run in the order of the pairs, so chunks do not change a bit of them.
-  std::stable_sort(row.begin(), row.end(), [](const Wall& a, const Wall& b) { return a.neighbor < b.neighbor; });
+  std::stable_sort(row.begin(), row.end(),
+                   [](const Wall& a, const Wall& b) { return a.neighbor < b.neighbor; });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < row.size(); ++k) {
     if (kept > 0 && row[kept - 1].neighbor == row[k].neighbor)
@@ -51,7 +52,8 @@ std::span<const WallCollector::Wall> WallCollector::row(std::uint32_t rank) cons
   return std::span(walls_).subspan(begin, end_[rank] - begin);
 }
 
-std::vector<WallCollector::Entry> WallCollector::match(const SeedSet& seeds, const std::vector<SeedStatus>& status,
+std::vector<WallCollector::Entry> WallCollector::match(const SeedSet& seeds,
+                                                       const std::vector<SeedStatus>& status,
                                                        double negligible, double& asymmetry) const {
   const auto ok = [&](std::uint32_t rank) { return status[seeds.input[rank]] == SeedStatus::ok; };
   const auto largest = [&](std::uint32_t rank) {

@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <powercell/results.hpp>
 #include <span>
 #include <vector>
-
-#include <powercell/results.hpp>
 
 #include "lib/clip/pieces.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -23,7 +22,8 @@ class WallCollector {
   /// The adjacency in input order between seeds whose status is ok, walls times `unit`. The two sides of
   /// a wall are averaged. A wall that only one side has is rounding if it is below `negligible` of the
   /// largest wall of its cell, and left out; above, it is kept and shows in Adjacency::asymmetry.
-  Adjacency finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit, double negligible);
+  Adjacency finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
+                   double negligible);
 
  private:
   struct Wall {

@@ -37,10 +37,12 @@ std::uint64_t ChunkRun::chunk_pairs() const {
 
 std::uint32_t ChunkRun::rank_of(std::uint64_t pair) const {
   const auto& offset = s_.pairs.offset;
-  return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() - 1);
+  return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() -
+                                    1);
 }
 
-void ChunkRun::gather(std::uint64_t begin, std::uint64_t end, std::uint32_t first_rank, std::uint32_t last_rank) {
+void ChunkRun::gather(std::uint64_t begin, std::uint64_t end, std::uint32_t first_rank,
+                      std::uint32_t last_rank) {
   std::vector<std::uint32_t> offset{0}, clear;
   for (std::uint32_t rank = first_rank; rank <= last_rank; ++rank) {
     offset.push_back(static_cast<std::uint32_t>(std::min(s_.pairs.offset[rank + 1], end) - begin));
@@ -68,7 +70,8 @@ void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   std::vector<std::uint32_t> pair_seed;
   pair_seed.reserve(end - begin);
   for (std::uint32_t rank = first; rank <= last; ++rank) {
-    const std::uint64_t from = std::max(begin, pairs.offset[rank]), to = std::min(end, pairs.offset[rank + 1]);
+    const std::uint64_t from = std::max(begin, pairs.offset[rank]),
+                        to = std::min(end, pairs.offset[rank + 1]);
     pair_seed.insert(pair_seed.end(), to > from ? to - from : 0, rank);
   }
   const std::span pair_region(pairs.region.data() + begin, end - begin);
@@ -83,7 +86,7 @@ void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
 void ChunkRun::clip_all() {
   const std::uint64_t total = s_.pairs.region.size();
   clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_);
-  const double neighbor_seconds = s_.candidates->host_seconds();
+  const double neighbor_seconds = s_.candidates->host_seconds(), built_before = s_.device.build_seconds();
   Stopwatch watch;
   std::uint64_t chunk = chunk_pairs();
   for (std::uint64_t begin = 0; begin < total;) {
@@ -103,7 +106,8 @@ void ChunkRun::clip_all() {
   }
   s_.timings.neighbors += s_.candidates->host_seconds() - neighbor_seconds;
   s_.timings.collect = collect_seconds_;
-  s_.timings.clip = watch.seconds() - collect_seconds_ - (s_.candidates->host_seconds() - neighbor_seconds);
+  s_.timings.clip = watch.seconds() - collect_seconds_ - (s_.candidates->host_seconds() - neighbor_seconds) -
+                    (s_.device.build_seconds() - built_before);
   s_.timings.retried = clipper_->statistics().retried;
   s_.timings.on_host = clipper_->statistics().on_host;
   s_.timings.rounds = clipper_->statistics().rounds;
@@ -159,8 +163,9 @@ void ChunkRun::run() {
   Stopwatch watch;
   Measures measures = make_measures();
   if (want_adjacency_)
-    s_.adjacency = walls_.finish(s_.seeds, measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
-                                 s_.scene.float32() ? negligible_float : negligible_double);
+    s_.adjacency =
+        walls_.finish(s_.seeds, measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
+                      s_.scene.float32() ? negligible_float : negligible_double);
   if (want_cells_) s_.cells = geometry_.finish(measures.status);
   s_.measures = std::move(measures);
   s_.timings.collect += watch.seconds();

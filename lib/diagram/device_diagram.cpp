@@ -140,9 +140,9 @@ void DeviceDiagram::State::clip_rung(std::size_t rung, bool listed, std::uint32_
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
     clip_[rung]
         .args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
-              seeds_.state, scene.corners, scene.region_offset, scene.region_vertex, scene.behind, scene.shape,
-              piece_status_, moments_, seeds_.points, n, tree_.node_low, tree_.node_high, tree_.level_offset,
-              cl_int{tree_.levels()})
+              seeds_.state, scene.corners, scene.region_offset, scene.region_vertex, scene.behind,
+              scene.shape, piece_status_, moments_, seeds_.points, n, tree_.node_low, tree_.node_high,
+              tree_.level_offset, cl_int{tree_.levels()})
         .submit(end - first);
   }
 }

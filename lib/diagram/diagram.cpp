@@ -1,6 +1,5 @@
-#include <powercell/diagram.hpp>
-
 #include <algorithm>
+#include <powercell/diagram.hpp>
 
 #include "lib/collect/dual.hpp"
 #include "lib/diagram/range.hpp"
@@ -34,7 +33,8 @@ void Diagram::set_seeds(const SeedsView& seeds) {
 
 void Diagram::set_weights(std::span<const double> weights) {
   State& s = *state_;
-  if (!s.given) throw Error(ErrorCode::invalid_argument, "set_weights before set_seeds: give the seeds first");
+  if (!s.given)
+    throw Error(ErrorCode::invalid_argument, "set_weights before set_seeds: give the seeds first");
   Stopwatch watch;
   const SeedsView seeds{s.domain.dimension(), s.input_positions, weights};
   if (weights.size() != s.input_weights.size() || !s.seeds.duplicate.empty()) {
@@ -56,12 +56,24 @@ void Diagram::set_weights(std::span<const double> weights) {
   s.timings.prepare = watch.seconds();
 }
 
-std::size_t Diagram::size() const { return state_->seeds.input_count; }
-const Domain& Diagram::domain() const { return state_->domain; }
-const Device& Diagram::device() const { return state_->device; }
-Precision Diagram::precision() const { return state_->precision; }
-Neighbors Diagram::neighbors() const { return state_->neighbors; }
-const Timings& Diagram::timings() const { return state_->timings; }
+std::size_t Diagram::size() const {
+  return state_->seeds.input_count;
+}
+const Domain& Diagram::domain() const {
+  return state_->domain;
+}
+const Device& Diagram::device() const {
+  return state_->device;
+}
+Precision Diagram::precision() const {
+  return state_->precision;
+}
+Neighbors Diagram::neighbors() const {
+  return state_->neighbors;
+}
+const Timings& Diagram::timings() const {
+  return state_->timings;
+}
 
 void Diagram::compute(bool adjacency, bool cells) {
   State& s = *state_;
@@ -86,7 +98,8 @@ const Cells& Diagram::cells() {
 
 const Dual& Diagram::dual() {
   State& s = *state_;
-  if (!s.dual) s.dual = make_dual(cells(), SeedsView{s.domain.dimension(), s.input_positions, s.input_weights});
+  if (!s.dual)
+    s.dual = make_dual(cells(), SeedsView{s.domain.dimension(), s.input_positions, s.input_weights});
   return *s.dual;
 }
 

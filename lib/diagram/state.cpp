@@ -26,7 +26,8 @@ namespace {
 Neighbors choose_neighbors(Neighbors asked) {
 #ifndef POWERCELL_HAS_FLANN
   if (asked == Neighbors::flann)
-    throw Error(ErrorCode::unsupported, "this build has no FLANN; use the tree, or build with POWERCELL_FLANN=ON");
+    throw Error(ErrorCode::unsupported,
+                "this build has no FLANN; use the tree, or build with POWERCELL_FLANN=ON");
 #endif
   return asked == Neighbors::automatic ? Neighbors::tree : asked;
 }
@@ -37,8 +38,8 @@ namespace {
 
 Options checked(Options options) {
   const auto refuse = [](const char* name, int value) {
-    throw Error(ErrorCode::invalid_argument,
-                std::string(name) + " is " + std::to_string(value) + "; it must not be negative (0 lets the library choose)");
+    throw Error(ErrorCode::invalid_argument, std::string(name) + " is " + std::to_string(value) +
+                                                 "; it must not be negative (0 lets the library choose)");
   };
   if (options.initial_neighbors < 0) refuse("initial_neighbors", options.initial_neighbors);
   if (options.threads < 0) refuse("threads", options.threads);

@@ -4,9 +4,8 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
-
 #include <powercell/diagram.hpp>
+#include <vector>
 
 #include "lib/clip/candidates.hpp"
 #include "lib/clip/scene.hpp"
@@ -28,8 +27,8 @@ struct Diagram::State {
   SeedSet seeds;
   std::vector<double> input_weights;  // as given, by input index
   std::vector<double> input_positions;
-  bool given = false;     // set_seeds has been called
-  bool ready = false;     // tree, pairs and device buffers belong to the seeds
+  bool given = false;  // set_seeds has been called
+  bool ready = false;  // tree, pairs and device buffers belong to the seeds
   PackedTree tree;
   Pairs pairs;
   std::unique_ptr<Candidates> candidates;

@@ -2,11 +2,11 @@
 /// Candidates from neighbour lists made on the host (kernels/neighbors/list.cl): the paper's method.
 #pragma once
 
+#include <powercell/options.hpp>
+
 #include "lib/clip/candidates.hpp"
 #include "lib/clip/scene.hpp"
 #include "lib/neighbors/flann_index.hpp"
-
-#include <powercell/options.hpp>
 
 namespace powercell {
 

@@ -22,7 +22,8 @@ inline Domain unit_box(int dimension) {
 
 struct RandomScene {
   /// \param weights uniform in [0, weights h^2] with h = n^(-1/d)
-  RandomScene(const std::shared_ptr<cl::Context>& context, int dimension, std::size_t n, double weights, bool float32)
+  RandomScene(const std::shared_ptr<cl::Context>& context, int dimension, std::size_t n, double weights,
+              bool float32)
       : RandomScene(context, dimension, random_values(dimension, n, weights), float32) {}
 
   RandomScene(const std::shared_ptr<cl::Context>& context, int dimension,
@@ -34,7 +35,8 @@ struct RandomScene {
     scene.set_seeds(seeds, tree);
   }
 
-  static std::pair<std::vector<double>, std::vector<double>> random_values(int dimension, std::size_t n, double weights) {
+  static std::pair<std::vector<double>, std::vector<double>> random_values(int dimension, std::size_t n,
+                                                                           double weights) {
     std::mt19937_64 generator(7);
     const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
     const double h = std::pow(static_cast<double>(n), -1.0 / dimension);

@@ -44,7 +44,8 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
   for (const bool float32 : {false, true}) {
     if (!float32 && !context->info().fp64) continue;
     for (const Variant& variant : all_variants(float32)) {
-      for (const Candidates* source : {static_cast<const Candidates*>(&tree), static_cast<const Candidates*>(&lists)}) {
+      for (const Candidates* source :
+           {static_cast<const Candidates*>(&tree), static_cast<const Candidates*>(&lists)}) {
         CAPTURE(source->file());
         CAPTURE(variant.dimension);
         CAPTURE(variant.cell_dimension);

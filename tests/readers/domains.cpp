@@ -52,7 +52,7 @@ TEST_CASE("files become domains of the right kind and measure") {
       "hole.geojson",
       R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[1,2],[2,2],[2,1],[1,1]]]})"));
   CHECK(hole.domain.measure() == doctest::Approx(15));
-  CHECK(says(hole.description, "hole.geojson: polygon, 1 parts, 1 holes, 8 points"));
+  CHECK(says(hole.description, "hole.geojson: polygon, 1 part, 1 hole, 8 points"));
   CHECK(read_domain(folder.write("SHAPE.SVG", "<svg><circle r='1'/></svg>")).domain.measure() ==
         doctest::Approx(std::numbers::pi).epsilon(1e-3));
   CHECK(read_domain(folder.write("a.txt", "3 1\n0 0\n1 0\n0 1\n0 1 2\n")).domain.measure() ==
