@@ -155,15 +155,6 @@ TEST_CASE("a device that does not exist: the list of those that do") {
   refusal(ErrorCode::device_not_found, [] { Device::choose("97:0"); });
 }
 
-TEST_CASE("double precision on a device without it") {
-  for (const Setup& setup : all_setups())
-    if (!setup.device.info().fp64) {
-      Options options;
-      options.precision = Precision::float64;
-      refusal(ErrorCode::no_fp64, [&] { Diagram(setup.device, unit_box(2), options); });
-    }
-}
-
 TEST_CASE("options out of range") {
   const Device& device = main_setups().front().device;
   Options options;
