@@ -96,12 +96,16 @@ Scene::Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh
 }
 
 void Scene::set_seeds(const SeedSet& seeds, const PackedTree& tree) {
+  set_weights(seeds, tree);
+  upload(node_high, frame_.pack(tree.dimension, tree.high, {}));
+  level_offset.upload(tree.level_offset);
+}
+
+void Scene::set_weights(const SeedSet& seeds, const PackedTree& tree) {
   seeds_ = &seeds;
   tree_ = &tree;
   upload(points, frame_.pack(seeds.dimension, seeds.positions, seeds.weights));
   upload(node_low, frame_.pack(tree.dimension, tree.low, tree.weight));
-  upload(node_high, frame_.pack(tree.dimension, tree.high, {}));
-  level_offset.upload(tree.level_offset);
 }
 
 }  // namespace powercell

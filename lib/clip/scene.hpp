@@ -25,8 +25,8 @@ class Scene {
 
   /// Uploads positions, weights and tree; keeps references to both until the next call.
   void set_seeds(const SeedSet& seeds, const PackedTree& tree);
-  /// Uploads weights only (positions and boxes are as before).
-  void set_weights(const SeedSet& seeds, const PackedTree& tree) { set_seeds(seeds, tree); }
+  /// The same after a change of the weights alone: the far corners of the boxes stay.
+  void set_weights(const SeedSet& seeds, const PackedTree& tree);
 
   const std::shared_ptr<cl::Context>& context() const { return context_; }
   const RegionMesh& mesh() const { return mesh_; }

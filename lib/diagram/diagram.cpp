@@ -21,7 +21,7 @@ void Diagram::set_seeds(const SeedsView& seeds) {
   SeedSet ordered = make_seed_set(seeds, s.domain.dimension(), thread_count(s.options.threads));
   require_in_range(seeds, s.scene.frame());
   s.forget_results();
-  s.ready = false;
+  s.ready = s.ordered = false;
   s.seeds = std::move(ordered);
   s.input_positions.assign(seeds.positions.begin(), seeds.positions.end());
   s.input_weights.assign(seeds.weights.begin(), seeds.weights.end());

@@ -32,10 +32,6 @@ Neighbors choose_neighbors(Neighbors asked) {
   return asked == Neighbors::automatic ? Neighbors::tree : asked;
 }
 
-}  // namespace
-
-namespace {
-
 Options checked(Options options) {
   const auto refuse = [](const char* name, int value) {
     throw Error(ErrorCode::invalid_argument, std::string(name) + " is " + std::to_string(value) +
@@ -67,8 +63,14 @@ void Diagram::State::prepare() {
   if (ready) return;
   const int threads = thread_count(options.threads);
   Stopwatch tree_watch;
-  tree = build_packed_tree(seeds, threads);
-  scene.set_seeds(seeds, tree);
+  if (ordered) {
+    refit_weights(tree, seeds);
+    scene.set_weights(seeds, tree);
+  } else {
+    tree = build_packed_tree(seeds, threads);
+    scene.set_seeds(seeds, tree);
+    ordered = true;
+  }
   timings.prepare += tree_watch.seconds();
   Stopwatch pair_watch;
   pairs = enumerate_pairs(domain.mesh(), seeds, tree, threads, options.progress);

@@ -28,7 +28,8 @@ struct Diagram::State {
   std::vector<double> input_weights;  // as given, by input index
   std::vector<double> input_positions;
   bool given = false;  // set_seeds has been called
-  bool ready = false;  // tree, pairs and device buffers belong to the seeds
+  bool ordered = false;  // the tree and its boxes on the device belong to the positions
+  bool ready = false;    // tree, pairs and device buffers belong to the positions and weights
   PackedTree tree;
   Pairs pairs;
   std::unique_ptr<Candidates> candidates;
