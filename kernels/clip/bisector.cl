@@ -4,8 +4,6 @@
 #define POWERCELL_CLIP_BISECTOR
 #include "base/cell.cl"
 
-/* A side value within TOLERANCE_FACTOR rounding errors of its terms counts as zero. */
-
 /* What lies behind a face with border `old` that lies in the bisector of `border` (docs/mathematics.md,
    "Walls in facets"): of two seeds the farther one; behind a facet of the region the new seed, unless
    the facet bounds the domain or, on a surface, the region behind it is on this side of the bisector. */
@@ -27,7 +25,8 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
 }
 
 /* Cuts the cell by the bisector with `other`, whose rank is `border`. Of two seeds that share a region
-   within their bisector, as a triangle can lie, the one of lower rank has it. Returns a CUT code. */
+   within their bisector, as a triangle can lie, the one of lower rank has it. A value of (3)
+   within TOLERANCE_FACTOR rounding errors of its terms counts as zero. Returns a CUT code. */
 static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
   real q[DIMENSION], sum = 0;
   difference(other, seed, q);

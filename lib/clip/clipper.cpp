@@ -127,7 +127,7 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
             scene_.region_vertex, scene_.behind, scene_.shape, status_, moments_, faces_, border_, wall_,
             vertices_, vertex_, link_);
   candidates_.set_arguments(call, common_arguments);
-  call.launch(rows, 0, &statistics_.kernel_seconds);
+  call.launch(rows);
 
   List status(rows);
   status_.download(std::span(status));

@@ -19,7 +19,6 @@ struct ClipStatistics {
   std::uint64_t retried = 0;  ///< pairs that went to a larger variant
   std::uint64_t on_host = 0;  ///< pairs that ended on the host
   int rounds = 0;             ///< most rounds of candidates that a chunk needed
-  double kernel_seconds = 0;  ///< time in clip kernels, by events
 };
 
 class Clipper {
