@@ -16,6 +16,7 @@ forbid() {
 stages="seeds|domain|neighbors|pairs|clip|integrate|collect"
 forbid lib/cl "lib/(primitives|$stages|diagram|verify|c_api)/" "lib/cl must not know what is above it"
 forbid lib/primitives "lib/($stages|diagram|verify|c_api)/" "lib/primitives may include lib/cl only"
+forbid lib/peaks "lib/(primitives|$stages|diagram|verify|c_api)/" "lib/peaks may include lib/cl only"
 for stage in $(echo "$stages" | tr '|' ' '); do
   forbid "lib/$stage" "lib/(diagram|verify|c_api)/" "a stage must not include the pipeline that calls it"
 done

@@ -7,6 +7,7 @@
 #include <powercell/domain.hpp>
 #include <powercell/error.hpp>
 #include <powercell/options.hpp>
+#include <powercell/peaks.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
 #include <powercell/verify.hpp>
