@@ -43,6 +43,7 @@
 #define OUTPUT_MOMENTS 1
 #define OUTPUT_WALLS 2
 #define OUTPUT_GEOMETRY 4
+#define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 
 /* A border below 0 is facet slot ~border of the region, else the rank of the neighbour. */
 

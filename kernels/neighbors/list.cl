@@ -24,8 +24,14 @@ static inline real lifted_distance2(lists_t lists, uint i, uint j) {
   return norm2(q) + h * h;
 }
 
+/* How far a list was read. */
+typedef struct {
+  uint tried; /* neighbours whose bisector was tried before the stopping rule held */
+  uint cuts;  /* of these, the ones that cut something off */
+} list_use_t;
+
 /* Clips the cell of rank i, started as a region, by the neighbours in its row. Returns a PIECE status. */
-static inline int clip_by_list(cell_t* cell, lists_t lists, uint i, uint row) {
+static inline int clip_by_list(cell_t* cell, lists_t lists, uint i, uint row, list_use_t* use) {
   const seed_t seed = lists.seeds[i];
   const real h = lists.lift[i];
   real stop = 4 * (cell_radius2(cell) + h * h) * (1 + 16 * REAL_EPSILON);
@@ -33,6 +39,8 @@ static inline int clip_by_list(cell_t* cell, lists_t lists, uint i, uint row) {
     const uint j = lists.neighbor[row * lists.stride + k];
     if (lifted_distance2(lists, i, j) >= stop) return PIECE_WHOLE;
     const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
+    ++use->tried;
+    if (cut != CUT_NONE) ++use->cuts;
     if (cut == CUT_SHRUNK) stop = 4 * (cell_radius2(cell) + h * h) * (1 + 16 * REAL_EPSILON);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }

@@ -29,6 +29,8 @@ class Candidates {
   virtual void prepare(std::span<const std::uint32_t> ranks, int round) = 0;
   /// Sets the arguments from `first` on.
   virtual void set_arguments(cl::Kernel& kernel, unsigned first) = 0;
+  /// OUTPUT_... of kernels/layout.h that this source adds to those of the clipper.
+  virtual int outputs() const { return 0; }
   /// The same source for another scene.
   virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;
   /// Seconds spent on the host in prepare() since construction.

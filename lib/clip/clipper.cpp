@@ -34,7 +34,7 @@ void read_reals(const cl::RawBuffer& buffer, bool float32, std::size_t count, st
 Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs)
     : scene_(scene),
       candidates_(candidates),
-      outputs_(outputs),
+      outputs_(outputs | candidates.outputs()),
       active_(scene.context()),
       seed_(scene.context()),
       region_(scene.context()),

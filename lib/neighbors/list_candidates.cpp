@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "kernels/layout.h"
 #include "lib/seeds/lift.hpp"
 
 namespace powercell {
@@ -27,7 +28,8 @@ ListCandidates::ListCandidates(const Scene& scene, const Options& options)
       index_(scene.seeds(), lift_heights(scene.seeds(), options.lift_eta)),
       lift_(scene.context()),
       neighbor_(scene.context()),
-      active_list_(scene.context()) {
+      active_list_(scene.context()),
+      list_use_(scene.context()) {
   std::vector<double> heights = lift_heights(scene.seeds(), options.lift_eta);
   for (double& h : heights) h *= scene.frame().scale;
   if (scene.float32()) {
@@ -49,7 +51,39 @@ std::size_t ListCandidates::most_pairs(int round) const {
   return std::max<std::size_t>(1, most_entries / std::max<std::size_t>(1, neighbors(round)));
 }
 
+std::unique_ptr<Candidates> ListCandidates::for_scene(const Scene& scene) const {
+  auto other = std::make_unique<ListCandidates>(scene, Options{});
+  other->counting_ = counting_;
+  return other;
+}
+
+int ListCandidates::outputs() const {
+  return counting_ ? OUTPUT_LIST_USE : 0;
+}
+
+void ListCandidates::take_in_use() {
+  if (launched_rows_ == 0) return;
+  std::vector<std::uint32_t> rows(launched_rows_ * 3);
+  list_use_.download(std::span(rows));
+  const auto round = static_cast<std::size_t>(launched_round_);
+  if (use_.pairs_per_round.size() <= round) use_.pairs_per_round.resize(round + 1);
+  for (std::size_t row = 0; row < rows.size(); row += 3) {
+    if (rows[row + 2] == 0) continue;
+    use_.tried += rows[row];
+    use_.cuts += rows[row + 1];
+    ++use_.pairs;
+    ++use_.pairs_per_round[round];
+  }
+  launched_rows_ = 0;
+}
+
+const ListUse& ListCandidates::use() {
+  take_in_use();
+  return use_;
+}
+
 void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
+  take_in_use();
   const auto start = std::chrono::steady_clock::now();
   distinct_.clear();
   pair_row_.clear();
@@ -62,12 +96,18 @@ void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
   host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   neighbor_.upload(rows_);
   active_list_.upload(pair_row_);
+  list_use_.resize(counting_ ? ranks.size() * 3 : 0);
+  if (!counting_) return;
+  launched_rows_ = ranks.size();
+  launched_round_ = round;
+  use_.queries += distinct_.size();
+  use_.entries += distinct_.size() * count_;
 }
 
 void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) {
   kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), lift_, neighbor_,
                    active_list_, static_cast<cl_uint>(count_), static_cast<cl_uint>(count_),
-                   static_cast<cl_int>(twins_));
+                   static_cast<cl_int>(twins_), list_use_);
 }
 
 }  // namespace powercell
