@@ -4,6 +4,7 @@
 #   ./setup.sh demo   install, build, draw the demo pictures
 #   ./setup.sh test   install, build everything, run the tests
 #   ./setup.sh build  install and build only
+#   ./setup.sh bench  install what the benchmarks need besides and run bench/run_goals.sh
 #
 # Options after the word: --no-install (the packages are taken care of elsewhere; only build),
 # --jobs N (default: all cores). Safe to run again: what is there already is left as it is.
@@ -20,9 +21,12 @@ build_packages="cmake ninja-build g++ pkg-config
 test_packages="doctest-dev libcgal-dev libeigen3-dev voro++-dev libtbb-dev
   clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-meshio python3-shapely python3-vtk9"
 
+# What the benchmarks need besides those: their driver, and the plots.
+bench_packages="libbenchmark-dev python3-matplotlib"
+
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
 fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }
-usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; }
 
 # install PACKAGE...: those of them that are not installed yet.
 install() {
@@ -73,6 +77,7 @@ done
 case $action in
   demo | build) packages=$build_packages ;;
   test) packages="$build_packages $test_packages" ;;
+  bench) packages="$build_packages $test_packages $bench_packages" ;;
   -h | --help | help) usage; exit 0 ;;
   *) usage >&2; fail "unknown action '$action'" ;;
 esac
@@ -83,5 +88,6 @@ cd "$(dirname "$0")"
 case $action in
   build) build OFF; say "Built: build/release/apps/powercell" ;;
   demo) build OFF; say "Running powercell demo"; build/release/apps/powercell demo ;;
+  bench) bench/run_goals.sh ;;
   test) build ON; say "Testing"; ctest --test-dir build/release --output-on-failure --parallel "$jobs" ;;
 esac

@@ -5,10 +5,10 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-#include <cmath>
 #include <utility>
 
 #include "bench/box_cell.hpp"
+#include "bench/loops.hpp"
 #include "bench/peers.hpp"
 
 namespace powercell::bench {
@@ -17,10 +17,16 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
+
+/// The dual point of a face and whether it lies inside the box.
+struct Dual {
+  Point point;
+  bool inside = false;
+};
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel,
                                                            CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
 using Face =
-    CGAL::Triangulation_face_base_with_info_2<Point, Kernel, CGAL::Regular_triangulation_face_base_2<Kernel>>;
+    CGAL::Triangulation_face_base_with_info_2<Dual, Kernel, CGAL::Regular_triangulation_face_base_2<Kernel>>;
 using Triangulation =
     CGAL::Regular_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
 
@@ -34,46 +40,63 @@ Triangulation triangulate(const SeedsView& seeds) {
   return Triangulation(points.begin(), points.end());
 }
 
-/// Computes the dual point of each finite face and says which seeds' cells reach the box's sides.
-std::vector<char> place_dual_points(Triangulation& t, std::size_t n, const Box& box) {
-  std::vector<char> cut(n, 0);
-  for (auto f = t.all_faces_begin(); f != t.all_faces_end(); ++f) {
-    bool inside = false;
-    if (!t.is_infinite(f)) {
-      const Point x = f->info() = t.dual(f);
-      inside = x.x() > box.low[0] && x.x() < box.high[0] && x.y() > box.low[1] && x.y() < box.high[1];
-    }
-    if (inside) continue;
-    for (int k = 0; k < 3; ++k)
-      if (!t.is_infinite(f->vertex(k))) cut[f->vertex(k)->info()] = 1;
+/// Area of the polygon of the dual points around a vertex; negative when one of them is not inside the box.
+double area_of_dual(const Triangulation& t, Triangulation::Vertex_handle vertex) {
+  auto first = t.incident_faces(vertex), at = first;
+  if (!at->info().inside) return -1;
+  const Point origin = at->info().point;
+  double last_x = 0, last_y = 0, twice = 0;
+  for (++at; at != first; ++at) {
+    if (!at->info().inside) return -1;
+    const double x = at->info().point.x() - origin.x(), y = at->info().point.y() - origin.y();
+    twice += last_x * y - last_y * x;
+    last_x = x;
+    last_y = y;
   }
-  return cut;
+  return 0.5 * twice;
+}
+
+double area_by_clipping(const Triangulation& t, Triangulation::Vertex_handle vertex, const SeedsView& seeds,
+                        const Box& box) {
+  std::vector<std::uint32_t> neighbors;
+  auto first = t.incident_vertices(vertex), at = first;
+  do {
+    if (!t.is_infinite(at)) neighbors.push_back(at->info());
+  } while (++at != first);
+  return cell_area_in_box(seeds, vertex->info(), neighbors, box);
+}
+
+template <class Loop>
+std::vector<double> measures_2d(const SeedsView& seeds, const Box& box, Loop for_each) {
+  Triangulation t = triangulate(seeds);
+  std::vector<Triangulation::Face_handle> faces;
+  faces.reserve(t.number_of_faces());
+  for (auto f = t.finite_faces_begin(); f != t.finite_faces_end(); ++f) faces.push_back(f);
+  for_each(faces.size(), [&](std::size_t k) {
+    const Point x = t.dual(faces[k]);
+    faces[k]->info() = {
+        x, x.x() > box.low[0] && x.x() < box.high[0] && x.y() > box.low[1] && x.y() < box.high[1]};
+  });
+
+  std::vector<Triangulation::Vertex_handle> vertices;
+  vertices.reserve(t.number_of_vertices());
+  for (auto v = t.finite_vertices_begin(); v != t.finite_vertices_end(); ++v) vertices.push_back(v);
+  std::vector<double> measures(seeds.size(), 0.0);
+  for_each(vertices.size(), [&](std::size_t k) {
+    const double area = area_of_dual(t, vertices[k]);
+    measures[vertices[k]->info()] = area >= 0 ? area : area_by_clipping(t, vertices[k], seeds, box);
+  });
+  return measures;
 }
 
 }  // namespace
 
 std::vector<double> cgal_measures_2d(const SeedsView& seeds, const Box& box) {
-  Triangulation t = triangulate(seeds);
-  const std::vector<char> cut = place_dual_points(t, seeds.size(), box);
-  std::vector<double> measures(seeds.size(), 0.0);
-  std::vector<std::vector<std::uint32_t>> neighbors(seeds.size());
-  for (auto e = t.finite_edges_begin(); e != t.finite_edges_end(); ++e) {
-    const auto face = e->first, other = face->neighbor(e->second);
-    const auto a = face->vertex(t.cw(e->second)), b = face->vertex(t.ccw(e->second));
-    const std::uint32_t i = a->info(), j = b->info();
-    if (cut[i]) neighbors[i].push_back(j);
-    if (cut[j]) neighbors[j].push_back(i);
-    if (cut[i] && cut[j]) continue;
-    // The triangle of each seed with its side of the cell; signed, as a seed may lie outside its cell.
-    const double q2 = CGAL::squared_distance(a->point().point(), b->point().point()), q = std::sqrt(q2);
-    const double wall = std::sqrt(CGAL::squared_distance(face->info(), other->info()));
-    const double s = (q2 + a->point().weight() - b->point().weight()) / (2 * q);
-    if (!cut[i]) measures[i] += 0.5 * wall * s;
-    if (!cut[j]) measures[j] += 0.5 * wall * (q - s);
-  }
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-    if (cut[i]) measures[i] = cell_area_in_box(seeds, i, neighbors[i], box);
-  return measures;
+  return measures_2d(seeds, box, SerialLoop{});
+}
+
+std::vector<double> cgal_parallel_measures_2d(const SeedsView& seeds, const Box& box) {
+  return measures_2d(seeds, box, ParallelLoop{});
 }
 
 }  // namespace powercell::bench

@@ -12,13 +12,18 @@ namespace powercell::bench {
 using test::Box;
 
 /// CGAL's regular triangulation, points inserted in bulk; cells inside the box are measured from the
-/// dual, those that meet its faces by clipping. \return n measures
+/// dual, those that meet its sides by clipping. \return n measures
 std::vector<double> cgal_measures_2d(const SeedsView& seeds, const Box& box);
 std::vector<double> cgal_measures_3d(const SeedsView& seeds, const Box& box);
-/// The same with CGAL's parallel insertion and with all loops over edges and cells in TBB.
+/// The same with all loops over dual points and cells in TBB, and in space with CGAL's parallel insertion (in
+/// the plane CGAL inserts on one thread).
+std::vector<double> cgal_parallel_measures_2d(const SeedsView& seeds, const Box& box);
 std::vector<double> cgal_parallel_measures_3d(const SeedsView& seeds, const Box& box);
 
 /// voro++ radical cells in a box (space only, all seeds in the box), computed in its own block order.
 std::vector<double> voro_measures(const SeedsView& seeds, const Box& box);
+/// The same on all cores. A voro++ container keeps the state of the cell it works on, so each thread has a
+/// container of its own with all seeds in it, and takes the next row of blocks when it is done with one.
+std::vector<double> voro_parallel_measures(const SeedsView& seeds, const Box& box);
 
 }  // namespace powercell::bench

@@ -1,0 +1,25 @@
+/// \file
+/// The loops of peers that exist on one thread and on all.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+namespace powercell::bench {
+
+struct SerialLoop {
+  template <class Body>
+  void operator()(std::size_t count, const Body& body) const {
+    for (std::size_t k = 0; k < count; ++k) body(k);
+  }
+};
+
+struct ParallelLoop {
+  template <class Body>
+  void operator()(std::size_t count, const Body& body) const {
+    tbb::parallel_for(std::size_t{0}, count, body);
+  }
+};
+
+}  // namespace powercell::bench

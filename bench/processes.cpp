@@ -1,0 +1,126 @@
+#include "bench/processes.hpp"
+
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace powercell::bench {
+
+namespace {
+
+/// Runs a program without a shell; stdout is returned. \throw std::runtime_error if it fails
+std::string run_program(const std::vector<std::string>& words) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("pipe failed");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) {
+    std::vector<char*> argv;
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    dup2(ends[1], STDOUT_FILENO);
+    close(ends[0]);
+    close(ends[1]);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  close(ends[1]);
+  std::string text;
+  char block[4096];
+  for (ssize_t got; (got = read(ends[0], block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(got));
+  close(ends[0]);
+  int status = 0;
+  if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error(words[0] + " failed");
+  return text;
+}
+
+/// A line of /proc/self/status in bytes.
+double status_bytes(const std::string& label) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(label + ":")) return 1024 * std::stod(line.substr(label.size() + 1));
+  throw std::runtime_error("/proc/self/status has no " + label);
+}
+
+/// Sets the peak of resident memory to what is resident now.
+void reset_peak() {
+  malloc_trim(0);
+  std::ofstream file("/proc/self/clear_refs");
+  file << 5;
+  file.close();
+  constexpr double slack = 4 << 20;
+  if (!file || status_bytes("VmHWM") > status_bytes("VmRSS") + slack)
+    throw std::runtime_error("the peak of resident memory cannot be reset on this system");
+}
+
+std::string arguments_of(Precision precision) {
+  return precision == Precision::float32 ? "--float" : "--double";
+}
+
+}  // namespace
+
+void record_memory(const std::string& self, const Work& work, const TurnOptions& options, RecordFile& file) {
+  // The contenders are made for a small work here, for their names alone.
+  Work small = work;
+  small.n = 10;
+  const Domain domain = domain_of(work.domain);
+  const SeedArray seeds = seeds_of(small);
+  for (const auto& c : contenders(small, domain, seeds, options)) {
+    const std::string text = run_program({self, "memory-child", "--domain", work.domain, "--distribution",
+                                          test::name(work.distribution), "--weights",
+                                          test::name(work.weights), "--n", std::to_string(work.n), "--ours",
+                                          c->stage + ":" + c->provider, arguments_of(options.precision)});
+    Record record(options.part, work, *c);
+    std::istringstream(text) >> record.bytes_per_seed;
+    if (text.empty()) throw std::runtime_error("the memory process printed nothing");
+    file.add(record);
+  }
+}
+
+void memory_child(const Work& work, const std::string& way, const TurnOptions& options) {
+  const Domain domain = domain_of(work.domain);
+  const SeedArray seeds = seeds_of(work);
+  TurnOptions one = options;
+  const std::string provider = way.substr(way.find(':') + 1);
+  const bool ours = provider == "tree" || provider == "flann";
+  one.ours = ours ? std::vector{way} : std::vector<std::string>{};
+  one.peers = !ours;
+  for (const auto& c : contenders(work, domain, seeds, one)) {
+    if (c->provider != provider) continue;
+    c->prepare();
+    reset_peak();
+    const double before = status_bytes("VmRSS");
+    c->run();
+    const double peak = status_bytes("VmHWM") - before - static_cast<double>(c->output_bytes());
+    std::printf("%.1f\n", peak / static_cast<double>(work.n));
+    return;
+  }
+  throw std::invalid_argument("no contender is called '" + way + "'");
+}
+
+void record_start(const std::string& program, const TurnOptions& options, RecordFile& file) {
+  run_program({program});
+  const Work work{"box3", Distribution::white, WeightRange::W0, 1000};
+  const Domain domain = domain_of(work.domain);
+  const SeedArray seeds = seeds_of(work);
+  Record record(options.part, work, *our_contender("measures", "tree", options.precision, domain, seeds));
+  record.stage = "start";
+  for (int k = 0; k < 2 * options.rounds; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    run_program({program});
+    record.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    record.cpu_seconds.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  file.add(record);
+}
+
+}  // namespace powercell::bench

@@ -1,0 +1,63 @@
+#!/bin/sh
+# Measures every goal of this project's speed and memory and prints them as one markdown table, with what was
+# reached. JSON stays in build/bench/goals/. About ten minutes on two cores.
+#
+#   bench/run_goals.sh [--quick] [--cpu] [ratios|growth|memory|weights|start|gpu]...
+#
+# --quick leaves out 1e6 seeds and more. --cpu compares processor times, shared out among the threads, instead of
+# wall times: a guess for a machine that is busy with other work. Parts that are named are measured again; the
+# table takes the rest from the JSON of earlier runs of the same revision. GPU: POWERCELL_DEVICE=gpu bench/run_goals.sh gpu
+set -eu
+quick=no cpu="" parts=""
+for word in "$@"; do
+  case $word in
+    --quick) quick=yes ;;
+    --cpu) cpu=--cpu ;;
+    ratios | growth | memory | weights | start | gpu) parts="$parts $word" ;;
+    *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  esac
+done
+. "$(dirname "$0")/build.sh"
+out=$build/goals
+mkdir -p "$out"
+if [ -z "$parts" ]; then
+  rm -f "$out"/*.json
+  parts="ratios growth memory weights start"
+fi
+
+large=1000000 largest2=10000000 largest3=3000000
+[ $quick = no ] || { large="" largest2=100000 largest3=100000; }
+some=${large:-100000}
+# run PART FILE ARGUMENT...: times works.
+run() { part=$1 file=$2; shift 2; "$matrix" time --part "$part" --out "$out/$file.json" "$@"; }
+for part in $parts; do
+  case $part in
+    ratios)
+      # A peer far behind the best one at fewer seeds cannot be the best; it is not waited for.
+      # shellcheck disable=SC2086 # no 1e6 when quick
+      for domain in box3 box2; do
+        run ratios "$domain" --domain $domain --ours adjacency:tree --drop 1.4 --n 100000 $large
+      done
+      for domain in surface tets; do
+        run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree --n 5000 100000
+      done ;;
+    growth)
+      growth="--distribution white --weights W1 --ours adjacency:tree --no-peers"
+      # shellcheck disable=SC2086 # the list is meant to be split
+      {
+        run growth growth2 --domain box2 $growth --n 10000 100000 $large $largest2
+        run growth growth3 --domain box3 $growth --n 10000 100000 $large $largest3
+      } ;;
+    memory)
+      "$matrix" memory --part memory --out "$out/memory.json" --domain box2 box3 --distribution white \
+        --weights W1 --ours measures:tree adjacency:tree --no-peers --n "$some" ;;
+    weights)
+      run weights weights --domain box3 --distribution white --weights W1 --no-peers \
+        --ours adjacency:tree weights:tree --n "$some" --seconds 30 --rounds 2 ;;
+    start) "$matrix" start --part start --out "$out/start.json" ;;
+    gpu)
+      run gpu gpu --domain box3 --distribution white --weights W0 --no-peers --float --n 10000000 \
+        --ours measures:tree --seconds 30 ;;
+  esac
+done
+/usr/bin/python3 "$here/bench/goals.py" $cpu "$out"/*.json | tee "$out/goals.md"

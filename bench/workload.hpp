@@ -1,0 +1,41 @@
+/// \file
+/// What is computed for what: domains by name and the seeds that go with them, the same for every way of
+/// computing.
+#pragma once
+
+#include <powercell/domain.hpp>
+#include <string>
+
+#include "tests/support/generators.hpp"
+#include "tests/support/meshes.hpp"
+
+namespace powercell::bench {
+
+using test::Distribution;
+using test::SeedArray;
+using test::WeightRange;
+
+struct Work {
+  std::string domain;  ///< a name that domain_of knows
+  Distribution distribution = Distribution::white;
+  WeightRange weights = WeightRange::W0;
+  std::size_t n = 0;
+
+  /// stage/domain/distribution/weights/precision/provider/n
+  std::string name(const std::string& stage, const std::string& precision, const std::string& provider) const;
+};
+
+/// "box2", "box3": the unit square and cube. "surface": a torus of 5,120 triangles. "tets": the unit cube as
+/// 16,464 tetrahedra of uneven shape. "islands": a polygon of three parts with a hole.
+/// \throw std::invalid_argument
+Domain domain_of(const std::string& name);
+bool is_box(const std::string& domain);
+int dimension_of(const std::string& domain);  ///< of the space
+/// The triangles or tetrahedra of "surface" and "tets". \throw std::invalid_argument
+test::Mesh mesh_of(const std::string& name);
+
+/// A function of the work alone. All seeds lie in the domain, but for "islands" (in its box) and "surface":
+/// there they lie on the smooth torus, by a map of the unit square that keeps ratios of areas.
+SeedArray seeds_of(const Work& work);
+
+}  // namespace powercell::bench
