@@ -7,8 +7,8 @@
 namespace powercell::pairs {
 namespace {
 
-// A part with at most this many seeds in question is decided seed by seed, else split.
-constexpr std::uint64_t few_seeds = 48;
+// At most this many seeds in question are put in a list, all of which is tested at once.
+constexpr std::uint64_t few_seeds = 2048;
 // Entries a frontier is expanded to. Coarser ones test worse, finer ones cost each part more.
 constexpr std::size_t enough_for_part = 32;
 constexpr std::size_t enough_for_box = 48;
@@ -26,8 +26,10 @@ double radius(const Part<D>& part, const Point<D>& centroid) {
 }  // namespace
 
 template <int D>
-void CandidateSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Frontier& from,
-                                Frontier& to) {
+void CandidateSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Narrowed<D>& from,
+                                Narrowed<D>& to) {
+  to.listed = true;
+  if (from.listed) return list_search_.narrow(low, high, from.list, to.list);
   tree_.set_origin(low.data());
   Step& step = root_;
   step.part.shape = PartShape::box;
@@ -37,27 +39,28 @@ void CandidateSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const
   for (std::size_t v = 0; v < step.part.corners; ++v)
     for (std::size_t k = 0; k < D; ++k) step.part.corner[v][k] = (v >> k & 1) != 0 ? size[k] : 0.0;
   reach_ = std::sqrt(squared_distance<D>(size, Point<D>{}));
-  refine(step, from, Testers{}, enough_for_box, false);
-  to.swap(step.frontier);
+  refine(step, from.frontier, Testers{}, enough_for_box, false);
+  to.listed = step.open <= few_seeds;
+  if (to.listed) {
+    gather(step.frontier, few_);
+    list_search_.narrow(low, high, few_, to.list);
+  } else {
+    to.frontier.swap(step.frontier);
+  }
 }
 
 template <int D>
-void CandidateSearch<D>::find(std::uint32_t region, const Frontier& from, std::vector<std::uint32_t>& ranks) {
+void CandidateSearch<D>::find(std::uint32_t region, const Narrowed<D>& from,
+                              std::vector<std::uint32_t>& ranks) {
   set_region(region);
+  if (from.listed) {
+    if (from.list.size() == 1) return ranks.push_back(from.list.rank.front());
+    list_search_.begin(from.list, origin_, reach_);
+    for_parts(corners_, [&] { list_search_.search(root_.part); });
+    return list_search_.take_marked(ranks);
+  }
   found_.clear();
-  if (from.size() == 1 && from.front().is_seed()) {
-    ranks.push_back(from.front().index);
-    return;
-  }
-  if (mesh_.shape == RegionShape::polygon) {
-    search_polygon(corners_, from);
-  } else {
-    root_.part.shape = mesh_.shape == RegionShape::box ? PartShape::box : PartShape::tetrahedron;
-    root_.part.corners = corners_.size();
-    std::copy(corners_.begin(), corners_.end(), root_.part.corner.begin());
-    refine(root_, from, Testers{}, enough_for_part, true);
-    search(root_);
-  }
+  for_parts(corners_, [&] { search(from.frontier); });
   // Parts share candidates, and a node may be settled from several parts.
   std::sort(found_.begin(), found_.end(), [](RankRange a, RankRange b) { return a.begin < b.begin; });
   std::uint32_t next = 0;
@@ -65,45 +68,60 @@ void CandidateSearch<D>::find(std::uint32_t region, const Frontier& from, std::v
     for (next = std::max(next, range.begin); next < range.end; ++next) ranks.push_back(next);
 }
 
+/// Calls body() for each part of the region, in root_.part. Polygons of many corners are halved by chords,
+/// without a test, until they fit a Part.
+template <int D>
+template <class Body>
+void CandidateSearch<D>::for_parts(std::span<const Point<D>> corners, const Body& body) {
+  const std::size_t count = corners.size();
+  if (count <= most_corners) {
+    root_.part.shape = mesh_.shape == RegionShape::polygon ? PartShape::polygon
+                       : mesh_.shape == RegionShape::box   ? PartShape::box
+                                                           : PartShape::tetrahedron;
+    root_.part.corners = count;
+    std::copy(corners.begin(), corners.end(), root_.part.corner.begin());
+    return body();
+  }
+  for_parts(corners.first(count / 2 + 1), body);
+  std::vector<Point<D>> rest(corners.begin() + static_cast<std::ptrdiff_t>(count / 2), corners.end());
+  rest.push_back(corners.front());
+  for_parts(rest, body);
+}
+
+/// The seeds in question below a frontier.
+template <int D>
+void CandidateSearch<D>::gather(const Frontier& frontier, SeedList<D>& list) {
+  gathered_.clear();
+  for (const Entry e : frontier)
+    if (!e.settled) gathered_.push_back(ranks(tree_.tree(), e));
+  std::sort(gathered_.begin(), gathered_.end(), [](RankRange a, RankRange b) { return a.begin < b.begin; });
+  list.clear();
+  for (const RankRange range : gathered_)
+    for (std::uint32_t rank = range.begin; rank < range.end; ++rank) list.add(seeds_, rank, reference_);
+}
+
 template <int D>
 void CandidateSearch<D>::set_region(std::uint32_t region) {
   const std::uint32_t first = mesh_.region_offset[region], last = mesh_.region_offset[region + 1];
-  const double* origin = &mesh_.vertices[std::size_t{mesh_.region_vertex[first]} * D];
+  origin_ = &mesh_.vertices[std::size_t{mesh_.region_vertex[first]} * D];
   corners_.resize(last - first);
   reach_ = 0;
   for (std::uint32_t slot = first; slot < last; ++slot) {
     const double* x = &mesh_.vertices[std::size_t{mesh_.region_vertex[slot]} * D];
     Point<D>& corner = corners_[slot - first];
-    for (std::size_t k = 0; k < D; ++k) corner[k] = x[k] - origin[k];
+    for (std::size_t k = 0; k < D; ++k) corner[k] = x[k] - origin_[k];
     reach_ = std::max(reach_, squared_distance<D>(corner, Point<D>{}));
   }
   reach_ = std::sqrt(reach_);
-  tree_.set_origin(origin);
+  tree_.set_origin(origin_);
   interior_.set(corners_, mesh_);
 }
 
-/// Polygons of many corners are halved by chords, without a test, until they fit a Part.
 template <int D>
-void CandidateSearch<D>::search_polygon(std::span<const Point<D>> corners, const Frontier& from) {
-  const std::size_t count = corners.size();
-  if (count <= most_corners) {
-    root_.part.shape = PartShape::polygon;
-    root_.part.corners = count;
-    std::copy(corners.begin(), corners.end(), root_.part.corner.begin());
-    refine(root_, from, Testers{}, enough_for_part, true);
-    search(root_);
-    return;
-  }
-  search_polygon(corners.first(count / 2 + 1), from);
-  std::vector<Point<D>> rest(corners.begin() + static_cast<std::ptrdiff_t>(count / 2), corners.end());
-  rest.push_back(corners.front());
-  search_polygon(rest, from);
-}
-
-template <int D>
-void CandidateSearch<D>::search(Step& step) {
-  steps_left_ = 256 + step.open / 2;
-  visit(step, 0, 0);
+void CandidateSearch<D>::search(const Frontier& from) {
+  refine(root_, from, Testers{}, enough_for_part, true);
+  steps_left_ = 256 + root_.open / 2;
+  visit(root_, 0, 0);
 }
 
 /// Decides a refined part, or splits it. `failures` counts the splits in a row above it whose halves both
@@ -202,31 +220,22 @@ void CandidateSearch<D>::expand(Step& step, std::size_t enough, bool settle) {
 /// Emits the seeds that the testers leave, and of few ones those that no other excludes.
 template <int D>
 void CandidateSearch<D>::finish(Step& step) {
+  if (step.open <= few_seeds) {
+    gather(step.frontier, few_);
+    testers_.clear();
+    for (const Tester& t : step.testers) testers_.push_back(t.upper);
+    list_search_.begin(few_, origin_, reach_);
+    list_search_.search(step.part, testers_);
+    ranks_.clear();
+    list_search_.take_marked(ranks_);
+    for (const std::uint32_t rank : ranks_) emit({rank, rank + 1});
+    return;
+  }
   const auto open_node = [](Entry e) { return !e.settled && !e.is_seed(); };
   while (std::any_of(step.frontier.begin(), step.frontier.end(), open_node))
     expand(step, step.frontier.size() + 1, true);
-  if (step.open <= few_seeds) return finish_few(step);
   for (const Entry e : step.frontier)
     if (!e.settled) emit(ranks(tree_.tree(), e));
-}
-
-template <int D>
-void CandidateSearch<D>::finish_few(Step& step) {
-  few_.clear();
-  few_lower_.clear();
-  few_upper_.clear();
-  for (const Entry e : step.frontier) {
-    if (e.settled) continue;
-    few_.push_back(e.index);
-    few_lower_.push_back(tree_.lower(e, step.part, step.bounds));
-    few_upper_.push_back(tree_.upper(e.index, step.part, step.bounds));
-  }
-  for (std::size_t i = 0; i < few_.size(); ++i) {
-    const auto beats = [&](const CornerValues& upper) {
-      return dominates(upper, few_lower_[i], step.part.corners);
-    };
-    if (std::none_of(few_upper_.begin(), few_upper_.end(), beats)) emit({few_[i], few_[i] + 1});
-  }
 }
 
 template class CandidateSearch<2>;

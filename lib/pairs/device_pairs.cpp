@@ -1,9 +1,6 @@
 #include "lib/pairs/device_pairs.hpp"
 
-#include <algorithm>
-#include <limits>
-
-#include "lib/pairs/region_order.hpp"
+#include "lib/pairs/region_groups.hpp"
 
 namespace powercell {
 namespace {
@@ -11,25 +8,6 @@ namespace {
 void upload(cl::RawBuffer& buffer, const std::vector<std::byte>& bytes) {
   buffer.reserve(bytes.size());
   if (!bytes.empty()) buffer.write(bytes.data(), bytes.size());
-}
-
-/// Boxes of the regions in the given order: rows of dimension coordinates.
-struct Boxes {
-  std::vector<double> low, high;
-};
-
-Boxes boxes_of(const RegionMesh& mesh, const std::vector<std::uint32_t>& order) {
-  const auto d = static_cast<std::size_t>(mesh.dimension);
-  Boxes boxes{std::vector<double>(order.size() * d, std::numeric_limits<double>::infinity()),
-              std::vector<double>(order.size() * d, -std::numeric_limits<double>::infinity())};
-  for (std::size_t k = 0; k < order.size(); ++k)
-    for (std::uint32_t slot = mesh.region_offset[order[k]]; slot < mesh.region_offset[order[k] + 1]; ++slot)
-      for (std::size_t axis = 0; axis < d; ++axis) {
-        const double x = mesh.vertices[std::size_t{mesh.region_vertex[slot]} * d + axis];
-        boxes.low[k * d + axis] = std::min(boxes.low[k * d + axis], x);
-        boxes.high[k * d + axis] = std::max(boxes.high[k * d + axis], x);
-      }
-  return boxes;
 }
 
 }  // namespace
@@ -44,11 +22,10 @@ DevicePairs::RegionTree::RegionTree(const Scene& scene, const std::vector<std::s
       node_owner(scene.context()),
       find_owners(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_owners"),
       find_pairs(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_pairs") {
-  const std::vector<std::uint32_t> order = pairs::region_order(scene.mesh(), 1);
-  const Boxes boxes = boxes_of(scene.mesh(), order);
-  region.upload(order);
-  upload(low, scene.frame().pack(scene.mesh().dimension, boxes.low, {}));
-  upload(high, scene.frame().pack(scene.mesh().dimension, boxes.high, {}));
+  const pairs::RegionGroups groups(scene.mesh(), 1);
+  region.upload(groups.order);
+  upload(low, scene.frame().pack(scene.mesh().dimension, groups.level[0].low, {}));
+  upload(high, scene.frame().pack(scene.mesh().dimension, groups.level[0].high, {}));
   nodes.enqueue(low.handle(), high.handle(), count);
   owner.resize(count);
   node_owner.resize(nodes.node_count());

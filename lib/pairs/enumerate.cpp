@@ -7,7 +7,7 @@
 #include <powercell/error.hpp>
 
 #include "lib/pairs/candidate_search.hpp"
-#include "lib/pairs/region_order.hpp"
+#include "lib/pairs/region_groups.hpp"
 #include "lib/pairs/transpose.hpp"
 #include "lib/seeds/threads.hpp"
 
@@ -26,13 +26,8 @@ double typical_weight(const std::vector<double>& weights) {
   return *middle;
 }
 
-/// Regions of one task: a power of 8, few enough that tasks can be shared out. It must not depend on the
-/// number of threads: the shape of the search would, and with it which needless pairs stay.
-std::size_t task_size(std::size_t regions) {
-  std::size_t size = 512;
-  while (size > 1 && regions / size < 64) size /= 8;
-  return size;
-}
+/// Regions of one task: few enough that tasks can be shared out, more than pay for narrowing anew.
+constexpr std::size_t task_size = 64;
 
 /// The candidates of consecutive regions in curve order.
 struct Task {
@@ -44,68 +39,62 @@ template <int D>
 class Worker {
  public:
   Worker(const RegionMesh& mesh, const SeedSet& seeds, const PackedTree& tree, double reference,
-         const std::vector<std::uint32_t>& order)
-      : mesh_(mesh), order_(order), root_(root_frontier(tree)), search_(mesh, seeds, tree, reference) {}
+         const RegionGroups& groups)
+      : groups_(groups),
+        search_(mesh, seeds, tree, reference),
+        narrowed_(groups.level.size() + 1),
+        group_(groups.level.size() + 1, none) {
+    narrowed_.back().frontier = root_frontier(tree);
+  }
 
-  void run(std::size_t first, std::size_t last, std::size_t size, Task& task) {
-    group(first, last, size, root_, 0, task);
+  void run(std::size_t first, std::size_t last, Task& task) {
+    for (std::size_t k = first; k < last; ++k) {
+      search_.find(groups_.order[k], narrowed(1, k / RegionGroups::fan), task.ranks);
+      task.end.push_back(task.ranks.size());
+    }
     task.ranks.shrink_to_fit();
   }
 
  private:
-  /// Narrows the seeds down for the box of the regions [first, last) of the order, then for groups of an
-  /// eighth, down to single regions: what is far from all is excluded once.
-  void group(std::size_t first, std::size_t last, std::size_t size, const Frontier& from, std::size_t depth,
-             Task& task) {
-    if (size == 1) {
-      for (std::size_t k = first; k < last; ++k) {
-        search_.find(order_[k], from, task.ranks);
-        task.end.push_back(task.ranks.size());
-      }
-      return;
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  /// What the group's box leaves of the seeds that its parent group left: what is far from all is excluded
+  /// once. It depends on the groups alone, not on the tasks, so the result does not depend on the threads.
+  const Narrowed<D>& narrowed(std::size_t level, std::size_t group) {
+    if (level + 1 >= narrowed_.size()) return narrowed_.back();
+    if (group_[level] != group) {
+      const Narrowed<D>& from = narrowed(level + 1, group / RegionGroups::fan);
+      const RegionGroups::Boxes& boxes = groups_.level[level];
+      Point<D> low, high;
+      std::copy_n(&boxes.low[group * D], D, low.begin());
+      std::copy_n(&boxes.high[group * D], D, high.begin());
+      search_.narrow(low, high, from, narrowed_[level]);
+      group_[level] = group;
     }
-    Point<D> low, high;
-    box(first, last, low, high);
-    if (narrowed_.size() == depth) narrowed_.emplace_back();
-    search_.narrow(low, high, from, narrowed_[depth]);
-    for (std::size_t k = first; k < last; k += size / 8)
-      group(k, std::min(k + size / 8, last), size / 8, narrowed_[depth], depth + 1, task);
+    return narrowed_[level];
   }
 
-  void box(std::size_t first, std::size_t last, Point<D>& low, Point<D>& high) const {
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t k = first; k < last; ++k)
-      for (std::uint32_t s = mesh_.region_offset[order_[k]]; s < mesh_.region_offset[order_[k] + 1]; ++s)
-        for (std::size_t axis = 0; axis < D; ++axis) {
-          const double x = mesh_.vertices[std::size_t{mesh_.region_vertex[s]} * D + axis];
-          low[axis] = std::min(low[axis], x);
-          high[axis] = std::max(high[axis], x);
-        }
-  }
-
-  const RegionMesh& mesh_;
-  const std::vector<std::uint32_t>& order_;
-  const Frontier root_;
+  const RegionGroups& groups_;
   CandidateSearch<D> search_;
-  std::deque<Frontier> narrowed_;  // by depth
+  std::vector<Narrowed<D>> narrowed_;  // by level; above the last one are all seeds
+  std::vector<std::size_t> group_;     // whose they are
 };
 
 template <int D>
 Pairs search_all(const RegionMesh& mesh, const SeedSet& seeds, const PackedTree& tree, int threads,
                  const std::function<bool(double)>& progress) {
-  const std::vector<std::uint32_t> order = region_order(mesh, threads);
+  const RegionGroups groups(mesh, threads);
+  const std::size_t regions = groups.order.size();
   const double reference = typical_weight(seeds.weights);
-  const std::size_t size = task_size(order.size());
-  std::vector<Task> tasks((order.size() + size - 1) / size);
+  std::vector<Task> tasks((regions + task_size - 1) / task_size);
   std::vector<Worker<D>> workers;
   workers.reserve(static_cast<std::size_t>(threads));
-  for (int w = 0; w < threads; ++w) workers.emplace_back(mesh, seeds, tree, reference, order);
+  for (int w = 0; w < threads; ++w) workers.emplace_back(mesh, seeds, tree, reference, groups);
 
   std::atomic<std::size_t> done{0};
   parallel_tasks(threads, tasks.size(), [&](int w, std::size_t t) {
-    const std::size_t first = t * size;
-    workers[static_cast<std::size_t>(w)].run(first, std::min(first + size, order.size()), size, tasks[t]);
+    const std::size_t first = t * task_size;
+    workers[static_cast<std::size_t>(w)].run(first, std::min(first + task_size, regions), tasks[t]);
     const std::size_t count = ++done;
     // Only the calling thread, which is worker 0, calls back.
     if (w == 0 && progress && !progress(static_cast<double>(count) / static_cast<double>(tasks.size())))
@@ -114,11 +103,12 @@ Pairs search_all(const RegionMesh& mesh, const SeedSet& seeds, const PackedTree&
                   "which regions");
   });
 
-  std::vector<RankList> lists(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const Task& task = tasks[k / size];
-    const std::uint64_t begin = k % size == 0 ? 0 : task.end[k % size - 1];
-    lists[order[k]] = {task.ranks.data() + begin, static_cast<std::uint32_t>(task.end[k % size] - begin)};
+  std::vector<RankList> lists(regions);
+  for (std::size_t k = 0; k < regions; ++k) {
+    const Task& task = tasks[k / task_size];
+    const std::size_t row = k % task_size;
+    const std::uint64_t begin = row == 0 ? 0 : task.end[row - 1];
+    lists[groups.order[k]] = {task.ranks.data() + begin, static_cast<std::uint32_t>(task.end[row] - begin)};
   }
   return transpose(lists, seeds.size(), threads);
 }

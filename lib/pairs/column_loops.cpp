@@ -1,0 +1,133 @@
+#include "lib/pairs/column_loops.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+// Copies for wider vectors, one of which the loader picks. Contraction is off, so all give the same bits.
+// Sanitizers are not yet ready when the loader asks which.
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define VECTOR_COPIES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define VECTOR_COPIES
+#endif
+
+namespace powercell::pairs::loops {
+namespace {
+
+constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double unit_roundoff = 0x1p-53;
+
+template <int D>
+[[gnu::always_inline]] inline void powers_in(std::size_t count, const double* const* column,
+                                             const double* point, double square, double weight,
+                                             double constant, double* __restrict to) {
+  const double* __restrict x[D + 1];
+  for (int k = 0; k <= D; ++k) x[k] = column[k];
+  for (std::size_t s = 0; s < count; ++s) {
+    double sum = 0;
+    for (int k = 0; k < D; ++k) sum += (x[k][s] - point[k]) * (x[k][s] - point[k]);
+    const double w = x[D][s];
+    const double power = sum * (1 - square) - (w + weight * std::fabs(w) + constant);
+    to[s] = std::fabs(power) <= greatest ? power : -greatest;
+  }
+}
+
+template <std::size_t C>
+[[gnu::always_inline]] inline void raise_corners(std::size_t count, const double* const* lower,
+                                                 const double* upper, double* __restrict excess) {
+  const double* __restrict value[C];
+  for (std::size_t v = 0; v < C; ++v) value[v] = lower[v];
+  for (std::size_t s = 0; s < count; ++s) {
+    double low = value[0][s] - upper[0];
+    for (std::size_t v = 1; v < C; ++v) {
+      const double d = value[v][s] - upper[v];
+      low = d < low ? d : low;
+    }
+    excess[s] = low > excess[s] ? low : excess[s];
+  }
+}
+
+template <int D>
+[[gnu::always_inline]] inline void raise_box(std::size_t count, const double* const* column,
+                                             const double* size, const double* t, double* __restrict excess) {
+  const double* __restrict x[D + 1];
+  for (int k = 0; k <= D; ++k) x[k] = column[k];
+  double t2 = 0, reach2 = 0;
+  for (int k = 0; k < D; ++k) t2 += t[k] * t[k], reach2 += size[k] * size[k];
+  // The last term stands for the absolute error of subnormal squares.
+  const double fixed = t2 + std::fabs(t[D]) + reach2 + std::numeric_limits<double>::min() / unit_roundoff;
+  for (std::size_t s = 0; s < count; ++s) {
+    double s2 = 0, most = 0;
+    for (int k = 0; k < D; ++k) {
+      s2 += x[k][s] * x[k][s];
+      const double along = x[k][s] - t[k];
+      most += (along > 0 ? along : 0.0) * size[k];
+    }
+    // Every term, and every error of a coordinate times what it is multiplied by, is below a few roundings of
+    // |s|^2 + |t|^2 + |size|^2 and the weights.
+    const double error = 64 * unit_roundoff * (s2 + std::fabs(x[D][s]) + fixed);
+    const double value = ((s2 - x[D][s]) - (t2 - t[D])) - 2 * most - error;
+    excess[s] = value > excess[s] ? value : excess[s];
+  }
+}
+
+}  // namespace
+
+VECTOR_COPIES void subtract(std::size_t count, const double* from, double by, double* __restrict to) {
+  for (std::size_t s = 0; s < count; ++s) to[s] = from[s] - by;
+}
+
+VECTOR_COPIES void powers(std::size_t count, int dimension, const double* const* column, const double* point,
+                          double square, double weight, double constant, double* to) {
+  if (dimension == 2)
+    powers_in<2>(count, column, point, square, weight, constant, to);
+  else
+    powers_in<3>(count, column, point, square, weight, constant, to);
+}
+
+VECTOR_COPIES void raise_excess(std::size_t count, std::size_t corners, const double* const* lower,
+                                const double* upper, double* excess) {
+  switch (corners) {
+    case 2:
+      return raise_corners<2>(count, lower, upper, excess);
+    case 3:
+      return raise_corners<3>(count, lower, upper, excess);
+    case 4:
+      return raise_corners<4>(count, lower, upper, excess);
+    case 5:
+      return raise_corners<5>(count, lower, upper, excess);
+    case 6:
+      return raise_corners<6>(count, lower, upper, excess);
+    case 7:
+      return raise_corners<7>(count, lower, upper, excess);
+    default:
+      return raise_corners<8>(count, lower, upper, excess);
+  }
+}
+
+VECTOR_COPIES void raise_box_excess(std::size_t count, int dimension, const double* const* column,
+                                    const double* size, const double* tester, double* excess) {
+  if (dimension == 2)
+    raise_box<2>(count, column, size, tester, excess);
+  else
+    raise_box<3>(count, column, size, tester, excess);
+}
+
+VECTOR_COPIES std::size_t least(std::size_t count, const double* values) {
+  constexpr std::size_t lanes = 8;
+  std::array<double, lanes> low;
+  low.fill(std::numeric_limits<double>::infinity());
+  std::size_t s = 0;
+  for (; s + lanes <= count; s += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) low[k] = values[s + k] < low[k] ? values[s + k] : low[k];
+  double least = std::numeric_limits<double>::infinity();
+  for (; s < count; ++s) least = values[s] < least ? values[s] : least;
+  for (const double l : low) least = l < least ? l : least;
+  for (s = 0; s + 1 < count && values[s] != least; ++s) {
+  }
+  return s;
+}
+
+}  // namespace powercell::pairs::loops

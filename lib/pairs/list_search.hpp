@@ -1,0 +1,66 @@
+/// \file
+/// Exact exclusion among few seeds, all at once. Internal.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "lib/pairs/exclusion.hpp"
+#include "lib/pairs/part.hpp"
+#include "lib/pairs/seed_list.hpp"
+
+namespace powercell::pairs {
+
+/// One worker's search with its scratch memory; not thread-safe. The powers of all seeds at each corner of a
+/// part are a column: a part that is split inherits those of the corners that stay.
+template <int D>
+class ListSearch {
+ public:
+  /// The seeds of `from` that can meet the box [low, high].
+  void narrow(const Point<D>& low, const Point<D>& high, const SeedList<D>& from, SeedList<D>& to);
+
+  /// Begins with a region: coordinates will be relative to `origin`, `reach` is as in PowerBounds.
+  /// Keeps a reference to `seeds`.
+  void begin(const SeedList<D>& seeds, const double* origin, double reach);
+  /// Marks the seeds that can meet the part.
+  /// \param known  excludes as well, by upper bounds at the corners of the part
+  void search(const Part<D>& part, std::span<const CornerValues> known = {});
+  /// Appends the marked ranks, ascending.
+  void take_marked(std::vector<std::uint32_t>& ranks) const;
+
+ private:
+  struct Level {
+    Part<D> part;
+    std::vector<std::uint32_t> index;                     // into the list
+    SeedColumns<D> local;                                 // coordinates relative to the origin
+    std::array<std::vector<double>, most_corners> lower;  // bounds of the powers at the corners
+    std::size_t count() const { return index.size(); }
+  };
+  struct Halves {
+    Level first, second;
+  };
+
+  void visit(Level& level, std::size_t depth, int failures);
+  void halve(const Level& level, Halves& halves);
+  void filter(Level& level, std::span<const CornerValues> known);
+  void add_tester(const Level& level, std::size_t seed);
+  void keep_unexcluded(Level& level);
+  void finish(Level& level);
+
+  const SeedList<D>* seeds_ = nullptr;
+  std::vector<unsigned char> marked_;
+  SeedColumns<D> local_;
+  PowerBounds bounds_;
+  double reach_ = 0;
+  std::deque<Halves> halves_;  // by depth; references stay valid as it grows
+  Level root_;
+  std::vector<double> power_, excess_;
+  std::vector<std::uint32_t> tester_;
+  std::array<const double*, most_corners> lower_{};
+};
+
+extern template class ListSearch<2>;
+extern template class ListSearch<3>;
+
+}  // namespace powercell::pairs
