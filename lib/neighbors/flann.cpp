@@ -38,7 +38,7 @@ void FlannIndex::query(std::span<const std::uint32_t> ranks, std::size_t count, 
   rows.resize(ranks.size() * count);
   parallel_for(threads, ranks.size(), [&](std::size_t begin, std::size_t end) {
     flann::SearchParams parameters(flann::FLANN_CHECKS_UNLIMITED);
-    parameters.use_heap = asked > 64 ? flann::FLANN_True : flann::FLANN_False;
+    parameters.use_heap = asked > 512 ? flann::FLANN_True : flann::FLANN_False;
     std::vector<double> query(tree.dimension), distance(asked);
     std::vector<std::size_t> found(asked);
     flann::Matrix<double> query_row(query.data(), 1, tree.dimension), distances(distance.data(), 1, asked);
