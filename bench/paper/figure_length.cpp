@@ -13,7 +13,7 @@ void length_figure(const Session& session) {
       {"domain", "n", "L", "first_share", "asked", "rounds", "flann_us", "tree_us"});
   const std::size_t part = session.quick ? 10 : 1;
   const std::vector<int> flat{6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 34, 40};
-  const std::vector<int> solid{12, 16, 20, 24, 28, 30, 32, 35, 40, 48, 56, 64};
+  const std::vector<int> solid{12, 16, 20, 24, 28, 30, 32, 35, 40, 48, 56, 64, 80};
   for (const Subject& subject : {Subject{"square", test::unit_box(2), 40000 / part},
                                  Subject{"surface", bench::domain_of("surface"), 20000 / part},
                                  Subject{"cube", test::unit_box(3), 15000 / part}}) {

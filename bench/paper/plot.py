@@ -134,6 +134,10 @@ def figure8(rows):
     return figure
 
 
+def seconds(rows, way):
+    return [1e-6 * row[way + "_us"] * row["n"] for row in rows]
+
+
 def growth(rows, domain):
     figure, axes = panels(1, 2, 5, 3.6)
     for weight_range in sorted({r["range"] for r in rows}):
@@ -143,14 +147,13 @@ def growth(rows, domain):
             name = f"{'lists' if way == 'flann' else 'tree'}, w ≤ {weight_range:g} h²"
             axes[0][0].plot(n, data.column(part, way + "_us"), color=color, ls=style(weight_range), marker=".",
                             label=name)
-            axes[0][1].plot(n, data.column(part, way + "_s"), color=color, ls=style(weight_range), marker=".",
-                            label=name)
+            axes[0][1].plot(n, seconds(part, way), color=color, ls=style(weight_range), marker=".", label=name)
         for size in (5000, 100000):
             paper = data.paper_microseconds(domain, size, weight_range)
             axes[0][0].plot(size, paper, "x", color=PAPER,
                             label="the paper's program" if (size, weight_range) == (5000, 0) else None)
     guide = np.array([min(r["n"] for r in rows), max(r["n"] for r in rows)])
-    scale = max(r["flann_s"] for r in rows) / guide[1]
+    scale = max(seconds(rows, "flann")) / guide[1]
     axes[0][1].plot(guide, scale * guide, color="gray", lw=1, label="proportional to n")
     for axis in axes[0]:
         axis.set_xscale("log")
@@ -158,7 +161,7 @@ def growth(rows, domain):
         log_scale(axis.yaxis)
         axis.set_xlabel("n")
     axes[0][0].set_ylabel(TIME)
-    axes[0][1].set_ylabel("seconds")
+    axes[0][1].set_ylabel("seconds of processor time")
     axes[0][0].legend(fontsize=7)
     axes[0][1].legend(fontsize=7)
     return figure
