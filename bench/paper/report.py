@@ -109,8 +109,9 @@ def growth(rows, domain):
         first, last = part[0], part[-1]
         for way in ("flann_us", "tree_us"):
             slopes.append(1 + math.log(last[way] / first[way]) / math.log(last["n"] / first["n"]))
-    speed = "".join(f" Speed relative to the paper's program, a core each: {name} {min(gains[way]):.2f} to {max(gains[way]):.2f}."
-                    for way, name in (("flann_us", "lists"), ("tree_us", "tree")) if gains[way])
+    speed = ", ".join(f"{name} {min(gains[way]):.2f} to {max(gains[way]):.2f}"
+                      for way, name in (("flann_us", "lists"), ("tree_us", "tree")) if gains[way])
+    speed = f" Speed relative to the paper's program, a core each: {speed}." if speed else ""
     return table(["seeds", "pairs a seed", "lists µs", "tree µs", "the paper's program, µs"], lines) + f"""
 
 Over the whole range the time grows as n to the power {min(slopes):.2f} to {max(slopes):.2f} \
@@ -122,12 +123,13 @@ def table1(rows):
     for model in dict.fromkeys(r["model"] for r in rows):
         for n in sorted({r["n"] for r in rows}):
             lists, tree = (data.pick(rows, model=model, n=n, provider=p)[0] for p in ("flann", "tree"))
+            share = {key: f"{100 * lists[key] / lists['total_s']:.0f} %" for key in ("pairs_s", "neighbors_s", "clip_s")}
             lines.append([f"{model} ({lists['kind']})", f"{int(lists['regions']):,}", f"{int(n):,}",
-                          f"{int(lists['pairs']):,}", f"{lists['pairs_s']:.3f}", f"{lists['neighbors_s']:.3f}",
-                          f"{lists['clip_s']:.3f}", f"{lists['total_s']:.3f}", f"{tree['clip_s']:.3f}",
-                          f"{tree['total_s']:.3f}", f"{lists['us'] / tree['us']:.2f}"])
-    return table(["model", "regions", "seeds", "pairs", "pairs s", "lists: neighbours s", "clip s", "total s",
-                  "tree: search and clip s", "total s", "processor time, lists / tree"], lines)
+                          f"{lists['pairs'] / n:.1f}", microseconds(lists["us"]), *share.values(),
+                          microseconds(tree["us"]), f"{100 * tree['clip_s'] / tree['total_s']:.0f} %",
+                          f"{lists['us'] / tree['us']:.2f}"])
+    return table(["model", "regions", "seeds", "pairs a seed", "lists µs", "pairs", "neighbours", "clipping", "tree µs",
+                  "search and clipping", "lists / tree"], lines)
 
 
 FIGURES = {"figure3": figure3, "figure4": figure4, "figure6": figure6, "figure8": figure8, "table1": table1,
