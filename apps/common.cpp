@@ -25,18 +25,22 @@ void add_output_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--quiet", options.quiet, "No report and no progress bar; errors are still told");
 }
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--device", options.device,
-                     "Part of a device's name, its number P:D, cpu or gpu (see 'powercell devices'); "
-                     "else POWERCELL_DEVICE, else the best GPU, else the CPU");
-  command.add_option("--precision", options.precision, "auto, double or float")
-      ->check(CLI::IsMember({"auto", "double", "float"}));
+void add_engine_options(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--neighbors", options.neighbors,
                   "Where candidate neighbours come from: auto, tree or flann")
       ->check(CLI::IsMember({"auto", "tree", "flann"}));
   command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
       ->check(CLI::NonNegativeNumber);
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--device", options.device,
+                     "Part of a device's name, its number P:D, cpu or gpu (see 'powercell devices'); "
+                     "else POWERCELL_DEVICE, else the best GPU, else the CPU");
+  command.add_option("--precision", options.precision, "auto, double or float")
+      ->check(CLI::IsMember({"auto", "double", "float"}));
+  add_engine_options(command, options);
   add_output_options(command, options);
 }
 
@@ -78,13 +82,16 @@ Options library_options(const CommonOptions& options, std::string_view what) {
   return result;
 }
 
+void limit_threads(const CommonOptions& options) {
+  if (options.threads <= 0) return;
+  // Read once by PoCL when the first platform is asked for; a value of the user's own wins.
+  const std::string count = std::to_string(options.threads);
+  setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 0);
+  setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 0);
+}
+
 Device open_device(const CommonOptions& options) {
-  if (options.threads > 0) {
-    // Read once by PoCL when the first platform is asked for; a value of the user's own wins.
-    const std::string count = std::to_string(options.threads);
-    setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 0);
-    setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 0);
-  }
+  limit_threads(options);
   std::optional<Device> device;
   compute([&] { device = Device::choose(options.device); });
   return *device;

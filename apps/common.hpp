@@ -28,6 +28,8 @@ struct CommonOptions {
 
 /// Adds --json and --quiet.
 void add_output_options(CLI::App& command, CommonOptions& options);
+/// Adds --neighbors and --threads.
+void add_engine_options(CLI::App& command, CommonOptions& options);
 /// Adds --device, --precision, --neighbors, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
@@ -41,8 +43,9 @@ std::optional<DomainKind> domain_kind(const std::string& kind);
 /// \param what  shown beside the progress bar, e.g. "cells"
 Options library_options(const CommonOptions& options, std::string_view what);
 
-/// The device asked for, opened as a computation (see interrupt.hpp); threads are handed to PoCL, which
-/// counts them when it starts.
+/// Hands --threads to PoCL, which counts its threads when the first platform is asked for.
+void limit_threads(const CommonOptions& options);
+/// The device asked for, opened as a computation (see interrupt.hpp), with those threads.
 Device open_device(const CommonOptions& options);
 
 const char* precision_name(Precision precision);  ///< "double" or "float"
@@ -54,6 +57,7 @@ Command add_devices(CLI::App& app);
 Command add_diagram(CLI::App& app);
 Command add_verify(CLI::App& app);
 Command add_demo(CLI::App& app);
+Command add_bench(CLI::App& app);
 
 /// "12,345".
 std::string with_commas(std::size_t number);

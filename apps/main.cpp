@@ -39,12 +39,12 @@ int run(int argc, char** argv) {
       "  powercell devices                                    what --device accepts\n"
       "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
       "  powercell verify --device cpu                        does this device compute rightly?\n"
+      "  powercell bench                                      how fast?\n"
       "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE.");
   const std::map<std::string, powercell::app::Command> commands = {
-      {"devices", powercell::app::add_devices(app)},
-      {"diagram", powercell::app::add_diagram(app)},
-      {"verify", powercell::app::add_verify(app)},
-      {"demo", powercell::app::add_demo(app)},
+      {"devices", powercell::app::add_devices(app)}, {"diagram", powercell::app::add_diagram(app)},
+      {"verify", powercell::app::add_verify(app)},   {"demo", powercell::app::add_demo(app)},
+      {"bench", powercell::app::add_bench(app)},
   };
   try {
     app.parse(argc, argv);

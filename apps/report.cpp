@@ -75,9 +75,14 @@ std::string self_check_line(const RunReport& report) {
   return line + ")";
 }
 
+double partition_tolerance(Precision precision) {
+  return precision == Precision::float32 ? 1e-3 : 1e-9;
+}
+
 void require_partition(const RunReport& report) {
   if (report.seeds == 0) return;
-  const double allowed = report.precision == "float" ? 1e-3 : 1e-9;
+  const double allowed =
+      partition_tolerance(report.precision == "float" ? Precision::float32 : Precision::float64);
   if (report.relative_error <= allowed) return;
   throw Error(
       ErrorCode::internal,

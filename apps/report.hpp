@@ -38,6 +38,9 @@ nlohmann::json as_json(const RunReport& report);
 /// "4,812 cells, 188 hidden, 0 duplicate; sum of measures / domain = 1 + 2.2e-16; ..."
 std::string self_check_line(const RunReport& report);
 
+/// The relative error allowed to the sum of the measures.
+double partition_tolerance(Precision precision);
+
 /// \throw Error internal if the measures do not sum to the domain's within what the precision allows.
 void require_partition(const RunReport& report);
 

@@ -1,0 +1,84 @@
+/// \file
+/// What a benchmark found, and the JSON it is kept in.
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <powercell/peaks.hpp>
+#include <powercell/powercell.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/bench/work.hpp"
+
+namespace powercell::app {
+
+/// Runs that ask for the same: seeds in host memory to results in host memory.
+struct TimedRuns {
+  std::vector<double> seconds;  ///< of each run, kernels built before
+  Timings phases;               ///< of the fastest
+
+  double best() const;  ///< least seconds; 0 without a run
+};
+
+/// A device, a domain, a precision and a number of seeds.
+struct BenchRow {
+  std::string device, selector;  ///< name, and "P:D"
+  std::string domain;            ///< as --domain names it
+  std::string precision, neighbors;
+  std::size_t n = 0;          ///< seeds
+  std::size_t regions = 0;    ///< convex pieces of the domain
+  TimedRuns measures;         ///< measures alone
+  TimedRuns adjacency;        ///< measures and adjacency in one pass
+  double build = 0;           ///< seconds: kernels compiled, or found in a cache, for both
+  double first_result = 0;    ///< seconds: opening the device to the measures of the first seeds
+  double relative_error = 0;  ///< of the sum of the measures, the worst of all runs
+  Work work;                  ///< counted for a cell
+  Peaks peaks;                ///< of the device in this precision
+  std::string failure;        ///< why there are no figures; empty if there are
+
+  std::string title() const;           ///< for messages: "cube in double with 1,000 seeds on NAME"
+  double rate() const;                 ///< cells a second, measures
+  double adjacency_rate() const;       ///< cells a second, measures and adjacency
+  double arithmetic_fraction() const;  ///< counted operations a second over those that the device reaches
+  double bandwidth_fraction() const;   ///< counted bytes a second over those that the device copies
+};
+
+struct BenchRecord {
+  std::string revision;  ///< of the source, where git knew it when the build was configured; else empty
+  std::string date;      ///< ISO 8601, UTC
+  int threads = 0;
+  bool cold = false;  ///< kernels compiled, not found in a cache
+  std::size_t repeat = 0;
+  std::vector<DeviceInfo> devices;
+  std::vector<BenchRow> rows;
+  double seconds = 0;  ///< of the whole benchmark
+
+  std::size_t failures() const;
+  /// How many rows failed, and the first of them; empty if none did.
+  std::string failure() const;
+};
+
+nlohmann::json as_json(const BenchRecord& record);
+
+/// One row of an earlier record, as far as a comparison needs it.
+struct EarlierRow {
+  std::string device, selector, domain, precision;
+  std::size_t n = 0;
+  double rate = 0, adjacency_rate = 0;  ///< cells a second
+};
+
+struct EarlierRecord {
+  std::string path, version, revision, date;
+  std::vector<EarlierRow> rows;  ///< those that did not fail
+
+  /// The row of this device, domain and precision, of `n` seeds or, with 0, of any; null if there is none.
+  /// Of several devices of one name that at the same place is preferred.
+  const EarlierRow* find(const std::string& device, const std::string& selector, const std::string& domain,
+                         const std::string& precision, std::size_t n) const;
+};
+
+/// Reads what `as_json` gave. \throw Error invalid_file (the file and what is wrong with it)
+EarlierRecord read_record(const std::string& path);
+
+}  // namespace powercell::app

@@ -1,0 +1,199 @@
+#include "apps/bench/run.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "apps/bench/table.hpp"
+#include "apps/bench/timing.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/report.hpp"
+
+namespace powercell::app {
+namespace {
+
+// Seconds for all rows together, and for one run of one row. Rows that cannot be shortened, on a slow
+// device, may take longer.
+constexpr double usual_seconds = 75, quick_seconds = 10;
+constexpr double usual_run = 1, quick_run = 0.05;
+
+// The domains measured unless others are asked for: about 5,000 triangles, 14,000 tetrahedra.
+struct Shape {
+  const char *name, *spec;
+};
+constexpr Shape shapes[] = {
+    {"square", "square"}, {"cube", "cube"}, {"surface", "sphere:16"}, {"volume", "ball:12"}};
+
+struct NamedDomain {
+  std::string name;
+  io::LoadedDomain loaded;
+};
+
+NamedDomain load(const std::string& name) {
+  for (const Shape& shape : shapes)
+    if (name == shape.name) return {name, io::read_domain(shape.spec)};
+  if (!io::is_builtin_domain(name) && !std::filesystem::exists(name))
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("domain '{}' is not known: --domain takes square, cube, surface, volume, or a file "
+                    "or shape that 'powercell diagram --domain' takes",
+                    name));
+  return {name, io::read_domain(name)};
+}
+
+std::vector<NamedDomain> load_domains(const BenchArguments& arguments) {
+  std::vector<NamedDomain> domains;
+  for (const std::string& name : arguments.domains) domains.push_back(load(name));
+  if (domains.empty())
+    for (const Shape& shape : shapes) domains.push_back(load(shape.name));
+  return domains;
+}
+
+CommonOptions on_device(const BenchArguments& arguments, const std::string& selector) {
+  CommonOptions options = arguments;
+  options.device = selector;
+  return options;
+}
+
+// Those asked for, or that of POWERCELL_DEVICE, or all.
+std::vector<DeviceInfo> find_devices(const BenchArguments& arguments) {
+  std::vector<DeviceInfo> found;
+  for (const std::string& selector : arguments.devices)
+    found.push_back(open_device(on_device(arguments, selector)).info());
+  if (!found.empty()) return found;
+  const char* named = std::getenv("POWERCELL_DEVICE");
+  if (named && *named) return {open_device(arguments).info()};
+  limit_threads(arguments);
+  found = devices();
+  if (found.empty()) open_device(arguments);  // says what to do about it
+  return found;
+}
+
+std::vector<Precision> precisions_of(const BenchArguments& arguments, const DeviceInfo& device) {
+  if (arguments.precision == "double") return {Precision::float64};
+  if (arguments.precision == "float") return {Precision::float32};
+  if (!device.fp64) return {Precision::float32};
+  return {Precision::float64, Precision::float32};
+}
+
+std::string now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+// One benchmark: device by device, precision by precision, domain by domain.
+class Bench {
+ public:
+  Bench(const BenchArguments& arguments, const EarlierRecord* earlier)
+      : arguments_(arguments), earlier_(earlier), domains_(load_domains(arguments)) {
+    record_.revision = POWERCELL_REVISION;
+    record_.date = now();
+    record_.threads = arguments.threads;
+    record_.cold = arguments.cold;
+    record_.repeat = arguments.repeat;
+    record_.devices = find_devices(arguments);
+  }
+
+  BenchRecord run() {
+    for (const DeviceInfo& device : record_.devices)
+      rows_left_ += precisions_of(arguments_, device).size() * domains_.size();
+    for (const DeviceInfo& device : record_.devices) run_device(device);
+    record_.seconds = spent();
+    return std::move(record_);
+  }
+
+ private:
+  void run_device(const DeviceInfo& device) {
+    say(fmt::format("{}  {} ({}, {}), {} units", device.selector(), device.name, device.platform_name,
+                    device.driver_version, device.compute_units));
+    std::vector<std::pair<Precision, Peaks>> measured;
+    std::vector<std::string> faults;
+    for (const Precision precision : precisions_of(arguments_, device)) {
+      std::string fault;
+      measured.emplace_back(precision, peaks_of(device, precision, fault));
+      faults.push_back(fault);
+    }
+    say(table_head());
+    for (const NamedDomain& domain : domains_)
+      for (std::size_t k = 0; k < measured.size(); ++k)
+        run_row(device, domain, measured[k].first, measured[k].second, faults[k]);
+  }
+
+  Peaks peaks_of(const DeviceInfo& device, Precision precision, std::string& fault) {
+    Peaks peaks;
+    try {
+      const Device opened = open_device(on_device(arguments_, device.selector()));
+      compute([&] { peaks = measure_peaks(opened, precision); });
+      say(fmt::format("     {}: {:.1f} GB/s copied, {:.1f} Gflop/s multiplied and added",
+                      precision_name(precision), 1e-9 * peaks.copied_bytes, 1e-9 * peaks.operations));
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::interrupted) throw;
+      fault = error.what();
+    }
+    return peaks;
+  }
+
+  void run_row(const DeviceInfo& device, const NamedDomain& domain, Precision precision, const Peaks& peaks,
+               const std::string& fault) {
+    const CommonOptions options = on_device(arguments_, device.selector());
+    BenchTask task{domain.name, &domain.loaded, [options] { return open_device(options); },
+                   library_options(options, domain.name)};
+    task.options.precision = precision;
+    task.n = seeds_of(device, domain.name, precision);
+    task.repeat = arguments_.repeat;
+    task.seconds = std::max(1.0, (seconds_in_all() - spent()) / static_cast<double>(rows_left_--));
+    task.longest = arguments_.quick ? quick_run : usual_run;
+    task.peaks = peaks;
+
+    BenchRow row;
+    row.domain = domain.name;
+    row.precision = precision_name(precision);
+    row.failure = fault;
+    if (fault.empty()) compute([&] { row = time_row(task, counts_); });
+    row.device = device.name;
+    row.selector = device.selector();
+    say(table_line(row));
+    record_.rows.push_back(std::move(row));
+  }
+
+  // As asked, or as in the record that this one is compared with, else found by time.
+  std::size_t seeds_of(const DeviceInfo& device, const std::string& domain, Precision precision) const {
+    if (arguments_.n || !earlier_) return arguments_.n;
+    const EarlierRow* row =
+        earlier_->find(device.name, device.selector(), domain, precision_name(precision), 0);
+    return row ? row->n : 0;
+  }
+
+  double seconds_in_all() const { return arguments_.quick ? quick_seconds : usual_seconds; }
+
+  double spent() {
+    spent_ += watch_.lap();
+    return spent_;
+  }
+
+  void say(const std::string& text) const {
+    if (!arguments_.talk()) return;
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  }
+
+  const BenchArguments& arguments_;
+  const EarlierRecord* earlier_;
+  std::vector<NamedDomain> domains_;
+  WorkCounts counts_;
+  BenchRecord record_;
+  std::size_t rows_left_ = 0;
+  Stopwatch watch_;
+  double spent_ = 0;
+};
+
+}  // namespace
+
+BenchRecord run_bench(const BenchArguments& arguments, const EarlierRecord* earlier) {
+  return Bench(arguments, earlier).run();
+}
+
+}  // namespace powercell::app

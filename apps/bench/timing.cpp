@@ -1,0 +1,166 @@
+#include "apps/bench/timing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/common.hpp"
+#include "apps/io/read_seeds.hpp"
+#include "apps/report.hpp"
+
+namespace powercell::app {
+namespace {
+
+constexpr std::size_t least_seeds = 1000, most_seeds = 10'000'000;
+constexpr std::size_t first_seeds = 1000;      // of the first result
+constexpr std::size_t counted_seeds = 10'000;  // on whose cells the work is counted
+constexpr double bytes_a_seed = 2500;          // of memory, what a diagram is expected to need at most
+
+io::SeedTable white_seeds(const Domain& domain, std::size_t n) {
+  const double spacing = std::pow(domain.measure() / static_cast<double>(n), 1.0 / domain.cell_dimension());
+  return io::random_seeds({n, 0, spacing * spacing / 2, 1}, domain);
+}
+
+SeedsView view(const io::SeedTable& table) {
+  return {table.dimension, table.positions, table.weights};
+}
+
+class RowTimer {
+ public:
+  RowTimer(const BenchTask& task, BenchRow& row) : task_(task), row_(row) {}
+
+  void run(WorkCounts& counts) {
+    first_result();
+    row_.n = task_.n ? task_.n : choose_seeds();
+    const io::SeedTable seeds = white_seeds(task_.domain->domain, row_.n);
+    time_once(seeds, true);  // makes room for the results; not counted
+    row_.measures = time(seeds, false);
+    row_.adjacency = time(seeds, true);
+    row_.build = diagram_->device().build_seconds();
+    row_.work = count(counts);
+  }
+
+ private:
+  // Opening, kernels and all, as a program that starts meets it; then once more with adjacency, so that the
+  // kernels for that are there too.
+  void first_result() {
+    const io::SeedTable seeds =
+        white_seeds(task_.domain->domain, task_.n ? std::min(task_.n, first_seeds) : first_seeds);
+    Stopwatch watch;
+    diagram_.emplace(task_.open(), task_.domain->domain, task_.options);
+    diagram_->set_seeds(view(seeds));
+    diagram_->measures();
+    row_.first_result = watch.lap();
+    row_.neighbors = neighbors_name(diagram_->neighbors());
+    check(nullptr);
+    time_once(seeds, true);
+  }
+
+  // Doubles and more until the clock tells, then scales to what time is left for.
+  std::size_t choose_seeds() {
+    const auto memory = static_cast<double>(diagram_->device().info().memory_bytes);
+    const std::size_t most = round_seeds(memory / bytes_a_seed);
+    // A run to warm up, `repeat` of either kind, the second kind a little longer, and the count.
+    const double target =
+        std::min(task_.longest, (task_.seconds - spent()) / (2.5 + 2.3 * static_cast<double>(task_.repeat)));
+    double n = least_seeds, seconds = time_once(white_seeds(task_.domain->domain, least_seeds), false);
+    for (double growth = 2; seconds < target / 4 && growth >= 2 && n < static_cast<double>(most);) {
+      growth = std::clamp(target / (2 * std::max(seconds, 1e-6)), 1.0, 16.0);
+      n = std::min(n * growth, static_cast<double>(most));
+      seconds = time_once(white_seeds(task_.domain->domain, static_cast<std::size_t>(n)), false);
+    }
+    return std::min(most, round_seeds(n * target / std::max(seconds, 1e-6)));
+  }
+
+  TimedRuns time(const io::SeedTable& seeds, bool adjacency) {
+    TimedRuns runs;
+    std::optional<Measures> before;
+    for (std::size_t k = 0; k < task_.repeat; ++k) {
+      runs.seconds.push_back(time_once(seeds, adjacency));
+      if (runs.seconds.back() <= runs.best()) runs.phases = diagram_->timings();
+      check(before ? &*before : nullptr);
+      if (!before) before = diagram_->measures();
+    }
+    return runs;
+  }
+
+  // Seconds from seeds in host memory to results there, without building kernels.
+  double time_once(const io::SeedTable& seeds, bool adjacency) {
+    const double built = diagram_->device().build_seconds();
+    Stopwatch watch;
+    diagram_->set_seeds(view(seeds));
+    diagram_->compute(adjacency, false);
+    return watch.lap() - (diagram_->device().build_seconds() - built);
+  }
+
+  void check(const Measures* before) {
+    const Measures& measures = diagram_->measures();
+    row_.relative_error = std::max(row_.relative_error, measures.relative_error());
+    const std::string fault = fault_of(measures, diagram_->precision(), before);
+    if (!fault.empty()) throw Error(ErrorCode::internal, fault);
+  }
+
+  Work count(WorkCounts& counts) {
+    const auto key = std::pair(task_.name, row_.n);
+    if (const auto known = counts.find(key); known != counts.end()) return known->second;
+    const std::size_t n = std::min(row_.n, counted_seeds);
+    const Domain part = part_of(*task_.domain, static_cast<double>(n) / static_cast<double>(row_.n));
+    const io::SeedTable seeds = white_seeds(part, n);
+    Diagram diagram(diagram_->device(), part, task_.options);
+    diagram.set_seeds(view(seeds));
+    return counts[key] = count_work(part, diagram.cells(), seeds.positions);
+  }
+
+  double spent() {
+    spent_ += watch_.lap();
+    return spent_;
+  }
+
+  const BenchTask& task_;
+  BenchRow& row_;
+  std::optional<Diagram> diagram_;
+  Stopwatch watch_;
+  double spent_ = 0;
+};
+
+}  // namespace
+
+std::size_t round_seeds(double wanted) {
+  std::size_t best = least_seeds;
+  for (std::size_t decade = least_seeds; decade <= most_seeds; decade *= 10)
+    for (const std::size_t step : {1, 2, 5})
+      if (decade * step <= most_seeds && static_cast<double>(decade * step) <= wanted) best = decade * step;
+  return best;
+}
+
+std::string fault_of(const Measures& measures, Precision precision, const Measures* before) {
+  const double allowed = partition_tolerance(precision);
+  // Not-a-number is a fault too, hence the negated comparison.
+  if (!(measures.relative_error() <= allowed))
+    return fmt::format(
+        "the measures sum to {:.17g}, the domain's is {:.17g} (relative error {:.1e}, allowed {:.0e})",
+        measures.total(), measures.domain_measure, measures.relative_error(), allowed);
+  if (before && before->mass != measures.mass) return "two runs on the same seeds gave different measures";
+  return {};
+}
+
+BenchRow time_row(const BenchTask& task, WorkCounts& counts) {
+  BenchRow row;
+  row.domain = task.name;
+  row.precision = precision_name(task.options.precision);
+  row.n = task.n;
+  row.regions = task.domain->domain.region_count();
+  row.peaks = task.peaks;
+  try {
+    RowTimer(task, row).run(counts);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::interrupted) throw;
+    row.failure = error.what();
+  } catch (const std::bad_alloc&) {
+    row.failure = "out of memory on the host; try fewer seeds with --n";
+  }
+  return row;
+}
+
+}  // namespace powercell::app
