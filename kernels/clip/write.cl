@@ -5,7 +5,7 @@
 
 typedef struct {
   __global stored_real* moments;  /* per pair: measure, first moments, second moment, about the seed */
-  __global uint* faces;           /* per row: faces written */
+  __global uint* faces;           /* per row: faces written, all or (without geometry) the walls alone */
   __global int* border;           /* rows of FACE_CAPACITY */
   __global stored_real* wall;     /* rows of FACE_CAPACITY */
   __global uint* vertices;        /* per row: vertices written */
@@ -24,11 +24,14 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
 
 static inline void write_faces(const cell_t* cell, output_t out, uint row) {
   const int faces = cell_faces(cell);
-  out.faces[row] = (uint)faces;
+  const size_t first = (size_t)row * FACE_CAPACITY;
+  uint written = 0;
   for (int f = 0; f < faces; ++f) {
-    out.border[row * FACE_CAPACITY + (uint)f] = cell->border[f];
-    out.wall[row * FACE_CAPACITY + (uint)f] = (stored_real)cell->side[f];
+    if (!(OUTPUTS & OUTPUT_GEOMETRY) && cell->border[f] < 0) continue;
+    out.border[first + written] = cell->border[f];
+    out.wall[first + written++] = (stored_real)cell->side[f];
   }
+  out.faces[row] = written;
 }
 
 static inline void write_vertices(const cell_t* cell, output_t out, uint row) {

@@ -4,17 +4,16 @@
 
 #define MOMENTS (2 + DIMENSION)
 
-/* Work-item t adds the pairs offset[t] .. offset[t+1] of the chunk to row first + t of
-   `sums`, after clearing it when `clear[t]` says that they are its first. */
-__kernel void gather(const uint count, const uint first, __global const uint* offset,
-                     __global const uint* clear, __global const stored_real* moments,
+/* Work-item t adds the pairs offset[t] .. offset[t+1] of the chunk into row t of `sums`. Where
+   `goes_on`, row 0 begins with the sum of the chunk before. */
+__kernel void gather(const uint count, __global const uint* offset, const int goes_on,
+                     __global const stored_real* before, __global const stored_real* moments,
                      __global stored_real* sums) {
   const uint t = (uint)get_global_id(0);
   if (t >= count) return;
   for (uint k = 0; k < MOMENTS; ++k) {
-    const size_t at = (size_t)(first + t) * MOMENTS + k;
-    stored_real sum = clear[t] ? (stored_real)0 : sums[at];
+    stored_real sum = t == 0 && goes_on ? before[k] : (stored_real)0;
     for (uint pair = offset[t]; pair < offset[t + 1]; ++pair) sum += moments[(size_t)pair * MOMENTS + k];
-    sums[at] = sum;
+    sums[(size_t)t * MOMENTS + k] = sum;
   }
 }

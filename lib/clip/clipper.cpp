@@ -16,19 +16,6 @@ constexpr std::size_t row_budget = std::size_t{192} << 20;
 /// Arguments that all clip kernels share come first; those of the candidates follow.
 constexpr unsigned common_arguments = 17;
 
-/// `count` reals of the device's precision as doubles.
-void read_reals(const cl::RawBuffer& buffer, bool float32, std::size_t count, std::vector<double>& to) {
-  to.resize(count);
-  if (count == 0) return;
-  if (!float32) {
-    buffer.read(to.data(), count * sizeof(double));
-    return;
-  }
-  std::vector<float> narrow(count);
-  buffer.read(narrow.data(), count * sizeof(float));
-  std::copy(narrow.begin(), narrow.end(), to.begin());
-}
-
 }  // namespace
 
 Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs)
@@ -82,45 +69,44 @@ std::size_t Clipper::rows_that_fit(std::size_t rung) const {
   return std::max<std::size_t>(1, row_budget / bytes);
 }
 
-void Clipper::read_rows(std::size_t rows, const Capacity& capacity, PieceBatch& batch) const {
-  const auto face_entries = rows * static_cast<std::size_t>(capacity.faces);
-  const auto vertex_entries = rows * static_cast<std::size_t>(capacity.vertices);
-  batch.capacity = capacity;
-  batch.faces.resize(rows);
-  faces_.download(std::span(batch.faces));
-  batch.border.resize(face_entries);
-  border_.download(std::span(batch.border));
-  read_reals(wall_, scene_.float32(), face_entries, batch.wall);
-  if (!(outputs_ & OUTPUT_GEOMETRY)) return;
-  batch.vertices.resize(rows);
-  vertices_.download(std::span(batch.vertices));
-  read_reals(vertex_, scene_.float32(), vertex_entries * static_cast<std::size_t>(scene_.mesh().dimension),
-             batch.vertex);
-  if (scene_.mesh().cell_dimension == 3) {
-    batch.link.resize(vertex_entries * 6);
-    link_.download(std::span(batch.link));
-  }
+void Clipper::reserve_rows(std::size_t rows, const Capacity& capacity) {
+  const RegionMesh& mesh = scene_.mesh();
+  const bool geometry = (outputs_ & OUTPUT_GEOMETRY) != 0;
+  const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
+  const std::size_t faces = wants_rows() ? rows * static_cast<std::size_t>(capacity.faces) : 0;
+  const std::size_t vertices = geometry ? rows * static_cast<std::size_t>(capacity.vertices) : 0;
+  faces_.resize(wants_rows() ? rows + 1 : 0);
+  border_.resize(faces);
+  wall_.reserve(faces * real);
+  vertices_.resize(geometry ? rows + 1 : 0);
+  vertex_.reserve(vertices * static_cast<std::size_t>(mesh.dimension) * real);
+  link_.resize(mesh.cell_dimension == 3 ? vertices * 6 : 0);
+  faces_.zero();
+  vertices_.zero();
 }
 
-void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, int round, PieceSet& pieces,
-                     Outcome& outcome) {
-  const RegionMesh& mesh = scene_.mesh();
-  const Capacity capacity = capacities(mesh.cell_dimension)[rung];
-  const std::size_t rows = active.size(), real = scene_.float32() ? sizeof(float) : sizeof(double);
-  List ranks(rows);
-  std::transform(active.begin(), active.end(), ranks.begin(), [&](std::uint32_t p) { return pair_seed_[p]; });
-  candidates_.prepare(ranks, round);
+void Clipper::read_rows(const Capacity& capacity, PieceBatch& batch) {
+  if (!reader_) reader_.emplace(scene_.context());
+  reader_->begin(faces_, static_cast<std::size_t>(capacity.faces), batch.face_offset);
+  reader_->read(border_, 1, batch.border);
+  reader_->read_reals(wall_, scene_.float32(), 1, batch.wall);
+  if (!(outputs_ & OUTPUT_GEOMETRY)) return;
+  reader_->begin(vertices_, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset);
+  reader_->read_reals(vertex_, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),
+                      batch.vertex);
+  if (scene_.mesh().cell_dimension == 3) reader_->read(link_, 6, batch.link);
+}
 
-  const bool geometry = (outputs_ & OUTPUT_GEOMETRY) != 0;
-  const std::size_t face_rows = wants_rows() ? rows : 0, vertex_rows = geometry ? rows : 0;
+void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, int round, Outcome& outcome) {
+  const Capacity capacity = capacities(scene_.mesh().cell_dimension)[rung];
+  const std::size_t rows = active.size();
+  launch_ranks_.resize(rows);
+  std::transform(active.begin(), active.end(), launch_ranks_.begin(),
+                 [&](std::uint32_t pair) { return pair_seed_[pair]; });
+  candidates_.prepare(launch_ranks_, round);
   active_.upload(active);
   status_.resize(rows);
-  faces_.resize(face_rows);
-  border_.resize(face_rows * static_cast<std::size_t>(capacity.faces));
-  wall_.reserve(face_rows * static_cast<std::size_t>(capacity.faces) * real);
-  vertices_.resize(vertex_rows);
-  vertex_.reserve(vertex_rows * static_cast<std::size_t>(capacity.vertices * mesh.dimension) * real);
-  link_.resize(mesh.cell_dimension == 3 ? vertex_rows * static_cast<std::size_t>(capacity.vertices) * 6 : 0);
+  reserve_rows(rows, capacity);
 
   cl::Kernel& call = kernel(rung);
   call.args(static_cast<cl_uint>(rows), active_, seed_, region_, scene_.corners, scene_.region_offset,
@@ -129,39 +115,41 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
   candidates_.set_arguments(call, common_arguments);
   call.launch(rows);
 
-  List status(rows);
-  status_.download(std::span(status));
-  const auto batch = static_cast<std::uint32_t>(pieces.batches.size());
-  bool rows_wanted = false;
+  launch_status_.resize(rows);
+  status_.download(std::span(launch_status_));
+  const auto batch = static_cast<std::uint32_t>(pieces_.used);
+  std::uint32_t worst = PIECE_WHOLE;
   for (std::size_t row = 0; row < rows; ++row) {
-    const std::uint32_t pair = active[row];
-    pieces.status[pair] = status[row];
-    pieces.batch[pair] = batch;
-    pieces.row[pair] = static_cast<std::uint32_t>(row);
-    if (status[row] == PIECE_MORE) outcome.more.push_back(pair);
-    if (status[row] == PIECE_FULL) outcome.full.push_back(pair);
-    if (status[row] == PIECE_TANGLED) outcome.tangled.push_back(pair);
-    rows_wanted |= status[row] == PIECE_WHOLE || status[row] == PIECE_FLAT;
+    pieces_.status[active[row]] = launch_status_[row];
+    pieces_.batch[active[row]] = batch;
+    pieces_.row[active[row]] = static_cast<std::uint32_t>(row);
+    worst = std::max(worst, launch_status_[row]);
   }
-  pieces.batches.emplace_back();
-  if (wants_rows() && rows_wanted) read_rows(rows, capacity, pieces.batches.back());
+  if (worst > PIECE_FLAT)
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (launch_status_[row] == PIECE_MORE) outcome.more.push_back(active[row]);
+      if (launch_status_[row] == PIECE_FULL) outcome.full.push_back(active[row]);
+      if (launch_status_[row] == PIECE_TANGLED) outcome.tangled.push_back(active[row]);
+    }
+  PieceBatch& rows_of_launch = pieces_.add_batch();
+  if (wants_rows()) read_rows(capacity, rows_of_launch);
 }
 
-void Clipper::run_rung(std::size_t rung, const List& active, PieceSet& pieces, Outcome& outcome) {
+void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {
   List pending = active;
   for (int round = 0; !pending.empty(); ++round) {
     outcome.more.clear();
     const std::size_t most = std::min(candidates_.most_pairs(round), rows_that_fit(rung));
     for (std::size_t begin = 0; begin < pending.size(); begin += most) {
       const std::size_t count = std::min(most, pending.size() - begin);
-      launch(rung, std::span(pending).subspan(begin, count), round, pieces, outcome);
+      launch(rung, std::span(pending).subspan(begin, count), round, outcome);
     }
     statistics_.rounds = std::max(statistics_.rounds, round + 1);
     pending = outcome.more;
   }
 }
 
-void Clipper::finish_on_host(const List& pairs, PieceSet& pieces) {
+void Clipper::finish_on_host(const List& pairs) {
   if (pairs.empty()) return;
   if (!host_scene_) host_scene_ = make_host_scene(scene_);
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
@@ -173,16 +161,16 @@ void Clipper::finish_on_host(const List& pairs, PieceSet& pieces) {
     } else {
       moments_.write(piece.moments.data(), count * sizeof(double), pair * count * sizeof(double));
     }
-    pieces.status[pair] = static_cast<std::uint32_t>(piece.status);
-    pieces.batch[pair] = static_cast<std::uint32_t>(pieces.batches.size());
-    pieces.row[pair] = 0;
-    pieces.batches.push_back(std::move(piece.batch));
+    pieces_.status[pair] = static_cast<std::uint32_t>(piece.status);
+    pieces_.batch[pair] = static_cast<std::uint32_t>(pieces_.used);
+    pieces_.row[pair] = 0;
+    pieces_.add_batch() = std::move(piece.batch);
   }
   statistics_.on_host += pairs.size();
 }
 
 Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
-                             std::span<const std::uint32_t> pair_region, PieceSet& pieces) {
+                             std::span<const std::uint32_t> pair_region) {
   pair_seed_ = pair_seed;
   pair_region_ = pair_region;
   const std::size_t count = pair_seed.size();
@@ -190,38 +178,38 @@ Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
   seed_.upload(pair_seed);
   region_.upload(pair_region);
   moments_.reserve(count * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
-  pieces.status.resize(count);
-  pieces.batch.resize(count);
-  pieces.row.resize(count);
+  pieces_.status.resize(count);
+  pieces_.batch.resize(count);
+  pieces_.row.resize(count);
+  pieces_.used = 0;
   List pending(count);
   std::iota(pending.begin(), pending.end(), 0U);
   return pending;
 }
 
-PieceSet Clipper::clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
-                            std::span<const std::uint32_t> pair_region) {
-  PieceSet pieces;
+const PieceSet& Clipper::clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
+                                   std::span<const std::uint32_t> pair_region) {
   Outcome outcome;
-  run_rung(rung, begin(pair_seed, pair_region, pieces), pieces, outcome);
-  return pieces;
+  run_rung(rung, begin(pair_seed, pair_region), outcome);
+  return pieces_;
 }
 
-PieceSet Clipper::clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region) {
-  PieceSet pieces;
-  List pending = begin(pair_seed, pair_region, pieces), last_resort;
+const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
+                              std::span<const std::uint32_t> pair_region) {
+  List pending = begin(pair_seed, pair_region), last_resort;
   for (std::size_t rung = 0; rung < capacities(scene_.mesh().cell_dimension).size() && !pending.empty();
        ++rung) {
     if (rung > 0) statistics_.retried += pending.size();
     Outcome outcome;
-    run_rung(rung, pending, pieces, outcome);
+    run_rung(rung, pending, outcome);
     last_resort.insert(last_resort.end(), outcome.tangled.begin(), outcome.tangled.end());
     pending = std::move(outcome.full);
     std::sort(pending.begin(), pending.end());
   }
   last_resort.insert(last_resort.end(), pending.begin(), pending.end());
   std::sort(last_resort.begin(), last_resort.end());
-  finish_on_host(last_resort, pieces);
-  return pieces;
+  finish_on_host(last_resort);
+  return pieces_;
 }
 
 }  // namespace powercell

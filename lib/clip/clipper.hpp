@@ -10,6 +10,7 @@
 #include "lib/clip/candidates.hpp"
 #include "lib/clip/host_clip.hpp"
 #include "lib/clip/pieces.hpp"
+#include "lib/clip/row_reader.hpp"
 #include "lib/clip/scene.hpp"
 
 namespace powercell {
@@ -27,14 +28,15 @@ class Clipper {
   Clipper(const Scene& scene, Candidates& candidates, int outputs);
 
   /// Clips pair k = (pair_seed[k], pair_region[k]), ranks ascending. Afterwards every pair has a final
-  /// status; moments() holds its moments in device memory, and the result its rows where asked for.
+  /// status; moments() holds its moments in device memory, and the result, good until the next call, its rows
+  /// where asked for.
   /// \throw Error opencl, out_of_device_memory, build_failed, internal
-  PieceSet clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
+  const PieceSet& clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
 
   /// The same with rung `rung` of the capacity ladder alone: pairs that do not fit it keep PIECE_FULL or
   /// PIECE_TANGLED.
-  PieceSet clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
-                     std::span<const std::uint32_t> pair_region);
+  const PieceSet& clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
+                            std::span<const std::uint32_t> pair_region);
 
   /// Moments by pair of the last chunk: rows of 2 + dimension reals of the device's precision.
   const cl::RawBuffer& moments() const { return moments_; }
@@ -48,15 +50,15 @@ class Clipper {
 
   cl::Kernel& kernel(std::size_t rung);
   std::size_t rows_that_fit(std::size_t rung) const;
-  void launch(std::size_t rung, std::span<const std::uint32_t> active, int round, PieceSet& pieces,
-              Outcome& outcome);
-  void read_rows(std::size_t rows, const Capacity& capacity, PieceBatch& batch) const;
+  void launch(std::size_t rung, std::span<const std::uint32_t> active, int round, Outcome& outcome);
+  /// Room for what the pairs of one launch leave.
+  void reserve_rows(std::size_t rows, const Capacity& capacity);
+  void read_rows(const Capacity& capacity, PieceBatch& batch);
   /// Clips `active` with one rung until no pair asks for more candidates.
-  void run_rung(std::size_t rung, const List& active, PieceSet& pieces, Outcome& outcome);
+  void run_rung(std::size_t rung, const List& active, Outcome& outcome);
   /// Takes in the pairs of a chunk; returns all of them as pending.
-  List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
-             PieceSet& pieces);
-  void finish_on_host(const List& pairs, PieceSet& pieces);
+  List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
+  void finish_on_host(const List& pairs);
   bool wants_rows() const;
 
   const Scene& scene_;
@@ -66,6 +68,9 @@ class Clipper {
   std::optional<HostScene> host_scene_;
   std::span<const std::uint32_t> pair_seed_, pair_region_;
   ClipStatistics statistics_;
+  PieceSet pieces_;
+  List launch_ranks_, launch_status_;
+  std::optional<RowReader> reader_;
 
   cl::Buffer<std::uint32_t> active_, seed_, region_, status_, faces_, vertices_, link_;
   cl::Buffer<std::int32_t> border_;

@@ -68,26 +68,31 @@ HostPiece clip(const HostScene& scene, std::uint32_t rank, std::uint32_t region,
   GrowingCell room(vertices);
   cell_t& cell = room.cell;
   cell.tolerance_factor = static_cast<real>(tolerance_factor);
-  const tree_t tree = {as_seeds(scene.points),    as_seeds(scene.node_low),
-                       as_seeds(scene.node_high), scene.tree->level_offset.data(),
-                       static_cast<int>(scene.tree->levels()), static_cast<uint>(scene.tree->seeds)};
+  const tree_t tree = {as_seeds(scene.points),
+                       as_seeds(scene.node_low),
+                       as_seeds(scene.node_high),
+                       scene.tree->level_offset.data(),
+                       static_cast<int>(scene.tree->levels()),
+                       static_cast<uint>(scene.tree->seeds)};
   PieceBatch& batch = piece.batch;
-  const int capacity = static_cast<int>(vertices);
-  batch.capacity = {capacity, capacity};
-  batch.faces.resize(1);
-  batch.vertices.resize(1);
+  batch.face_offset = batch.vertex_offset = {0, 0};
   batch.border.resize(vertices);
   batch.wall.resize(vertices);
   batch.vertex.resize(vertices * DIMENSION);
   batch.link.resize(vertices * 6);
   piece.moments.resize(2 + DIMENSION);
-  const output_t out = {piece.moments.data(), batch.faces.data(),  batch.border.data(), batch.wall.data(),
-                        batch.vertices.data(), batch.vertex.data(), batch.link.data()};
+  const output_t out = {piece.moments.data(), &batch.face_offset[1],   batch.border.data(),
+                        batch.wall.data(),    &batch.vertex_offset[1], batch.vertex.data(),
+                        batch.link.data()};
   const regions_t regions = {as_seeds(scene.corners), scene.mesh->region_offset.data(),
                              scene.mesh->region_vertex.data(), scene.behind.data(), &scene.shape};
   int status = cell_start(&cell, regions, tree.seeds, rank, region);
   if (status == PIECE_WHOLE) status = clip_by_tree(&cell, tree, rank);
   piece.status = write_piece(&cell, out, status, 0, 0);
+  batch.border.resize(batch.faces(0));
+  batch.wall.resize(batch.faces(0));
+  batch.vertex.resize(batch.vertices(0) * DIMENSION);
+  batch.link.resize(batch.vertices(0) * 6);
   return piece;
 }
 

@@ -10,15 +10,19 @@
 
 namespace powercell {
 
-/// Rows of one launch (kernels/clip/write.cl), device units, coordinates relative to the seed.
+/// Rows of one launch (kernels/clip/write.cl), one after the other; device units, coordinates relative to the
+/// seed. Row r has the faces [face_offset[r], face_offset[r+1]): all of them where geometry was asked for,
+/// else the walls alone.
 struct PieceBatch {
-  Capacity capacity{};
-  std::vector<std::uint32_t> faces;     ///< rows: number of faces
-  std::vector<std::int32_t> border;     ///< rows x capacity.faces: rank, or ~facet slot of the region
-  std::vector<double> wall;             ///< rows x capacity.faces: measure of each face
-  std::vector<std::uint32_t> vertices;  ///< rows: number of vertices
-  std::vector<double> vertex;           ///< rows x capacity.vertices x dimension
-  std::vector<std::uint32_t> link;      ///< rows x capacity.vertices x 6 (polyhedra)
+  std::vector<std::uint32_t> face_offset;    ///< rows + 1
+  std::vector<std::int32_t> border;          ///< per face: rank, or ~facet slot of the region
+  std::vector<double> wall;                  ///< per face: its measure
+  std::vector<std::uint32_t> vertex_offset;  ///< rows + 1
+  std::vector<double> vertex;                ///< dimension per vertex
+  std::vector<std::uint32_t> link;           ///< 6 per vertex (polyhedra)
+
+  std::uint32_t faces(std::size_t row) const { return face_offset[row + 1] - face_offset[row]; }
+  std::uint32_t vertices(std::size_t row) const { return vertex_offset[row + 1] - vertex_offset[row]; }
 };
 
 /// The pieces of a chunk of pairs.
@@ -26,7 +30,13 @@ struct PieceSet {
   std::vector<std::uint32_t> status;  ///< per pair: PIECE_WHOLE, _EMPTY or _FLAT
   std::vector<std::uint32_t> batch;   ///< per pair: which batch
   std::vector<std::uint32_t> row;     ///< per pair: which row of it
-  std::vector<PieceBatch> batches;
+  std::vector<PieceBatch> batches;    ///< those in use come first
+  std::size_t used = 0;               ///< batches in use; the rest keep their memory for the next chunk
+
+  PieceBatch& add_batch() {
+    if (used == batches.size()) batches.emplace_back();
+    return batches[used++];
+  }
 };
 
 }  // namespace powercell

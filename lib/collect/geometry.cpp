@@ -22,15 +22,14 @@ Border GeometryCollector::border(std::int32_t code, std::uint32_t region) const 
 
 void GeometryCollector::add_vertices(const PieceBatch& batch, std::size_t row, std::uint32_t rank) {
   const auto d = static_cast<std::size_t>(mesh_.dimension);
-  const std::size_t first = row * static_cast<std::size_t>(batch.capacity.vertices);
-  for (std::size_t v = first; v < first + batch.vertices[row]; ++v)
+  for (std::size_t v = batch.vertex_offset[row]; v < batch.vertex_offset[row + 1]; ++v)
     for (std::size_t k = 0; k < d; ++k)
       cells_.vertices.push_back(seeds_.positions[rank * d + k] + batch.vertex[v * d + k] / frame_.scale);
 }
 
 void GeometryCollector::add_loops(const PieceBatch& batch, std::size_t row) {
-  const std::uint32_t* link = &batch.link[row * static_cast<std::size_t>(batch.capacity.vertices) * 6];
-  const std::uint32_t vertices = batch.vertices[row], faces = batch.faces[row];
+  const std::uint32_t* link = batch.link.data() + std::size_t{batch.vertex_offset[row]} * 6;
+  const std::uint32_t vertices = batch.vertices(row), faces = batch.faces(row);
   constexpr std::uint32_t none = ~std::uint32_t{0};
   std::vector<std::uint32_t> start(faces, none);
   for (std::uint32_t v = 0; v < vertices; ++v)
@@ -57,8 +56,7 @@ void GeometryCollector::add(std::span<const std::uint32_t> pair_seed,
     piece_rank_.push_back(pair_seed[k]);
     cells_.region.push_back(pair_region[k]);
     add_vertices(batch, row, pair_seed[k]);
-    const std::size_t first = row * static_cast<std::size_t>(batch.capacity.faces);
-    for (std::size_t f = first; f < first + batch.faces[row]; ++f)
+    for (std::size_t f = batch.face_offset[row]; f < batch.face_offset[row + 1]; ++f)
       cells_.border.push_back(border(batch.border[f], pair_region[k]));
     if (mesh_.cell_dimension == 3) add_loops(batch, row);
     cells_.vertex_offset.push_back(cells_.vertices.size() / static_cast<std::size_t>(mesh_.dimension));

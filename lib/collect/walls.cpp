@@ -1,127 +1,149 @@
 #include "lib/collect/walls.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/collect/sort_row.hpp"
 #include "lib/seeds/threads.hpp"
 
 namespace powercell {
+namespace {
 
-WallCollector::WallCollector(std::size_t ranks, int threads) : threads_(threads), end_(ranks, 0) {}
+constexpr std::size_t share_count = 2048;  // pairs; below, threads cost more than they save
 
-void WallCollector::merge(std::vector<Wall>& row) {
-  // Sums run in the order of the pairs, so chunks do not change a bit of them.
-  std::stable_sort(row.begin(), row.end(),
-                   [](const Wall& a, const Wall& b) { return a.neighbor < b.neighbor; });
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (kept > 0 && row[kept - 1].neighbor == row[k].neighbor)
-      row[kept - 1].measure += row[k].measure;
-    else
-      row[kept++] = row[k];
+/// With sums side by side, which one maximum after the other does not allow.
+double largest_of(const double* values, std::size_t count) {
+  double most[4] = {0, 0, 0, 0};
+  std::size_t k = 0;
+  for (; k + 4 <= count; k += 4)
+    for (std::size_t lane = 0; lane < 4; ++lane) most[lane] = std::max(most[lane], values[k + lane]);
+  for (; k < count; ++k) most[0] = std::max(most[0], values[k]);
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+}
+
+}  // namespace
+
+WallCollector::WallCollector(std::size_t ranks, int threads) : threads_(threads) {
+  rows_.end.resize(ranks);
+  rows_.largest.resize(ranks);
+}
+
+void WallCollector::reopen(std::uint32_t rank) {
+  open_rank_ = rank;
+  open_neighbor_.clear();
+  open_measure_.clear();
+  if (rank + 1 != next_) return;  // begins in this chunk
+  const WallRow row = rows_.row(rank);
+  open_neighbor_.assign(row.neighbor, row.neighbor + row.count);
+  for (std::size_t k = 0; k < row.count; ++k) open_measure_.push_back(row.measure(k));
+  rows_.words.resize(rows_.begin(rank) * WallRows::words_per_wall);
+}
+
+void WallCollector::share_out(std::span<const std::uint32_t> pair_seed) {
+  const std::size_t pairs = pair_seed.size();
+  const std::size_t wanted = pairs < share_count ? 1 : static_cast<std::size_t>(std::max(threads_, 1));
+  parts_.resize(wanted);
+  std::size_t begin = 0;
+  for (std::size_t p = 0; p < wanted; ++p) {
+    Part& part = parts_[p];
+    part.begin = begin;
+    part.end = std::max(begin, pairs * (p + 1) / wanted);
+    while (part.end > 0 && part.end < pairs && pair_seed[part.end] == pair_seed[part.end - 1]) ++part.end;
+    part.first = begin < pairs ? pair_seed[begin] : pair_seed.back() + 1;
+    part.last = part.end < pairs ? pair_seed[part.end] : pair_seed.back() + 1;
+    begin = part.end;
   }
-  row.resize(kept);
+}
+
+void WallCollector::OpenRow::add(const std::int32_t* border, const double* wall, std::size_t count) {
+  if (size + count > neighbor.size()) {
+    neighbor.resize(size + count);
+    measure.resize(size + count);
+  }
+  for (std::size_t f = 0; f < count; ++f) {
+    neighbor[size] = static_cast<std::uint32_t>(border[f]);  // the next overwrites what is no wall
+    measure[size] = wall[f];
+    size += border[f] >= 0 ? 1 : 0;
+  }
+}
+
+void WallCollector::close_row(Part& part, std::uint32_t rank) {
+  const std::size_t open = part.open.size, begin = part.walls * WallRows::words_per_wall;
+  const std::size_t most = begin + open * WallRows::words_per_wall;
+  if (most > part.words.size()) part.words.resize(most);
+  if (part.sorted.size() < open) part.sorted.resize(open);
+  std::uint32_t* const neighbor = part.words.data() + begin;
+  std::vector<double>& measure = part.sorted;
+  std::size_t count = open;
+  if (sort_row(part.open.neighbor.data(), part.open.measure.data(), open, neighbor, measure.data())) {
+    // Sums run in the order of the pairs, so chunks do not change a bit of them.
+    count = 1;
+    for (std::size_t k = 1; k < open; ++k) {
+      if (neighbor[count - 1] == neighbor[k]) {
+        measure[count - 1] += measure[k];
+        continue;
+      }
+      neighbor[count] = neighbor[k];
+      measure[count++] = measure[k];
+    }
+  }
+  if (count > 0) std::memcpy(neighbor + count, measure.data(), count * sizeof(double));
+  part.walls += count;
+  rows_.largest[rank] = largest_of(measure.data(), count);
+  rows_.end[rank] = part.walls;
+}
+
+void WallCollector::fill(Part& part, std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
+  part.walls = 0;
+  std::size_t k = part.begin;
+  for (std::uint32_t rank = part.first; rank < part.last; ++rank) {
+    part.open.size = 0;
+    if (rank == open_rank_) part.open.add(open_neighbor_.data(), open_measure_.data(), open_neighbor_.size());
+    for (; k < part.end && pair_seed[k] == rank; ++k) {
+      if (pieces.status[k] != PIECE_WHOLE && pieces.status[k] != PIECE_FLAT) continue;
+      const PieceBatch& batch = pieces.batches[pieces.batch[k]];
+      const std::size_t row = pieces.row[k], first = batch.face_offset[row];
+      part.open.add(batch.border.data() + first, batch.wall.data() + first, batch.faces(row));
+    }
+    close_row(part, rank);
+  }
+}
+
+void WallCollector::append_parts() {
+  std::uint64_t total = rows_.walls();
+  for (Part& part : parts_) {
+    part.target = total;
+    total += part.walls;
+  }
+  rows_.words.resize(total * WallRows::words_per_wall);
+  parallel_for(static_cast<int>(parts_.size()), parts_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const Part& part = parts_[p];
+      std::copy_n(part.words.data(), part.walls * WallRows::words_per_wall,
+                  rows_.words.data() + part.target * WallRows::words_per_wall);
+      for (std::uint32_t rank = part.first; rank < part.last; ++rank) rows_.end[rank] += part.target;
+    }
+  });
 }
 
 void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
-  std::vector<Wall> current;
-  for (std::size_t k = 0; k < pair_seed.size();) {
-    const std::uint32_t rank = pair_seed[k];
-    for (; open_ < rank; ++open_) end_[open_] = std::max<std::uint64_t>(end_[open_], walls_.size());
-    const std::uint64_t begin = rank == 0 ? 0 : end_[rank - 1];
-    current.assign(walls_.begin() + static_cast<std::ptrdiff_t>(begin), walls_.end());
-    walls_.resize(begin);
-    for (; k < pair_seed.size() && pair_seed[k] == rank; ++k) {
-      if (pieces.status[k] != PIECE_WHOLE && pieces.status[k] != PIECE_FLAT) continue;
-      const PieceBatch& batch = pieces.batches[pieces.batch[k]];
-      const std::size_t first = pieces.row[k] * static_cast<std::size_t>(batch.capacity.faces);
-      for (std::size_t f = first; f < first + batch.faces[pieces.row[k]]; ++f)
-        if (batch.border[f] >= 0)
-          current.push_back({static_cast<std::uint32_t>(batch.border[f]), batch.wall[f]});
-    }
-    merge(current);
-    walls_.insert(walls_.end(), current.begin(), current.end());
-    end_[rank] = walls_.size();
-    open_ = rank;
-  }
-}
-
-std::span<const WallCollector::Wall> WallCollector::row(std::uint32_t rank) const {
-  const std::uint64_t begin = rank == 0 ? 0 : end_[rank - 1];
-  return std::span(walls_).subspan(begin, end_[rank] - begin);
-}
-
-std::vector<WallCollector::Entry> WallCollector::match(const SeedSet& seeds,
-                                                       const std::vector<SeedStatus>& status,
-                                                       double negligible, double& asymmetry) const {
-  const auto ok = [&](std::uint32_t rank) { return status[seeds.input[rank]] == SeedStatus::ok; };
-  const auto largest = [&](std::uint32_t rank) {
-    double most = 0;
-    for (const Wall& wall : row(rank)) most = std::max(most, wall.measure);
-    return most;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(walls_.size() / 2 + 1);
-  for (std::uint32_t i = 0; i < end_.size(); ++i) {
-    if (!ok(i)) continue;
-    for (const Wall& wall : row(i)) {
-      const std::uint32_t j = wall.neighbor;
-      if (!ok(j)) continue;
-      const std::span<const Wall> other = row(j);
-      const auto back = std::lower_bound(other.begin(), other.end(), i,
-                                         [](const Wall& w, std::uint32_t rank) { return w.neighbor < rank; });
-      const bool both = back != other.end() && back->neighbor == i;
-      if (both && j < i) continue;  // taken from the other side
-      if (both) {
-        asymmetry = std::max(asymmetry, std::abs(wall.measure - back->measure));
-        entries.push_back({seeds.input[i], seeds.input[j], (wall.measure + back->measure) / 2});
-      } else if (wall.measure > negligible * std::max(largest(i), largest(j))) {
-        asymmetry = std::max(asymmetry, wall.measure);
-        entries.push_back({seeds.input[i], seeds.input[j], wall.measure});
-      }
-    }
-  }
-  return entries;
+  if (pair_seed.empty()) return;
+  const std::uint32_t first = pair_seed.front();
+  for (; next_ < first; ++next_) rows_.end[next_] = rows_.walls();  // ranks without a pair
+  reopen(first);
+  share_out(pair_seed);
+  parallel_for(static_cast<int>(parts_.size()), parts_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) fill(parts_[p], pair_seed, pieces);
+  });
+  append_parts();
+  next_ = pair_seed.back() + 1;
 }
 
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                                 double negligible) {
-  for (; open_ < end_.size(); ++open_) end_[open_] = std::max<std::uint64_t>(end_[open_], walls_.size());
-  Adjacency adjacency;
-  double asymmetry = 0;
-  std::vector<Entry> entries = match(seeds, status, negligible, asymmetry);
-  adjacency.asymmetry = asymmetry * unit;
-  walls_ = {};
-
-  adjacency.offset.assign(seeds.input_count + 1, 0);
-  for (const Entry& e : entries) {
-    ++adjacency.offset[e.a + 1];
-    ++adjacency.offset[e.b + 1];
-  }
-  for (std::size_t i = 0; i < seeds.input_count; ++i) adjacency.offset[i + 1] += adjacency.offset[i];
-  std::vector<Wall> rows(entries.size() * 2);
-  std::vector<std::uint64_t> at(adjacency.offset.begin(), adjacency.offset.end() - 1);
-  for (const Entry& e : entries) {
-    rows[at[e.a]++] = {e.b, e.measure};
-    rows[at[e.b]++] = {e.a, e.measure};
-  }
-  entries = {};
-  adjacency.neighbor.resize(rows.size());
-  adjacency.wall.resize(rows.size());
-  parallel_for(threads_, seeds.input_count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto first = static_cast<std::ptrdiff_t>(adjacency.offset[i]);
-      const auto last = static_cast<std::ptrdiff_t>(adjacency.offset[i + 1]);
-      std::sort(rows.begin() + first, rows.begin() + last,
-                [](const Wall& a, const Wall& b) { return a.neighbor < b.neighbor; });
-      for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-        adjacency.neighbor[k] = rows[k].neighbor;
-        adjacency.wall[k] = rows[k].measure * unit;
-      }
-    }
-  });
-  return adjacency;
+  for (; next_ < rows_.end.size(); ++next_) rows_.end[next_] = rows_.walls();
+  parts_.clear();
+  return match_walls(std::move(rows_), seeds, status, unit, negligible, threads_);
 }
 
 }  // namespace powercell

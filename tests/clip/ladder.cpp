@@ -41,7 +41,7 @@ std::pair<std::vector<double>, std::vector<double>> surrounded(int dimension, in
 
 std::size_t faces_of_middle(const RandomScene& s, const PieceSet& pieces) {
   for (std::size_t rank = 0; rank < s.seeds.size(); ++rank)
-    if (s.seeds.input[rank] == 0) return pieces.batches[pieces.batch[rank]].faces[pieces.row[rank]];
+    if (s.seeds.input[rank] == 0) return pieces.batches[pieces.batch[rank]].faces(pieces.row[rank]);
   return 0;
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("the host clips as the device does") {
       for (std::size_t k = 0; k < stride; ++k)
         CHECK(moments[rank * stride + k] == doctest::Approx(piece.moments[k]).epsilon(1e-10));
       if (piece.status == PIECE_WHOLE)
-        CHECK(pieces.batches[pieces.batch[rank]].faces[pieces.row[rank]] == piece.batch.faces[0]);
+        CHECK(pieces.batches[pieces.batch[rank]].faces(pieces.row[rank]) == piece.batch.faces(0));
     }
   }
 }

@@ -1,0 +1,59 @@
+#include "lib/collect/sort_row.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace powercell {
+namespace {
+
+constexpr std::size_t lanes = 8;       // entries that are compared at a time
+constexpr std::size_t short_row = 64;  // up to here comparing all with all is the fastest
+
+bool sort_long(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
+               double* sorted_value) {
+  std::vector<std::pair<std::uint32_t, double>> entries(count);
+  for (std::size_t k = 0; k < count; ++k) entries[k] = {key[k], value[k]};
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  bool equal = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    sorted_key[k] = entries[k].first;
+    sorted_value[k] = entries[k].second;
+    equal |= k > 0 && entries[k - 1].first == entries[k].first;
+  }
+  return equal;
+}
+
+}  // namespace
+
+bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
+              double* sorted_value) {
+  if (count > short_row) return sort_long(key, value, count, sorted_key, sorted_value);
+  // Each entry's place is the number of smaller ones: no branch that could be mispredicted, and the inner
+  // loops are whole vectors.
+  std::array<std::int32_t, short_row> from, place;
+  std::copy_n(key, count, from.begin());
+  const std::size_t padded = (count + lanes - 1) / lanes * lanes;
+  std::fill(from.begin() + count, from.begin() + padded, std::numeric_limits<std::int32_t>::max());
+  for (std::size_t block = 0; block < padded; block += lanes) {
+    std::array<std::int32_t, lanes> own, smaller{};
+    std::copy_n(from.begin() + block, lanes, own.begin());
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t lane = 0; lane < lanes; ++lane) smaller[lane] += from[k] < own[lane] ? 1 : 0;
+    std::copy_n(smaller.begin(), lanes, place.begin() + block);
+  }
+  std::size_t sum = 0;
+  for (std::size_t k = 0; k < count; ++k) sum += static_cast<std::size_t>(place[k]);
+  if (2 * sum + count != count * count)  // two have the same place
+    return sort_long(key, value, count, sorted_key, sorted_value);
+  for (std::size_t k = 0; k < count; ++k) {
+    sorted_key[place[k]] = key[k];
+    sorted_value[place[k]] = value[k];
+  }
+  return false;
+}
+
+}  // namespace powercell

@@ -1,0 +1,110 @@
+#include "lib/integrate/moment_sums.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "lib/clip/variant.hpp"
+#include "lib/seeds/threads.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
+
+cl::Kernel gather_kernel(const Scene& scene) {
+  Variant variant;
+  variant.dimension = scene.mesh().dimension;
+  variant.cell_dimension = scene.mesh().cell_dimension;
+  variant.float32 = scene.float32();
+  variant.capacity = {1, 1};
+  return {scene.context(), scene.context()->program("integrate/gather.cl", variant.defines()), "gather"};
+}
+
+/// Value `k` of reals of the device's precision.
+double real_at(const std::byte* reals, std::size_t k, bool float32) {
+  if (!float32) {
+    double value;
+    std::memcpy(&value, reals + k * sizeof value, sizeof value);
+    return value;
+  }
+  float value;
+  std::memcpy(&value, reals + k * sizeof value, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_measure, int threads)
+    : scene_(scene),
+      seeds_(seeds),
+      threads_(threads),
+      columns_(2 + static_cast<std::size_t>(scene.mesh().dimension)),
+      row_bytes_(columns_ * (scene.float32() ? sizeof(float) : sizeof(double))),
+      gather_(gather_kernel(scene)),
+      offset_(scene.context()),
+      before_(scene.context()),
+      device_sums_(scene.context()) {
+  const std::size_t n = seeds.input_count;
+  measures_.dimension = scene.mesh().dimension;
+  measures_.domain_measure = domain_measure;
+  measures_.mass.resize(n);
+  measures_.centroid.resize(n * static_cast<std::size_t>(measures_.dimension),
+                            std::numeric_limits<double>::quiet_NaN());
+  measures_.second_moment.resize(n);
+  measures_.status.resize(n, SeedStatus::hidden);
+  for (const std::uint32_t i : seeds.duplicate) measures_.status[i] = SeedStatus::duplicate;
+}
+
+void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                               std::uint64_t end, std::uint32_t first, std::uint32_t last,
+                               const cl::RawBuffer& moments) {
+  const std::size_t count = std::size_t{last} - first + 1;
+  chunk_offset_.resize(count + 1);
+  chunk_offset_[0] = 0;
+  for (std::size_t t = 0; t < count; ++t)
+    chunk_offset_[t + 1] = static_cast<std::uint32_t>(std::min(pair_offset[first + t + 1], end) - begin);
+  offset_.upload(chunk_offset_);
+  const bool goes_on = pair_offset[first] < begin;
+  before_.reserve(row_bytes_);
+  if (goes_on) before_.write(open_.data(), row_bytes_);
+  device_sums_.reserve(count * row_bytes_);
+  gather_
+      .args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
+            device_sums_)
+      .launch(count);
+  sums_.resize(count * row_bytes_);
+  device_sums_.read(sums_.data(), sums_.size());
+}
+
+void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
+  const auto d = static_cast<std::size_t>(measures_.dimension);
+  const bool float32 = scene_.float32();
+  const double scale = scene_.frame().scale, unit = scene_.frame().unit(scene_.mesh().cell_dimension),
+               unit2 = scene_.frame().unit(scene_.mesh().cell_dimension + 2);
+  parallel_for(last - first < share_count ? 1 : threads_, last - first,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t t = begin; t < end; ++t) {
+                   const std::byte* const row = &sums_[t * row_bytes_];
+                   const double mass = real_at(row, 0, float32);
+                   if (!(mass > 0)) continue;
+                   const std::size_t rank = first + t, i = seeds_.input[rank];
+                   measures_.status[i] = SeedStatus::ok;
+                   measures_.mass[i] = mass * unit;
+                   for (std::size_t c = 0; c < d; ++c)
+                     measures_.centroid[i * d + c] =
+                         seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
+                   measures_.second_moment[i] = real_at(row, 1 + d, float32) * unit2;
+                 }
+               });
+}
+
+void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
+                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
+  sum_on_device(pair_offset, begin, end, first, last, moments);
+  const bool open = pair_offset[last + 1] > end;
+  set_measures(first, open ? last : last + 1);
+  if (open) open_.assign(sums_.end() - static_cast<std::ptrdiff_t>(row_bytes_), sums_.end());
+}
+
+}  // namespace powercell

@@ -1,0 +1,49 @@
+/// \file
+/// From the moments of pieces to the measures of cells, chunk after chunk.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <powercell/results.hpp>
+#include <vector>
+
+#include "lib/cl/program.hpp"
+#include "lib/clip/scene.hpp"
+
+namespace powercell {
+
+/// Sums on the device and finishes on the host what a chunk completes: memory by chunk, not by seed.
+class MomentSums {
+ public:
+  /// Every seed starts as hidden, or as duplicate. Keeps references to all but `domain_measure`.
+  MomentSums(const Scene& scene, const SeedSet& seeds, double domain_measure, int threads);
+
+  /// Adds the pairs [begin, end), which are of the ranks [first, last]; the last one may go on in the next
+  /// chunk, which begins with pair `end`. If this throws nothing has been added.
+  /// \param pair_offset  per rank: its first pair, then the number of pairs
+  /// \param moments      by pair of the chunk, in device memory
+  void add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
+           std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
+
+  const std::vector<SeedStatus>& status() const { return measures_.status; }
+  Measures finish() { return std::move(measures_); }
+
+ private:
+  void sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
+                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
+  void set_measures(std::uint32_t first, std::uint32_t last);
+
+  const Scene& scene_;
+  const SeedSet& seeds_;
+  int threads_;
+  std::size_t columns_, row_bytes_;
+  cl::Kernel gather_;
+  cl::Buffer<std::uint32_t> offset_;
+  cl::RawBuffer before_, device_sums_;
+  std::vector<std::uint32_t> chunk_offset_;
+  std::vector<std::byte> sums_,
+      open_;  // rows in the device's precision; open_: that of the rank that goes on
+  Measures measures_;
+};
+
+}  // namespace powercell
