@@ -111,6 +111,11 @@ Peer::Function in_box(Function function) {
   return [function](const SeedsView& seeds) { return function(seeds, Box{}); };
 }
 
+template <class Function>
+Peer::Function on_mesh(const std::string& name, int corners, Function function) {
+  return [=, mesh = mesh_of(name)](const SeedsView& seeds) { return function(seeds, mesh, corners); };
+}
+
 /// By domain and provider.
 const std::map<std::string, std::map<std::string, Peer::Function>>& peer_functions() {
   static const std::map<std::string, std::map<std::string, Peer::Function>> list = {
@@ -120,6 +125,12 @@ const std::map<std::string, std::map<std::string, Peer::Function>>& peer_functio
         {"voro++-parallel", in_box(voro_parallel_measures)},
         {"cgal", in_box(cgal_measures_3d)},
         {"voro++", in_box(voro_measures)}}},
+      {"surface",
+       {{"cgal-parallel", on_mesh("surface", 3, cgal_parallel_measures_on)},
+        {"cgal", on_mesh("surface", 3, cgal_measures_on)}}},
+      {"tets",
+       {{"cgal-parallel", on_mesh("tets", 4, cgal_parallel_measures_on)},
+        {"cgal", on_mesh("tets", 4, cgal_measures_on)}}},
   };
   return list;
 }

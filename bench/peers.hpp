@@ -1,11 +1,12 @@
 /// \file
-/// Other libraries doing the same work: the measure of every power cell in a box. Each is used as its
-/// own documentation advises, so that a ratio to it means something.
+/// Other libraries doing the same work: the measure of every power cell in a box or on a mesh. Each is used
+/// as its own documentation advises, so that a ratio to it means something.
 #pragma once
 
 #include <vector>
 
 #include "tests/support/generators.hpp"
+#include "tests/support/meshes.hpp"
 
 namespace powercell::bench {
 
@@ -19,6 +20,11 @@ std::vector<double> cgal_measures_3d(const SeedsView& seeds, const Box& box);
 /// the plane CGAL inserts on one thread).
 std::vector<double> cgal_parallel_measures_2d(const SeedsView& seeds, const Box& box);
 std::vector<double> cgal_parallel_measures_3d(const SeedsView& seeds, const Box& box);
+
+/// The same triangulation of the seeds in space, then the cells restricted to the triangles (`corners` 3) or
+/// tetrahedra (4) of a mesh (restricted.hpp); "parallel": insertion, adjacency and clipping on all cores.
+std::vector<double> cgal_measures_on(const SeedsView& seeds, const test::Mesh& mesh, int corners);
+std::vector<double> cgal_parallel_measures_on(const SeedsView& seeds, const test::Mesh& mesh, int corners);
 
 /// voro++ radical cells in a box (space only, all seeds in the box), computed in its own block order.
 std::vector<double> voro_measures(const SeedsView& seeds, const Box& box);

@@ -81,7 +81,9 @@ SeedArray seeds_of(const Work& work) {
   if (work.domain != "surface")
     return random_seeds(work.distribution, work.weights, work.n, dimension_of(work.domain), random);
   SeedArray seeds = on_torus(scatter(work.distribution, work.n, 2, {}, random));
-  set_weights(seeds, work.weights, spacing(domain_of(work.domain).measure(), work.n, 2), random);
+  const double h = spacing(domain_of(work.domain).measure(), work.n, 2);
+  for (double& x : seeds.positions) x += 0.5 * h * random.uniform(-1, 1);
+  set_weights(seeds, work.weights, h, random);
   return seeds;
 }
 

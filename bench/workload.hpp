@@ -35,7 +35,9 @@ int dimension_of(const std::string& domain);  ///< of the space
 test::Mesh mesh_of(const std::string& name);
 
 /// A function of the work alone. All seeds lie in the domain, but for "islands" (in its box) and "surface":
-/// there they lie on the smooth torus, by a map of the unit square that keeps ratios of areas.
+/// there they come from the unit square by a map to the smooth torus that keeps ratios of areas, and are then
+/// moved by up to half of their spacing along each axis. (Exactly on a torus, whole circles of seeds would be
+/// cospherical, the worst case of a triangulation in space.)
 SeedArray seeds_of(const Work& work);
 
 }  // namespace powercell::bench
