@@ -47,6 +47,8 @@ void add_works(CLI::App& app, Arguments& a) {
       "--ours", a.options.ours,
       "stage:provider; stages measures, adjacency (with measures), weights (as adjacency, but only "
       "the weights are new); providers tree, flann");
+  app.add_option("--peer", a.options.only_peers,
+                 "these peers only: cgal, cgal-parallel, voro++, voro++-parallel");
   app.add_flag("--no-peers", a.no_peers, "this library alone");
   app.add_flag("--float,!--double", a.single, "precision of this library");
 }

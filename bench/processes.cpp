@@ -94,8 +94,8 @@ void memory_child(const Work& work, const std::string& way, const TurnOptions& o
   const bool ours = provider == "tree" || provider == "flann";
   one.ours = ours ? std::vector{way} : std::vector<std::string>{};
   one.peers = !ours;
+  one.only_peers = {provider};
   for (const auto& c : contenders(work, domain, seeds, one)) {
-    if (c->provider != provider) continue;
     c->prepare();
     reset_peak();
     const double before = status_bytes("VmRSS");

@@ -55,7 +55,7 @@ Dropped slow_ones(const std::vector<Record>& records, double factor) {
     if (r.peer && r.least() < best) best = r.least(), best_name = r.provider;
   Dropped dropped;
   for (const Record& r : records) {
-    if (factor <= 0 || r.seconds.empty() || !(r.peer || r.provider == "flann")) continue;
+    if (factor <= 0 || r.work.n < 10000 || r.seconds.empty() || !(r.peer || r.provider == "flann")) continue;
     if (!(r.least() > (r.work.n < 100000 ? 2 : 1) * factor * best)) continue;
     char text[160];
     std::snprintf(text, sizeof text, "%.1f times as long as %s at n = %zu", r.least() / best,
@@ -108,8 +108,9 @@ std::vector<std::unique_ptr<Contender>> contenders(const Work& work, const Domai
     if (provider == "flann" && !has_flann()) throw std::invalid_argument("this is a build without FLANN");
     all.push_back(our_contender(stage, provider, options.precision, domain, seeds));
   }
-  if (options.peers)
-    for (const std::string& peer : peers_of(work.domain))
+  const std::vector<std::string>& only = options.only_peers;
+  for (const std::string& peer : peers_of(work.domain))
+    if (options.peers && (only.empty() || std::find(only.begin(), only.end(), peer) != only.end()))
       all.push_back(peer_contender(peer, work, domain.measure(), seeds));
   return all;
 }

@@ -13,12 +13,13 @@ struct TurnOptions {
   std::string part = "ratios";
   std::vector<std::string> ours;  ///< "stage:provider", of this library
   bool peers = true;
+  std::vector<std::string> only_peers;       ///< of the peers, where not empty
   Precision precision = Precision::float64;  ///< of this library
   double seconds = 6;                        ///< for one work: rounds end when they took longer
   int rounds = 5;                            ///< at most, and at least one
-  /// A peer, or the FLANN provider, that took this many times as long as the fastest peer at fewer seeds
-  /// (twice as many times when they were below 10^5, where what is done once weighs more) is left out; 0:
-  /// nobody is. Where the first n is large, a tenth of it is tried before.
+  /// A peer, or the FLANN provider, that took this many times as long as the fastest peer at fewer seeds is
+  /// left out; 0: nobody is. Below 10^5 seeds, where what is done once weighs more, twice as many times
+  /// count; below 10^4 none do. Where the first n is large, a tenth of it is tried before.
   double drop = 0;
 };
 
