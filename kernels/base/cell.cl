@@ -2,7 +2,7 @@
    themselves is included here first: the host expands an include once, also where #if leaves it out. */
 #ifndef POWERCELL_BASE_CELL
 #define POWERCELL_BASE_CELL
-#include "base/regions.cl"
+#include "clip/vertices.cl"
 #if CELL_DIMENSION == 3
 #include "clip/polyhedron.cl"
 #else

@@ -36,6 +36,7 @@ typedef struct {
 #define STORAGE_ROWS(type, name, rows, count) type* name[rows]
 #define VERTEX_CAPACITY (cell->vertex_capacity)
 #define FACE_CAPACITY (cell->face_capacity)
+#define VERTEX_WORDS 2 /* or any number */
 #define TOLERANCE_FACTOR (cell->tolerance_factor)
 #define HOST_MEMBERS   \
   int vertex_capacity; \
@@ -56,6 +57,7 @@ typedef ushort index_t;
 #else
 typedef uchar index_t;
 #endif
+#define VERTEX_WORDS ((VERTEX_CAPACITY + 63) / 64) /* of a bit per vertex */
 #define STORAGE(type, name, count) type name[count]
 #define STORAGE_ROWS(type, name, rows, count) type name[rows][count]
 #define TOLERANCE_FACTOR 16

@@ -10,18 +10,18 @@
 static inline int border_behind(const cell_t* cell, int old, const real* q, real level, real tolerance,
                                 int border) {
   real p[DIMENSION];
-  const seed_t seed = cell->seeds[cell->self];
+  const seed_t seed = cell->at.seeds[cell->at.self];
   if (old >= 0) {
-    difference(cell->seeds[old], seed, p);
+    difference(cell->at.seeds[old], seed, p);
     return norm2(q) > norm2(p) ? border : old;
   }
-  const int behind = cell->behind[~old];
+  const int behind = cell->at.behind[~old];
   if (behind == BEHIND_NOTHING) return old;
   if (DIMENSION == CELL_DIMENSION) return border;
-  difference(cell->corner[behind], seed, p);
+  difference(cell->at.corner[behind], seed, p);
   real s = -level;
   for (int k = 0; k < DIMENSION; ++k) s += 2 * q[k] * p[k];
-  return s > tolerance || (s >= -tolerance && (uint)border < cell->self) ? border : old;
+  return s > tolerance || (s >= -tolerance && (uint)border < cell->at.self) ? border : old;
 }
 
 /* Cuts the cell by the bisector with `other`, whose rank is `border`. Of two seeds that share a region
@@ -32,38 +32,14 @@ static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int borde
   difference(other, seed, q);
   for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
   const real q2 = norm2(q), dw = weight_difference(seed, other);
-  const real tolerance = TOLERANCE_FACTOR * REAL_EPSILON * (2 * sum * cell->reach + q2 + fabs(dw));
+  const real tolerance = TOLERANCE_FACTOR * REAL_EPSILON * (2 * sum * cell->at.reach + q2 + fabs(dw));
   const int cut = cell_cut(cell, q, q2 + dw, tolerance, border);
-  if (cut == CUT_WITHIN) return cell->self < (uint)border ? CUT_NONE : CUT_EMPTY;
+  if (cut == CUT_WITHIN) return cell->at.self < (uint)border ? CUT_NONE : CUT_EMPTY;
   if (cut != CUT_TOUCH) return cut;
   for (int f = 0; f < cell_faces(cell); ++f)
     if (cell_face_touches(cell, f, tolerance))
       cell->border[f] = border_behind(cell, cell->border[f], q, q2 + dw, tolerance, border);
   return CUT_NONE;
-}
-
-/* Largest squared distance of a vertex from the seed. */
-static inline real cell_radius2(const cell_t* cell) {
-  real r2 = 0;
-  for (int v = 0; v < cell->vertices; ++v) {
-    real s = 0;
-    for (int k = 0; k < DIMENSION; ++k) s += cell->x[k][v] * cell->x[k][v];
-    r2 = fmax(r2, s);
-  }
-  return r2;
-}
-
-/* Bounding box of the vertices, relative to the seed. */
-static inline void cell_box(const cell_t* cell, real* low, real* high) {
-  for (int k = 0; k < DIMENSION; ++k) {
-    real l = cell->x[k][0], h = l;
-    for (int v = 1; v < cell->vertices; ++v) {
-      l = fmin(l, cell->x[k][v]);
-      h = fmax(h, cell->x[k][v]);
-    }
-    low[k] = l;
-    high[k] = h;
-  }
 }
 
 /* The status of a piece after a cut that was not CUT_NONE or CUT_SHRUNK. */

@@ -1,5 +1,5 @@
 /* One work-item clips one (region, seed) pair, with candidates from the packed tree. */
-#include "neighbors/tree.cl"
+#include "neighbors/search.cl"
 #include "clip/write.cl"
 
 /* Work-item t takes pair active[t] of the chunk and row t of the outputs; moments go by pair. */
@@ -11,15 +11,18 @@ __kernel void clip_by_tree_kernel(
     __global stored_real* moments, __global uint* faces, __global int* border, __global stored_real* wall,
     __global uint* vertices, __global stored_real* vertex, __global uint* link,
     __global const seed_t* seeds, const uint seed_count, __global const seed_t* node_low,
-    __global const seed_t* node_high, __global const uint* level_offset, const int levels) {
+    __global const seed_t* node_high, __global const uint* level_offset, const int levels,
+    __global const stored_real* seed_block, __global const stored_real* node_block,
+    __global const uint* near, __global const uint* near_count, __global const stored_real* near_bound) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair];
   const tree_t tree = {seeds, node_low, node_high, level_offset, levels, seed_count};
+  const blocks_t blocks = {seed_block, node_block, near, near_count, near_bound};
   const output_t out = {moments, faces, border, wall, vertices, vertex, link};
   cell_t cell;
   const regions_t regions = {corners, region_offset, region_vertex, behind, shape};
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
-  if (result == PIECE_WHOLE) result = clip_by_tree(&cell, tree, i);
+  if (result == PIECE_WHOLE) result = clip_by_tree(&cell, tree, blocks, i);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

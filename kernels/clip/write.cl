@@ -16,31 +16,10 @@ typedef struct {
 /* True if the cell is no thicker than the rounding errors of its vertices. */
 static inline bool cell_is_flat(const cell_t* cell, real measure) {
   real low[DIMENSION], high[DIMENSION], extent = 0;
-  cell_box(cell, low, high);
+  find_box(&cell->at, low, high);
   for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
-  const real thickness = 32 * REAL_EPSILON * cell->reach;
+  const real thickness = 32 * REAL_EPSILON * cell->at.reach;
   return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
-}
-
-static inline void write_faces(const cell_t* cell, output_t out, uint row) {
-  const int faces = cell_faces(cell);
-  const size_t first = (size_t)row * FACE_CAPACITY;
-  uint written = 0;
-  for (int f = 0; f < faces; ++f) {
-    if (!(OUTPUTS & OUTPUT_GEOMETRY) && cell->border[f] < 0) continue;
-    out.border[first + written] = cell->border[f];
-    out.wall[first + written++] = (stored_real)cell->side[f];
-  }
-  out.faces[row] = written;
-}
-
-static inline void write_vertices(const cell_t* cell, output_t out, uint row) {
-  out.vertices[row] = (uint)cell->vertices;
-  for (int v = 0; v < cell->vertices; ++v) {
-    const size_t at = (size_t)row * VERTEX_CAPACITY + (size_t)v;
-    for (int k = 0; k < DIMENSION; ++k) out.vertex[at * DIMENSION + (size_t)k] = (stored_real)cell->x[k][v];
-    cell_write_links(cell, v, out.link + at * 6);
-  }
 }
 
 /* Writes a piece that ended with `status`; returns the final status. */
@@ -55,10 +34,13 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
       for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
     }
     if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
-      cell_walls(cell);
-      write_faces(cell, out, row);
+      const size_t at = (size_t)row * FACE_CAPACITY;
+      out.faces[row] = (uint)cell_write_walls(cell, out.border + at, out.wall + at);
     }
-    if (OUTPUTS & OUTPUT_GEOMETRY) write_vertices(cell, out, row);
+    if (OUTPUTS & OUTPUT_GEOMETRY) {
+      const size_t at = (size_t)row * VERTEX_CAPACITY;
+      out.vertices[row] = (uint)cell_write_vertices(cell, out.vertex + at * DIMENSION, out.link + at * 6);
+    }
   } else if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
     out.faces[row] = 0;
     if (OUTPUTS & OUTPUT_GEOMETRY) out.vertices[row] = 0;

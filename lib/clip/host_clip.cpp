@@ -6,13 +6,15 @@ namespace powercell {
 
 namespace host_polygon2 {
 HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t, double);
-}
+void pack_blocks(HostScene&);
+}  // namespace host_polygon2
 namespace host_polygon3 {
 HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t, double);
 }
 namespace host_polyhedron {
 HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t, double);
-}
+void pack_blocks(HostScene&);
+}  // namespace host_polyhedron
 
 HostScene make_host_scene(const Scene& scene) {
   Frame frame = scene.frame();
@@ -21,14 +23,20 @@ HostScene make_host_scene(const Scene& scene) {
   const SeedSet& seeds = scene.seeds();
   const PackedTree& tree = scene.tree();
   const RegionMesh& mesh = scene.mesh();
-  return {frame.pack(mesh.dimension, mesh.vertices, {}),
-          frame.pack(seeds.dimension, seeds.positions, seeds.weights),
-          frame.pack(tree.dimension, tree.low, tree.weight),
-          frame.pack(tree.dimension, tree.high, {}),
-          regions_behind(mesh),
-          region_shape(mesh.shape),
-          &mesh,
-          &tree};
+  HostScene host{frame.pack(mesh.dimension, mesh.vertices, {}),
+                 frame.pack(seeds.dimension, seeds.positions, seeds.weights),
+                 frame.pack(tree.dimension, tree.low, tree.weight),
+                 frame.pack(tree.dimension, tree.high, {}),
+                 regions_behind(mesh),
+                 region_shape(mesh.shape),
+                 &mesh,
+                 &tree,
+                 {},
+                 {},
+                 {},
+                 {}};
+  mesh.dimension == 3 ? host_polyhedron::pack_blocks(host) : host_polygon2::pack_blocks(host);
+  return host;
 }
 
 HostPiece clip_on_host(const HostScene& scene, std::uint32_t rank, std::uint32_t region) {

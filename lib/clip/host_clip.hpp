@@ -26,6 +26,9 @@ struct HostScene {
   region_shape_t shape;
   const RegionMesh* mesh;
   const PackedTree* tree;
+  std::vector<double> seed_block, node_block;  ///< kernels/neighbors/blocks.cl
+  std::vector<std::uint32_t> near_count;       ///< per leaf: none, since lists serve many cells
+  std::vector<double> near_bound;
 };
 
 HostScene make_host_scene(const Scene& scene);

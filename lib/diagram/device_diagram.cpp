@@ -24,6 +24,8 @@ static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished))
 /// Pairs of one launch, unless options say otherwise: short enough for a display driver's watchdog.
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
+/// Its arguments from here on are those of the search.
+constexpr unsigned tree_argument = 16;
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
@@ -80,6 +82,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       frame_(device.context()),
       seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
       tree_(device.context(), plain_defines(domain, precision)),
+      blocks_(device.context(), variant(domain, precision, {1, 1})),
       pairs_(scene, plain_defines(domain, precision)),
       compaction_(device.context()),
       finish_(device.context(),
@@ -133,17 +136,26 @@ void DeviceDiagram::State::upload_frame() {
   frame_.write(narrow.data(), sizeof narrow);
 }
 
+TreeBlocks::Tree DeviceDiagram::State::device_tree(std::uint32_t n) const {
+  return {seeds_.points.handle(),
+          tree_.node_low.handle(),
+          tree_.node_high.handle(),
+          tree_.level_offset.handle(),
+          n,
+          tree_.node_count(),
+          tree_.levels()};
+}
+
 void DeviceDiagram::State::clip_rung(std::size_t rung, bool listed, std::uint32_t n) {
   const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : default_launch_pairs;
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
-    clip_[rung]
-        .args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
-              seeds_.state, scene.corners, scene.region_offset, scene.region_vertex, scene.behind,
-              scene.shape, piece_status_, moments_, seeds_.points, n, tree_.node_low, tree_.node_high,
-              tree_.level_offset, cl_int{tree_.levels()})
-        .submit(end - first);
+    clip_[rung].args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
+                     seeds_.state, scene.corners, scene.region_offset, scene.region_vertex, scene.behind,
+                     scene.shape, piece_status_, moments_);
+    blocks_.set_arguments(clip_[rung], tree_argument, device_tree(n));
+    clip_[rung].submit(end - first);
   }
 }
 
@@ -166,6 +178,7 @@ void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32
                                    cl_mem status, cl_event* done) {
   seeds_.enqueue(frame_.handle(), positions, weights, n);
   tree_.enqueue(seeds_.points.handle(), seeds_.points.handle(), n);
+  blocks_.enqueue(device_tree(n));
   pairs_.enqueue(seeds_, tree_, n, pair_capacity);
   clip(n);
   finish_

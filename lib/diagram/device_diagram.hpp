@@ -4,6 +4,7 @@
 
 #include <powercell/opencl.hpp>
 
+#include "lib/neighbors/tree_blocks.hpp"
 #include "lib/pairs/device_pairs.hpp"
 #include "lib/primitives/compaction.hpp"
 
@@ -27,6 +28,7 @@ struct DeviceDiagram::State {
   void upload_frame();
   /// The program of a rung; computes a known diagram with it if it has not yet.
   void add_rung(std::size_t rung);
+  TreeBlocks::Tree device_tree(std::uint32_t n) const;
   void clip(std::uint32_t n);
   /// One rung over all pairs, or over those listed.
   void clip_rung(std::size_t rung, bool listed, std::uint32_t n);
@@ -34,6 +36,7 @@ struct DeviceDiagram::State {
   cl::RawBuffer frame_;
   DeviceSeeds seeds_;
   DeviceTree tree_;
+  TreeBlocks blocks_;
   DevicePairs pairs_;
   Compaction compaction_;
   cl::Kernel finish_;

@@ -6,26 +6,29 @@
 
 #include "lib/clip/candidates.hpp"
 #include "lib/clip/scene.hpp"
+#include "lib/neighbors/tree_blocks.hpp"
 
 namespace powercell {
 
 class TreeCandidates : public Candidates {
  public:
-  explicit TreeCandidates(const Scene& scene) : scene_(scene) {}
+  explicit TreeCandidates(const Scene& scene);
   std::string_view file() const override { return "clip/by_tree.cl"; }
   std::string_view kernel() const override { return "clip_by_tree_kernel"; }
   std::size_t most_pairs(int) const override { return std::numeric_limits<std::uint32_t>::max(); }
   void prepare(std::span<const std::uint32_t>, int) override {}
   void set_arguments(cl::Kernel& kernel, unsigned first) override {
-    kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), scene_.node_low,
-                     scene_.node_high, scene_.level_offset, static_cast<cl_int>(scene_.tree().levels()));
+    blocks_.set_arguments(kernel, first, device_tree());
   }
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
     return std::make_unique<TreeCandidates>(scene);
   }
 
  private:
+  TreeBlocks::Tree device_tree() const;
+
   const Scene& scene_;
+  TreeBlocks blocks_;
 };
 
 }  // namespace powercell

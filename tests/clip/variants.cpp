@@ -18,20 +18,32 @@ std::size_t rung_of(const Variant& variant) {
   return rungs.size();
 }
 
-/// A source that hides all seeds from the kernel, as a broken driver might.
+/// A source that hides all seeds but the first from the kernel, as a broken driver might.
 class BlindCandidates : public TreeCandidates {
  public:
-  explicit BlindCandidates(const Scene& scene) : TreeCandidates(scene), scene_(scene) {}
+  explicit BlindCandidates(const Scene& scene)
+      : TreeCandidates(scene),
+        tree_{scene.points.handle(),
+              scene.node_low.handle(),
+              scene.node_high.handle(),
+              scene.level_offset.handle(),
+              1,
+              1,
+              1},
+        blocks_(scene.context(),
+                {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}, 0}) {
+    blocks_.enqueue(tree_);
+  }
   void set_arguments(cl::Kernel& kernel, unsigned first) override {
-    kernel.args_from(first, scene_.points, cl_uint{0}, scene_.node_low, scene_.node_high, scene_.level_offset,
-                     static_cast<cl_int>(scene_.tree().levels()));
+    blocks_.set_arguments(kernel, first, tree_);
   }
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
     return std::make_unique<BlindCandidates>(scene);
   }
 
  private:
-  const Scene& scene_;
+  TreeBlocks::Tree tree_;
+  TreeBlocks blocks_;
 };
 
 }  // namespace

@@ -1,0 +1,158 @@
+/* The vertices of a cell, in blocks of eight lanes, relative to the cell's seed: what polygons and polyhedra
+   have in common. A slot is a vertex or free; free slots of the blocks in use hold 0. */
+#ifndef POWERCELL_CLIP_VERTICES
+#define POWERCELL_CLIP_VERTICES
+#include "base/lanes.cl"
+#include "base/regions.cl"
+
+#define NO_VERTEX ((index_t)(-1))
+#define WORD_BITS 64
+
+typedef struct {
+  STORAGE_ROWS(real, x, DIMENSION, VERTEX_CAPACITY);
+  STORAGE(real, side, VERTEX_CAPACITY);   /* of the last plane tried */
+  STORAGE(ulong, used, VERTEX_WORDS);     /* a bit per slot: it is a vertex */
+  STORAGE(ulong, outside, VERTEX_WORDS);  /* vertices outside the last plane that cut */
+  int blocks;                             /* in use */
+  real reach;                     /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  uint self;                      /* rank of the seed */
+  __global const seed_t* seeds;   /* all seeds, by rank */
+  __global const seed_t* corner;  /* vertices of the domain */
+  __global const int* behind;     /* what lies behind the facets of the region */
+} vertices_t;
+
+static inline int words_of(const vertices_t* p) { return VERTEX_WORDS == 1 ? 1 : (p->blocks + 7) / 8; }
+
+static inline void start_vertices(vertices_t* p, regions_t regions, __global const seed_t* seeds, uint self,
+                                  __global const int* behind) {
+  p->blocks = 0;
+  p->used[0] = p->outside[0] = 0;
+  p->reach = 0;
+  p->self = self;
+  p->seeds = seeds;
+  p->corner = regions.corner;
+  p->behind = behind;
+}
+
+/* Adds a free block. */
+static inline void add_block(vertices_t* p) {
+  for (int k = 0; k < DIMENSION; ++k) store8(ZERO8, p->x[k] + p->blocks * LANES);
+  if (p->blocks % 8 == 0) p->used[p->blocks / 8] = p->outside[p->blocks / 8] = 0;
+  ++p->blocks;
+}
+
+/* A free slot, or -1 if `capacity` slots are in use. The slot is not marked as used. */
+static inline int free_slot(vertices_t* p, int capacity) {
+  const int words = words_of(p);
+  for (int w = 0; w < words; ++w)
+    if (~p->used[w] != 0) {
+      const int slot = w * WORD_BITS + lowest_bit(~p->used[w]);
+      if (slot < p->blocks * LANES) return slot;
+      break;
+    }
+  if ((p->blocks + 1) * LANES > capacity) return -1;
+  add_block(p);
+  return (p->blocks - 1) * LANES;
+}
+
+static inline void use_slot(vertices_t* p, int v) { p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS; }
+
+/* A corner of the region as vertex v. */
+static inline void set_corner(vertices_t* p, int v, seed_t corner) {
+  real y[DIMENSION], sum = 0;
+  while (v >= p->blocks * LANES) add_block(p);
+  difference(corner, p->seeds[p->self], y);
+  for (int k = 0; k < DIMENSION; ++k) {
+    p->x[k][v] = y[k];
+    sum += fabs(y[k]);
+  }
+  p->reach = fmax(p->reach, sum);
+  use_slot(p, v);
+}
+
+/* Frees the slots of `outside`. */
+static inline void drop_outside(vertices_t* p) {
+  for (int w = 0; w < words_of(p); ++w) {
+    p->used[w] &= ~p->outside[w];
+    for (ulong bits = p->outside[w]; bits != 0; bits &= bits - 1)
+      for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] = 0;
+  }
+}
+
+/* side[v] = 2 q.y_v - level for all slots; returns the largest (that of free slots is -level). */
+static inline real find_sides(vertices_t* p, const real* q, real level) {
+  real8 most = all_lanes(-REAL_MAX), a[DIMENSION];
+  const real8 l = all_lanes(level);
+  for (int k = 0; k < DIMENSION; ++k) a[k] = all_lanes(2 * q[k]);
+  for (int b = 0; b < p->blocks; ++b) {
+    real8 s = a[0] * load8(p->x[0] + b * LANES);
+    for (int k = 1; k < DIMENSION; ++k) s = s + a[k] * load8(p->x[k] + b * LANES);
+    s = s - l;
+    store8(s, p->side + b * LANES);
+    most = most8(most, s);
+  }
+  return lane_most(most);
+}
+
+/* How many vertices are beyond the tolerance on either side, by side[]. Those outside go to `outside`. */
+static inline int count_sides(vertices_t* p, real tolerance, int* vertices, int* inside) {
+  int outside = 0, below = 0, all = 0;
+  for (int w = 0; w < words_of(p); ++w) {
+    ulong out = 0, in = 0;
+    const int end = min(8, p->blocks - 8 * w);
+    for (int b = 0; b < end; ++b) {
+      const real8 s = load8(p->side + (8 * w + b) * LANES);
+      out |= (ulong)lane_bits(s > all_lanes(tolerance)) << 8 * b;
+      in |= (ulong)lane_bits(s < all_lanes(-tolerance)) << 8 * b;
+    }
+    p->outside[w] = out & p->used[w];
+    outside += (int)popcount(p->outside[w]);
+    below += (int)popcount(in & p->used[w]);
+    all += (int)popcount(p->used[w]);
+  }
+  *vertices = all;
+  *inside = below;
+  return outside;
+}
+
+static inline bool is_outside(const vertices_t* p, int v) {
+  return (p->outside[v / WORD_BITS] >> v % WORD_BITS & 1) != 0;
+}
+
+/* Vertex u becomes the point on the edge from `in` (kept) to `out` in the plane that side[] is of. */
+static inline void set_edge_point(vertices_t* p, int u, int in, int out) {
+  const real t = fmax((real)0, p->side[in] / (p->side[in] - p->side[out]));
+  for (int k = 0; k < DIMENSION; ++k) p->x[k][u] = p->x[k][in] + t * (p->x[k][out] - p->x[k][in]);
+  use_slot(p, u);
+}
+
+/* Largest squared distance of a vertex from the seed. */
+static inline real find_radius2(const vertices_t* p) {
+  real8 most = ZERO8;
+  for (int b = 0; b < p->blocks; ++b) {
+    real8 s = ZERO8;
+    for (int k = 0; k < DIMENSION; ++k) {
+      const real8 x = load8(p->x[k] + b * LANES);
+      s = s + x * x;
+    }
+    most = most8(most, s);
+  }
+  return lane_most(most);
+}
+
+/* Bounding box of the vertices. */
+static inline void find_box(const vertices_t* p, real* low, real* high) {
+  for (int k = 0; k < DIMENSION; ++k) {
+    real8 l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
+    for (int b = 0; b < p->blocks; ++b) {
+      const mask8 vertex = lanes_of((uint)(p->used[b / 8] >> b % 8 * 8) & 255u);
+      const real8 x = load8(p->x[k] + b * LANES);
+      l = least8(l, choose8(l, x, vertex));
+      h = most8(h, choose8(h, x, vertex));
+    }
+    low[k] = lane_least(l);
+    high[k] = lane_most(h);
+  }
+}
+
+#endif

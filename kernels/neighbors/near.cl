@@ -1,0 +1,123 @@
+/* The leaves near a leaf: all those nearer to its box than a bound, so that the seeds of one leaf share one
+   search, and whatever is not in the list is known to be far (docs/mathematics.md (10a)). */
+#ifndef POWERCELL_NEIGHBORS_NEAR
+#define POWERCELL_NEIGHBORS_NEAR
+#include "neighbors/blocks.cl"
+
+#define NEAR_MOST 64  /* leaves in a list */
+#define NEAR_LEAST (CELL_DIMENSION == 3 ? 12 : 6)
+#define NEAR_SPREAD (CELL_DIMENSION == 3 ? (real)1.4 : (real)1.1)
+#define NEAR_TRIES 12
+
+/* The box of a leaf's seeds relative to its first seed. */
+typedef struct {
+  origin_t origin;
+  real low[DIMENSION], high[DIMENSION];
+} home_t;
+
+static inline home_t home_of(tree_t tree, blocks_t blocks, uint leaf) {
+  home_t home;
+  home.origin = origin_of(tree.seeds[leaf * TREE_FAN]);
+  real8 q[DIMENSION], dw;
+  seed_lanes(blocks, leaf, &home.origin, q, &dw);
+  for (int k = 0; k < DIMENSION; ++k) {
+    home.low[k] = lane_least(q[k]);
+    home.high[k] = lane_most(q[k]);
+  }
+  return home;
+}
+
+/* Squared distance of eight boxes from the home's, plus by how much the weight at home exceeds theirs. */
+static inline real8 lifted_distance8(const home_t* home, const real8* a, const real8* b, real8 dw) {
+  real8 d = dw;
+  for (int k = 0; k < DIMENSION; ++k) {
+    const real8 gap = most8(most8(a[k] - all_lanes(home->high[k]), all_lanes(home->low[k]) - b[k]), ZERO8);
+    d = d + gap * gap;
+  }
+  return d;
+}
+
+/* Appends the leaves below `bound` to `list`; returns their number, above NEAR_MOST if there are more. */
+static inline int collect_near(tree_t tree, blocks_t blocks, const home_t* home, real bound,
+                               __global uint* list) {
+  uint node[TREE_STACK];
+  uchar node_level[TREE_STACK];
+  int depth = 1, found = 0;
+  node[0] = 0;
+  node_level[0] = (uchar)(tree.levels - 1);
+  while (depth > 0) {
+    const uint parent = node[--depth];
+    const int level = node_level[depth];
+    real8 a[DIMENSION], b[DIMENSION], dw;
+    node_lanes(blocks, block_of_children(tree, parent, level), &home->origin, a, b, &dw);
+    uint bits = lane_bits(lifted_distance8(home, a, b, dw) < all_lanes(bound));
+    for (; bits != 0; bits &= bits - 1) {
+      const uint child = parent * TREE_FAN + (uint)lowest_bit(bits);
+      if (level > 1) {
+        node[depth] = child;
+        node_level[depth++] = (uchar)(level - 1);
+      } else {
+        if (found == NEAR_MOST) return NEAR_MOST + 1;
+        list[found++] = child;
+      }
+    }
+  }
+  return found;
+}
+
+/* Mean extent of the leaves beside this one, or of nodes above where those have none. */
+static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const origin_t* o) {
+  uint node = leaf;
+  for (int level = 1; level < tree.levels; ++level) {
+    node /= TREE_FAN;
+    real8 a[DIMENSION], b[DIMENSION], dw, sum = ZERO8;
+    node_lanes(blocks, block_of_children(tree, node, level), o, a, b, &dw);
+    for (int k = 0; k < DIMENSION; ++k) sum = sum + (b[k] - a[k]);
+    real extent = 0, lane[LANES];
+    const int present = (int)(children_end(tree, node, level - 1) - node * TREE_FAN);
+    store8(sum, lane);
+    for (int k = 0; k < present; ++k) extent += lane[k];
+    if (extent > 0) return extent / (real)(present * DIMENSION);
+  }
+  return 0;
+}
+
+/* Writes the list of `leaf`; returns its length and in `bound` what all others are at least away. A bound of
+   -REAL_MAX: no list serves, and none is there. */
+static inline uint find_near(tree_t tree, blocks_t blocks, uint leaf, __global uint* list, real* bound) {
+  if (tree.levels == 1) {
+    list[0] = 0;
+    *bound = REAL_MAX / 4;
+    return 1;
+  }
+  const home_t home = home_of(tree, blocks, leaf);
+  const real extent = extent_around(tree, blocks, leaf, &home.origin) * NEAR_SPREAD;
+  const real heaviest = weight_difference(tree.node_low[tree.level_offset[tree.levels] - 1],
+                                          tree.seeds[leaf * TREE_FAN]);
+  const uint least = min((uint)NEAR_LEAST, tree.level_offset[1]);
+  real low = -heaviest, high = low, d = extent * extent;
+  bool too_many = false;
+  for (int k = 0; k < NEAR_TRIES && d > low; ++k) {
+    const uint found = (uint)collect_near(tree, blocks, &home, d, list);
+    if (found >= least && found <= NEAR_MOST) {
+      *bound = d;
+      return found;
+    }
+    if (found < least) {
+      low = d;
+    } else {
+      high = d;
+      too_many = true;
+    }
+    d = too_many ? low + (high - low) / 2 : 4 * d;
+  }
+  const uint found = (uint)collect_near(tree, blocks, &home, low, list);
+  if (found > 0 && found <= NEAR_MOST) {
+    *bound = low;
+    return found;
+  }
+  *bound = -REAL_MAX;
+  return 0;
+}
+
+#endif

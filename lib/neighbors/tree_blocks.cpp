@@ -1,0 +1,49 @@
+#include "lib/neighbors/tree_blocks.hpp"
+
+#include "lib/clip/variant.hpp"
+#include "lib/neighbors/packed_tree.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr std::size_t near_most = 64;  // NEAR_MOST in kernels/neighbors/near.cl
+constexpr const char* file = "neighbors/build_blocks.cl";
+
+}  // namespace
+
+TreeBlocks::TreeBlocks(const std::shared_ptr<cl::Context>& context, const Variant& variant)
+    : pack_(context, context->program(file, variant.defines()), "pack_blocks"),
+      list_(context, context->program(file, variant.defines()), "list_near"),
+      row_bytes_(PackedTree::fan * (variant.float32 ? 2 * sizeof(float) : sizeof(double))),
+      bound_bytes_(variant.float32 ? sizeof(float) : sizeof(double)),
+      dimension_(static_cast<std::size_t>(variant.dimension)),
+      seed_block_(context),
+      node_block_(context),
+      near_bound_(context),
+      near_(context),
+      near_count_(context) {}
+
+void TreeBlocks::enqueue(const Tree& tree) {
+  const std::uint32_t leaves = (tree.seed_count - 1) / PackedTree::fan + 1;
+  const std::uint32_t above = tree.node_count - leaves;
+  seed_block_.reserve(leaves * (dimension_ + 1) * row_bytes_);
+  node_block_.reserve(above * (2 * dimension_ + 1) * row_bytes_);
+  near_bound_.reserve(leaves * bound_bytes_);
+  near_.resize(leaves * near_most);
+  near_count_.resize(leaves);
+  pack_
+      .args(leaves, above, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
+            cl_int{tree.levels}, seed_block_, node_block_)
+      .submit(leaves);
+  list_
+      .args(leaves, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
+            cl_int{tree.levels}, seed_block_, node_block_, near_, near_count_, near_bound_)
+      .submit(leaves);
+}
+
+void TreeBlocks::set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
+  kernel.args_from(first, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
+                   cl_int{tree.levels}, seed_block_, node_block_, near_, near_count_, near_bound_);
+}
+
+}  // namespace powercell

@@ -1,0 +1,40 @@
+/// \file
+/// The packed tree by blocks of eight, and the near leaves of each leaf, in device memory. Internal.
+#pragma once
+
+#include <cstdint>
+
+#include "lib/cl/program.hpp"
+
+namespace powercell {
+
+struct Variant;
+
+/// What the clip kernels search (kernels/neighbors/blocks.cl, near.cl): made from seeds and tree on the
+/// device.
+class TreeBlocks {
+ public:
+  /// Builds the kernels for the precision and dimensions of `variant`.
+  TreeBlocks(const std::shared_ptr<cl::Context>& context, const Variant& variant);
+
+  /// A packed tree in device memory, of at least one seed.
+  struct Tree {
+    cl_mem seeds, node_low, node_high;  ///< seed_t
+    cl_mem level_offset;
+    std::uint32_t seed_count, node_count;
+    int levels;
+  };
+  /// Enqueues without waiting.
+  void enqueue(const Tree& tree);
+
+  /// Sets the arguments of a clip kernel from `first` on: the tree, then what was made of it.
+  void set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
+
+ private:
+  cl::Kernel pack_, list_;
+  std::size_t row_bytes_, bound_bytes_, dimension_;
+  cl::RawBuffer seed_block_, node_block_, near_bound_;
+  cl::Buffer<std::uint32_t> near_, near_count_;
+};
+
+}  // namespace powercell
