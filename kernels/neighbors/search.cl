@@ -21,17 +21,6 @@ static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, cons
   return value < size * all_lanes(8 * REAL_EPSILON);
 }
 
-/* Which of eight seeds may cut the box [low, high] of the cell, over the corner of it that is worst
-   (docs/mathematics.md (10)). */
-static inline mask8 seeds_may_cut(const real8* q, real8 dw, const real* low, const real* high) {
-  real8 reach = ZERO8, level = dw;
-  for (int k = 0; k < DIMENSION; ++k) {
-    reach = reach + most8(q[k] * all_lanes(low[k]), q[k] * all_lanes(high[k]));
-    level = level + q[k] * q[k];
-  }
-  return reach + reach > level;
-}
-
 /* Cuts by those seeds of a leaf whose bits are set in `left` and that the cell's box does not exclude, and
    keeps the box. */
 static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i, uint leaf, uint left,
