@@ -52,10 +52,10 @@ void PolygonPiece::start(const Vec3* corners) {
   for (std::uint32_t k = 0; k < 3; ++k) ring_.push_back({corners[k], k});
 }
 
-bool PolygonPiece::cut(const double* q, double offset, std::uint32_t border) {
+Cut PolygonPiece::cut(const double* q, double offset, std::uint32_t border) {
   const std::size_t outside = find_excess(ring_, q, offset, excess_);
-  if (outside == 0) return true;
-  if (outside == ring_.size()) return false;
+  if (outside == 0) return Cut::untouched;
+  if (outside == ring_.size()) return Cut::nothing_left;
   kept_.clear();
   for (std::size_t k = 0; k < ring_.size(); ++k) {
     const std::size_t next = k + 1 < ring_.size() ? k + 1 : 0;
@@ -66,7 +66,7 @@ bool PolygonPiece::cut(const double* q, double offset, std::uint32_t border) {
     kept_.push_back({at, in ? border : ring_[k].border});
   }
   std::swap(ring_, kept_);
-  return true;
+  return Cut::smaller;
 }
 
 double PolygonPiece::largest_square() const {
@@ -105,11 +105,11 @@ void PolyhedronPiece::start(const Vec3* corners) {
   border_ = {0, 1, 2, 3};
 }
 
-bool PolyhedronPiece::cut(const double* q, double offset, std::uint32_t border) {
+Cut PolyhedronPiece::cut(const double* q, double offset, std::uint32_t border) {
   const std::size_t outside = find_excess(vertices_, q, offset, excess_);
-  if (outside == 0) return true;
+  if (outside == 0) return Cut::untouched;
   const std::size_t count = vertices_.size();
-  if (outside == count) return false;
+  if (outside == count) return Cut::nothing_left;
   const auto face = static_cast<std::uint32_t>(border_.size());
   border_.push_back(border);
   right_.clear();
@@ -132,7 +132,7 @@ bool PolyhedronPiece::cut(const double* q, double offset, std::uint32_t border) 
   }
   link_new_vertices(count, face);
   drop_cut_vertices(count);
-  return true;
+  return Cut::smaller;
 }
 
 /// Joins the two new vertices of each face that was cut.

@@ -13,12 +13,14 @@ namespace powercell::bench {
 using Vec3 = std::array<double, 3>;
 inline constexpr std::uint32_t first_link = 4;
 
+enum class Cut { untouched, smaller, nothing_left };
+
 /// A triangle and what is left of it.
 class PolygonPiece {
  public:
   void start(const Vec3* corners);
-  /// Keeps q . y <= offset. \return false when nothing is left
-  bool cut(const double* q, double offset, std::uint32_t border);
+  /// Keeps q . y <= offset.
+  Cut cut(const double* q, double offset, std::uint32_t border);
   double largest_square() const;  ///< of the distance of a point of the piece from the seed
   double measure() const;
   /// The borders that are left are appended.
@@ -39,7 +41,7 @@ class PolyhedronPiece {
   /// In either orientation.
   void start(const Vec3* corners);
   /// \throw std::runtime_error when rounding made the cut contradict itself
-  bool cut(const double* q, double offset, std::uint32_t border);
+  Cut cut(const double* q, double offset, std::uint32_t border);
   double largest_square() const;
   double measure();
   void borders(std::vector<std::uint32_t>& list) const;

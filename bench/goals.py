@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """The table of goals with what was measured beside them, as markdown. Usage: goals.py [--cpu] FILE.json..."""
 
 import math

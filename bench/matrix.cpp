@@ -57,6 +57,7 @@ void add_turns(CLI::App& app, Arguments& a) {
   app.add_option("--out", a.out, "the JSON file")->required();
   app.add_option("--part", a.options.part, "a word for the report, with each result");
   app.add_option("--rounds", a.options.rounds, "at most so many runs of each")->check(CLI::Range(1, 1000));
+  app.add_option("--least-rounds", a.options.least_rounds, "so many runs of each, however long they take");
   app.add_option("--seconds", a.options.seconds, "no further round of one work after so many seconds");
   app.add_option("--drop", a.options.drop,
                  "leave out who took so many times as long as the best peer at fewer seeds");

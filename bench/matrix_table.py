@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """Everybody's times and our ratios as markdown. Usage: matrix_table.py FILE.json..."""
 
 import sys

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <thread>
 
@@ -10,6 +11,8 @@ namespace powercell::bench {
 
 namespace {
 
+constexpr std::uint32_t nobody = ~std::uint32_t{0};  // the vertex at infinity
+
 /// Every seed's finite neighbours in the triangulation, nearest bisector first.
 template <class Cgal>
 Links links_of(const Cgal& cgal, const SeedsView& seeds) {
@@ -20,33 +23,34 @@ Links links_of(const Cgal& cgal, const SeedsView& seeds) {
   for (auto c = t.all_cells_begin(); c != t.all_cells_end(); ++c) cells.push_back(c);
 
   // Every cell tells each of its vertices the other three: an edge several times, sorted out per row.
+  std::vector<std::array<std::uint32_t, 4>> corners(cells.size());
   std::vector<std::uint32_t> end(n + 1, 0);
-  const auto for_vertices = [&](auto c, const auto& body) {
-    for (int v = 0; v < 4; ++v)
-      if (!t.is_infinite(c->vertex(v))) body(c, v, c->vertex(v)->info());
-  };
   for_each(cells.size(), [&](std::size_t k) {
-    for_vertices(cells[k], [&](auto, int, std::uint32_t i) {
-      std::atomic_ref(end[i + 1]).fetch_add(3, std::memory_order_relaxed);
-    });
+    for (int v = 0; v < 4; ++v) {
+      const auto vertex = cells[k]->vertex(v);
+      const std::uint32_t i = corners[k][static_cast<std::size_t>(v)] =
+          t.is_infinite(vertex) ? nobody : vertex->info();
+      if (i != nobody) std::atomic_ref(end[i + 1]).fetch_add(3, std::memory_order_relaxed);
+    }
   });
   for (std::size_t i = 0; i < n; ++i) end[i + 1] += end[i];
-  std::vector<std::uint32_t> told(end[n], ~std::uint32_t{0}), cursor(end.begin(), end.end() - 1);
+  std::vector<std::uint32_t> told(end[n]), cursor(end.begin(), end.end() - 1);
   for_each(cells.size(), [&](std::size_t k) {
-    for_vertices(cells[k], [&](auto c, int v, std::uint32_t i) {
+    for (const std::uint32_t i : corners[k]) {
+      if (i == nobody) continue;
       std::uint32_t at = std::atomic_ref(cursor[i]).fetch_add(3, std::memory_order_relaxed);
-      for (int u = 0; u < 4; ++u)
-        if (u != v && !t.is_infinite(c->vertex(u))) told[at++] = c->vertex(u)->info();
-    });
+      for (const std::uint32_t j : corners[k])
+        if (j != i) told[at++] = j;
+    }
   });
 
   Links links;
   links.offset.assign(n + 1, 0);
   for_each(n, [&](std::size_t i) {
     const auto row = told.begin() + end[i], last = told.begin() + end[i + 1];
-    std::sort(row, last);  // what was not told comes last
+    std::sort(row, last);  // nobody comes last
     links.offset[i + 1] =
-        static_cast<std::size_t>(std::lower_bound(row, std::unique(row, last), ~std::uint32_t{0}) - row);
+        static_cast<std::size_t>(std::lower_bound(row, std::unique(row, last), nobody) - row);
   });
   for (std::size_t i = 0; i < n; ++i) links.offset[i + 1] += links.offset[i];
   links.list.resize(links.offset[n]);

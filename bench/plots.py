@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """Plots of what powercell_matrix measured. Usage: plots.py FOLDER FILE.json..., writes ratios.png, growth.png and
 memory.png as far as there are results for them."""
 
@@ -46,8 +46,8 @@ def plot_ratios(results, path):
                 axis.text(x, y, "–" if value is None else f"{value:.2f}", ha="center", va="center", fontsize=8)
         axis.set_xticks(range(len(columns)), [f"{d}\n{w}" for d, w in columns], fontsize=8)
         axis.set_yticks(range(len(rows)), [f"{NAMES[d]} {count(n)}" for d, n in rows], fontsize=8)
-        axis.set_title(f"speed relative to the {title}" if against == "peer" else f"relative to {title}",
-                       fontsize=10)
+        axis.set_title(title, fontsize=10)
+    figure.suptitle("Speed of powercell with adjacency, relative", fontsize=11)
     figure.tight_layout()
     figure.savefig(path, dpi=130)
     return True
@@ -89,6 +89,7 @@ def plot_memory(results, path):
                      color=[COLORS.get(r["provider"]) for r in records])
     axis.bar_label(bars, fmt="%.0f", fontsize=8, padding=2)
     axis.invert_yaxis()
+    axis.margins(x=0.12)
     axis.tick_params(labelsize=8)
     axis.set_xlabel("peak beyond input and output, bytes a seed")
     figure.tight_layout()

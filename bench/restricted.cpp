@@ -1,5 +1,6 @@
 #include "bench/restricted.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
@@ -83,8 +84,10 @@ class Flood {
       // A bisector outside the ball about the seed that holds the piece, and all that are farther, cut
       // nothing.
       if (link->distance > 0 && link->distance * link->distance >= square) break;
-      if (!piece_.cut(link->q, link->offset, first_link + static_cast<std::uint32_t>(link - first))) return;
-      square = piece_.largest_square();
+      const auto border = first_link + static_cast<std::uint32_t>(link - first);
+      const Cut cut = piece_.cut(link->q, link->offset, border);
+      if (cut == Cut::nothing_left) return;
+      if (cut == Cut::smaller) square = piece_.largest_square();
     }
     measures[i] += piece_.measure();
     borders_.clear();

@@ -1,21 +1,25 @@
 """Results that powercell_matrix wrote: reading, and finding the fastest."""
 
 import json
+import os
+import sys
 
 
 class Results:
-    """Records of one or more JSON files. `estimate`: times are not wall times but processor times, divided by the
-    number of threads for whoever uses all of them; a guess at the wall time of an idle machine, for a busy one."""
+    """Records of JSON files, as far as they are of the newest file's device and revision. `estimate`: times are not
+    wall times but processor times, divided by the number of threads for whoever uses all of them; a guess at the
+    wall time of an idle machine, for a busy one."""
 
     def __init__(self, paths, estimate=False):
         self.estimate = estimate
         self.records = []
         self.context = {}
-        for path in paths:
+        for path in sorted(paths, key=os.path.getmtime, reverse=True):
             with open(path, encoding="utf-8") as file:
                 data = json.load(file)
             if self.context and data["context"] != self.context:
-                raise ValueError(f"{path} is of another device or revision than {paths[0]}")
+                print(f"{path} is left out: another device or revision than the newest file's", file=sys.stderr)
+                continue
             self.context = data["context"]
             self.records += data["records"]
 

@@ -19,7 +19,12 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-. "$(dirname "$0")/build.sh"
+if [ $report = yes ]; then
+  here=$(cd "$(dirname "$0")/.." && pwd)
+  build=$here/build/bench
+else
+  . "$(dirname "$0")/build.sh"
+fi
 out=$build/matrix
 mkdir -p "$out"
 
@@ -41,14 +46,14 @@ measure() {
     white="--distribution white --weights W1"
     # The best peer by far at 1e5 is asked at 1e7; the others would take minutes.
     "$matrix" time --part growth --out "$out/growth2.json" --domain box2 $white --n $growth2 \
-      --ours adjacency:tree measures:tree --drop 1.4 --seconds 3
+      --ours adjacency:tree measures:tree --drop 1.4 --seconds 3 --least-rounds 2
     "$matrix" time --part growth --out "$out/growth3.json" --domain box3 $white --n $growth3 \
-      --ours adjacency:tree measures:tree --drop 1.4 --seconds 3
+      --ours adjacency:tree measures:tree --drop 1.4 --seconds 3 --least-rounds 2
     "$matrix" memory --part memory --out "$out/memory.json" --domain box2 box3 $white --n $memory \
       --ours measures:tree adjacency:tree measures:flann adjacency:flann
   }
 }
 
 [ $report = yes ] || measure
-/usr/bin/python3 "$here/bench/matrix_table.py" "$out"/*.json | tee "$out/matrix.md"
-/usr/bin/python3 "$here/bench/plots.py" "$out" "$out"/*.json
+/usr/bin/python3 -B "$here/bench/matrix_table.py" "$out"/*.json | tee "$out/matrix.md"
+/usr/bin/python3 -B "$here/bench/plots.py" "$out" "$out"/*.json

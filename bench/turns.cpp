@@ -86,7 +86,7 @@ std::vector<Record> run_work(const Work& work, const TurnOptions& options, const
       if (records[k].skipped.empty()) run_once(*all[k], records[k]);
     // No round is begun that would end far beyond the time given.
     const double spent = wall_clock() - start;
-    if (spent + 0.5 * spent / (round + 1) > options.seconds) break;
+    if (round + 1 >= options.least_rounds && spent + 0.5 * spent / (round + 1) > options.seconds) break;
   }
   for (const Record& r : records) file.add(r);
   return records;
@@ -123,6 +123,7 @@ void run_series(Work work, std::vector<std::size_t> sizes, const TurnOptions& op
     TurnOptions scout = options;
     scout.part = "scout";
     scout.rounds = 2;
+    scout.least_rounds = 1;
     work.n = sizes.front() / 10;
     dropped = slow_ones(run_work(work, scout, {}, file), options.drop);
   }

@@ -16,7 +16,8 @@ struct TurnOptions {
   std::vector<std::string> only_peers;       ///< of the peers, where not empty
   Precision precision = Precision::float64;  ///< of this library
   double seconds = 6;                        ///< for one work: rounds end when they took longer
-  int rounds = 5;                            ///< at most, and at least one
+  int rounds = 5;                            ///< at most
+  int least_rounds = 1;                      ///< however long they take
   /// A peer, or the FLANN provider, that took this many times as long as the fastest peer at fewer seeds is
   /// left out; 0: nobody is. Below 10^5 seeds, where what is done once weighs more, twice as many times
   /// count; below 10^4 none do. Where the first n is large, a tenth of it is tried before.
