@@ -48,10 +48,12 @@ def ratio_rows(results):
         mean = math.exp(sum(math.log(r) for r, _ in ratios.values()) / len(ratios))
         _, distribution, weights, n = worst
         note = f"least at {distribution} {weights} {count(n)}, beside {ratios[worst][1]}; mean {mean:.2f}"
+        value = ratios[worst][0]
+        reached = verdict(value, least, aim)
         if len(ratios) < len(works):
             note += f"; {len(ratios)} of {len(works)} works"
-        value = ratios[worst][0]
-        yield name, *goal, f"{value:.2f} ×", verdict(value, least, aim), note
+            reached = f"in part: {reached}"
+        yield name, *goal, f"{value:.2f} ×", reached, note
 
 
 def growth_rows(results):
