@@ -5,6 +5,7 @@
 #include "kernels/layout.h"
 #include "lib/diagram/chunks.hpp"
 #include "lib/diagram/stopwatch.hpp"
+#include "lib/neighbors/cell_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #ifdef POWERCELL_HAS_FLANN
 #include "lib/neighbors/list_candidates.hpp"
@@ -31,6 +32,9 @@ Neighbors choose_neighbors(Neighbors asked) {
 #endif
   return asked == Neighbors::automatic ? Neighbors::tree : asked;
 }
+
+/// Pieces a cell from which on it is faster to clip whole cells first (docs/performance.md).
+constexpr std::size_t pieces_that_pay = 3;
 
 Options checked(Options options) {
   const auto refuse = [](const char* name, int value) {
@@ -59,6 +63,19 @@ void Diagram::State::forget_results() {
   dual.reset();
 }
 
+std::unique_ptr<Candidates> Diagram::State::make_candidates() const {
+#ifdef POWERCELL_HAS_FLANN
+  if (neighbors == Neighbors::flann) return std::make_unique<ListCandidates>(scene, options);
+#endif
+  std::vector<std::uint32_t> ranks;
+  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
+    if (pairs.offset[rank + 1] > pairs.offset[rank]) ranks.push_back(rank);
+  const bool full_dimension = domain.dimension() == domain.cell_dimension();
+  if (full_dimension && pairs.region.size() > pieces_that_pay * ranks.size())
+    return std::make_unique<CellCandidates>(scene, ranks);
+  return std::make_unique<TreeCandidates>(scene);
+}
+
 void Diagram::State::prepare() {
   if (ready) return;
   const int threads = thread_count(options.threads);
@@ -77,13 +94,9 @@ void Diagram::State::prepare() {
   timings.pairs = pair_watch.seconds();
   timings.pair_count = pairs.region.size();
   Stopwatch neighbor_watch;
-#ifdef POWERCELL_HAS_FLANN
-  if (neighbors == Neighbors::flann)
-    candidates = std::make_unique<ListCandidates>(scene, options);
-  else
-#endif
-    candidates = std::make_unique<TreeCandidates>(scene);
-  timings.neighbors = neighbor_watch.seconds();
+  const double built_before = device.build_seconds();
+  candidates = make_candidates();
+  timings.neighbors = neighbor_watch.seconds() - (device.build_seconds() - built_before);
   ready = true;
 }
 

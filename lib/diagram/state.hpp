@@ -27,7 +27,7 @@ struct Diagram::State {
   SeedSet seeds;
   std::vector<double> input_weights;  // as given, by input index
   std::vector<double> input_positions;
-  bool given = false;  // set_seeds has been called
+  bool given = false;    // set_seeds has been called
   bool ordered = false;  // the tree and its boxes on the device belong to the positions
   bool ready = false;    // tree, pairs and device buffers belong to the positions and weights
   PackedTree tree;
@@ -44,6 +44,7 @@ struct Diagram::State {
   void forget_results();
   /// Tree, pairs, device buffers and candidate source for the present seeds and weights.
   void prepare();
+  std::unique_ptr<Candidates> make_candidates() const;
   /// Clips all pairs and fills measures, and adjacency and cells where asked.
   void run(bool want_adjacency, bool want_cells);
 };

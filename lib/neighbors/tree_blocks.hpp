@@ -27,7 +27,8 @@ class TreeBlocks {
   /// Enqueues without waiting.
   void enqueue(const Tree& tree);
 
-  /// Sets the arguments of a clip kernel from `first` on: the tree, then what was made of it.
+  static constexpr unsigned argument_count = 11;
+  /// Sets so many arguments of a clip kernel from `first` on: the tree, then what was made of it.
   void set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
 
  private:
