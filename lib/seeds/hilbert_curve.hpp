@@ -57,18 +57,59 @@ struct HilbertTable {
 template <int D>
 inline constexpr int hilbert_bits = D == 2 ? 31 : 21;
 
+/// The same walk by several levels at a time: each step waits for the state that the one before looked up.
+template <int D>
+struct HilbertLevels {
+  static constexpr int levels = D == 2 ? 3 : 2;
+  static constexpr unsigned paths = 1u << (D * levels);
+  /// By state and path, the children of the levels one after the other.
+  std::array<std::array<typename HilbertTable<D>::Step, paths>, HilbertTable<D>::states> step{};
+  /// Bits of one coordinate moved D apart.
+  std::array<std::uint8_t, 1u << levels> spread{};
+
+  constexpr HilbertLevels() {
+    const HilbertTable<D> single;
+    for (unsigned from = 0; from < HilbertTable<D>::states; ++from)
+      for (unsigned path = 0; path < paths; ++path) {
+        unsigned order = 0, state = from;
+        for (int level = levels - 1; level >= 0; --level) {
+          const auto next = single.step[state][path >> (D * level) & (HilbertTable<D>::children - 1)];
+          order = order << D | next.order;
+          state = next.state;
+        }
+        step[from][path] = {static_cast<std::uint8_t>(order), static_cast<std::uint8_t>(state)};
+      }
+    for (unsigned bits = 0; bits < spread.size(); ++bits)
+      for (int level = 0; level < levels; ++level)
+        spread[bits] |= static_cast<std::uint8_t>((bits >> level & 1u) << (D * level));
+  }
+};
+
+template <int D>
+inline constexpr HilbertTable<D> hilbert_table{};
+template <int D>
+inline constexpr HilbertLevels<D> hilbert_levels{};
+
 /// Place along the curve of the grid cell `cell`, each coordinate below 2^hilbert_bits<D>.
 template <int D>
 constexpr std::uint64_t hilbert_key(const std::array<std::uint32_t, D>& cell) {
-  constexpr HilbertTable<D> table;
-  std::uint64_t key = 0;
-  unsigned state = 0;
-  for (int bit = hilbert_bits<D> - 1; bit >= 0; --bit) {
-    unsigned child = 0;
-    for (int k = 0; k < D; ++k) child |= ((cell[static_cast<std::size_t>(k)] >> bit) & 1u) << k;
-    const auto step = table.step[state][child];
-    key = (key << D) | step.order;
-    state = step.state;
+  constexpr int levels = HilbertLevels<D>::levels;
+  static_assert(hilbert_bits<D> % levels == 1);
+  // The children below bit `low`, `width` bits of each coordinate.
+  const auto path = [&cell](int low, int width) {
+    unsigned bits = 0;
+    for (int k = 0; k < D; ++k)
+      bits |=
+          unsigned{hilbert_levels<D>.spread[cell[static_cast<std::size_t>(k)] >> low & ((1u << width) - 1)]}
+          << k;
+    return bits;
+  };
+  int bit = hilbert_bits<D> - 1;
+  auto step = hilbert_table<D>.step[0][path(bit, 1)];
+  std::uint64_t key = step.order;
+  while ((bit -= levels) >= 0) {
+    step = hilbert_levels<D>.step[step.state][path(bit, levels)];
+    key = key << (D * levels) | step.order;
   }
   return key;
 }

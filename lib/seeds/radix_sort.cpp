@@ -53,23 +53,49 @@ bool scatter(std::span<const KeyedIndex> from, std::span<KeyedIndex> to, unsigne
   return true;
 }
 
-}  // namespace
-
-void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads) {
-  if (records.size() < small_count) {
-    std::stable_sort(records.begin(), records.end(),
-                     [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; });
-    return;
-  }
+/// By the digits from `first_shift` up.
+void sort_by_digits(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, unsigned first_shift,
+                    int threads) {
   // More parts than a few would only add histograms: 16 KiB each.
   const std::size_t parts = std::clamp<std::size_t>(records.size() / share_count, 1,
                                                     static_cast<std::size_t>(std::max(threads, 1)));
   std::vector<Histogram> histograms(parts);
   std::span<KeyedIndex> from = records;
   std::span<KeyedIndex> to = scratch;
-  for (unsigned shift = 0; shift < 64; shift += digit_bits)
+  for (unsigned shift = first_shift; shift < 64; shift += digit_bits)
     if (scatter(from, to, shift, histograms)) std::swap(from, to);
   if (from.data() != records.data()) std::copy(from.begin(), from.end(), records.begin());
+}
+
+void sort_short(std::span<KeyedIndex> records) {
+  const auto less = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; };
+  if (records.size() == 2) {
+    if (less(records[1], records[0])) std::swap(records[0], records[1]);
+  } else {
+    std::stable_sort(records.begin(), records.end(), less);
+  }
+}
+
+}  // namespace
+
+void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads) {
+  if (records.size() < small_count) return sort_short(records);
+  // As many digits from the top as tell most records apart, an even number so that they end where they began;
+  // the few runs that are left are short, or sorted by all digits.
+  unsigned passes = 2;
+  while (passes * digit_bits < 64 && (records.size() >> (passes * digit_bits - 1)) > 1) passes += 2;
+  const unsigned first_shift = passes * digit_bits < 64 ? 64 - passes * digit_bits : 0;
+  sort_by_digits(records, scratch, first_shift, threads);
+  if (first_shift == 0) return;
+  for (std::size_t run = 0; run < records.size();) {
+    std::size_t end = run + 1;
+    while (end < records.size() && records[end].key >> first_shift == records[run].key >> first_shift) ++end;
+    if (end - run >= small_count)
+      sort_by_digits(records.subspan(run, end - run), scratch.subspan(run, end - run), 0, threads);
+    else if (end - run > 1)
+      sort_short(records.subspan(run, end - run));
+    run = end;
+  }
 }
 
 }  // namespace powercell

@@ -8,6 +8,34 @@
 #include "lib/seeds/validate.hpp"
 
 namespace powercell {
+namespace {
+
+/// Positions and weights in the order of `set.input`.
+void gather(const SeedsView& seeds, int threads, SeedSet& set) {
+  const auto d = static_cast<std::size_t>(set.dimension);
+  set.positions.resize(set.size() * d);
+  set.weights.resize(set.size());
+  parallel_for(threads, set.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t rank = begin; rank < end; ++rank) {
+      const std::size_t i = set.input[rank];
+      std::copy_n(&seeds.positions[i * d], d, &set.positions[rank * d]);
+      set.weights[rank] = seeds.weights.empty() ? 0.0 : seeds.weights[i];
+    }
+  });
+}
+
+/// Whether seeds that follow each other have the same position.
+bool has_duplicates(const SeedSet& set, int threads) {
+  if (set.size() < 2) return false;
+  const auto d = static_cast<std::size_t>(set.dimension);
+  const auto as_next = [&](std::size_t rank) {
+    const double* const p = &set.positions[rank * d];
+    return std::equal(p, p + d, p + d);
+  };
+  return first_of(set.size() - 1, threads, as_next) < set.size() - 1;
+}
+
+}  // namespace
 
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads) {
   const int workers = thread_count(threads);
@@ -17,18 +45,11 @@ SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads) {
   set.dimension = dimension;
   set.input_count = seeds.size();
   set.input = hilbert_order(seeds.positions, dimension, workers);
-  set.duplicate = drop_duplicates(seeds, set.input);
-
-  const std::size_t d = static_cast<std::size_t>(dimension);
-  set.positions.resize(set.size() * d);
-  set.weights.resize(set.size());
-  parallel_for(workers, set.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t rank = begin; rank < end; ++rank) {
-      const std::size_t i = set.input[rank];
-      std::copy_n(&seeds.positions[i * d], d, &set.positions[rank * d]);
-      set.weights[rank] = seeds.weights.empty() ? 0.0 : seeds.weights[i];
-    }
-  });
+  gather(seeds, workers, set);
+  if (has_duplicates(set, workers)) {
+    set.duplicate = drop_duplicates(seeds, set.input);
+    gather(seeds, workers, set);
+  }
   return set;
 }
 

@@ -46,4 +46,20 @@ void parallel_tasks(int threads, std::size_t tasks, const Body& body) {
   });
 }
 
+/// The least k < count with `holds(k)`, or `count`. `holds` runs at the same time for different k.
+template <class Predicate>
+std::size_t first_of(std::size_t count, int threads, const Predicate& holds) {
+  std::atomic<std::size_t> first{count};
+  parallel_for(threads, count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (!holds(k)) continue;
+      std::size_t known = first.load();
+      while (k < known && !first.compare_exchange_weak(known, k)) {
+      }
+      return;
+    }
+  });
+  return first.load();
+}
+
 }  // namespace powercell

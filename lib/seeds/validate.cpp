@@ -1,6 +1,5 @@
 #include "lib/seeds/validate.hpp"
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,17 +15,7 @@ constexpr std::size_t most_seeds = (std::size_t{1} << 31) - 2;
 
 /// Index of the first value that is NaN or infinite, or values.size().
 std::size_t first_not_finite(std::span<const double> values, int threads) {
-  std::atomic<std::size_t> first{values.size()};
-  parallel_for(threads, values.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (std::isfinite(values[k])) continue;
-      std::size_t known = first.load();
-      while (k < known && !first.compare_exchange_weak(known, k)) {
-      }
-      return;
-    }
-  });
-  return first.load();
+  return first_of(values.size(), threads, [&](std::size_t k) { return !std::isfinite(values[k]); });
 }
 
 void check_sizes(const SeedsView& seeds, int dimension) {
@@ -55,7 +44,18 @@ std::string spelled(double value) {
   return value > 0 ? "infinity" : "-infinity";
 }
 
+[[noreturn]] void refuse_weight(std::span<const double> weights, std::size_t seed) {
+  throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(seed) + ": weight is " +
+                                           spelled(weights[seed]) +
+                                           "; weights must be finite, correct or remove this seed");
+}
+
 }  // namespace
+
+void validate_weights(std::span<const double> weights, int threads) {
+  const std::size_t seed = first_not_finite(weights, threads);
+  if (seed < weights.size()) refuse_weight(weights, seed);
+}
 
 void validate_seeds(const SeedsView& seeds, int dimension, int threads) {
   check_sizes(seeds, dimension);
@@ -69,10 +69,7 @@ void validate_seeds(const SeedsView& seeds, int dimension, int threads) {
                                              "xyz"[position % d] + " is " +
                                              spelled(seeds.positions[position]) +
                                              "; coordinates must be finite, correct or remove this seed");
-  if (bad_weight)
-    throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(weight) + ": weight is " +
-                                             spelled(seeds.weights[weight]) +
-                                             "; weights must be finite, correct or remove this seed");
+  if (bad_weight) refuse_weight(seeds.weights, weight);
 }
 
 }  // namespace powercell
