@@ -84,6 +84,26 @@ void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset) const {
         "reading " + std::to_string(bytes) + " bytes from " + context_->info().name);
 }
 
+void RawBuffer::fill(std::size_t bytes, const std::function<void(std::byte*)>& writer) {
+  require_inside(0, bytes, bytes_, "filling");
+  if (bytes == 0) return;
+  const std::string what = "filling " + std::to_string(bytes) + " bytes on " + context_->info().name;
+  cl_int status = CL_SUCCESS;
+  void* const mapped = clEnqueueMapBuffer(context_->queue(), memory_, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION,
+                                          0, bytes, 0, nullptr, nullptr, &status);
+  check_allocation(status, what);
+  const auto unmap = [&] {
+    return clEnqueueUnmapMemObject(context_->queue(), memory_, mapped, 0, nullptr, nullptr);
+  };
+  try {
+    writer(static_cast<std::byte*>(mapped));
+  } catch (...) {
+    unmap();
+    throw;
+  }
+  check(unmap(), what);
+}
+
 void RawBuffer::fill_zero(std::size_t bytes) {
   require_inside(0, bytes, bytes_, "clearing");
   if (bytes == 0) return;

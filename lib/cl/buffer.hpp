@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -21,9 +22,11 @@ class RawBuffer {
 
   /// At least `bytes` (one element is allocated for 0). \throw Error out_of_device_memory
   void reserve(std::size_t bytes);
-  void write(const void* from, std::size_t bytes, std::size_t offset = 0);    // blocking
-  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;       // blocking
+  void write(const void* from, std::size_t bytes, std::size_t offset = 0);  // blocking
+  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;     // blocking
   void fill_zero(std::size_t bytes);
+  /// Lets `writer` write the first `bytes` bytes, all of them, in place where host and device share memory.
+  void fill(std::size_t bytes, const std::function<void(std::byte*)>& writer);
   cl_mem handle() const { return memory_; }
   std::size_t bytes() const { return bytes_; }
   const std::shared_ptr<Context>& context() const { return context_; }

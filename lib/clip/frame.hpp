@@ -34,6 +34,9 @@ struct Frame {
   /// \param positions count x dimension   \param weights count, or empty for 0
   std::vector<std::byte> pack(int dimension, std::span<const double> positions,
                               std::span<const double> weights) const;
+  /// The same into memory of count x point_bytes bytes.
+  void pack_to(std::byte* to, int dimension, std::span<const double> positions,
+               std::span<const double> weights, int threads) const;
 };
 
 }  // namespace powercell

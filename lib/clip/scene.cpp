@@ -6,11 +6,6 @@ namespace powercell {
 
 namespace {
 
-void upload(cl::RawBuffer& buffer, const std::vector<std::byte>& bytes) {
-  buffer.reserve(bytes.size());
-  if (!bytes.empty()) buffer.write(bytes.data(), bytes.size());
-}
-
 /// Corner 0 of a right-handed corner (axes x, y, z) has the neighbours x, z, y counter-clockwise seen
 /// from outside; `facet[k]` is the facet that does not contain the neighbour along axis k.
 void set_corner(region_shape_t& shape, int vertex, const int (&along)[3], const int (&facet)[3], bool flip) {
@@ -87,7 +82,7 @@ Scene::Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh
       context_(context),
       mesh_(mesh),
       frame_(Frame::of(mesh, float32)) {
-  upload(corners, frame_.pack(mesh.dimension, mesh.vertices, {}));
+  upload(corners, mesh.dimension, mesh.vertices, {}, 1);
   region_offset.upload(mesh.region_offset);
   region_vertex.upload(mesh.region_vertex);
   behind.upload(regions_behind(mesh));
@@ -95,17 +90,25 @@ Scene::Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh
   shape.upload({&start, 1});
 }
 
-void Scene::set_seeds(const SeedSet& seeds, const PackedTree& tree) {
-  set_weights(seeds, tree);
-  upload(node_high, frame_.pack(tree.dimension, tree.high, {}));
+void Scene::upload(cl::RawBuffer& buffer, int dimension, std::span<const double> positions,
+                   std::span<const double> weights, int threads) const {
+  const std::size_t bytes =
+      dimension == 0 ? 0 : positions.size() / static_cast<std::size_t>(dimension) * Frame::point_bytes;
+  buffer.reserve(bytes);
+  buffer.fill(bytes, [&](std::byte* to) { frame_.pack_to(to, dimension, positions, weights, threads); });
+}
+
+void Scene::set_seeds(const SeedSet& seeds, const PackedTree& tree, int threads) {
+  set_weights(seeds, tree, threads);
+  upload(node_high, tree.dimension, tree.high, {}, threads);
   level_offset.upload(tree.level_offset);
 }
 
-void Scene::set_weights(const SeedSet& seeds, const PackedTree& tree) {
+void Scene::set_weights(const SeedSet& seeds, const PackedTree& tree, int threads) {
   seeds_ = &seeds;
   tree_ = &tree;
-  upload(points, frame_.pack(seeds.dimension, seeds.positions, seeds.weights));
-  upload(node_low, frame_.pack(tree.dimension, tree.low, tree.weight));
+  upload(points, seeds.dimension, seeds.positions, seeds.weights, threads);
+  upload(node_low, tree.dimension, tree.low, tree.weight, threads);
 }
 
 }  // namespace powercell

@@ -24,9 +24,9 @@ class Scene {
   Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32);
 
   /// Uploads positions, weights and tree; keeps references to both until the next call.
-  void set_seeds(const SeedSet& seeds, const PackedTree& tree);
+  void set_seeds(const SeedSet& seeds, const PackedTree& tree, int threads = 1);
   /// The same after a change of the weights alone: the far corners of the boxes stay.
-  void set_weights(const SeedSet& seeds, const PackedTree& tree);
+  void set_weights(const SeedSet& seeds, const PackedTree& tree, int threads = 1);
 
   const std::shared_ptr<cl::Context>& context() const { return context_; }
   const RegionMesh& mesh() const { return mesh_; }
@@ -41,6 +41,9 @@ class Scene {
   cl::Buffer<region_shape_t> shape;
 
  private:
+  void upload(cl::RawBuffer& buffer, int dimension, std::span<const double> positions,
+              std::span<const double> weights, int threads) const;
+
   std::shared_ptr<cl::Context> context_;
   const RegionMesh& mesh_;
   Frame frame_;

@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
 
-void prefetch([[maybe_unused]] const void* place) {
-#if defined(__GNUC__)
-  __builtin_prefetch(place);
-#endif
-}
-
 /// Brings the two sides of each wall together, with the seeds shared between threads.
 class WallMatcher {
  public:

@@ -5,6 +5,8 @@
 #include "lib/diagram/range.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/diagram/stopwatch.hpp"
+#include "lib/seeds/given.hpp"
+#include "lib/seeds/threads.hpp"
 #include "lib/seeds/validate.hpp"
 
 namespace powercell {
@@ -18,14 +20,15 @@ Diagram::~Diagram() = default;
 void Diagram::set_seeds(const SeedsView& seeds) {
   State& s = *state_;
   Stopwatch watch;
-  SeedSet ordered = make_seed_set(seeds, s.domain.dimension(), thread_count(s.options.threads));
-  require_in_range(seeds, s.scene.frame());
+  const int threads = thread_count(s.options.threads);
+  SeedSet ordered = make_seed_set(seeds, s.domain.dimension(), threads);
+  require_in_range(seeds, s.scene.frame(), threads);
+  GivenSeeds left_out = duplicates_of(ordered, seeds);
   s.forget_results();
-  s.ready = s.ordered = false;
+  s.ready = s.ordered = s.paired = false;
   s.seeds = std::move(ordered);
-  s.input_positions.assign(seeds.positions.begin(), seeds.positions.end());
-  s.input_weights.assign(seeds.weights.begin(), seeds.weights.end());
-  s.input_weights.resize(seeds.size(), 0.0);
+  s.duplicate_positions = std::move(left_out.positions);
+  s.duplicate_weights = std::move(left_out.weights);
   s.given = true;
   s.timings = {};
   s.timings.prepare = watch.seconds();
@@ -36,22 +39,23 @@ void Diagram::set_weights(std::span<const double> weights) {
   if (!s.given)
     throw Error(ErrorCode::invalid_argument, "set_weights before set_seeds: give the seeds first");
   Stopwatch watch;
-  const SeedsView seeds{s.domain.dimension(), s.input_positions, weights};
-  if (weights.size() != s.input_weights.size() || !s.seeds.duplicate.empty()) {
-    // Which of several seeds at one position stays depends on their weights; wrong sizes are refused there.
-    if (weights.size() != s.input_weights.size())
-      throw Error(ErrorCode::invalid_argument, std::to_string(weights.size()) + " weights for " +
-                                                   std::to_string(s.input_weights.size()) + " seeds");
-    set_seeds(SeedsView{seeds.dimension, std::vector<double>(s.input_positions), weights});
+  if (weights.size() != s.seeds.input_count)
+    throw Error(ErrorCode::invalid_argument, std::to_string(weights.size()) + " weights for " +
+                                                 std::to_string(s.seeds.input_count) + " seeds");
+  if (!s.seeds.duplicate.empty()) {
+    // Which of several seeds at one position stays depends on their weights.
+    const GivenSeeds given = given_seeds(s.seeds, s.duplicate_positions, s.duplicate_weights);
+    set_seeds(SeedsView{s.domain.dimension(), given.positions, weights});
     return;
   }
-  validate_seeds(seeds, seeds.dimension, thread_count(s.options.threads));
-  require_in_range(seeds, s.scene.frame());
+  const int threads = thread_count(s.options.threads);
+  validate_weights(weights, threads);
+  require_in_range(SeedsView{s.domain.dimension(), {}, weights}, s.scene.frame(), threads);
   s.forget_results();
   s.ready = false;
-  s.input_weights.assign(weights.begin(), weights.end());
-  for (std::size_t rank = 0; rank < s.seeds.size(); ++rank)
-    s.seeds.weights[rank] = weights[s.seeds.input[rank]];
+  parallel_for(threads, s.seeds.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t rank = begin; rank < end; ++rank) s.seeds.weights[rank] = weights[s.seeds.input[rank]];
+  });
   s.timings = {};
   s.timings.prepare = watch.seconds();
 }
@@ -98,8 +102,10 @@ const Cells& Diagram::cells() {
 
 const Dual& Diagram::dual() {
   State& s = *state_;
-  if (!s.dual)
-    s.dual = make_dual(cells(), SeedsView{s.domain.dimension(), s.input_positions, s.input_weights});
+  if (!s.dual) {
+    const GivenSeeds given = given_seeds(s.seeds, s.duplicate_positions, s.duplicate_weights);
+    s.dual = make_dual(cells(), SeedsView{s.domain.dimension(), given.positions, given.weights});
+  }
   return *s.dual;
 }
 

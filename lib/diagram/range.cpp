@@ -4,6 +4,8 @@
 #include <powercell/error.hpp>
 #include <sstream>
 
+#include "lib/seeds/threads.hpp"
+
 namespace powercell {
 namespace {
 
@@ -18,15 +20,21 @@ namespace {
 
 }  // namespace
 
-void require_in_range(const SeedsView& seeds, const Frame& frame) {
+void require_in_range(const SeedsView& seeds, const Frame& frame, int threads) {
   const double most_coordinate = frame.split ? 1e17 : 1e140, most_weight = frame.split ? 1e34 : 1e280;
   const auto d = static_cast<std::size_t>(seeds.dimension);
-  for (std::size_t at = 0; at < seeds.positions.size(); ++at)
-    if (!(std::abs(frame.to_device(seeds.positions[at], static_cast<int>(at % d))) <= most_coordinate))
-      refuse(at / d, std::string("coordinate ") + "xyz"[at % d], seeds.positions[at], frame.split);
-  for (std::size_t i = 0; i < seeds.weights.size(); ++i)
-    if (!(std::abs(frame.weight_to_device(seeds.weights[i])) <= most_weight))
-      refuse(i, "weight", seeds.weights[i], frame.split);
+  const auto bad_position = [&](std::size_t at) {
+    return !(std::abs(frame.to_device(seeds.positions[at], static_cast<int>(at % d))) <= most_coordinate);
+  };
+  const auto bad_weight = [&](std::size_t i) {
+    return !(std::abs(frame.weight_to_device(seeds.weights[i])) <= most_weight);
+  };
+  const std::size_t position = first_of(seeds.positions.size(), threads, bad_position);
+  if (position < seeds.positions.size())
+    refuse(position / d, std::string("coordinate ") + "xyz"[position % d], seeds.positions[position],
+           frame.split);
+  const std::size_t weight = first_of(seeds.weights.size(), threads, bad_weight);
+  if (weight < seeds.weights.size()) refuse(weight, "weight", seeds.weights[weight], frame.split);
 }
 
 }  // namespace powercell

@@ -81,16 +81,19 @@ void Diagram::State::prepare() {
   const int threads = thread_count(options.threads);
   Stopwatch tree_watch;
   if (ordered) {
-    refit_weights(tree, seeds);
-    scene.set_weights(seeds, tree);
+    refit_weights(tree, seeds, threads);
+    scene.set_weights(seeds, tree, threads);
   } else {
     tree = build_packed_tree(seeds, threads);
-    scene.set_seeds(seeds, tree);
+    scene.set_seeds(seeds, tree, threads);
     ordered = true;
   }
   timings.prepare += tree_watch.seconds();
   Stopwatch pair_watch;
-  pairs = enumerate_pairs(domain.mesh(), seeds, tree, threads, options.progress);
+  // One region meets all seeds, whatever their weights.
+  if (!paired || domain.mesh().region_count() != 1)
+    pairs = enumerate_pairs(domain.mesh(), seeds, tree, threads, options.progress);
+  paired = true;
   timings.pairs = pair_watch.seconds();
   timings.pair_count = pairs.region.size();
   Stopwatch neighbor_watch;

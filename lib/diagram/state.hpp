@@ -25,10 +25,11 @@ struct Diagram::State {
   Scene scene;
 
   SeedSet seeds;
-  std::vector<double> input_weights;  // as given, by input index
-  std::vector<double> input_positions;
+  // Of the duplicates, which `seeds` has not, in their order.
+  std::vector<double> duplicate_positions, duplicate_weights;
   bool given = false;    // set_seeds has been called
   bool ordered = false;  // the tree and its boxes on the device belong to the positions
+  bool paired = false;   // the pairs belong to the positions, and to some weights
   bool ready = false;    // tree, pairs and device buffers belong to the positions and weights
   PackedTree tree;
   Pairs pairs;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/clip/variant.hpp"
+#include "lib/seeds/memory.hpp"
 #include "lib/seeds/threads.hpp"
 
 namespace powercell {
@@ -80,11 +81,19 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
 void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
   const bool float32 = scene_.float32();
+  constexpr std::size_t ahead = 16;
   const double scale = scene_.frame().scale, unit = scene_.frame().unit(scene_.mesh().cell_dimension),
                unit2 = scene_.frame().unit(scene_.mesh().cell_dimension + 2);
   parallel_for(last - first < share_count ? 1 : threads_, last - first,
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t t = begin; t < end; ++t) {
+                   if (t + ahead < end) {
+                     const std::size_t next = seeds_.input[first + t + ahead];
+                     prefetch(&measures_.status[next]);
+                     prefetch(&measures_.mass[next]);
+                     prefetch(&measures_.centroid[next * d]);
+                     prefetch(&measures_.second_moment[next]);
+                   }
                    const std::byte* const row = &sums_[t * row_bytes_];
                    const double mass = real_at(row, 0, float32);
                    if (!(mass > 0)) continue;

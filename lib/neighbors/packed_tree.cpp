@@ -80,8 +80,8 @@ PackedTree build_packed_tree(const SeedSet& seeds, int threads) {
   return tree;
 }
 
-void refit_weights(PackedTree& tree, const SeedSet& seeds) {
-  fill_weights(tree, seeds, thread_count(0));
+void refit_weights(PackedTree& tree, const SeedSet& seeds, int threads) {
+  fill_weights(tree, seeds, thread_count(threads));
 }
 
 }  // namespace powercell

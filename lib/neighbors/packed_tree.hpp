@@ -24,6 +24,6 @@ struct PackedTree {
 
 PackedTree build_packed_tree(const SeedSet& seeds, int threads);
 /// New largest weights after the weights of `seeds` changed; boxes stay.
-void refit_weights(PackedTree& tree, const SeedSet& seeds);
+void refit_weights(PackedTree& tree, const SeedSet& seeds, int threads);
 
 }  // namespace powercell

@@ -10,6 +10,13 @@
 
 namespace powercell {
 
+/// Asks for what will be needed soon from places all over the memory.
+inline void prefetch([[maybe_unused]] const void* place) {
+#if defined(__GNUC__)
+  __builtin_prefetch(place);
+#endif
+}
+
 /// An array that grows without touching what is new, and without a second copy of itself where the system can
 /// move pages.
 template <class T>

@@ -63,7 +63,7 @@ TEST_CASE("packed tree: boxes and largest weights are those of the seeds below")
       PackedTree tree = build_packed_tree(seeds, 2);
       check_tree(tree, seeds);
       for (double& w : seeds.weights) w = random.uniform(-5, 5);
-      refit_weights(tree, seeds);
+      refit_weights(tree, seeds, 2);
       check_tree(tree, seeds);
     }
 }
