@@ -1,9 +1,12 @@
 /* Cutting by the seeds of the near leaves (near.cl), nearest bisector first. */
 #ifndef POWERCELL_NEIGHBORS_ORDER
 #define POWERCELL_NEIGHBORS_ORDER
+#include "neighbors/exclude.cl"
 #include "neighbors/near.cl"
 
 #define TAKEN (REAL_MAX / 4)
+/* Bisectors that cut nothing, after which the rest are tested eight at a time. White noise has some 24. */
+#define MISSES_MOST 64
 
 /* The seeds of the near leaves by key: the square of twice the signed distance of the bisector
    (docs/mathematics.md (4)), with its sign and tagged with the seed's place. */
@@ -13,18 +16,6 @@ typedef struct {
   uint count;            /* leaves */
   __global const uint* leaf;
 } order_t;
-
-/* Which of eight seeds may cut the box [low, high] of the cell or lie in a side of it, over the corner that is
-   worst (docs/mathematics.md (10)). A rounding margin is taken off. */
-static inline mask8 seeds_may_cut(const real8* q, real8 dw, const real* low, const real* high) {
-  real8 reach = ZERO8, q2 = ZERO8, size = size8(dw);
-  for (int k = 0; k < DIMENSION; ++k) {
-    reach = reach + most8(q[k] * all_lanes(low[k]), q[k] * all_lanes(high[k]));
-    size = size + size8(q[k]) * all_lanes(2 * fmax(fabs(low[k]), fabs(high[k])));
-    q2 = q2 + q[k] * q[k];
-  }
-  return reach + reach + (size + q2) * all_lanes(2 * 16 * REAL_EPSILON) > q2 + dw;
-}
 
 /* The key of eight seeds at q with weights less than that of the seed by dw. */
 static inline real8 bisector_keys(const real8* q, real8 dw) {
@@ -71,6 +62,41 @@ static inline real take_least(order_t* order) {
   return least;
 }
 
+/* Cuts by those seeds of a leaf whose bits are set in `left`, tested by the vertices if `close`, else by the box
+   of the cell, which is kept. Returns a CUT code, CUT_NONE when done. */
+static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i, uint leaf, uint left,
+                              bool close, real* low, real* high) {
+  const seed_t seed = tree.seeds[i];
+  const origin_t origin = origin_of(seed);
+  real8 q[DIMENSION], dw;
+  seed_lanes(blocks, leaf, &origin, q, &dw);
+  for (;;) {
+    left &= lane_bits(close ? seeds_cut(&cell->at, q, dw) : seeds_may_cut(q, dw, low, high));
+    int cut = CUT_NONE;
+    while (left != 0 && cut != CUT_SHRUNK) {
+      const uint j = leaf * TREE_FAN + (uint)lowest_bit(left);
+      left &= left - 1;
+      cut = cut_by_seed(cell, seed, tree.seeds[j], (int)j);
+      if (cut > CUT_SHRUNK) return cut;
+    }
+    if (cut != CUT_SHRUNK) return CUT_NONE;
+    if (!close) find_box(&cell->at, low, high);
+  }
+}
+
+/* Cuts by what is left of the order, leaf by leaf. */
+static inline int cut_by_left(cell_t* cell, const order_t* order, tree_t tree, blocks_t blocks, uint i) {
+  const real reach = 4 * find_radius2(&cell->at);
+  real none[DIMENSION];
+  for (uint k = 0; k < order->count; ++k) {
+    if (!(order->first[k] < reach)) continue;
+    const uint left = lane_bits(load8(order->key + k * LANES) < all_lanes(reach));
+    const int cut = cut_by_leaf(cell, tree, blocks, i, order->leaf[k], left, true, none, none);
+    if (cut > CUT_SHRUNK) return cut;
+  }
+  return CUT_NONE;
+}
+
 /* Cuts by the seeds of the near leaves except i. Returns a CUT code, CUT_NONE when done. */
 static inline int cut_by_near(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   order_t order;
@@ -79,7 +105,7 @@ static inline int cut_by_near(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   if (order.count == 0) return CUT_NONE;
   real reach = TAKEN / 2; /* found anew only after a bisector that cut nothing: that they end shows first there */
   bool shrunk = true;
-  for (;;) {
+  for (int misses = 0; misses < MISSES_MOST;) {
     const real least = take_least(&order);
     if (!(untagged(least) < reach)) return CUT_NONE; /* that plane is beyond every vertex, and so are the rest */
     const uint at = tag_of(least), j = order.leaf[at / LANES] * TREE_FAN + at % LANES;
@@ -87,7 +113,9 @@ static inline int cut_by_near(cell_t* cell, tree_t tree, blocks_t blocks, uint i
     if (cut > CUT_SHRUNK) return cut;
     if (cut == CUT_NONE && shrunk) reach = 4 * find_radius2(&cell->at);
     shrunk = cut == CUT_SHRUNK;
+    misses += cut == CUT_NONE;
   }
+  return cut_by_left(cell, &order, tree, blocks, i);
 }
 
 #endif

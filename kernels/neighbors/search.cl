@@ -5,43 +5,8 @@
 #define POWERCELL_NEIGHBORS_SEARCH
 #include "neighbors/order.cl"
 
-/* Which of eight nodes have a seed that may cut the box [low, high] of the cell: the least value of
-   |y-p_j|^2 - w_j - |y|^2 + w_i over the box and the seeds j of the node is below 0
-   (docs/mathematics.md (9)). A rounding margin is taken off. */
-static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, const real* low, const real* high) {
-  real8 value = dw, size = size8(dw);
-  for (int k = 0; k < DIMENSION; ++k) {
-    const real8 l = all_lanes(low[k]), h = all_lanes(high[k]);
-    const real8 dl = most8(most8(a[k] - l, l - b[k]), ZERO8);
-    const real8 dh = most8(most8(a[k] - h, h - b[k]), ZERO8);
-    value = value + least8(dl * dl - l * l, dh * dh - h * h);
-    const real8 s = size8(a[k]) + size8(b[k]) + size8(l) + size8(h);
-    size = size + s * s;
-  }
-  return value < size * all_lanes(8 * REAL_EPSILON);
-}
-
-/* Cuts by those seeds of a leaf whose bits are set in `left` and that the cell's box does not exclude, and
-   keeps the box. */
-static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i, uint leaf, uint left,
-                              real* low, real* high) {
-  const seed_t seed = tree.seeds[i];
-  const origin_t origin = origin_of(seed);
-  real8 q[DIMENSION], dw;
-  seed_lanes(blocks, leaf, &origin, q, &dw);
-  for (;;) {
-    left &= lane_bits(seeds_may_cut(q, dw, low, high));
-    int cut = CUT_NONE;
-    while (left != 0 && cut != CUT_SHRUNK) {
-      const uint j = leaf * TREE_FAN + (uint)lowest_bit(left);
-      left &= left - 1;
-      cut = cut_by_seed(cell, seed, tree.seeds[j], (int)j);
-      if (cut > CUT_SHRUNK) return cut;
-    }
-    if (cut != CUT_SHRUNK) return CUT_NONE;
-    find_box(&cell->at, low, high);
-  }
-}
+/* Nodes visited, after which the next are tested by the vertices of the cell. White noise visits some 20. */
+#define VISITS_MOST 48
 
 /* True if no seed outside the near leaves can cut the cell: their distance from the home
    box against the radius of the cell (docs/mathematics.md (10b)). */
@@ -55,14 +20,16 @@ static inline bool near_is_enough(const cell_t* cell, tree_t tree, blocks_t bloc
   return lifted2 > 0 && own * (1 - 64 * REAL_EPSILON) > 2 * sqrt(find_radius2(&cell->at) * lifted2);
 }
 
-/* Pushes the children of a node that may cut the cell and are not near, nearest on top. */
+/* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the vertices
+   `close` if they are given. */
 static inline void push_children(stack_t* stack, tree_t tree, blocks_t blocks, uint node, int level,
                                  const home_t* home, real bound, const origin_t* origin, const real* low,
-                                 const real* high) {
+                                 const real* high, const vertices_t* close) {
   real8 a[DIMENSION], b[DIMENSION], dw;
   const uint block = block_of_children(tree, node, level);
   node_lanes(blocks, block, origin, a, b, &dw);
   uint bits = lane_bits(nodes_may_cut(a, b, dw, low, high));
+  if (close && bits != 0) bits &= lane_bits(nodes_cut(close, a, b, dw));
   if (bits == 0) return;
   real8 distance = dw;
   for (int k = 0; k < DIMENSION; ++k) {
@@ -91,16 +58,17 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   const real bound = blocks.near_bound[i / TREE_FAN];
   find_box(&cell->at, low, high);
   push_root(&stack, tree);
-  while (stack.depth > 0) {
+  for (int visits = 0; stack.depth > 0; ++visits) {
+    const bool close = visits >= VISITS_MOST;
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
     if (level > 0) {
-      push_children(&stack, tree, blocks, node, level, &home, bound, &origin, low, high);
+      push_children(&stack, tree, blocks, node, level, &home, bound, &origin, low, high, close ? &cell->at : 0);
       continue;
     }
     uint left = (1u << min(TREE_FAN, tree.count - node * TREE_FAN)) - 1;
     if (node == i / TREE_FAN) left &= ~(1u << i % TREE_FAN);
-    const int cut = cut_by_leaf(cell, tree, blocks, i, node, left, low, high);
+    const int cut = cut_by_leaf(cell, tree, blocks, i, node, left, close, low, high);
     if (cut > CUT_SHRUNK) return cut;
   }
   return CUT_NONE;
