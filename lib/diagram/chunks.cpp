@@ -11,7 +11,9 @@ namespace {
 
 /// Pairs in device memory at once, unless options say otherwise. A GPU needs many to be busy; the cores of a
 /// CPU some groups each, and then what a chunk leaves behind is still in their caches when it is collected.
-constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 13;
+constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 14;
+/// PoCL compiles a kernel once for less than 2^16 work-items and once for more: no chunk asks for both.
+constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 /// Where device memory does not suffice, chunks are halved down to this before the error is passed on.
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Of a cell's largest wall: a one-sided wall below it is rounding (docs/mathematics.md).
@@ -32,7 +34,7 @@ std::uint64_t ChunkRun::chunk_pairs() const {
   if (s_.options.chunk_pairs > 0) return s_.options.chunk_pairs;
   const DeviceInfo& device = s_.device.info();
   if (device.type != DeviceInfo::Type::cpu) return chunk_pairs_gpu;
-  return std::min(chunk_pairs_gpu, std::max(1u, device.compute_units) * chunk_pairs_core);
+  return std::min(chunk_pairs_cpu, std::max(1u, device.compute_units) * chunk_pairs_core);
 }
 
 std::uint32_t ChunkRun::rank_of(std::uint64_t pair) const {
