@@ -4,6 +4,7 @@
 
 #include "kernels/layout.h"
 #include "lib/diagram/stopwatch.hpp"
+#include "lib/diagram/whole_cells.hpp"
 
 namespace powercell {
 
@@ -91,17 +92,26 @@ void ChunkRun::clip_all() {
   s_.timings.rounds = clipper_->statistics().rounds;
 }
 
-void ChunkRun::run() {
+std::vector<std::uint32_t> ChunkRun::run() {
   if (s_.seeds.size() > 0) clip_all();
   clipper_.reset();  // its buffers are not needed any more, and what follows needs memory
   Stopwatch watch;
+  Measures measures = measures_.finish();
+  if (s_.whole_cells && s_.seeds.size() > 0) {
+    std::vector<std::uint32_t> unclear =
+        settle_whole_cells(s_.domain.mesh(), *s_.finder, s_.pairs, s_.seeds, s_.scene.float32(),
+                           thread_count(s_.options.threads), measures);
+    if (!unclear.empty()) return unclear;
+  }
   if (want_adjacency_)
     s_.adjacency =
-        walls_.finish(s_.seeds, measures_.status(), s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
+        walls_.finish(s_.seeds, measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
                       s_.scene.float32() ? negligible_float : negligible_double);
-  if (want_cells_) s_.cells = geometry_.finish(measures_.status());
-  s_.measures = measures_.finish();
+  if (want_cells_) s_.cells = geometry_.finish(measures.status);
+  // Those of whole cells stay when the geometry of their pieces is asked for.
+  if (!s_.measures) s_.measures = std::move(measures);
   s_.timings.collect += watch.seconds();
+  return {};
 }
 
 }  // namespace powercell

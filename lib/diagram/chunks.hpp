@@ -14,8 +14,9 @@ class ChunkRun {
  public:
   ChunkRun(Diagram::State& state, bool want_adjacency, bool want_cells);
   /// Fills the measures of the state, and its adjacency and cells where asked. On an exception the
-  /// state's results stay as they were.
-  void run();
+  /// state's results stay as they were, and so they do where ranks come back: their cells need the regions of
+  /// the domain.
+  std::vector<std::uint32_t> run();
 
  private:
   void clip_all();

@@ -5,7 +5,9 @@
 #include "kernels/layout.h"
 #include "lib/diagram/chunks.hpp"
 #include "lib/diagram/stopwatch.hpp"
+#include "lib/domain/outline.hpp"
 #include "lib/neighbors/cell_candidates.hpp"
+#include "lib/neighbors/region_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #ifdef POWERCELL_HAS_FLANN
 #include "lib/neighbors/list_candidates.hpp"
@@ -54,7 +56,9 @@ Diagram::State::State(Device device_in, Domain domain_in, Options options_in)
       options(checked(std::move(options_in))),
       precision(choose_precision(device, options.precision)),
       neighbors(choose_neighbors(options.neighbors)),
-      scene(device.context(), domain.mesh(), precision == Precision::float32) {}
+      clip_mesh(has_inside(domain.mesh()) ? with_container(domain.mesh()) : RegionMesh{}),
+      scene(device.context(), has_inside(domain.mesh()) ? clip_mesh : domain.mesh(),
+            precision == Precision::float32) {}
 
 void Diagram::State::forget_results() {
   measures.reset();
@@ -67,40 +71,64 @@ std::unique_ptr<Candidates> Diagram::State::make_candidates() const {
 #ifdef POWERCELL_HAS_FLANN
   if (neighbors == Neighbors::flann) return std::make_unique<ListCandidates>(scene, options);
 #endif
+  if (domain.mesh().region_count() == 1) return std::make_unique<TreeCandidates>(scene);
   std::vector<std::uint32_t> ranks;
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
     if (pairs.offset[rank + 1] > pairs.offset[rank]) ranks.push_back(rank);
   const bool full_dimension = domain.dimension() == domain.cell_dimension();
-  if (full_dimension && pairs.region.size() > pieces_that_pay * ranks.size())
+  if (full_dimension && !whole_cells && pairs.region.size() > pieces_that_pay * ranks.size())
     return std::make_unique<CellCandidates>(scene, ranks);
-  return std::make_unique<TreeCandidates>(scene);
+  return std::make_unique<RegionCandidates>(scene, pairs.list_offset, pairs.list_seed);
 }
 
-void Diagram::State::prepare() {
-  if (ready) return;
+void Diagram::State::prepare(bool want_regions) {
+  if (ready && whole_cells == (!want_regions && has_inside(domain.mesh()))) return;
   const int threads = thread_count(options.threads);
-  Stopwatch tree_watch;
-  if (ordered) {
-    refit_weights(tree, seeds, threads);
-    scene.set_weights(seeds, tree, threads);
-  } else {
-    tree = build_packed_tree(seeds, threads);
-    scene.set_seeds(seeds, tree, threads);
-    ordered = true;
+  if (!ready) {
+    Stopwatch tree_watch;
+    not_whole.clear();
+    if (ordered) {
+      refit_weights(tree, seeds, threads);
+      scene.set_weights(seeds, tree, threads);
+    } else {
+      tree = build_packed_tree(seeds, threads);
+      scene.set_seeds(seeds, tree, threads);
+      ordered = true;
+    }
+    timings.prepare += tree_watch.seconds();
   }
-  timings.prepare += tree_watch.seconds();
+  find_pairs(want_regions);
+  ready = true;
+}
+
+void Diagram::State::find_pairs(bool want_regions) {
   Stopwatch pair_watch;
   // One region meets all seeds, whatever their weights.
-  if (!paired || domain.mesh().region_count() != 1)
-    pairs = enumerate_pairs(domain.mesh(), seeds, tree, threads, options.progress);
+  if (!paired || domain.mesh().region_count() != 1) {
+    if (!finder) finder.emplace(domain.mesh(), thread_count(options.threads));
+    pairs = want_regions ? finder->all(seeds, tree, options.progress)
+                         : finder->with_whole_cells(seeds, tree, not_whole, options.progress);
+  }
   paired = true;
+  whole_cells = !want_regions && has_inside(domain.mesh());
   timings.pairs = pair_watch.seconds();
   timings.pair_count = pairs.region.size();
   Stopwatch neighbor_watch;
   const double built_before = device.build_seconds();
   candidates = make_candidates();
+  pairs.list_offset = {};
+  pairs.list_seed = {};
   timings.neighbors = neighbor_watch.seconds() - (device.build_seconds() - built_before);
-  ready = true;
+}
+
+void Diagram::State::pass(bool want_adjacency, bool want_cells) {
+  for (;;) {
+    if (!seeds.input.empty()) prepare(want_cells);
+    const std::vector<std::uint32_t> unclear = ChunkRun(*this, want_adjacency, want_cells).run();
+    if (unclear.empty()) return;
+    not_whole.insert(not_whole.end(), unclear.begin(), unclear.end());
+    find_pairs(want_cells);
+  }
 }
 
 void Diagram::State::run(bool want_adjacency, bool want_cells) {
@@ -108,9 +136,13 @@ void Diagram::State::run(bool want_adjacency, bool want_cells) {
   const double built_before = device.build_seconds();
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   Stopwatch watch;
-  if (!ready && !seeds.input.empty()) prepare();
-  ChunkRun chunk_run(*this, want_adjacency, want_cells);
-  chunk_run.run();
+  // Measures and adjacency come from the same pairs, whether geometry is asked for before or after.
+  if (want_cells && has_inside(domain.mesh())) {
+    if (!measures || want_adjacency) pass(want_adjacency, false);
+    pass(false, true);
+  } else {
+    pass(want_adjacency, want_cells);
+  }
   timings.build = device.build_seconds() - built_before;
   timings.total = prepared + watch.seconds() - timings.build;
 }

@@ -22,6 +22,7 @@ struct Diagram::State {
   Options options;
   Precision precision;
   Neighbors neighbors;
+  RegionMesh clip_mesh;  // where cells can be wholly inside: the regions and a container behind them
   Scene scene;
 
   SeedSet seeds;
@@ -32,7 +33,10 @@ struct Diagram::State {
   bool paired = false;   // the pairs belong to the positions, and to some weights
   bool ready = false;    // tree, pairs and device buffers belong to the positions and weights
   PackedTree tree;
+  std::optional<PairFinder> finder;
   Pairs pairs;
+  bool whole_cells = false;              // pairs take cells inside the domain as wholes
+  std::vector<std::uint32_t> not_whole;  // ranks of cells that turned out to need their regions
   std::unique_ptr<Candidates> candidates;
   Timings timings;
 
@@ -44,8 +48,12 @@ struct Diagram::State {
   State(Device device, Domain domain, Options options);
   void forget_results();
   /// Tree, pairs, device buffers and candidate source for the present seeds and weights.
-  void prepare();
+  /// \param want_regions  every cell is to be cut along the regions
+  void prepare(bool want_regions);
+  void find_pairs(bool want_regions);
   std::unique_ptr<Candidates> make_candidates() const;
+  /// Clips all pairs once; again where cells turn out to need their regions.
+  void pass(bool want_adjacency, bool want_cells);
   /// Clips all pairs and fills measures, and adjacency and cells where asked.
   void run(bool want_adjacency, bool want_cells);
 };

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t few_seeds = 2048;
 // Entries a frontier is expanded to. Coarser ones test worse, finer ones cost each part more.
 constexpr std::size_t enough_for_part = 32;
-constexpr std::size_t enough_for_box = 48;
+constexpr std::size_t enough_for_box = 64;
 // Splits in a row that may fail to thin out the seeds in question before splitting is given up.
 constexpr int most_failures = 5;
 
@@ -30,23 +30,11 @@ void CandidateSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const
                                 Narrowed<D>& to) {
   to.listed = true;
   if (from.listed) return list_search_.narrow(low, high, from.list, to.list);
-  tree_.set_origin(low.data());
-  Step& step = root_;
-  step.part.shape = PartShape::box;
-  step.part.corners = std::size_t{1} << D;
-  Point<D> size;
-  for (std::size_t k = 0; k < D; ++k) size[k] = high[k] - low[k];
-  for (std::size_t v = 0; v < step.part.corners; ++v)
-    for (std::size_t k = 0; k < D; ++k) step.part.corner[v][k] = (v >> k & 1) != 0 ? size[k] : 0.0;
-  reach_ = std::sqrt(squared_distance<D>(size, Point<D>{}));
-  refine(step, from.frontier, Testers{}, enough_for_box, false);
-  to.listed = step.open <= few_seeds;
-  if (to.listed) {
-    gather(step.frontier, few_);
-    list_search_.narrow(low, high, few_, to.list);
-  } else {
-    to.frontier.swap(step.frontier);
-  }
+  to.listed =
+      node_search_.narrow(low, high, from.frontier, enough_for_box, few_seeds, to.frontier) <= few_seeds;
+  if (!to.listed) return;
+  gather(to.frontier, few_);
+  list_search_.narrow(low, high, few_, to.list);
 }
 
 template <int D>

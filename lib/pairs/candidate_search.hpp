@@ -10,6 +10,7 @@
 #include "lib/pairs/frontier.hpp"
 #include "lib/pairs/list_search.hpp"
 #include "lib/pairs/local_tree.hpp"
+#include "lib/pairs/node_search.hpp"
 #include "lib/pairs/part.hpp"
 #include "lib/pairs/region_interior.hpp"
 
@@ -28,7 +29,11 @@ template <int D>
 class CandidateSearch {
  public:
   CandidateSearch(const RegionMesh& mesh, const SeedSet& seeds, const PackedTree& tree, double reference)
-      : mesh_(mesh), seeds_(seeds), reference_(reference), tree_(seeds, tree, reference) {}
+      : mesh_(mesh),
+        seeds_(seeds),
+        reference_(reference),
+        tree_(seeds, tree, reference),
+        node_search_(tree_) {}
 
   /// From the seeds in `from`, those that can meet the box [low, high], in a form fine enough to begin a
   /// search with.
@@ -66,6 +71,7 @@ class CandidateSearch {
   const SeedSet& seeds_;
   const double reference_;
   LocalTree<D> tree_;
+  NodeSearch<D> node_search_;
   std::vector<Point<D>> corners_;   // of the region, relative to its first
   const double* origin_ = nullptr;  // its first corner
   double reach_ = 0;                // largest distance of a corner from the first

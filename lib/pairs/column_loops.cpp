@@ -73,6 +73,30 @@ template <int D>
   }
 }
 
+template <int D>
+[[gnu::always_inline]] inline void raise_nodes(std::size_t count, const double* const* column,
+                                               const double* size, const double* t,
+                                               double* __restrict excess) {
+  const double* __restrict x[2 * D + 1];
+  for (int k = 0; k <= 2 * D; ++k) x[k] = column[k];
+  double fixed = std::fabs(t[D]) + std::numeric_limits<double>::min() / unit_roundoff;
+  for (int k = 0; k < D; ++k) fixed += 2 * (t[k] * t[k] + size[k] * size[k]);
+  for (std::size_t s = 0; s < count; ++s) {
+    double value = t[D] - x[2 * D][s], square = 0;
+    for (int k = 0; k < D; ++k) {
+      const double a = x[k][s], b = x[D + k][s];
+      const double low = a > 0 ? a : (b < 0 ? b : 0.0);
+      const double high = a > size[k] ? a - size[k] : (b < size[k] ? b - size[k] : 0.0);
+      const double at_low = low * low - t[k] * t[k];
+      const double at_high = high * high - (size[k] - t[k]) * (size[k] - t[k]);
+      value += at_low < at_high ? at_low : at_high;
+      square += a * a + b * b;
+    }
+    value -= 64 * unit_roundoff * (square + std::fabs(x[2 * D][s]) + fixed);
+    excess[s] = value > excess[s] ? value : excess[s];
+  }
+}
+
 }  // namespace
 
 VECTOR_COPIES void subtract(std::size_t count, const double* from, double by, double* __restrict to) {
@@ -113,6 +137,14 @@ VECTOR_COPIES void raise_box_excess(std::size_t count, int dimension, const doub
     raise_box<2>(count, column, size, tester, excess);
   else
     raise_box<3>(count, column, size, tester, excess);
+}
+
+VECTOR_COPIES void raise_node_excess(std::size_t count, int dimension, const double* const* column,
+                                     const double* size, const double* tester, double* excess) {
+  if (dimension == 2)
+    raise_nodes<2>(count, column, size, tester, excess);
+  else
+    raise_nodes<3>(count, column, size, tester, excess);
 }
 
 VECTOR_COPIES std::size_t least(std::size_t count, const double* values) {

@@ -26,6 +26,11 @@ void raise_excess(std::size_t count, std::size_t corners, const double* const* l
 void raise_box_excess(std::size_t count, int dimension, const double* const* column, const double* size,
                       const double* tester, double* excess);
 
+/// The same for nodes, with the least of pow_s - pow_t over the box and the seeds s of the node: (9).
+/// \param column  dimension low coordinates, dimension high ones, then the largest weight
+void raise_node_excess(std::size_t count, int dimension, const double* const* column, const double* size,
+                       const double* tester, double* excess);
+
 /// The index of a least value; count > 0.
 std::size_t least(std::size_t count, const double* values);
 

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "lib/domain/region_mesh.hpp"
@@ -16,14 +18,50 @@ namespace powercell {
 struct Pairs {
   std::vector<std::uint64_t> offset;  ///< seeds + 1
   std::vector<std::uint32_t> region;
+  /// By region: all seeds that can meet it, ascending, where they are few and some pair has the region; else
+  /// none. Empty if the domain has one region.
+  std::vector<std::uint64_t> list_offset;  ///< regions + 1
+  std::vector<std::uint32_t> list_seed;
 };
 
-/// A superset of the pairs with region and cell meeting in more than nothing, close to the true set:
-/// seed i is left out for a region only if some j has pow_j < pow_i at all corners of each part of the
-/// region (exact exclusion with a safe margin, so that rounding never loses a pair). A domain of one
-/// region gives every seed. No quadratic work or memory: a million seeds in one region and ten seeds
-/// on a million triangles are both near-linear. The result does not depend on `threads`.
-/// \param progress as Options::progress
+namespace pairs {
+struct RegionGroups;
+}
+
+/// Finds pairs for one domain. What depends on the regions alone is kept.
+class PairFinder {
+ public:
+  /// Keeps a reference to the mesh. \param threads 0 for all
+  PairFinder(const RegionMesh& mesh, int threads);
+  ~PairFinder();
+  PairFinder(PairFinder&&) noexcept;
+
+  /// A superset of the pairs with region and cell meeting in more than nothing, close to the true set:
+  /// seed i is left out for a region only if some j has pow_j < pow_i at all corners of each part of the
+  /// region (exact exclusion with a safe margin, so that rounding never loses a pair). A domain of one
+  /// region gives every seed. No quadratic work or memory: a million seeds in one region and ten seeds
+  /// on a million triangles are both near-linear. The result does not depend on `threads`.
+  /// \param progress as Options::progress
+  Pairs all(const SeedSet& seeds, const PackedTree& tree,
+            const std::function<bool(double)>& progress = {}) const;
+
+  /// The same, but a seed whose cell cannot meet the boundary of the domain has one pair, with the region
+  /// behind the last, which stands for a region around the whole domain (with_container). Such a cell may
+  /// also be wholly outside. \param not_whole ranks that get their pairs with regions all the same
+  Pairs with_whole_cells(const SeedSet& seeds, const PackedTree& tree,
+                         std::span<const std::uint32_t> not_whole,
+                         const std::function<bool(double)>& progress = {});
+
+  const pairs::RegionGroups& groups() const { return *groups_; }
+
+ private:
+  const RegionMesh& mesh_;
+  int threads_;
+  std::unique_ptr<pairs::RegionGroups> groups_, boundary_groups_;
+  std::unique_ptr<RegionMesh> boundary_;
+};
+
+/// PairFinder::all once.
 Pairs enumerate_pairs(const RegionMesh& mesh, const SeedSet& seeds, const PackedTree& tree, int threads,
                       const std::function<bool(double)>& progress = {});
 

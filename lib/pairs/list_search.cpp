@@ -81,24 +81,18 @@ void ListSearch<D>::begin(const SeedList<D>& seeds, const double* origin, double
   seeds_ = &seeds;
   reach_ = reach;
   marked_.assign(seeds.size(), 0);
-  make_local<D>(seeds, origin, local_);
+  make_local<D>(seeds, origin, all_.local);
+  all_.index.resize(seeds.size());
+  for (std::size_t s = 0; s < seeds.size(); ++s) all_.index[s] = static_cast<std::uint32_t>(s);
+  all_.part.corners = 0;
 }
 
 template <int D>
 void ListSearch<D>::search(const Part<D>& part, std::span<const CornerValues> known) {
-  const std::size_t count = seeds_->size();
-  if (count == 0) return;
+  if (seeds_->size() == 0) return;
   bounds_ = PowerBounds(reach_, radius<D>(part, part.centroid()));
   root_.part = part;
-  root_.index.resize(count);
-  for (std::size_t s = 0; s < count; ++s) root_.index[s] = static_cast<std::uint32_t>(s);
-  root_.local = local_;
-  const auto column = pointers<D>(local_);
-  for (std::size_t v = 0; v < part.corners; ++v) {
-    root_.lower[v].resize(count);
-    bounds_.lower_column(count, D, column.data(), part.corner[v].data(), root_.lower[v].data());
-  }
-  filter(root_, known);
+  narrow_to(all_, known, root_);
   visit(root_, 0, 0);
 }
 
@@ -113,89 +107,76 @@ void ListSearch<D>::visit(Level& level, std::size_t depth, int failures) {
   if (level.count() <= few_seeds || depth == most_depth || failures == most_failures) return finish(level);
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
-  halve(level, halves);
+  std::tie(halves.first.part, halves.second.part) = split(level.part);
+  narrow_to(level, {}, halves.first);
+  narrow_to(level, {}, halves.second);
   const bool paid = halves.first.count() + halves.second.count() < level.count() + level.count() / 5 * 4;
   visit(halves.first, depth + 1, paid ? 0 : failures + 1);
   visit(halves.second, depth + 1, paid ? 0 : failures + 1);
 }
 
 template <int D>
-void ListSearch<D>::halve(const Level& level, Halves& halves) {
-  std::tie(halves.first.part, halves.second.part) = split(level.part);
-  const auto column = pointers<D>(level.local);
-  for (Level* half : {&halves.first, &halves.second}) {
-    half->index = level.index;
-    half->local = level.local;
-    for (std::size_t v = 0; v < half->part.corners; ++v) {
-      const auto same = std::find(level.part.corner.begin(),
-                                  level.part.corner.begin() + static_cast<std::ptrdiff_t>(level.part.corners),
-                                  half->part.corner[v]);
-      const auto at = static_cast<std::size_t>(same - level.part.corner.begin());
-      if (at < level.part.corners) {
-        half->lower[v] = level.lower[at];
-      } else {
-        half->lower[v].resize(level.count());
-        bounds_.lower_column(level.count(), D, column.data(), half->part.corner[v].data(),
-                             half->lower[v].data());
-      }
-    }
-    filter(*half, {});
-  }
-}
-
-template <int D>
-void ListSearch<D>::add_tester(const Level& level, std::size_t seed) {
+void ListSearch<D>::add_tester(const Level& level, const Part<D>& part, std::size_t seed) {
   CornerValues upper;
-  for (std::size_t v = 0; v < level.part.corners; ++v) {
+  for (std::size_t v = 0; v < part.corners; ++v) {
     double square = 0;
     for (std::size_t k = 0; k < D; ++k) {
-      const double t = level.local[k][seed] - level.part.corner[v][k];
+      const double t = level.local[k][seed] - part.corner[v][k];
       square += t * t;
     }
     upper[v] = bounds_.upper(square, level.local[D][seed]);
     if (!std::isfinite(upper[v])) return;
   }
-  loops::raise_excess(level.count(), level.part.corners, lower_.data(), upper.data(), excess_.data());
+  loops::raise_excess(level.count(), part.corners, lower_.data(), upper.data(), excess_.data());
 }
 
 /// Excludes by the seeds of least power at the centroid and the corners.
 template <int D>
-void ListSearch<D>::filter(Level& level, std::span<const CornerValues> known) {
+void ListSearch<D>::narrow_to(const Level& level, std::span<const CornerValues> known, Level& half) {
   const std::size_t count = level.count();
-  for (std::size_t v = 0; v < level.part.corners; ++v) lower_[v] = level.lower[v].data();
+  const auto column = pointers<D>(level.local);
+  for (std::size_t v = 0; v < half.part.corners; ++v) {
+    std::size_t at = 0;
+    while (at < level.part.corners && level.part.corner[at] != half.part.corner[v]) ++at;
+    lower_[v] = level.lower[at % most_corners].data();
+    if (at < level.part.corners) continue;
+    fresh_[v].resize(count);
+    bounds_.lower_column(count, D, column.data(), half.part.corner[v].data(), fresh_[v].data());
+    lower_[v] = fresh_[v].data();
+  }
   excess_.assign(count, 0.0);
   power_.resize(count);
   tester_.clear();
   const auto add_once = [&](std::size_t seed) {
     if (std::find(tester_.begin(), tester_.end(), seed) != tester_.end()) return;
     tester_.push_back(static_cast<std::uint32_t>(seed));
-    add_tester(level, seed);
+    add_tester(level, half.part, seed);
   };
-  const Point<D> centroid = level.part.centroid();
-  loops::powers(count, D, pointers<D>(level.local).data(), centroid.data(), 0, 0, 0, power_.data());
+  const Point<D> centroid = half.part.centroid();
+  loops::powers(count, D, column.data(), centroid.data(), 0, 0, 0, power_.data());
   add_once(loops::least(count, power_.data()));
-  for (std::size_t v = 0; v < level.part.corners; ++v) add_once(loops::least(count, lower_[v]));
+  for (std::size_t v = 0; v < half.part.corners; ++v) add_once(loops::least(count, lower_[v]));
   for (const CornerValues& upper : known)
-    loops::raise_excess(count, level.part.corners, lower_.data(), upper.data(), excess_.data());
-  keep_unexcluded(level);
+    loops::raise_excess(count, half.part.corners, lower_.data(), upper.data(), excess_.data());
+  keep_unexcluded(level, half);
 }
 
 template <int D>
-void ListSearch<D>::keep_unexcluded(Level& level) {
-  std::size_t kept = 0;
+void ListSearch<D>::keep_unexcluded(const Level& level, Level& half) {
   const std::size_t count = level.count();
+  kept_.resize(count);
+  std::size_t kept = 0;
   for (std::size_t s = 0; s < count; ++s) {
-    if (excess_[s] > 0) continue;
-    if (kept != s) {
-      level.index[kept] = level.index[s];
-      for (std::size_t k = 0; k <= D; ++k) level.local[k][kept] = level.local[k][s];
-      for (std::size_t v = 0; v < level.part.corners; ++v) level.lower[v][kept] = level.lower[v][s];
-    }
-    ++kept;
+    kept_[kept] = static_cast<std::uint32_t>(s);
+    kept += excess_[s] > 0 ? 0 : 1;
   }
-  level.index.resize(kept);
-  for (std::vector<double>& c : level.local) c.resize(kept);
-  for (std::size_t v = 0; v < level.part.corners; ++v) level.lower[v].resize(kept);
+  const auto pick = [&](const auto* from, auto& to) {
+    to.resize(kept);
+    for (std::size_t s = 0; s < kept; ++s) to[s] = from[kept_[s]];
+  };
+  pick(level.index.data(), half.index);
+  for (std::size_t k = 0; k <= D; ++k) pick(level.local[k].data(), half.local[k]);
+  for (std::size_t v = 0; v < half.part.corners; ++v) pick(lower_[v], half.lower[v]);
 }
 
 /// Marks what no other seed excludes. What an excluded seed excludes, the one that excludes it does as well.
@@ -206,7 +187,7 @@ void ListSearch<D>::finish(Level& level) {
   excess_.assign(count, 0.0);
   if (count <= most_seeds)
     for (std::size_t s = 0; s < count; ++s)
-      if (!(excess_[s] > 0)) add_tester(level, s);
+      if (!(excess_[s] > 0)) add_tester(level, level.part, s);
   for (std::size_t s = 0; s < count; ++s)
     if (!(excess_[s] > 0)) marked_[level.index[s]] = 1;
 }

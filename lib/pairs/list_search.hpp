@@ -42,21 +42,23 @@ class ListSearch {
   };
 
   void visit(Level& level, std::size_t depth, int failures);
-  void halve(const Level& level, Halves& halves);
-  void filter(Level& level, std::span<const CornerValues> known);
-  void add_tester(const Level& level, std::size_t seed);
-  void keep_unexcluded(Level& level);
+  /// Fills `half`, whose part is set, with what can meet it of the seeds of `level`.
+  void narrow_to(const Level& level, std::span<const CornerValues> known, Level& half);
+  void add_tester(const Level& level, const Part<D>& part, std::size_t seed);
+  void keep_unexcluded(const Level& level, Level& half);
   void finish(Level& level);
 
   const SeedList<D>* seeds_ = nullptr;
   std::vector<unsigned char> marked_;
   SeedColumns<D> local_;
+  Level all_;
   PowerBounds bounds_;
   double reach_ = 0;
   std::deque<Halves> halves_;  // by depth; references stay valid as it grows
   Level root_;
   std::vector<double> power_, excess_;
-  std::vector<std::uint32_t> tester_;
+  std::vector<std::uint32_t> tester_, kept_;
+  std::array<std::vector<double>, most_corners> fresh_;
   std::array<const double*, most_corners> lower_{};
 };
 

@@ -1,0 +1,73 @@
+/* Candidates from the list of the seeds that can meet the region: no other owns a point of it, so none has
+   to be searched for (docs/mathematics.md, "Which seeds meet a region"). */
+#ifndef POWERCELL_NEIGHBORS_REGION
+#define POWERCELL_NEIGHBORS_REGION
+#include "clip/bisector.cl"
+
+#define LISTED_SEEDS 96 /* most seeds of a list */
+
+typedef struct {
+  __global const seed_t* seeds;  /* by rank */
+  __global const ulong* offset;  /* per region: its list; an empty one means that there is none */
+  __global const uint* seed;     /* ranks */
+} region_lists_t;
+
+static inline bool region_has_list(region_lists_t lists, uint region) {
+  return lists.offset[region] < lists.offset[region + 1];
+}
+
+/* Twice the largest distance of a point of the cell's box from `centre`. */
+static inline real cell_reach(const cell_t* cell, const real* centre) {
+  real low[DIMENSION], high[DIMENSION], r2 = 0;
+  find_box(&cell->at, low, high);
+  for (int k = 0; k < DIMENSION; ++k) {
+    const real t = fmax(high[k] - centre[k], centre[k] - low[k]);
+    r2 += t * t;
+  }
+  return 2 * sqrt(r2);
+}
+
+/* The point from which cuts are ordered: the seed, or the middle of the region where that is farther from
+   the seed than its vertices. Returns cell_reach. */
+static inline real cell_centre(const cell_t* cell, real* centre) {
+  real low[DIMENSION], high[DIMENSION], c2 = 0;
+  find_box(&cell->at, low, high);
+  for (int k = 0; k < DIMENSION; ++k) {
+    centre[k] = (low[k] + high[k]) / 2;
+    c2 += centre[k] * centre[k];
+  }
+  const real reach = cell_reach(cell, centre);
+  if (4 * c2 > reach * reach) return reach;
+  for (int k = 0; k < DIMENSION; ++k) centre[k] = 0;
+  return cell_reach(cell, centre);
+}
+
+/* Clips the cell of rank i, started as `region`, by the seeds in its list, the bisector nearest to the
+   centre first, or farthest beyond it. Returns a PIECE status. */
+static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uint region) {
+  const ulong begin = lists.offset[region];
+  const int count = (int)(lists.offset[region + 1] - begin);
+  const seed_t seed = lists.seeds[i];
+  real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
+  for (int k = 0; k < count; ++k) {
+    const uint j = lists.seed[begin + (ulong)k];
+    real q[DIMENSION], along = 0;
+    difference(lists.seeds[j], seed, q);
+    for (int c = 0; c < DIMENSION; ++c) along += q[c] * centre[c];
+    const real q2 = norm2(q);
+    key[k] = j == i ? REAL_MAX : (q2 + weight_difference(seed, lists.seeds[j]) - 2 * along) / sqrt(q2);
+  }
+  for (;;) {
+    int best = 0;
+    for (int k = 1; k < count; ++k)
+      if (key[k] < key[best]) best = k;
+    if (key[best] >= reach) return PIECE_WHOLE; /* that plane is beyond every vertex, and so are the rest */
+    key[best] = REAL_MAX;
+    const uint j = lists.seed[begin + (ulong)best];
+    const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
+    if (cut == CUT_SHRUNK) reach = cell_reach(cell, centre);
+    if (cut > CUT_SHRUNK) return piece_status(cut);
+  }
+}
+
+#endif

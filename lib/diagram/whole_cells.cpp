@@ -1,0 +1,87 @@
+#include "lib/diagram/whole_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/pairs/region_locator.hpp"
+#include "lib/seeds/threads.hpp"
+
+namespace powercell {
+namespace {
+
+/// The cell's ball about its centroid must be larger than what rounding moved its vertices by, in units of
+/// the domain's size.
+constexpr double least_radius_double = 1e-11, least_radius_float = 1e-3;
+
+using Vector = std::array<double, 3>;
+
+enum class Place : unsigned char { inside, outside, unclear };
+
+/// Tells where cells lie by a point near the centroid (docs/mathematics.md, "Cells inside the domain").
+class Places {
+ public:
+  Places(const RegionMesh& mesh, const PairFinder& finder, bool float32)
+      : dimension_(mesh.dimension), locator_(mesh, finder.groups()) {
+    double extent = 0, reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      extent = std::max(extent, mesh.high[k] - mesh.low[k]);
+      reach = std::max({reach, std::abs(mesh.low[k]), std::abs(mesh.high[k])});
+    }
+    least_radius_ = std::max((float32 ? least_radius_float : least_radius_double) * extent,
+                             64 * std::numeric_limits<double>::epsilon() * reach);
+  }
+
+  Place of(const double* seed, const double* centroid, double mass, double second_moment) const {
+    double variance = second_moment / mass;  // the mean square of the distance from the centroid
+    for (int k = 0; k < dimension_; ++k) variance -= (centroid[k] - seed[k]) * (centroid[k] - seed[k]);
+    const double radius = dimension_ == 3 ? 0.055 * mass / variance : 0.11 * mass / std::sqrt(variance);
+    if (!(variance > 0) || !(radius > least_radius_)) return Place::unclear;
+    // Of meshes made by rule some directions stay within facets, but hardly all of these.
+    constexpr Vector directions[] = {{0.61, 0.29, 0.37}, {-0.23, 0.67, -0.41}, {0.13, -0.47, 0.71}};
+    for (const Vector& direction : directions) {
+      Vector x{};
+      for (int k = 0; k < dimension_; ++k) x[k] = centroid[k] + 0.5 * radius * direction[k];
+      const int regions = locator_.regions_at(x);
+      if (regions == 0) return Place::outside;
+      if (regions == 1) return Place::inside;
+      if (regions > 1) return Place::unclear;
+    }
+    return Place::unclear;
+  }
+
+ private:
+  int dimension_;
+  pairs::RegionLocator locator_;
+  double least_radius_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, const PairFinder& finder,
+                                              const Pairs& pairs, const SeedSet& seeds, bool float32,
+                                              int threads, Measures& measures) {
+  const Places places(mesh, finder, float32);
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  std::vector<Place> place(seeds.size(), Place::inside);
+  parallel_for(threads, seeds.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t rank = begin; rank < end; ++rank) {
+      const std::uint64_t pair = pairs.offset[rank];
+      const std::size_t i = seeds.input[rank];
+      if (pair == pairs.offset[rank + 1] || pairs.region[pair] < mesh.region_count()) continue;
+      if (!(measures.mass[i] > 0)) continue;
+      place[rank] = places.of(&seeds.positions[rank * d], &measures.centroid[i * d], measures.mass[i],
+                              measures.second_moment[i]);
+      if (place[rank] != Place::outside) continue;
+      measures.mass[i] = measures.second_moment[i] = 0;
+      std::fill_n(&measures.centroid[i * d], d, std::numeric_limits<double>::quiet_NaN());
+      measures.status[i] = SeedStatus::hidden;
+    }
+  });
+  std::vector<std::uint32_t> unclear;
+  for (std::uint32_t rank = 0; rank < place.size(); ++rank)
+    if (place[rank] == Place::unclear) unclear.push_back(rank);
+  return unclear;
+}
+
+}  // namespace powercell

@@ -1,0 +1,31 @@
+/// \file
+/// How many regions a point lies in. Internal.
+#pragma once
+
+#include <array>
+
+#include "lib/domain/region_mesh.hpp"
+#include "lib/pairs/region_groups.hpp"
+
+namespace powercell::pairs {
+
+/// Keeps references to both. Thread-safe. \pre the regions are convex polygons in the plane or tetrahedra
+class RegionLocator {
+ public:
+  RegionLocator(const RegionMesh& mesh, const RegionGroups& groups) : mesh_(mesh), groups_(groups) {}
+
+  static constexpr int unclear = -1;
+  /// The number of regions that hold x (two coordinates in the plane) in their interior, or `unclear` where
+  /// x is within rounding of the border of one.
+  int regions_at(const std::array<double, 3>& x) const;
+
+ private:
+  enum class Side { inside, outside, unclear };
+  Side side_of(std::uint32_t region, const std::array<double, 3>& x) const;
+  bool in_box(std::size_t level, std::size_t group, const std::array<double, 3>& x) const;
+
+  const RegionMesh& mesh_;
+  const RegionGroups& groups_;
+};
+
+}  // namespace powercell::pairs
