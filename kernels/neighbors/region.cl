@@ -2,9 +2,11 @@
    to be searched for (docs/mathematics.md, "Which seeds meet a region"). */
 #ifndef POWERCELL_NEIGHBORS_REGION
 #define POWERCELL_NEIGHBORS_REGION
+#include "base/lanes.cl"
 #include "clip/bisector.cl"
 
 #define LISTED_SEEDS 96 /* most seeds of a list */
+#define LISTED_LAST (REAL_MAX / 4) /* key of a seed that has been tried */
 
 typedef struct {
   __global const seed_t* seeds;  /* by rank */
@@ -42,28 +44,40 @@ static inline real cell_centre(const cell_t* cell, real* centre) {
   return cell_reach(cell, centre);
 }
 
-/* Clips the cell of rank i, started as `region`, by the seeds in its list, the bisector nearest to the
-   centre first, or farthest beyond it. Returns a PIECE status. */
-static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uint region) {
+/* Keys of the listed seeds, tagged with their places: how far the bisector is from the centre, less the farther
+   beyond it. Returns the number of keys, a multiple of the lanes. */
+static inline int find_list_keys(region_lists_t lists, uint i, uint region, const real* centre, real* key) {
   const ulong begin = lists.offset[region];
-  const int count = (int)(lists.offset[region + 1] - begin);
+  const int count = (int)(lists.offset[region + 1] - begin), rows = (count + LANES - 1) / LANES;
   const seed_t seed = lists.seeds[i];
-  real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
-  for (int k = 0; k < count; ++k) {
-    const uint j = lists.seed[begin + (ulong)k];
+  for (int k = 0; k < rows * LANES; ++k) {
+    const uint j = lists.seed[begin + (ulong)min(k, count - 1)];
     real q[DIMENSION], along = 0;
     difference(lists.seeds[j], seed, q);
     for (int c = 0; c < DIMENSION; ++c) along += q[c] * centre[c];
     const real q2 = norm2(q);
-    key[k] = j == i ? REAL_MAX : (q2 + weight_difference(seed, lists.seeds[j]) - 2 * along) / sqrt(q2);
+    key[k] = k >= count || j == i ? LISTED_LAST
+                                  : (q2 + weight_difference(seed, lists.seeds[j]) - 2 * along) / sqrt(q2);
   }
+  for (int row = 0; row < rows; ++row)
+    store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)), key + row * LANES);
+  return rows * LANES;
+}
+
+/* Clips the cell of rank i, started as `region`, by the seeds in its list, the bisector nearest to the
+   centre first, or farthest beyond it. Returns a PIECE status. */
+static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uint region) {
+  const seed_t seed = lists.seeds[i];
+  real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
+  const int keys = find_list_keys(lists, i, region, centre, key);
   for (;;) {
-    int best = 0;
-    for (int k = 1; k < count; ++k)
-      if (key[k] < key[best]) best = k;
-    if (key[best] >= reach) return PIECE_WHOLE; /* that plane is beyond every vertex, and so are the rest */
-    key[best] = REAL_MAX;
-    const uint j = lists.seed[begin + (ulong)best];
+    real8 best = load8(key);
+    for (int k = LANES; k < keys; k += LANES) best = least8(best, load8(key + k));
+    const real least = lane_least(best);
+    if (!(untagged(least) < reach)) return PIECE_WHOLE; /* that plane is beyond every vertex, and so are the rest */
+    const uint at = tag_of(least), row = at / LANES * LANES;
+    store8(with_lane(load8(key + row), at % LANES, LISTED_LAST), key + row);
+    const uint j = lists.seed[lists.offset[region] + at];
     const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
     if (cut == CUT_SHRUNK) reach = cell_reach(cell, centre);
     if (cut > CUT_SHRUNK) return piece_status(cut);
