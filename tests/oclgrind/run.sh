@@ -6,7 +6,8 @@ command -v oclgrind >/dev/null || { echo "skipped: no oclgrind"; exit 77; }
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 unset POWERCELL_DEVICE
-POWERCELL_CACHE=never oclgrind --data-races --check-api --log "$log" \
+# Not optimised: oclgrind 21.10 does not know llvm.experimental.noalias.scope.decl, which inlining leaves behind.
+POWERCELL_CACHE=never oclgrind --data-races --check-api --build-options -cl-opt-disable --log "$log" \
   "$1" --test-case="small diagrams of each kind of domain"
 if [ -s "$log" ]; then
   cat "$log"
