@@ -5,15 +5,15 @@ namespace powercell::paper {
 
 namespace {
 
-void growth(const Session& session, const std::string& name, const Domain& domain,
+void growth(const Study& study, const std::string& name, const Domain& domain,
             const std::vector<std::size_t>& sizes) {
   TableFile file(
-      session, name,
+      study, name,
       "seeds uniform in measure, weights uniform in [0, range h^2]; microseconds of processor time a "
       "seed, wall seconds of all; pairs are (region, seed)",
       {"n", "range", "hidden", "pairs", "flann_us", "tree_us", "flann_s", "tree_s"});
   for (const double range : {0.0, 0.5, 4.0}) {
-    Trial trial(session.device, domain, {tree_way(), list_way()});
+    Trial trial(study.device, domain, {tree_way(), list_way()});
     for (const std::size_t n : sizes) {
       const test::SeedArray seeds = white_seeds(domain, n, range);
       const std::vector<Time> times = trial.run(seeds.view(), n < 30000 ? 3 : 2);
@@ -26,15 +26,15 @@ void growth(const Session& session, const std::string& name, const Domain& domai
 
 }  // namespace
 
-void surface_figure(const Session& session) {
-  growth(session, "figure9", bench::domain_of("surface"),
-         session.quick ? std::vector<std::size_t>{1000, 3000, 10000}
+void surface_figure(const Study& study) {
+  growth(study, "figure9", bench::domain_of("surface"),
+         study.quick ? std::vector<std::size_t>{1000, 3000, 10000}
                        : std::vector<std::size_t>{1000, 2000, 5000, 10000, 30000, 100000, 300000});
 }
 
-void volume_figure(const Session& session) {
-  growth(session, "figure10", bench::domain_of("tets"),
-         session.quick ? std::vector<std::size_t>{1000, 3000}
+void volume_figure(const Study& study) {
+  growth(study, "figure10", bench::domain_of("tets"),
+         study.quick ? std::vector<std::size_t>{1000, 3000}
                        : std::vector<std::size_t>{1000, 2000, 5000, 10000, 30000, 100000});
 }
 

@@ -56,16 +56,16 @@ double uniformity(const test::SeedArray& seeds) {
 
 }  // namespace
 
-void sets_figure(const Session& session) {
-  const int strata = session.quick ? 10 : 50;
+void sets_figure(const Study& study) {
+  const int strata = study.quick ? 10 : 50;
   TableFile file(
-      session, "figure8",
+      study, "figure8",
       std::to_string(strata * strata) +
           " sets a dimension, 1024 seeds in the square, 1000 in the cube; weights uniform in [0, range "
           "h^2]; microseconds of processor time a seed",
       {"domain", "uniformity", "range", "hidden", "flann_us", "tree_us"});
   for (const int dimension : {2, 3}) {
-    Trial trial(session.device, test::unit_box(dimension), {tree_way(), list_way()});
+    Trial trial(study.device, test::unit_box(dimension), {tree_way(), list_way()});
     test::Random random(1);
     const int per_axis = dimension == 2 ? 32 : 10;
     for (int a = 0; a < strata; ++a)

@@ -11,12 +11,12 @@
 
 namespace powercell::paper {
 
-void lift_figure(const Session& session);     ///< 3: the height of the lift
-void length_figure(const Session& session);   ///< 4: neighbours asked for at first
-void twins_figure(const Session& session);    ///< 6: queries with the twin and without
-void sets_figure(const Session& session);     ///< 8: uniformity of the locations, range of the weights
-void surface_figure(const Session& session);  ///< 9: number of seeds on a surface
-void volume_figure(const Session& session);   ///< 10: number of seeds in a volume
+void lift_figure(const Study& study);     ///< 3: the height of the lift
+void length_figure(const Study& study);   ///< 4: neighbours asked for at first
+void twins_figure(const Study& study);    ///< 6: queries with the twin and without
+void sets_figure(const Study& study);     ///< 8: uniformity of the locations, range of the weights
+void surface_figure(const Study& study);  ///< 9: number of seeds on a surface
+void volume_figure(const Study& study);   ///< 10: number of seeds in a volume
 
 /// A domain with the name it has in the data.
 struct Subject {

@@ -10,7 +10,7 @@ using namespace powercell::paper;
 
 int main(int argc, char** argv) {
   try {
-    const std::map<std::string, void (*)(const Session&)> figures = {
+    const std::map<std::string, void (*)(const Study&)> figures = {
         {"figure3", lift_figure}, {"figure4", length_figure},  {"figure6", twins_figure},
         {"figure8", sets_figure}, {"figure9", surface_figure}, {"figure10", volume_figure}};
     const Command command = parse_command(argc, argv);
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
       const auto figure = figures.find(word);
       if (figure == figures.end()) throw Error(ErrorCode::invalid_argument, "no figure is called " + word);
       std::fprintf(stderr, "%s ...\n", word.c_str());
-      figure->second(command.session);
+      figure->second(command.study);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "paper_figures: %s\n", error.what());

@@ -34,19 +34,19 @@ const std::vector<Model>& models() {
   return list;
 }
 
-void table(const Session& session) {
+void table(const Study& study) {
   TableFile file(
-      session, "table1",
+      study, "table1",
       "seeds uniform in measure, weights uniform in [0, h^2/2]; wall seconds of the stages and of all, "
       "microseconds of processor time a seed; regions and (region, seed) pairs counted",
       {"model", "kind", "regions", "n", "hidden", "pairs", "provider", "prepare_s", "pairs_s", "neighbors_s",
        "clip_s", "total_s", "us", "relative_error"});
   const std::vector<std::uint64_t> sizes =
-      session.quick ? std::vector<std::uint64_t>{2000} : std::vector<std::uint64_t>{5000, 100000};
+      study.quick ? std::vector<std::uint64_t>{2000} : std::vector<std::uint64_t>{5000, 100000};
   for (const Model& model : models()) {
     std::fprintf(stderr, "table1: %s ...\n", model.name);
     const Domain domain = io::read_domain(model.spec).domain;
-    Trial trial(session.device, domain, {list_way(), tree_way()});
+    Trial trial(study.device, domain, {list_way(), tree_way()});
     for (const std::uint64_t n : sizes) {
       const double h = std::pow(domain.measure() / static_cast<double>(n), 1.0 / domain.cell_dimension());
       const io::SeedTable seeds = io::random_seeds({n, 0, 0.5 * h * h, 1}, domain);
@@ -67,7 +67,7 @@ void table(const Session& session) {
 
 int main(int argc, char** argv) {
   try {
-    table(parse_command(argc, argv).session);
+    table(parse_command(argc, argv).study);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "paper_models: %s\n", error.what());
     return 1;

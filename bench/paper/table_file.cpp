@@ -27,14 +27,14 @@ Command parse_command(int argc, char** argv) {
   return {{Device::choose(), folder, quick}, words};
 }
 
-TableFile::TableFile(const Session& session, const std::string& name, const std::string& setting,
+TableFile::TableFile(const Study& study, const std::string& name, const std::string& setting,
                      std::initializer_list<const char*> columns)
-    : path_(session.folder / (name + ".csv")), file_(path_), columns_(columns.size()) {
-  const DeviceInfo& info = session.device.info();
+    : path_(study.folder / (name + ".csv")), file_(path_), columns_(columns.size()) {
+  const DeviceInfo& info = study.device.info();
   file_ << "# " << setting << "\n# device: " << info.name << ", driver " << info.driver_version << ", "
         << info.compute_units << " compute units; host threads: " << std::thread::hardware_concurrency()
         << "\n# powercell " << version() << ", revision " << POWERCELL_REVISION
-        << (session.quick ? "; quick: small inputs" : "") << "\n";
+        << (study.quick ? "; quick: small inputs" : "") << "\n";
   const char* comma = "";
   for (const char* column : columns) {
     file_ << comma << column;

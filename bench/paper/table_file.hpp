@@ -13,7 +13,7 @@
 namespace powercell::paper {
 
 /// What the figures have in common.
-struct Session {
+struct Study {
   Device device;
   std::filesystem::path folder;  ///< where files go
   bool quick = false;            ///< small inputs, to see that everything works
@@ -21,7 +21,7 @@ struct Session {
 
 /// A command line: [--quick] [--out FOLDER] and the other words.
 struct Command {
-  Session session;
+  Study study;
   std::vector<std::string> words;
 };
 /// \throw Error invalid_argument (an unknown option), and those of Device::choose
@@ -31,7 +31,7 @@ class TableFile {
  public:
   using Value = std::variant<std::string, double, std::uint64_t>;
   /// Writes FOLDER/NAME.csv. \param setting what the figure varies and what it keeps, one line
-  TableFile(const Session& session, const std::string& name, const std::string& setting,
+  TableFile(const Study& study, const std::string& name, const std::string& setting,
             std::initializer_list<const char*> columns);
   /// One value a column; numbers with four digits. \throw Error write_failed when it cannot be written
   void row(std::initializer_list<Value> values);
