@@ -58,6 +58,10 @@ typedef struct {
   int face[3][SHAPE_VERTICES];
 } region_shape_t;
 
+/* Most leaves in the list of those near a leaf (neighbors/near.cl): with their eight seeds each they are numbered
+   by 9 bits (TAG_BITS in base/lanes.cl). */
+#define NEAR_MOST 64
+
 /* Behind a facet of a region lies nothing, or a region: then the corner of it that is not on the facet
    (surfaces), or any number from 0. */
 #define BEHIND_NOTHING (-1)

@@ -1,7 +1,7 @@
 /* One work-item clips one (region, seed) pair by the neighbours of the seed's whole cell: no other seed has a
    bisector that bounds it. For domains of many regions, where a cell is searched for once and not per piece. */
 #include "neighbors/search.cl"
-#include "clip/write.cl"
+#include "clip/arguments.cl"
 
 /* A cell of more walls than this is searched for in each region: few of them meet it. */
 #define WALLS_MOST 64
@@ -39,28 +39,18 @@ static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint
   return PIECE_WHOLE;
 }
 
-/* Arguments as of clip_by_tree_kernel, then the neighbours of rank i: neighbor[wall_offset[i]] and on. */
-__kernel void clip_by_cell_kernel(
-    const uint count, __global const uint* active, __global const uint* pair_seed,
-    __global const uint* pair_region, __global const seed_t* corners, __global const uint* region_offset,
-    __global const uint* region_vertex, __global const int* behind,
-    __global const region_shape_t* shape, __global uint* status,
-    __global stored_real* moments, __global uint* faces, __global int* border, __global stored_real* wall,
-    __global uint* vertices, __global stored_real* vertex, __global uint* link,
-    __global const seed_t* seeds, const uint seed_count, __global const seed_t* node_low,
-    __global const seed_t* node_high, __global const uint* level_offset, const int levels,
-    __global const stored_real* seed_block, __global const stored_real* node_block,
-    __global const uint* near, __global const uint* near_count, __global const stored_real* near_bound,
-    __global const uint* wall_offset, __global const uint* neighbor) {
+/* The neighbours of rank i are neighbor[wall_offset[i]] and on. */
+__kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
+                                  __global const uint* wall_offset, __global const uint* neighbor) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair];
-  const tree_t tree = {seeds, node_low, node_high, level_offset, levels, seed_count};
-  const blocks_t blocks = {seed_block, node_block, near, near_count, near_bound};
-  const output_t out = {moments, faces, border, wall, vertices, vertex, link};
+  const tree_t tree = TREE_OF_ARGUMENTS;
+  const blocks_t blocks = BLOCKS_OF_ARGUMENTS;
+  const output_t out = OUTPUT_OF_ARGUMENTS;
   const uint first = wall_offset[i], walls = wall_offset[i + 1] - first;
   cell_t cell;
-  const regions_t regions = {corners, region_offset, region_vertex, behind, shape};
+  const regions_t regions = REGIONS_OF_ARGUMENTS;
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
   if (result == PIECE_WHOLE)
     result = walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)

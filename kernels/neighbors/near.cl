@@ -4,7 +4,6 @@
 #define POWERCELL_NEIGHBORS_NEAR
 #include "neighbors/blocks.cl"
 
-#define NEAR_MOST 64  /* leaves in a list */
 #define NEAR_LEAST (CELL_DIMENSION == 3 ? 12 : 6)
 #define NEAR_SPREAD (CELL_DIMENSION == 3 ? (real)1.4 : (real)1.1)
 #define NEAR_TRIES 12

@@ -1,12 +1,12 @@
 #include "lib/neighbors/tree_blocks.hpp"
 
+#include "kernels/layout.h"
 #include "lib/clip/variant.hpp"
 #include "lib/neighbors/packed_tree.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr std::size_t near_most = 64;  // NEAR_MOST in kernels/neighbors/near.cl
 constexpr const char* file = "neighbors/build_blocks.cl";
 
 }  // namespace
@@ -26,10 +26,10 @@ TreeBlocks::TreeBlocks(const std::shared_ptr<cl::Context>& context, const Varian
 void TreeBlocks::enqueue(const Tree& tree) {
   const std::uint32_t leaves = (tree.seed_count - 1) / PackedTree::fan + 1;
   const std::uint32_t above = tree.node_count - leaves;
-  seed_block_.reserve(leaves * (dimension_ + 1) * row_bytes_);
-  node_block_.reserve(above * (2 * dimension_ + 1) * row_bytes_);
-  near_bound_.reserve(leaves * bound_bytes_);
-  near_.resize(leaves * near_most);
+  seed_block_.reserve(std::size_t{leaves} * (dimension_ + 1) * row_bytes_);
+  node_block_.reserve(std::size_t{above} * (2 * dimension_ + 1) * row_bytes_);
+  near_bound_.reserve(std::size_t{leaves} * bound_bytes_);
+  near_.resize(std::size_t{leaves} * NEAR_MOST);
   near_count_.resize(leaves);
   pack_
       .args(leaves, above, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
