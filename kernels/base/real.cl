@@ -1,5 +1,5 @@
-/* Scalar types, seeds and the few things that differ between precisions and languages: the only
-   file with #if. Defines: REAL_BITS (32, 64; 80 when compiled as C++ for the last resort on the
+/* Scalar types, seeds and the few things that differ between precisions and languages; with
+   lanes.cl, point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64; 80 when compiled as C++ for the last resort on the
    host), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
    VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
 #ifndef POWERCELL_BASE_REAL

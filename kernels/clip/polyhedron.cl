@@ -60,11 +60,6 @@ static inline int slot_to(const cell_t* cell, int v, int w) {
   return (cell->next[1][v] == (index_t)w) + 2 * (cell->next[2][v] == (index_t)w);
 }
 
-/* Slot k of vertex v with face[k][v] == f. */
-static inline int slot_of(const cell_t* cell, int v, int f) {
-  return (cell->face[1][v] == (index_t)f) + 2 * (cell->face[2][v] == (index_t)f);
-}
-
 /* A new vertex on the edge from `out` by its slot k to `in`, which is kept; `cut` is the new face. The mark
    of the face left of the edge seen from `in` tells the new vertex, which is returned, or -1 if there is no
    room. */
