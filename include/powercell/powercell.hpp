@@ -2,6 +2,7 @@
 /// The whole C++ interface but for opencl.hpp.
 #pragma once
 
+#include <powercell/density.hpp>
 #include <powercell/device.hpp>
 #include <powercell/diagram.hpp>
 #include <powercell/domain.hpp>

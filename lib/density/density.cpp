@@ -1,0 +1,41 @@
+#include <cmath>
+#include <powercell/density.hpp>
+
+#include "lib/density/constant.hpp"
+#include "lib/domain/measure.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+Density Density::constant(double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw Error(ErrorCode::invalid_argument,
+                "a constant density must be positive and finite, got " + std::to_string(value));
+  return Density(std::make_shared<ConstantDensity>(value));
+}
+
+bool Density::is_constant() const {
+  return model_->is_constant();
+}
+
+double Density::total(const Domain& domain, int threads) const {
+  return model_->total(domain, thread_count(threads));
+}
+
+DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls, int threads) {
+  DensityIntegrals result = density.model().integrate(diagram, walls, thread_count(threads));
+  result.domain_mass = density.total(diagram.domain(), threads);
+  return result;
+}
+
+double DensityIntegrals::total() const {
+  CompensatedSum sum;
+  for (double m : mass) sum.add(m);
+  return sum.value();
+}
+
+double DensityIntegrals::relative_error() const {
+  return std::abs(total() - domain_mass) / domain_mass;
+}
+
+}  // namespace powercell
