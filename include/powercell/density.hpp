@@ -10,12 +10,41 @@ namespace powercell {
 
 struct DensityModel;  // what a density is made of (library-internal)
 
+/// Gray values of pixels that fill an axis-aligned rectangle. The caller owns them for the length of the
+/// call.
+struct ImageView {
+  std::size_t width = 0, height = 0;
+  std::span<const double> values;   ///< height x width, rows from the top (largest y) down, none negative
+  std::array<double, 2> low{0, 0};  ///< the lower left corner of the rectangle
+  std::array<double, 2> high{1, 1};
+};
+
 /// An immutable density: mass for each unit of area or volume, nowhere negative. Copies share one state.
 /// Safe to share between threads.
 class POWERCELL_API Density {
  public:
   /// The same everywhere. \throw Error invalid_argument unless finite and positive
   static Density constant(double value);
+
+  /// An expression in x, y and z, evaluated by muparser: + - * / ^, comparisons, `a ? b : c`, sin, exp, sqrt,
+  /// abs, min, max and others, with pi and e. Best smooth at the size of the cells: integrals are adaptive,
+  /// and what they could not reach is in DensityIntegrals::quadrature_error; much narrower peaks may be
+  /// missed. \param tolerance  relative, of the masses \throw Error invalid_argument if it is no expression
+  /// (where); later, if a value is negative or not finite
+  static Density formula(std::string_view expression, double tolerance = 1e-9);
+
+  /// As formula, but a function of a point (third coordinate 0 in 2D), called by several threads at a time.
+  static Density function(std::function<double(const std::array<double, 3>&)> value, double tolerance = 1e-9);
+
+  /// Constant in each pixel of an image and 0 outside its rectangle; integrals are exact. For polygons only.
+  /// \throw Error invalid_argument (sizes; a value that is negative or not finite, which; all values 0)
+  static Density image(const ImageView& image);
+
+  /// Linear in each triangle or tetrahedron, from values at the vertices that the domain was made of (as many
+  /// and in the order of Domain::surface or Domain::volume); integrals are exact.
+  /// \throw Error invalid_argument (a value that is negative or not finite, which; all values 0); later,
+  /// if the domain is no mesh or has another number of vertices
+  static Density nodal(std::span<const double> values);
 
   bool is_constant() const;
   /// The integral over a domain, to the accuracy that integrate() has. \param threads 0 means all
@@ -37,6 +66,7 @@ struct POWERCELL_API DensityIntegrals {
   std::vector<double> second_moment;  ///< n: integral of rho |x - p_i|^2
   std::vector<SeedStatus> status;     ///< n: of the cells, whatever their mass
   double domain_mass = 0;             ///< Density::total of the domain
+  double quadrature_error = 0;  ///< estimate for the worst mass where adaptive rules met their limit, else 0
   /// Where asked for: integrals of rho over the walls, so that (15) of docs/mathematics.md gives the
   /// derivatives of `mass` by the weights. The neighbours of a cell are those of Diagram::adjacency().
   Adjacency walls;

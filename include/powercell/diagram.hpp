@@ -4,13 +4,13 @@
 #pragma once
 
 #include <memory>
-#include <span>
-
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/options.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
+#include <span>
+#include <vector>
 
 namespace powercell {
 
@@ -34,7 +34,8 @@ class POWERCELL_API Diagram {
   /// \throw Error invalid_argument (size), invalid_seed
   void set_weights(std::span<const double> weights);
 
-  std::size_t size() const;  ///< number of seeds
+  std::size_t size() const;               ///< number of seeds
+  std::vector<double> positions() const;  ///< of the seeds as given: n x d, row-major
   const Domain& domain() const;
   const Device& device() const;
   Precision precision() const;  ///< as chosen: float64 or float32

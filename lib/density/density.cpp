@@ -2,6 +2,7 @@
 #include <powercell/density.hpp>
 
 #include "lib/density/constant.hpp"
+#include "lib/density/make.hpp"
 #include "lib/domain/measure.hpp"
 #include "lib/seeds/seed_set.hpp"
 
@@ -12,6 +13,19 @@ Density Density::constant(double value) {
     throw Error(ErrorCode::invalid_argument,
                 "a constant density must be positive and finite, got " + std::to_string(value));
   return Density(std::make_shared<ConstantDensity>(value));
+}
+
+Density Density::formula(std::string_view expression, double tolerance) {
+  return Density(make_formula(expression, tolerance));
+}
+Density Density::function(std::function<double(const std::array<double, 3>&)> value, double tolerance) {
+  return Density(make_function(std::move(value), tolerance));
+}
+Density Density::image(const ImageView& image) {
+  return Density(make_image(image));
+}
+Density Density::nodal(std::span<const double> values) {
+  return Density(make_nodal(values));
 }
 
 bool Density::is_constant() const {

@@ -63,6 +63,9 @@ void Diagram::set_weights(std::span<const double> weights) {
 std::size_t Diagram::size() const {
   return state_->seeds.input_count;
 }
+std::vector<double> Diagram::positions() const {
+  return given_seeds(state_->seeds, state_->duplicate_positions, state_->duplicate_weights).positions;
+}
 const Domain& Diagram::domain() const {
   return state_->domain;
 }

@@ -1,0 +1,130 @@
+#include <muParser.h>
+
+#include "lib/density/make.hpp"
+#include "lib/density/pointwise.hpp"
+#include "lib/density/value.hpp"
+
+namespace powercell {
+namespace {
+
+std::string place(const Point& x) {
+  std::string text = "x = " + std::to_string(x[0]);
+  text += ", y = " + std::to_string(x[1]);
+  return text += ", z = " + std::to_string(x[2]);
+}
+
+void check_tolerance(double tolerance) {
+  if (!(tolerance > 0 && tolerance < 1))
+    throw Error(ErrorCode::invalid_argument, "the tolerance of a density is " + std::to_string(tolerance) +
+                                                 "; it must be between 0 and 1");
+}
+
+/// A parser with its variables. It can be used by one thread at a time and cannot move.
+class Expression {
+ public:
+  explicit Expression(const std::string& text) : text_(text) {
+    guarded([&] {
+      parser_.DefineConst("pi", 3.14159265358979323846);
+      parser_.DefineConst("e", 2.71828182845904523536);
+      parser_.DefineVar("x", &x_[0]);
+      parser_.DefineVar("y", &x_[1]);
+      parser_.DefineVar("z", &x_[2]);
+      parser_.SetExpr(text);
+    });
+  }
+  Expression(const Expression&) = delete;
+
+  double at(const Point& x) {
+    x_ = x;
+    double value = 0;
+    guarded([&] { value = parser_.Eval(); });
+    return value;
+  }
+
+ private:
+  template <class Body>
+  void guarded(const Body& body) const {
+    try {
+      body();
+    } catch (const mu::Parser::exception_type& error) {
+      throw Error(ErrorCode::invalid_argument, "formula \"" + text_ + "\": " + error.GetMsg());
+    }
+  }
+
+  std::string text_;
+  Point x_{};
+  mu::Parser parser_;
+};
+
+class FormulaSource : public PointSource {
+ public:
+  explicit FormulaSource(const std::string& text) : expression_(text) {}
+  void evaluate(std::span<const Point> x, std::uint32_t, std::span<double> values) override {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      values[k] = expression_.at(x[k]);
+      if (!is_density(values[k])) refuse_density(values[k], place(x[k]));
+    }
+  }
+
+ private:
+  Expression expression_;
+};
+
+class Formula : public PointwiseDensity {
+ public:
+  Formula(std::string_view text, double tolerance) : PointwiseDensity(tolerance), text_(text) {
+    check_tolerance(tolerance);
+    Expression(text_).at({0.5, 0.5, 0.5});  // tells whether it is one
+  }
+
+ protected:
+  std::unique_ptr<PointSource> source(const Domain&) const override {
+    return std::make_unique<FormulaSource>(text_);
+  }
+
+ private:
+  std::string text_;
+};
+
+using Function = std::function<double(const std::array<double, 3>&)>;
+
+class FunctionSource : public PointSource {
+ public:
+  explicit FunctionSource(const Function& value) : value_(value) {}
+  void evaluate(std::span<const Point> x, std::uint32_t, std::span<double> values) override {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      values[k] = value_(x[k]);
+      if (!is_density(values[k])) refuse_density(values[k], place(x[k]));
+    }
+  }
+
+ private:
+  const Function& value_;
+};
+
+class FunctionDensity : public PointwiseDensity {
+ public:
+  FunctionDensity(Function value, double tolerance) : PointwiseDensity(tolerance), value_(std::move(value)) {
+    check_tolerance(tolerance);
+    if (!value_) throw Error(ErrorCode::invalid_argument, "the density's function is empty");
+  }
+
+ protected:
+  std::unique_ptr<PointSource> source(const Domain&) const override {
+    return std::make_unique<FunctionSource>(value_);
+  }
+
+ private:
+  Function value_;
+};
+
+}  // namespace
+
+DensityModelPtr make_formula(std::string_view expression, double tolerance) {
+  return std::make_shared<Formula>(expression, tolerance);
+}
+DensityModelPtr make_function(Function value, double tolerance) {
+  return std::make_shared<FunctionDensity>(std::move(value), tolerance);
+}
+
+}  // namespace powercell

@@ -1,0 +1,74 @@
+#include "lib/density/geometric.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "lib/density/cell_integrals.hpp"
+#include "lib/density/region_cells.hpp"
+#include "lib/domain/measure.hpp"
+
+namespace powercell {
+namespace {
+
+double sum_of(const std::vector<Moments>& moments) {
+  CompensatedSum sum;
+  for (const Moments& m : moments) sum.add(m.mass);
+  return sum.value();
+}
+
+constexpr double negligible_share = 1e-3;  // of the mean density
+
+}  // namespace
+
+double GeometricDensity::total(const Domain& domain, int threads) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (known_ && &known_->domain.mesh() == &domain.mesh()) return known_->total;
+  }
+  const Cells regions = region_cells(domain.mesh());
+  // Regions may be many times as large as cells, and as what the density has in them.
+  constexpr int more_depth = 10;
+  int least_depth = 0;
+  while ((domain.region_count() << least_depth) < 1000) ++least_depth;
+  const auto sum = [&](double negligible) {
+    const auto make = [&] { return integrator(domain, {negligible, least_depth, more_depth}); };
+    return sum_of(cell_moments(regions, {}, make, threads));
+  };
+  // What is negligible beside the mean is known once the sum is, roughly.
+  const double rough = sum(std::numeric_limits<double>::infinity());
+  const double total = sum(negligible_share * std::abs(rough) / domain.measure());
+  if (!(total > 0) || !std::isfinite(total))
+    throw Error(ErrorCode::invalid_argument, "the density has the integral " + std::to_string(total) +
+                                                 " over the domain; it must be positive somewhere");
+  const std::lock_guard lock(mutex_);
+  known_.emplace(Known{domain, total});
+  return total;
+}
+
+DensityIntegrals GeometricDensity::integrate(Diagram& diagram, bool walls, int threads) const {
+  const Domain& domain = diagram.domain();
+  const double negligible = negligible_share * total(domain, threads) / domain.measure();
+  const auto make = [&] { return integrator(domain, {negligible, 0, 0}); };
+  const Cells& cells = diagram.cells();
+  const std::vector<double> seeds = diagram.positions();
+  const std::vector<Moments> moments = cell_moments(cells, seeds, make, threads);
+
+  DensityIntegrals result;
+  const auto d = static_cast<std::size_t>(cells.dimension);
+  result.dimension = cells.dimension;
+  result.status = diagram.measures().status;
+  result.centroid.reserve(moments.size() * d);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const Moments& m = moments[i];
+    result.mass.push_back(m.mass);
+    result.second_moment.push_back(m.second);
+    for (std::size_t k = 0; k < d; ++k)
+      result.centroid.push_back(m.mass > 0 ? seeds[i * d + k] + m.first[k] / m.mass
+                                           : std::numeric_limits<double>::quiet_NaN());
+    result.quadrature_error = std::max(result.quadrature_error, m.error);
+  }
+  if (walls) result.walls = wall_integrals(cells, result.status, make, threads);
+  return result;
+}
+
+}  // namespace powercell

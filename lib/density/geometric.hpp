@@ -1,0 +1,49 @@
+/// \file
+/// Densities that are integrated over the geometry of the cells. Internal.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "lib/density/model.hpp"
+#include "lib/density/piece.hpp"
+
+namespace powercell {
+
+/// Integrates over pieces; one for each thread.
+struct PieceIntegrator {
+  virtual ~PieceIntegrator() = default;
+  /// Adds the integrals over a piece, about `seed`.
+  virtual void add(const Piece& piece, const Point& seed, Moments& moments) = 0;
+  /// The integral of the density over a face of a piece.
+  virtual double over_face(const Piece& piece, std::uint64_t face) = 0;
+};
+
+/// What adaptive integrators need to know.
+struct Accuracy {
+  double negligible_density = 0;  ///< errors of the tolerance times this, times the volume, don't count
+  int least_depth = 0;            ///< bisections before any estimate is believed
+  int more_depth = 0;             ///< further bisections, for pieces that are large
+};
+
+class GeometricDensity : public DensityModel {
+ public:
+  double total(const Domain& domain, int threads) const override;
+  DensityIntegrals integrate(Diagram& diagram, bool walls, int threads) const override;
+
+ protected:
+  /// \throw Error unsupported, invalid_argument if the density does not go with the domain
+  virtual std::unique_ptr<PieceIntegrator> integrator(const Domain& domain,
+                                                      const Accuracy& accuracy) const = 0;
+
+ private:
+  struct Known {
+    Domain domain;
+    double total;
+  };
+  mutable std::mutex mutex_;
+  mutable std::optional<Known> known_;  // the last domain asked for
+};
+
+}  // namespace powercell

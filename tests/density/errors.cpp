@@ -1,0 +1,77 @@
+// Densities that are none.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/density/cases.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+/// The message of the error that `body` must throw.
+template <class Body>
+std::string message(ErrorCode code, const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    CHECK(error.code() == code);
+    return error.what();
+  }
+  FAIL("nothing was thrown");
+  return {};
+}
+
+bool has(const std::string& text, const std::string& part) {
+  INFO(text);
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("what is no formula says so when it is made") {
+  for (const char* text : {"", "1 +", "foo(x)", "x y", "(1", "a"})
+    CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula(text); }), "formula"));
+  for (const double tolerance : {0.0, -1.0, 1.0, std::nan("")})
+    CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula("1", tolerance); }), "tolerance"));
+}
+
+TEST_CASE("a formula without a density where it is asked says where") {
+  const Domain domain = unit_box(2);
+  for (const char* text : {"x - 0.5", "1/(x-x)", "log(-1-x)"})
+    CHECK(has(message(ErrorCode::invalid_argument, [&] { (void)Density::formula(text).total(domain); }),
+              "x ="));
+  CHECK(has(message(ErrorCode::invalid_argument, [&] { (void)Density::formula("0*x").total(domain); }),
+            "positive somewhere"));
+}
+
+TEST_CASE("an image must have pixels, a rectangle and something in it") {
+  const auto refused = [](const ImageView& image) {
+    return message(ErrorCode::invalid_argument, [&] { Density::image(image); });
+  };
+  const std::vector<double> blank(6, 0.0), negative{1, 1, -1, 1, 1, 1}, good(6, 1.0);
+  CHECK(has(refused({3, 2, blank}), "blank"));
+  CHECK(has(refused({3, 2, negative}), "pixel 2, 0"));
+  CHECK(has(refused({3, 3, good}), "values"));
+  CHECK(has(refused({0, 3, {}}), "no density"));
+  CHECK(has(refused({3, 2, good, {0, 0}, {0, 1}}), "rectangle"));
+  CHECK(has(message(ErrorCode::unsupported,
+                    [&] {
+                      (void)Density::image({3, 2, good}).total(unit_box(3));
+                    }),
+            "polygon"));
+}
+
+TEST_CASE("values at vertices must go with the mesh") {
+  Random shape(7);
+  const std::vector<double> three{1, 2, 3}, blank(3, 0.0), bad{1, std::nan(""), 1};
+  const Domain mesh = volume_of(cube_tetrahedra(2, 0.15, shape));
+  CHECK(has(message(ErrorCode::invalid_argument, [&] { (void)Density::nodal(three).total(mesh); }),
+            "3 values"));
+  CHECK(
+      has(message(ErrorCode::unsupported, [&] { (void)Density::nodal(three).total(unit_box(2)); }), "mesh"));
+  CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::nodal(blank); }), "0 everywhere"));
+  CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::nodal(bad); }), "vertex 1"));
+}

@@ -1,0 +1,168 @@
+// Formulas, functions and values at vertices against what follows from plain measures.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/density/cases.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+double centroid(const std::vector<double>& centroids, int d, std::size_t i, int k) {
+  return k < d ? centroids[i * static_cast<std::size_t>(d) + static_cast<std::size_t>(k)] : 0.0;
+}
+
+/// Masses, and the sums that consistency asks for: of masses and of first moments.
+void check_sums(const DensityIntegrals& found, double tolerance) {
+  CHECK(found.relative_error() < tolerance);
+  CHECK(found.quadrature_error == 0);
+  for (std::size_t i = 0; i < found.mass.size(); ++i) {
+    CHECK((found.mass[i] > 0) == (found.status[i] == SeedStatus::ok));
+    CHECK(std::isnan(found.centroid[i * static_cast<std::size_t>(found.dimension)]) == (found.mass[i] == 0));
+  }
+}
+
+/// rho = 1 + 0.3 x + 0.2 y + 0.4 z: the mass of a cell is its measure times rho at its centroid.
+void check_affine(const DensityCase& one, const Density& density) {
+  Diagram diagram = diagram_of(one);
+  const DensityIntegrals found = integrate(diagram, density, false);
+  const Measures& plain = diagram.measures();
+  const int d = plain.dimension;
+  for (std::size_t i = 0; i < plain.mass.size(); ++i) {
+    if (plain.status[i] != SeedStatus::ok) continue;
+    double at_centroid = 1;
+    const double slope[3] = {0.3, 0.2, 0.4};
+    for (int k = 0; k < d; ++k) at_centroid += slope[k] * centroid(plain.centroid, d, i, k);
+    CHECK(found.mass[i] == doctest::Approx(plain.mass[i] * at_centroid).epsilon(1e-10));
+  }
+  check_sums(found, 1e-10);
+}
+
+}  // namespace
+
+TEST_CASE("an affine density gives the measure times its value at the centroid") {
+  INFO(replay_hint());
+  for (const DensityCase& one : flat_cases(60)) {
+    INFO(one.name);
+    check_affine(one, Density::formula("1 + 0.3*x + 0.2*y + 0.4*z"));
+    check_affine(one, Density::function([](const std::array<double, 3>& x) {
+                   return 1 + 0.3 * x[0] + 0.2 * x[1] + 0.4 * x[2];
+                 }));
+  }
+}
+
+TEST_CASE("a quadratic density gives the second moment, and the walls are derivatives") {
+  INFO(replay_hint());
+  for (const DensityCase& one : flat_cases(60)) {
+    INFO(one.name);
+    const Density density = Density::formula("(x-0.2)^2 + (y-0.3)^2 + (z-0.1)^2");
+    Diagram diagram = diagram_of(one);
+    const DensityIntegrals found = integrate(diagram, density, false);
+    const Measures& plain = diagram.measures();
+    const int d = plain.dimension;
+    for (std::size_t i = 0; i < plain.mass.size(); ++i) {
+      if (plain.status[i] != SeedStatus::ok) continue;
+      // |x - q|^2 = |x - p|^2 + 2 (x - p).(p - q) + |p - q|^2, and z = 0 in the plane.
+      double expected = plain.second_moment[i];
+      const double q[3] = {0.2, 0.3, 0.1};
+      for (int k = 0; k < 3; ++k) {
+        const double p = k < d ? one.seeds.coordinate(i, k) : 0.0;
+        const double c = centroid(plain.centroid, d, i, k);
+        expected += plain.mass[i] * (p - q[k]) * (2 * (c - p) + p - q[k]);
+      }
+      CHECK(std::abs(found.mass[i] - expected) < 1e-11 + 1e-9 * expected);
+    }
+    check_sums(found, 1e-9);
+    check_walls_are_derivatives(one, density, 0.5);
+  }
+}
+
+TEST_CASE("adaptive rules reach their tolerance where a density has a peak") {
+  DensityCase one{"square", unit_box(2), {2, {}, {}}};
+  Random random(test_seed());
+  one.seeds = scatter(Distribution::white, 30, 2, {}, random);
+  // The integral of exp(-a |x - c|^2) over the square, by error functions.
+  const double a = 200, c[2] = {0.37, 0.61};
+  double expected = 1;
+  for (const double m : c)
+    expected *=
+        std::sqrt(std::acos(-1.0) / a) / 2 * (std::erf(std::sqrt(a) * (1 - m)) + std::erf(std::sqrt(a) * m));
+  for (const double tolerance : {1e-6, 1e-9}) {
+    const Density peak = Density::formula("exp(-200*((x-0.37)^2 + (y-0.61)^2))", tolerance);
+    CHECK(std::abs(peak.total(one.domain) / expected - 1) < tolerance);
+    Diagram diagram = diagram_of(one);
+    const DensityIntegrals found = integrate(diagram, peak, false);
+    CHECK(std::abs(found.total() / expected - 1) < tolerance);
+    double moment = 0;
+    for (std::size_t i = 0; i < found.mass.size(); ++i)
+      if (found.mass[i] > 0) moment += found.mass[i] * found.centroid[2 * i];
+    CHECK(std::abs(moment / expected - c[0]) < 10 * tolerance);  // the sides cut off less than 1e-11
+  }
+}
+
+TEST_CASE("a jump is integrated as far as bisections go, and the rest is reported") {
+  DensityCase one{"square", unit_box(2), {2, {}, {}}};
+  Random random(test_seed());
+  one.seeds = scatter(Distribution::white, 30, 2, {}, random);
+  const Density disk = Density::formula("(x-0.5)^2 + (y-0.5)^2 < 0.16 ? 3 : 1");
+  const double expected = 1 + 2 * 0.16 * std::acos(-1.0);
+  Diagram diagram = diagram_of(one);
+  const DensityIntegrals found = integrate(diagram, disk, false);
+  CHECK(std::abs(found.total() / expected - 1) < 1e-4);
+  CHECK(std::abs(disk.total(one.domain) / expected - 1) < 1e-6);
+  CHECK(found.quadrature_error > 0);
+  CHECK(found.quadrature_error < 1e-3);
+}
+
+TEST_CASE("values at vertices are integrated exactly on meshes") {
+  INFO(replay_hint());
+  Random shape(7), random(test_seed());
+  struct Meshed {
+    const char* name;
+    Mesh mesh;
+    bool solid;
+  };
+  const Meshed meshed[] = {{"torus", torus(16, 9), false},
+                           {"cube_tetrahedra", cube_tetrahedra(2, 0.15, shape), true}};
+  for (const auto& [name, mesh, solid] : meshed) {
+    INFO(name);
+    const Domain domain = solid ? volume_of(mesh) : surface_of(mesh);
+    DensityCase one{name, domain, seeds_for(domain, Distribution::white, WeightRange::W1, 50, random)};
+    std::vector<double> affine, any;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      const double* x = &mesh.vertices[3 * v];
+      affine.push_back(3 + 0.3 * x[0] + 0.2 * x[1] + 0.4 * x[2]);
+      any.push_back(random.uniform(0, 2));
+    }
+    Diagram diagram = diagram_of(one);
+    const DensityIntegrals found = integrate(diagram, Density::nodal(affine), true);
+    const DensityIntegrals formula = integrate(diagram, Density::formula("3 + 0.3*x + 0.2*y + 0.4*z"), true);
+    check_sums(found, 1e-12);
+    for (std::size_t i = 0; i < found.mass.size(); ++i) {
+      CHECK(found.mass[i] == doctest::Approx(formula.mass[i]).epsilon(1e-10));
+      CHECK(found.second_moment[i] == doctest::Approx(formula.second_moment[i]).epsilon(1e-10));
+    }
+    REQUIRE(found.walls.neighbor == formula.walls.neighbor);
+    CHECK(found.walls.neighbor == diagram.adjacency().neighbor);
+    for (std::size_t k = 0; k < found.walls.wall.size(); ++k)
+      CHECK(found.walls.wall[k] == doctest::Approx(formula.walls.wall[k]).epsilon(1e-8));
+    const DensityIntegrals other = integrate(diagram, Density::nodal(any), false);
+    check_sums(other, 1e-12);
+    if (solid) check_walls_are_derivatives(one, Density::nodal(any), 1.0);
+  }
+}
+
+TEST_CASE("threads do not change a bit") {
+  Random random(test_seed());
+  const Domain domain = unit_box(3);
+  DensityCase one{"cube", domain, seeds_for(domain, Distribution::white, WeightRange::W1, 300, random)};
+  const Density density = Density::formula("exp(-x) + y*z");
+  Diagram diagram = diagram_of(one);
+  const DensityIntegrals single = integrate(diagram, density, true, 1),
+                         several = integrate(diagram, density, true, 3);
+  CHECK(single.mass == several.mass);
+  CHECK(single.second_moment == several.second_moment);
+  CHECK(single.walls.wall == several.walls.wall);
+}
