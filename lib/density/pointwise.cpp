@@ -53,10 +53,10 @@ class SimplexIntegrator : public PieceIntegrator {
     region_ = piece.region();
     tolerance_ = cell_tolerance_;
     depth_ = (piece.solid() ? 12 : 20) + more_depth_;
-    const Point apex = minus(piece.vertex(0), seed);
+    const Point apex = minus(middle_of(piece), seed);
     if (!piece.solid()) {
-      Point before = minus(piece.vertex(1), seed);
-      for (std::uint64_t k = 2; k < piece.vertex_count(); ++k) {
+      Point before = minus(piece.vertex(piece.vertex_count() - 1), seed);
+      for (std::uint64_t k = 0; k < piece.vertex_count(); ++k) {
         const Point next = minus(piece.vertex(k), seed);
         add_simplex<2>({apex, before, next}, 0, moments);
         before = next;
@@ -65,7 +65,6 @@ class SimplexIntegrator : public PieceIntegrator {
     }
     for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f)
       for_triangles(piece, f, [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-        if (a == 0 || b == 0 || c == 0) return;  // flat: the apex is vertex 0
         add_simplex<3>(
             {apex, minus(piece.vertex(a), seed), minus(piece.vertex(b), seed), minus(piece.vertex(c), seed)},
             0, moments);
@@ -91,6 +90,15 @@ class SimplexIntegrator : public PieceIntegrator {
   }
 
  private:
+  /// The mean of the vertices: simplices from there are smaller than those from a vertex.
+  static Point middle_of(const Piece& piece) {
+    Point sum{};
+    for (std::uint64_t v = 0; v < piece.vertex_count(); ++v)
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += piece.vertex(v)[k];
+    for (double& x : sum) x /= static_cast<double>(piece.vertex_count());
+    return sum;
+  }
+
   template <class Body>
   static void for_triangles(const Piece& piece, std::uint64_t face, const Body& body) {
     const std::uint64_t count = piece.corner_count(face), first = piece.corner(face, 0);
@@ -218,7 +226,7 @@ class SimplexIntegrator : public PieceIntegrator {
   Point seed_{};
   std::uint32_t region_ = 0;
   int depth_ = 0;
-  static constexpr std::size_t most_points = 35;  // rule 3 of a tetrahedron
+  static constexpr std::size_t most_points = 70;  // rule 4 of a tetrahedron
   std::array<Point, most_points> place_, at_;     // about the seed, and where that is
   std::array<double, most_points> value_;
 };
