@@ -13,12 +13,12 @@ set -eu
 # What the library and the tool need to be built and to run on the CPU.
 build_packages="cmake ninja-build g++ pkg-config
   ocl-icd-opencl-dev opencl-c-headers pocl-opencl-icd
-  libflann-dev liblz4-dev libgeos-dev libmuparser-dev
+  libflann-dev liblz4-dev libgeos-dev libmuparser-dev libeigen3-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libcairo2-dev libpugixml-dev zlib1g-dev"
 
 # What the tests need besides: the peers that results are compared with, and the programs that read
 # written files back.
-test_packages="doctest-dev libcgal-dev libeigen3-dev voro++-dev libtbb-dev
+test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev
   clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-meshio python3-shapely python3-vtk9"
 
 # What the benchmarks need besides those: their driver, and the plots.

@@ -22,6 +22,10 @@ for stage in $(echo "$stages" | tr '|' ' '); do
 done
 forbid lib/c_api "lib/($stages|primitives|cl|diagram|verify)/" "the C interface is built on the public headers"
 forbid include "lib/|CL/opencl.hpp|flann|Eigen|geos|muParser" "public headers must not leak what the library is made of"
+forbid lib/linear "lib/(primitives|$stages|diagram|verify|c_api|cl|transport|density)/" "lib/linear knows graphs only"
+# On a surface the normals of Domain::mesh() are needed, a struct without code.
+forbid lib/transport "lib/(primitives|$stages|diagram|verify|c_api|cl|density)/" \
+  "transport is built on the public headers and lib/linear" 'lib/domain/region_mesh\.hpp"'
 # The pictures draw the regions that Domain::mesh() hands out, a struct without code.
 forbid apps "lib/" "the tool is built on the public headers" 'lib/domain/region_mesh\.hpp"'
 [ $bad -eq 0 ] && echo "check_includes: includes point one way"

@@ -11,5 +11,6 @@
 #include <powercell/peaks.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
+#include <powercell/transport.hpp>
 #include <powercell/verify.hpp>
 #include <powercell/version.hpp>

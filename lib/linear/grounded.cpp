@@ -1,0 +1,28 @@
+#include "lib/linear/grounded.hpp"
+
+namespace powercell {
+
+void factorise(const SparseRows& matrix, bool singular, Factorisation& factors) {
+  const Eigen::Index n = matrix.rows() - (singular ? 1 : 0);
+  if (n == 0) return;
+  // Symmetric, so rows are columns.
+  const Eigen::SparseMatrix<double> columns = matrix.topLeftCorner(n, n);
+  factors.compute(columns);
+  if (factors.info() != Eigen::Success)
+    throw Error(ErrorCode::internal,
+                "the factorisation of a system of " + std::to_string(n) + " unknowns broke down");
+}
+
+void solve_factorised(const Factorisation& factors, bool singular, const Vector& b, Vector& x) {
+  const Eigen::Index n = b.size() - (singular ? 1 : 0);
+  x.setZero(b.size());
+  if (n == 0) return;
+  if (!singular) {
+    x = factors.solve(b);
+    return;
+  }
+  x.head(n) = factors.solve(Vector(b.head(n).array() - b.mean()));
+  x.array() -= x.mean();
+}
+
+}  // namespace powercell

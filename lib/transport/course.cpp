@@ -1,0 +1,55 @@
+#include "lib/transport/course.hpp"
+
+#include <chrono>
+
+namespace powercell {
+
+Course::Course(Evaluator& evaluator, const TransportOptions& options, double tolerance, Vector target)
+    : evaluator_(evaluator), options_(options), tolerance_(tolerance), target_(std::move(target)) {}
+
+Direction Course::solve(const Laplacian& system, const Vector& right) {
+  const auto start = std::chrono::steady_clock::now();
+  Direction result;
+  result.linear = solve_laplacian(system, right, options_.linear, options_.linear_residual,
+                                  evaluator_.diagram().domain().cell_dimension());
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  ++solved_;
+  return result;
+}
+
+void Course::accept(TransportStep step, const Iterate& at, const Vector& target) {
+  step.step = static_cast<int>(steps_.size());
+  step.error = at.error(target);
+  step.gradient = at.gradient(target).norm();
+  step.least = at.least(target);
+  step.empty = at.empty;
+  step.dual = at.dual(target);
+  step.diagrams = static_cast<int>(evaluator_.count() - counted_);
+  step.diagram_seconds = evaluator_.seconds() - timed_;
+  counted_ = evaluator_.count();
+  timed_ = evaluator_.seconds();
+  steps_.push_back(step);
+  const double error = at.error(target_);
+  if (best_.size() == 0 || at.empty < best_empty_ || (at.empty == best_empty_ && error < best_error_)) {
+    best_ = at.weights;
+    best_empty_ = at.empty;
+    best_error_ = error;
+  }
+  if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
+}
+
+Iterate run_course(Course& course, const Vector& weights) {
+  Iterate at = find_start(course, weights);
+  const auto to_the_end = [&] {
+    return newton(course, at, course.target(), course.tolerance(), TransportPhase::newton, 1);
+  };
+  PhaseEnd end = PhaseEnd::stalled;
+  if (at.empty > 0) end = ascend(course, at, true);
+  if (end != PhaseEnd::converged && at.empty == 0) end = to_the_end();
+  if (end == PhaseEnd::stalled && at.empty == 0) end = ramp(course, at);
+  if (end == PhaseEnd::stalled || end == PhaseEnd::disconnected) end = ascend(course, at, false);
+  if (end == PhaseEnd::converged || at.weights == course.best()) return at;
+  return course.evaluator().evaluate(course.best());
+}
+
+}  // namespace powercell

@@ -1,0 +1,46 @@
+#include "lib/transport/iterate.hpp"
+
+#include <chrono>
+#include <cmath>
+
+namespace powercell {
+
+double Iterate::error(const Vector& target) const {
+  return (mass().array() / target.array() - 1).abs().maxCoeff();
+}
+
+double Iterate::least(const Vector& target) const {
+  return (mass().array() / target.array()).minCoeff();
+}
+
+double Iterate::primal() const {
+  return Eigen::Map<const Vector>(cells.second_moment.data(), weights.size()).sum();
+}
+
+double Iterate::dual(const Vector& target) const {
+  return primal() + weights.dot(gradient(target));
+}
+
+Evaluator::Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, int threads)
+    : diagram_(diagram),
+      density_(density),
+      positions_(positions),
+      dimension_(static_cast<std::size_t>(diagram.domain().dimension())),
+      threads_(threads) {}
+
+Iterate Evaluator::evaluate(Vector weights) {
+  const auto start = std::chrono::steady_clock::now();
+  Iterate result;
+  weights.array() -= weights.mean();
+  diagram_.set_weights({weights.data(), static_cast<std::size_t>(weights.size())});
+  if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
+  result.cells = integrate(diagram_, density_, true, threads_);
+  result.conductance = conductances(diagram_, result.cells.walls, positions_);
+  result.weights = std::move(weights);
+  for (const double m : result.cells.mass) result.empty += m > 0 ? 0 : 1;
+  ++count_;
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace powercell

@@ -1,0 +1,62 @@
+/// \file
+/// Weights with the masses of their cells: where the solver stands. Internal.
+#pragma once
+
+#include <powercell/transport.hpp>
+
+#include "lib/linear/laplacian.hpp"
+
+namespace powercell {
+
+/// A point of the course, evaluated.
+struct Iterate {
+  Vector weights;          // of mean 0
+  DensityIntegrals cells;  // with walls
+  /// As cells.walls: c_ij = -dm_i/dw_j (mathematics, (15)).
+  std::vector<double> conductance;
+  std::size_t empty = 0;  // cells without mass
+
+  Eigen::Map<const Vector> mass() const {
+    return {cells.mass.data(), static_cast<Eigen::Index>(cells.mass.size())};
+  }
+  /// max |m_i / v_i - 1|
+  double error(const Vector& target) const;
+  /// min m_i / v_i
+  double least(const Vector& target) const;
+  /// v - m, the gradient of the dual
+  Vector gradient(const Vector& target) const { return target - mass(); }
+  double primal() const;
+  /// (26)
+  double dual(const Vector& target) const;
+};
+
+/// Evaluates weights of the seeds that a diagram has.
+class Evaluator {
+ public:
+  /// All are kept by reference. \param positions  n x d, those of the diagram
+  Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, int threads);
+
+  /// The diagram keeps these weights. Their mean is taken off first.
+  Iterate evaluate(Vector weights);
+
+  std::size_t size() const { return positions_.size() / dimension_; }
+  std::span<const double> positions() const { return positions_; }
+  Diagram& diagram() { return diagram_; }
+  std::size_t count() const { return count_; }  ///< diagrams so far
+  double seconds() const { return seconds_; }   ///< wall clock in them
+
+ private:
+  Diagram& diagram_;
+  const Density& density_;
+  std::span<const double> positions_;
+  std::size_t dimension_;
+  int threads_;
+  std::size_t count_ = 0;
+  double seconds_ = 0;
+};
+
+/// Conductances of `walls`, parallel to walls.wall. On a surface a wall runs through many triangles and moves
+/// in each at a speed of its own, which takes the geometry of the diagram's cells.
+std::vector<double> conductances(Diagram& diagram, const Adjacency& walls, std::span<const double> positions);
+
+}  // namespace powercell

@@ -1,0 +1,51 @@
+#include <cmath>
+
+#include "lib/transport/course.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr double shortest = 1.0 / 4096;  // step that is tried
+constexpr double short_step = 1.0 / 32;  // at most
+constexpr int most_short_steps = 8;      // in a row
+
+}  // namespace
+
+PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolerance, TransportPhase phase,
+                double exponent) {
+  const double least = 0.5 * std::min(1.0, at.least(target));
+  int short_steps = 0;
+  while (true) {
+    if (at.error(target) < tolerance) return PhaseEnd::converged;
+    if (course.at_limit()) return PhaseEnd::step_limit;
+    const Laplacian system =
+        make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, {});
+    if (connected_parts(system.matrix) > 1) return PhaseEnd::disconnected;
+    const Vector gradient = at.gradient(target);
+    const Direction direction = course.solve(system, gradient);
+    double length = 1;
+    Iterate next;
+    while (true) {
+      next = course.evaluator().evaluate(at.weights + length * direction.linear.solution);
+      if (next.empty == 0 && next.least(target) >= least &&
+          next.gradient(target).norm() <= (1 - length / 2) * gradient.norm())
+        break;
+      length /= 2;
+      if (length < shortest) return PhaseEnd::stalled;
+    }
+    at = std::move(next);
+    TransportStep step;
+    step.phase = phase;
+    step.exponent = exponent;
+    step.length = length;
+    step.linear = direction.linear.solver;
+    step.linear_iterations = direction.linear.iterations;
+    step.linear_residual = direction.linear.residual;
+    step.linear_seconds = direction.seconds;
+    course.accept(step, at, target);
+    short_steps = length <= short_step ? short_steps + 1 : 0;
+    if (short_steps == most_short_steps) return PhaseEnd::stalled;
+  }
+}
+
+}  // namespace powercell

@@ -1,0 +1,115 @@
+#include "lib/transport/state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include "lib/transport/course.hpp"
+#include "lib/transport/merge.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double sum_tolerance = 1e-9;  // of the masses' sum, relative
+
+std::string digits(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.12g", value);
+  return text.data();
+}
+
+/// Rows of `width` values, those of `kept`.
+std::vector<double> rows(std::span<const double> values, const std::vector<std::uint32_t>& kept,
+                         std::size_t width) {
+  std::vector<double> result(kept.size() * width);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    std::copy_n(&values[kept[k] * width], width, &result[k * width]);
+  return result;
+}
+
+Vector vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+TransportSolver::State::State(Device device, Domain domain, TransportOptions given)
+    : options(std::move(given)),
+      tolerance(options.tolerance),
+      diagram(std::move(device), std::move(domain), options.diagram) {}
+
+double TransportSolver::State::used_tolerance() const {
+  if (tolerance > 0) return tolerance;
+  return diagram.precision() == Precision::float32 ? 1e-3 : 1e-6;
+}
+
+std::vector<double> TransportSolver::State::targets(double total) const {
+  if (masses.empty()) return std::vector<double>(size(), total / static_cast<double>(size()));
+  const double sum = vector_of(masses).sum();
+  if (!options.rescale && !(std::abs(sum - total) <= sum_tolerance * total))
+    throw Error(ErrorCode::invalid_argument, "the masses sum to " + digits(sum) + ", the domain's mass is " +
+                                                 digits(total) + "; rescale them if their ratios are meant");
+  std::vector<double> result = masses;
+  for (double& m : result) m *= total / sum;
+  return result;
+}
+
+const TransportResult& TransportSolver::State::solve() {
+  if (positions.empty())
+    throw Error(ErrorCode::invalid_argument, "solve before set_seeds: there are no seeds");
+  const std::size_t d = dimension();
+  const double total = options.density.total(diagram.domain(), options.diagram.threads);
+  const std::vector<double> target = targets(total);
+
+  TransportResult next;
+  next.merged_with = first_at_position(positions, d);
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (next.merged_with[i] == i) kept.push_back(i);
+  next.merged = size() - kept.size();
+  std::vector<double> joined(size());
+  for (std::size_t i = 0; i < size(); ++i) joined[next.merged_with[i]] += target[i];
+
+  const std::vector<double> kept_positions = rows(positions, kept, d), kept_weights = rows(weights, kept, 1);
+  if (next.merged > 0 || !diagram_has_all) {
+    diagram.set_seeds({diagram.domain().dimension(), kept_positions, kept_weights});
+    diagram_has_all = next.merged == 0;
+  }
+  next.total_mass = total;
+  next.tolerance = used_tolerance();
+  next.target = target;
+  Evaluator evaluator(diagram, options.density, kept_positions, options.diagram.threads);
+  Course course(evaluator, options, next.tolerance, vector_of(rows(joined, kept, 1)));
+  const Iterate at = run_course(course, vector_of(kept_weights));
+  next.steps = course.steps();
+  next.diagrams = evaluator.count();
+  next.error = at.error(course.target());
+  next.converged = next.error < next.tolerance;
+  next.primal = at.primal();
+  next.dual = at.dual(course.target());
+  result = std::move(next);
+  fill_result(at, kept);
+  solved = true;
+  return result;
+}
+
+void TransportSolver::State::fill_result(const Iterate& at, const std::vector<std::uint32_t>& kept) {
+  const std::size_t n = size(), d = dimension();
+  result.mass.assign(n, 0);
+  result.second_moment.assign(n, 0);
+  result.centroid.assign(n * d, nan);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    weights[kept[k]] = at.weights[static_cast<Eigen::Index>(k)];
+    result.mass[kept[k]] = at.cells.mass[k];
+    result.second_moment[kept[k]] = at.cells.second_moment[k];
+    std::copy_n(&at.cells.centroid[k * d], d, &result.centroid[kept[k] * d]);
+  }
+  for (std::size_t i = 0; i < n; ++i) weights[i] = weights[result.merged_with[i]];
+  result.weights = weights;
+}
+
+}  // namespace powercell

@@ -1,0 +1,36 @@
+/// \file
+/// What a TransportSolver keeps between calls. Internal.
+#pragma once
+
+#include <powercell/transport.hpp>
+
+#include "lib/transport/iterate.hpp"
+
+namespace powercell {
+
+struct TransportSolver::State {
+  TransportOptions options;
+  double tolerance = 0;  // as in TransportOptions
+  Diagram diagram;
+  bool diagram_has_all = false;  // of the seeds; else those that are not merged
+
+  std::vector<double> positions, weights, masses;  // of all seeds; no masses: equal ones
+  TransportResult result;
+  bool solved = false;
+
+  State(Device device, Domain domain, TransportOptions options);
+
+  std::size_t dimension() const { return static_cast<std::size_t>(diagram.domain().dimension()); }
+  std::size_t size() const { return positions.size() / dimension(); }
+  double used_tolerance() const;
+  SeedsView seeds() const { return {diagram.domain().dimension(), positions, weights}; }
+
+  const TransportResult& solve();
+
+ private:
+  /// Masses asked for, rescaled to the sum `total`. \throw Error invalid_argument
+  std::vector<double> targets(double total) const;
+  void fill_result(const Iterate& at, const std::vector<std::uint32_t>& kept);
+};
+
+}  // namespace powercell
