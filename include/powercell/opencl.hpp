@@ -73,7 +73,8 @@ class POWERCELL_API DeviceDiagram {
   /// \param status     written: n cl_uint, each a DeviceSeedStatus
   /// \param wait_count, wait_list  events that must be complete before the first command runs
   /// \param done       if not null: the event of the last command, for the caller to release
-  /// The queue is flushed. An exception leaves commands behind that write scratch memory only.
+  /// The queue is flushed. An exception hands out no event, may leave commands behind that still write
+  /// scratch memory or results, and leaves the diagram as it was: it can be called again.
   /// \throw Error invalid_argument (a buffer that is too small or of another context, which),
   ///   out_of_device_memory, opencl
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,

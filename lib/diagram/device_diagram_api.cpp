@@ -81,7 +81,12 @@ void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, c
     s.enqueue(positions, weights, n, measures, status, done);
   else if (done)
     cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
-  cl::check(clFlush(context.queue()), "flushing the caller's queue");
+  const cl_int flushed = clFlush(context.queue());
+  if (flushed != CL_SUCCESS && done) {  // an exception hands out no event
+    clReleaseEvent(*done);
+    *done = nullptr;
+  }
+  cl::check(flushed, "flushing the caller's queue");
 }
 
 }  // namespace powercell

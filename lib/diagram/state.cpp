@@ -98,11 +98,11 @@ void Diagram::State::prepare(bool want_regions) {
     timings.prepare += tree_watch.seconds();
   }
   find_pairs(want_regions);
-  ready = true;
 }
 
 void Diagram::State::find_pairs(bool want_regions) {
   Stopwatch pair_watch;
+  ready = false;  // until pairs and candidates are both new: what throws in between must not leave them mixed
   // One region meets all seeds, whatever their weights.
   if (!paired || domain.mesh().region_count() != 1) {
     if (!finder) finder.emplace(domain.mesh(), thread_count(options.threads));
@@ -119,6 +119,7 @@ void Diagram::State::find_pairs(bool want_regions) {
   pairs.list_offset = {};
   pairs.list_seed = {};
   timings.neighbors = neighbor_watch.seconds() - (device.build_seconds() - built_before);
+  ready = true;
 }
 
 void Diagram::State::pass(bool want_adjacency, bool want_cells) {

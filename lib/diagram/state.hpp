@@ -31,7 +31,7 @@ struct Diagram::State {
   bool given = false;    // set_seeds has been called
   bool ordered = false;  // the tree and its boxes on the device belong to the positions
   bool paired = false;   // the pairs belong to the positions, and to some weights
-  bool ready = false;    // tree, pairs and device buffers belong to the positions and weights
+  bool ready = false;    // tree, pairs, candidates and device buffers belong to the positions and weights
   PackedTree tree;
   std::optional<PairFinder> finder;
   Pairs pairs;
