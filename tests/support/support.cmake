@@ -1,13 +1,19 @@
 # Included by the folder.cmake of a test folder, and by bench/: two static libraries, each built once.
 #   powercell_support   generators, domains, brute force, comparisons
 #   powercell_oracles   CGAL and voro++ behind plain headers (CGAL takes long to compile)
+# and powercell_opencl_shim, which a test links besides to count OpenCL calls and make them fail.
 if(NOT TARGET powercell_support)
   set(support ${PROJECT_SOURCE_DIR}/tests/support)
   add_library(powercell_support STATIC EXCLUDE_FROM_ALL
     ${support}/generators.cpp ${support}/meshes.cpp ${support}/domains.cpp ${support}/polytope.cpp
-    ${support}/brute_force.cpp ${support}/compare.cpp ${support}/compare_geometry.cpp ${support}/setups.cpp)
+    ${support}/brute_force.cpp ${support}/compare.cpp ${support}/compare_geometry.cpp ${support}/setups.cpp
+    ${support}/same_bits.cpp)
   target_compile_options(powercell_support PRIVATE -Wall -Wextra)
   target_link_libraries(powercell_support PUBLIC powercell_test_lib)
+
+  add_library(powercell_opencl_shim OBJECT EXCLUDE_FROM_ALL ${support}/opencl_shim.cpp)
+  target_compile_options(powercell_opencl_shim PRIVATE -Wall -Wextra)
+  target_link_libraries(powercell_opencl_shim PUBLIC powercell_test_lib ${CMAKE_DL_LIBS})
 
   find_package(CGAL REQUIRED)
   find_library(VORO_LIBRARY voro++ REQUIRED)

@@ -1,0 +1,90 @@
+// Every OpenCL call of full runs fails once, and the device gets lost at each that needs it. Most jobs try a
+// few calls of each entry point here; all calls of all jobs, under more codes, are
+//   test_faults --no-skip -tc='campaign*'
+#include <doctest/doctest.h>
+
+#include "lib/cl/context.hpp"
+#include "tests/faults/sweep.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+std::vector<JobKind> jobs_on(const Setup& setup) {
+  std::vector<JobKind> jobs;
+  for (const SmallCase& small : small_cases()) {
+    jobs.push_back(diagram_job(setup, small.domain, small.seeds));
+    if (setup.options.neighbors == Neighbors::tree)
+      jobs.push_back(device_diagram_job(setup, small.domain, small.seeds));
+  }
+  return jobs;
+}
+
+void report(const JobKind& job, cl_int code, const Tally& tally) {
+  CHECK(tally.errors > 0);
+  MESSAGE(job.name, ", ", cl::error_name(code), ": ", tally.tried, " faults, ", tally.errors, " errors, ",
+          tally.survived, " survived");
+}
+
+}  // namespace
+
+TEST_CASE("every call of a run fails once: an error, nothing lost, and the object works on") {
+  const SmallCase cube = small_cases()[3];
+  const JobKind job = diagram_job(main_setups().front(), cube.domain, cube.seeds);
+  report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries()));
+}
+
+TEST_CASE("calls of every entry point fail in every kind of run") {
+  for (const Setup& setup : all_setups())
+    for (const JobKind& job : jobs_on(setup))
+      report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
+}
+
+TEST_CASE("a fault where a cell has more faces than the kernels hold") {
+  const SmallCase many = many_faces(300);
+  for (const Setup& setup : main_setups()) {
+    const JobKind job = diagram_job(setup, many.domain, many.seeds);
+    report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
+  }
+}
+
+TEST_CASE("the device is lost: errors, nothing left, and once it is back all is well") {
+  for (const Setup& setup : main_setups())
+    for (const JobKind& job : jobs_on(setup))
+      report(job, CL_DEVICE_NOT_AVAILABLE, lose_device_everywhere(job, CL_DEVICE_NOT_AVAILABLE, 7));
+}
+
+TEST_CASE("opening a device fails at every call") {
+  const JobKind job = open_job(main_setups().front());
+  report(job, CL_OUT_OF_HOST_MEMORY, fail_every_call(job, CL_OUT_OF_HOST_MEMORY, all_entries()));
+}
+
+TEST_CASE("a program that does not build: every one of a run") {
+  const SmallCase cube = small_cases()[3];
+  const JobKind job = device_job(main_setups().front(), cube.domain, cube.seeds);
+  report(job, CL_BUILD_PROGRAM_FAILURE,
+         fail_every_call(job, CL_BUILD_PROGRAM_FAILURE, {shim::Entry::clBuildProgram}));
+}
+
+TEST_CASE("campaign: every call of every run fails, under several codes" * doctest::skip()) {
+  for (const Setup& setup : all_setups())
+    for (const JobKind& job : jobs_on(setup))
+      for (const cl_int code : {CL_OUT_OF_RESOURCES, CL_MEM_OBJECT_ALLOCATION_FAILURE})
+        report(job, code, fail_every_call(job, code, all_entries()));
+}
+
+TEST_CASE("campaign: the device is lost at every call" * doctest::skip()) {
+  for (const Setup& setup : all_setups())
+    for (const JobKind& job : jobs_on(setup))
+      report(job, CL_OUT_OF_RESOURCES, lose_device_everywhere(job, CL_OUT_OF_RESOURCES));
+}
+
+TEST_CASE("campaign: every call fails from the choice of the device on" * doctest::skip()) {
+  for (const Setup& setup : all_setups())
+    for (const SmallCase& small : small_cases()) {
+      if (setup.options.neighbors != Neighbors::tree) continue;
+      const JobKind job = device_job(setup, small.domain, small.seeds);
+      report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries()));
+    }
+}

@@ -1,0 +1,248 @@
+#include "tests/faults/jobs.hpp"
+
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <powercell/opencl.hpp>
+
+#include "lib/cl/context.hpp"
+
+namespace powercell::test {
+namespace {
+
+std::vector<double> other_weights(const SeedArray& seeds) {
+  std::vector<double> weights = seeds.weights;
+  std::rotate(weights.begin(), weights.begin() + 1, weights.end());
+  return weights;
+}
+
+class DiagramJob : public Job {
+ public:
+  DiagramJob(std::function<Device()> device, const Setup& setup, const NamedDomain& domain,
+             const SeedArray& seeds)
+      : make_device_(std::move(device)),
+        options_(setup.options),
+        domain_(domain.domain),
+        seeds_(seeds),
+        weights_(other_weights(seeds)) {}
+
+  std::size_t steps() const override { return 10; }
+  void step(std::size_t k) override {
+    switch (k) {
+      case 0:
+        diagram_.emplace(make_device_(), domain_, options_);
+        return;
+      case 1:
+        diagram_->set_seeds(seeds_.view());
+        return;
+      case 2:
+        diagram_->measures();
+        return;
+      case 3:
+        diagram_->adjacency();
+        return;
+      case 4:
+        diagram_->cells();
+        return;
+      case 5:
+        first_ = results_of(*diagram_);
+        return;
+      case 6:
+        diagram_->set_weights(weights_);
+        return;
+      case 7:
+        diagram_->cells();
+        return;
+      case 8:
+        diagram_->adjacency();
+        return;
+      default:
+        second_ = results_of(*diagram_);
+    }
+  }
+  std::string differences(const Job& other) const override {
+    const auto& that = dynamic_cast<const DiagramJob&>(other);
+    return bit_differences(first_, that.first_) + bit_differences(second_, that.second_);
+  }
+
+ private:
+  std::function<Device()> make_device_;
+  Options options_;
+  Domain domain_;
+  SeedArray seeds_;
+  std::vector<double> weights_;
+  std::optional<Diagram> diagram_;
+  Results first_, second_;
+};
+
+class OpenJob : public Job {
+ public:
+  explicit OpenJob(std::string selector) : selector_(std::move(selector)) {}
+  std::size_t steps() const override { return 1; }
+  void step(std::size_t) override { device_.emplace(Device::choose(selector_)); }
+  std::string differences(const Job& other) const override {
+    const DeviceInfo &a = device_->info(), &b = dynamic_cast<const OpenJob&>(other).device_->info();
+    const bool same = a.name == b.name && a.selector() == b.selector() && a.fp64 == b.fp64 &&
+                      a.memory_bytes == b.memory_bytes && a.largest_allocation == b.largest_allocation &&
+                      a.max_work_group_size == b.max_work_group_size && a.compute_units == b.compute_units;
+    return same ? "" : "another device, or other properties";
+  }
+
+ private:
+  std::string selector_;
+  std::optional<Device> device_;
+};
+
+/// A buffer of the caller; its failures are errors like those of the library.
+class Memory {
+ public:
+  Memory(const Device& device, std::size_t bytes) : device_(device), bytes_(bytes) {
+    cl_int status = CL_SUCCESS;
+    memory_ = clCreateBuffer(device.context()->context(), CL_MEM_READ_WRITE, bytes, nullptr, &status);
+    cl::check(status, "making a buffer of the test");
+  }
+  ~Memory() { clReleaseMemObject(memory_); }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  cl_mem handle() const { return memory_; }
+  void write(const void* from) {
+    cl::check(clEnqueueWriteBuffer(device_.context()->queue(), memory_, CL_TRUE, 0, bytes_, from, 0, nullptr,
+                                   nullptr),
+              "writing a buffer of the test");
+  }
+  std::vector<std::byte> read() const {
+    std::vector<std::byte> bytes(bytes_);
+    cl::check(clEnqueueReadBuffer(device_.context()->queue(), memory_, CL_TRUE, 0, bytes_, bytes.data(), 0,
+                                  nullptr, nullptr),
+              "reading a buffer of the test");
+    return bytes;
+  }
+
+ private:
+  Device device_;
+  std::size_t bytes_;
+  cl_mem memory_ = nullptr;
+};
+
+class DeviceDiagramJob : public Job {
+ public:
+  DeviceDiagramJob(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds)
+      : device_(setup.device),
+        options_(setup.options),
+        domain_(domain.domain),
+        float32_(setup.options.precision == Precision::float32),
+        real_(float32_ ? sizeof(float) : sizeof(double)),
+        n_(seeds.size()),
+        seeds_(seeds),
+        positions_(device_, seeds.positions.size() * real_),
+        weights_(device_, n_ * real_),
+        measures_(device_, n_ * (2 + static_cast<std::size_t>(seeds.dimension)) * real_),
+        status_(device_, n_ * sizeof(cl_uint)) {}
+
+  std::size_t steps() const override { return 5; }
+  void step(std::size_t k) override {
+    switch (k) {
+      case 0:
+        diagram_.emplace(device_, domain_, options_);
+        return;
+      case 1:
+        write(positions_, seeds_.positions);
+        write(weights_, seeds_.weights);
+        return;
+      case 2:
+        compute();
+        return;
+      case 3:
+        results_ = {measures_.read(), status_.read()};
+        return;
+      default:  // other weights in the same diagram
+        write(weights_, other_weights(seeds_));
+        compute();
+        others_ = {measures_.read(), status_.read()};
+    }
+  }
+  std::string differences(const Job& other) const override {
+    const auto& that = dynamic_cast<const DeviceDiagramJob&>(other);
+    return results_ == that.results_ && others_ == that.others_ ? "" : "measures or statuses differ";
+  }
+
+ private:
+  void write(Memory& memory, const std::vector<double>& values) {
+    const std::vector<float> narrow(values.begin(), values.end());
+    memory.write(float32_ ? static_cast<const void*>(narrow.data()) : values.data());
+  }
+  void compute() {
+    cl_event done = nullptr;
+    diagram_->enqueue(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_),
+                      measures_.handle(), status_.handle(), 0, nullptr, &done);
+    const cl_int status = clWaitForEvents(1, &done);
+    clReleaseEvent(done);
+    cl::check(status, "waiting for the diagram");
+  }
+
+  Device device_;
+  Options options_;
+  Domain domain_;
+  bool float32_;
+  std::size_t real_, n_;
+  SeedArray seeds_;
+  Memory positions_, weights_, measures_, status_;
+  std::optional<DeviceDiagram> diagram_;
+  std::vector<std::vector<std::byte>> results_, others_;
+};
+
+}  // namespace
+
+JobKind diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds) {
+  return {"Diagram, " + domain.name + ", " + setup.name, [=] {
+            return std::make_unique<DiagramJob>([device = setup.device] { return device; }, setup, domain,
+                                                seeds);
+          }};
+}
+
+JobKind open_job(const Setup& setup) {
+  const std::string selector = setup.device.info().selector();
+  return {"Device", [=] { return std::make_unique<OpenJob>(selector); }};
+}
+
+JobKind device_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds) {
+  const std::string selector = setup.device.info().selector();
+  return {"Device and Diagram, " + domain.name + ", " + setup.name, [=] {
+            return std::make_unique<DiagramJob>([=] { return Device::choose(selector); }, setup, domain,
+                                                seeds);
+          }};
+}
+
+JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds) {
+  return {"DeviceDiagram, " + domain.name + ", " + setup.name,
+          [=] { return std::make_unique<DeviceDiagramJob>(setup, domain, seeds); }};
+}
+
+std::vector<SmallCase> small_cases() {
+  std::vector<SmallCase> cases;
+  for (const NamedDomain& named : {NamedDomain{"letter U", Domain::polygon(letter_u())},
+                                   {"icosahedron", surface_of(icosphere(0))},
+                                   {"ball", volume_of(ball_tetrahedra(0))},
+                                   {"cube", unit_box(3)}}) {
+    Random random(test_seed());
+    cases.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, 12, random)});
+  }
+  // Strips, and seeds so near each other that the cells between them cannot be told to be inside: the
+  // computation starts again with those region by region.
+  Parts strips;
+  for (int k = 0; k < 7; ++k)
+    strips.push_back({{{k / 7., 0}, {(k + 1) / 7., 0}, {(k + 1) / 7., 1}, {k / 7., 1}}, {}});
+  SeedArray thin{2, {}, {}};
+  for (int k = 0; k < 4; ++k) thin.push({0.5 + 1e-13 * k, 0.25 * k}, 0);
+  for (int k = 0; k < 4; ++k) thin.push({0.5 + 1e-13 * k, 0.1}, 0);
+  cases.push_back({{"strips", Domain::polygon(strips)}, thin});
+  return cases;
+}
+
+SmallCase many_faces(std::size_t faces) {
+  SeedArray seeds = cospherical(faces, 2);
+  seeds.push({0.5, 0.5}, 0.01);
+  return {{std::to_string(faces) + " faces", unit_box(2)}, seeds};
+}
+
+}  // namespace powercell::test

@@ -1,0 +1,136 @@
+// Device memory that does not suffice: smaller chunks with the same bits, then an error.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/faults/jobs.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+constexpr std::size_t MiB = std::size_t{1} << 20;
+
+struct Case {
+  NamedDomain domain;
+  SeedArray seeds;
+};
+
+/// Enough pairs for several chunks of the least size.
+std::vector<Case> cases() {
+  std::vector<Case> list;
+  for (const NamedDomain& named : {NamedDomain{"square", unit_box(2)},
+                                   {"cube", unit_box(3)},
+                                   {"torus", surface_of(torus(12, 7))},
+                                   {"ball", volume_of(ball_tetrahedra(0))}}) {
+    Random random(test_seed());
+    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, 4000, random)});
+  }
+  return list;
+}
+
+/// Adjacency, measures and geometry: what needs device memory.
+struct Output {
+  Adjacency adjacency;
+  Measures measures;
+  Cells cells;
+};
+Output compute(Diagram& diagram, const SeedArray& seeds) {
+  diagram.set_seeds(seeds.view());
+  return {diagram.adjacency(), diagram.measures(), diagram.cells()};
+}
+std::string differences(const Output& a, const Output& b) {
+  return bit_differences(a.adjacency, b.adjacency) + bit_differences(a.measures, b.measures) +
+         bit_differences(a.cells, b.cells);
+}
+
+std::uint64_t launches() {
+  return shim::calls()[static_cast<std::size_t>(shim::Entry::clEnqueueNDRangeKernel)];
+}
+
+}  // namespace
+
+TEST_CASE("less and less device memory: smaller chunks with the same bits, then an error, then all is well") {
+  const shim::Scope scope;
+  const Setup& setup = main_setups().front();
+  for (const Case& c : cases()) {
+    INFO(c.domain.name << ", " << setup.name);
+    Diagram diagram(setup.device, c.domain.domain, setup.options);
+    compute(diagram, c.seeds);
+    shim::reset_calls();
+    const Output expected = compute(diagram, c.seeds);
+    const std::uint64_t launches_at_best = launches();
+    const std::size_t peak = shim::peak_buffer_bytes();
+    std::size_t with_less = 0, errors = 0;
+    for (std::size_t limit = peak; limit > peak / 200; limit = limit * 3 / 5) {
+      CAPTURE(peak);
+      CAPTURE(limit);
+      shim::limit_memory(limit);
+      shim::reset_calls();
+      try {
+        const Output output = compute(diagram, c.seeds);
+        CHECK(differences(output, expected) == "");
+        CHECK(shim::peak_buffer_bytes() <= limit);
+        if (limit < peak) CHECK(launches() > launches_at_best);
+        with_less += limit < peak;
+      } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::out_of_device_memory);
+        CHECK(std::string(error.what()).find(setup.device.info().name) != std::string::npos);
+        ++errors;
+        shim::behave();
+        CHECK(differences(compute(diagram, c.seeds), expected) == "");
+      }
+    }
+    CHECK(with_less > 0);
+    CHECK(errors > 0);
+  }
+}
+
+TEST_CASE("a largest allocation far below the memory: smaller chunks with the same bits") {
+  const shim::Scope scope;
+  for (const Case& c : cases()) {
+    const Setup& setup = main_setups().front();
+    INFO(c.domain.name << ", " << setup.name);
+    Diagram plain(setup.device, c.domain.domain, setup.options);
+    const Output expected = compute(plain, c.seeds);
+    shim::reset_calls();
+    compute(plain, c.seeds);
+    const std::uint64_t launches_at_best = launches();
+
+    // Below what all pairs need, and above what the least chunk needs.
+    const std::size_t largest = (c.domain.domain.cell_dimension() == 3 ? 2 : 1) * MiB;
+    shim::pretend(CL_DEVICE_MAX_MEM_ALLOC_SIZE, largest);
+    const Device small = Device::choose(setup.device.info().selector());
+    REQUIRE(small.info().largest_allocation == largest);
+    Diagram diagram(small, c.domain.domain, setup.options);
+    compute(diagram, c.seeds);
+    shim::reset_calls();
+    CHECK(differences(compute(diagram, c.seeds), expected) == "");
+    CHECK(launches() > launches_at_best);
+    shim::behave();
+  }
+}
+
+TEST_CASE("an allocation that is too large even for the least chunk is refused by its size") {
+  const shim::Scope scope;
+  const Setup& setup = main_setups().front();
+  shim::pretend(CL_DEVICE_MAX_MEM_ALLOC_SIZE, 64 << 10);
+  const Device small = Device::choose(setup.device.info().selector());
+  const Case c = cases()[1];
+  Diagram diagram(small, c.domain.domain, setup.options);
+  try {
+    compute(diagram, c.seeds);
+    FAIL("4000 seeds fit into 64 KiB");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::out_of_device_memory);
+    const std::string what = error.what();
+    CHECK(what.find("largest single allocation is 65536 bytes") != std::string::npos);
+  }
+  // Fewer seeds fit.
+  SeedArray few{3,
+                {c.seeds.positions.begin(), c.seeds.positions.begin() + 300},
+                {c.seeds.weights.begin(), c.seeds.weights.begin() + 100}};
+  diagram.set_seeds(few.view());
+  CHECK(diagram.measures().relative_error() < 1e-12);
+}
