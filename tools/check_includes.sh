@@ -26,6 +26,8 @@ forbid lib/linear "lib/(primitives|$stages|diagram|verify|c_api|cl|transport|den
 # On a surface the normals of Domain::mesh() are needed, a struct without code.
 forbid lib/transport "lib/(primitives|$stages|diagram|verify|c_api|cl|density)/" \
   "transport is built on the public headers and lib/linear" 'lib/domain/region_mesh\.hpp"'
+forbid lib/treemap "lib/($stages|primitives|cl|diagram|verify|c_api|transport|density)/" \
+  "treemaps are built on the public headers and lib/linear" 'lib/seeds/(threads|seed_set)\.hpp"'
 # The pictures draw the regions that Domain::mesh() hands out, a struct without code.
 forbid apps "lib/" "the tool is built on the public headers" 'lib/domain/region_mesh\.hpp"'
 [ $bad -eq 0 ] && echo "check_includes: includes point one way"

@@ -12,5 +12,6 @@
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
 #include <powercell/transport.hpp>
+#include <powercell/treemap.hpp>
 #include <powercell/verify.hpp>
 #include <powercell/version.hpp>

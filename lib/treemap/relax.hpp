@@ -1,0 +1,57 @@
+/// \file
+/// Where the seeds of a group go: to the centroids of cells of the right areas. Internal.
+#pragma once
+
+#include <powercell/error.hpp>
+
+#include "lib/treemap/group.hpp"
+
+namespace powercell::treemap_detail {
+
+/// The seeds a group starts with: those of an earlier layout where there are any, pulled into the outline,
+/// the others spread evenly.
+Columns starting_seeds(const Group& group);
+
+/// Balzer and Deussen's iteration with areas solved for: Voronoi cells to their centroids twice, then,
+/// `rounds` times or until seeds rest, cells of nearly the right areas to theirs, and at last the right
+/// areas. In an update seeds rest already where the root mean square of their distances to the centroids, in
+/// units of the cells' sizes, is below 20 %: a finished layout has 1 % in the mean and 19 % at worst, so what
+/// has changed little stays where it is.
+/// `Solver` has
+///   void start(seeds), bool voronoi()   new seeds with weights 0; their cells, false if one is empty
+///   void move(seeds)                    near the last ones; weights follow (docs/mathematics.md,
+///   "Transport") bool solve(tolerance)               whether the areas came within it const Columns&
+///   centroid()           of the last cells
+template <class Solver>
+void relax(Solver& solver, const Group& group, const GroupSettings& settings, GroupLayout& layout) {
+  constexpr int voronoi_rounds = 2;
+  constexpr double loose = 1e-2;
+  constexpr double fresh_rest = 1e-3, update_rest = 0.2;
+  const bool fresh = group.start.size() == 0;
+  const std::size_t n = group.share.size();
+  Columns& seeds = layout.seeds;
+  seeds = starting_seeds(group);
+  solver.start(seeds);
+  for (int k = 0; k < voronoi_rounds && fresh; ++k) {
+    if (!solver.voronoi())
+      throw Error(ErrorCode::internal, "a seed inside a convex polygon has no Voronoi cell; please report");
+    seeds = solver.centroid();
+    solver.start(seeds);
+  }
+  const double at_rest = fresh ? fresh_rest : update_rest;
+  for (int k = 0; k < settings.rounds; ++k) {
+    solver.solve(loose);
+    const Columns& centre = solver.centroid();
+    double unrest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = centre.x[i] - seeds.x[i], y = centre.y[i] - seeds.y[i];
+      unrest += (x * x + y * y) / (group.share[i] * static_cast<double>(n));
+    }
+    if (unrest < at_rest * at_rest) break;
+    seeds = centre;
+    solver.move(seeds);
+  }
+  layout.converged = solver.solve(settings.tolerance);
+}
+
+}  // namespace powercell::treemap_detail
