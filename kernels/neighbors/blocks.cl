@@ -44,6 +44,12 @@ static inline origin_t origin_of(seed_t p) {
   o.low[DIMENSION] = p.low.w;
   return o;
 }
+/* At p with the weight of `heavy`. */
+static inline origin_t origin_with_weight(seed_t p, seed_t heavy) {
+  p.high.w = heavy.high.w;
+  p.low.w = heavy.low.w;
+  return origin_of(p);
+}
 /* Row `row` of a block less coordinate k of the origin (k == DIMENSION: the weight). */
 static inline real8 block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
   return (load8_stored(block + row * BLOCK_ROW) - o->high[k]) +
@@ -61,6 +67,10 @@ static inline origin_t origin_of(seed_t p) {
   if (DIMENSION == 3) o.high[2 - (DIMENSION == 2)] = p.z;
   o.high[DIMENSION] = p.w;
   return o;
+}
+static inline origin_t origin_with_weight(seed_t p, seed_t heavy) {
+  p.w = heavy.w;
+  return origin_of(p);
 }
 static inline real8 block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
   return load8_stored(block + row * BLOCK_ROW) - all_lanes(o->high[k]);

@@ -8,7 +8,8 @@
 #define NEAR_SPREAD (CELL_DIMENSION == 3 ? (real)1.4 : (real)1.1)
 #define NEAR_TRIES 12
 
-/* The box of a leaf's seeds relative to its first seed. */
+/* The box of a leaf's seeds relative to its first seed, with the largest weight of the leaf: the first seed may
+   be one that takes no part, whose weight would drown all others. */
 typedef struct {
   origin_t origin;
   real low[DIMENSION], high[DIMENSION];
@@ -16,7 +17,7 @@ typedef struct {
 
 static inline home_t home_of(tree_t tree, blocks_t blocks, uint leaf) {
   home_t home;
-  home.origin = origin_of(tree.seeds[leaf * TREE_FAN]);
+  home.origin = origin_with_weight(tree.seeds[leaf * TREE_FAN], tree.node_low[leaf]);
   real8 q[DIMENSION], dw;
   seed_lanes(blocks, leaf, &home.origin, q, &dw);
   for (int k = 0; k < DIMENSION; ++k) {
@@ -91,8 +92,8 @@ static inline uint find_near(tree_t tree, blocks_t blocks, uint leaf, __global u
   }
   const home_t home = home_of(tree, blocks, leaf);
   const real extent = extent_around(tree, blocks, leaf, &home.origin) * NEAR_SPREAD;
-  const real heaviest = weight_difference(tree.node_low[tree.level_offset[tree.levels] - 1],
-                                          tree.seeds[leaf * TREE_FAN]);
+  const real heaviest =
+      weight_difference(tree.node_low[tree.level_offset[tree.levels] - 1], tree.node_low[leaf]);
   const uint least = min((uint)NEAR_LEAST, tree.level_offset[1]);
   real low = -heaviest, high = low, d = extent * extent;
   bool too_many = false;

@@ -12,7 +12,7 @@
    box against the radius of the cell (docs/mathematics.md (10b)). */
 static inline bool near_is_enough(const cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   const uint home = i / TREE_FAN;
-  const seed_t seed = tree.seeds[i], first = tree.seeds[home * TREE_FAN];
+  const seed_t seed = tree.seeds[i], first = tree.node_low[home];
   const real bound = blocks.near_bound[home];
   if (tree.levels == 1 || bound <= -REAL_MAX / 2) return bound > 0;
   const real heaviest = weight_difference(tree.node_low[tree.level_offset[tree.levels] - 1], first);

@@ -163,6 +163,25 @@ TEST_CASE("of seeds at one position the heaviest stays, then the first") {
   }
 }
 
+TEST_CASE("a leaf of the tree that begins with duplicates does not disturb its other seeds") {
+  // Ten seeds at one place come first on the curve: the leaf of the others begins with two that take no part.
+  Caller caller;
+  for (const int d : {2, 3}) {
+    INFO(d << "D");
+    Random random(test_seed());
+    SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 5, d, random);
+    for (int k = 0; k < 10; ++k) {
+      seeds.positions.insert(seeds.positions.end(), static_cast<std::size_t>(d), -1.0);
+      seeds.weights.push_back(0);
+    }
+    for (double& w : seeds.weights) w -= 15;
+    DeviceDiagram diagram(caller.device(), unit_box(d));
+    const Output output = run(caller, diagram, seeds.view());
+    CHECK(output.total() == doctest::Approx(1).epsilon(1e-5));
+    CHECK(output.count(DeviceSeedStatus::duplicate) == 9);
+  }
+}
+
 TEST_CASE("seeds that are not finite are reported and leave the others as they are") {
   Caller caller;
   Random random(test_seed());
