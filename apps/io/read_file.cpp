@@ -13,12 +13,22 @@
 
 namespace powercell::io {
 
+std::string readable(std::string what) {
+  constexpr std::size_t most = 400;
+  if (what.size() > most) what = what.substr(0, most) + "...";
+  for (char& c : what) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < ' ' || code == 0x7f) c = '?';
+  }
+  return what;
+}
+
 void fail_file(const std::string& name, const std::string& what) {
-  throw Error(ErrorCode::invalid_file, fmt::format("{}: {}", name, what));
+  throw Error(ErrorCode::invalid_file, fmt::format("{}: {}", name, readable(what)));
 }
 
 void fail_line(const std::string& name, std::size_t line, const std::string& what) {
-  throw Error(ErrorCode::invalid_file, fmt::format("{}:{}: {}", name, line, what));
+  throw Error(ErrorCode::invalid_file, fmt::format("{}:{}: {}", name, line, readable(what)));
 }
 
 std::size_t line_of(std::string_view text, std::size_t offset) {

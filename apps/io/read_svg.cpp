@@ -152,11 +152,13 @@ void SvgReader::element(const pugi::xml_node& node, const SvgTransform& outer, b
   }
 }
 
-// Length of the diagonal of the box of all control points.
+// Length of the diagonal of the box of all control points; infinite if one of them is not finite.
 double diagonal(const std::vector<Shape>& shapes) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   SvgPoint low{kFar, kFar}, high{-kFar, -kFar};
+  bool finite = true;  // a NaN would pass the comparisons below unseen
   const auto take = [&](const SvgPoint& p) {
+    finite = finite && std::isfinite(p[0]) && std::isfinite(p[1]);
     for (int axis = 0; axis < 2; ++axis) {
       low[axis] = std::min(low[axis], p[axis]);
       high[axis] = std::max(high[axis], p[axis]);
@@ -169,6 +171,7 @@ double diagonal(const std::vector<Shape>& shapes) {
         take(piece.control1), take(piece.control2), take(piece.end);
     }
   }
+  if (!finite) return kFar;
   return std::hypot(high[0] - low[0], high[1] - low[1]);
 }
 

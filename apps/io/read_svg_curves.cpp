@@ -60,8 +60,9 @@ void add_svg_arc(SvgOutline& outline, double rx, double ry, double rotation, boo
                     sin_phi * px + cos_phi * py + (start[1] + end[1]) / 2};
   };
   // An eighth of a turn as a cubic is off by 4e-6 of the radius: below kSvgTolerance.
-  const int pieces =
-      std::max(1, static_cast<int>(std::ceil(std::abs(sweep_angle) / (std::numbers::pi / 4) - 1e-9)));
+  // Radii beyond range leave no angle; the coordinates are then not finite, and refused by the reader.
+  const double turns = std::isfinite(sweep_angle) ? std::abs(sweep_angle) / (std::numbers::pi / 4) : 0;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(turns - 1e-9)));
   const double step = sweep_angle / pieces, reach = 4.0 / 3 * std::tan(step / 4);
   for (int k = 0; k < pieces; ++k) {
     const double t = from + k * step, u = t + step;

@@ -46,6 +46,7 @@ class LegacyReader {
   bool read_section(const std::string& keyword);  // false where reading can end
   void read_points();
   void read_cells();
+  std::int64_t whole_number(double value, const char* what) const;
   void read_cell_types();
   void skip_field();
   std::string keyword();
@@ -159,15 +160,18 @@ void LegacyReader::read_points() {
   });
 }
 
+// An index above 2^53 is not exact as a double, but it is out of range all the same.
+std::int64_t LegacyReader::whole_number(double value, const char* what) const {
+  if (!(std::abs(value) < 9e15)) text_.fail(fmt::format("{} is out of range", what));
+  if (value != std::floor(value)) text_.fail(fmt::format("{} is {}, not a whole number", what, value));
+  return static_cast<std::int64_t>(value);
+}
+
 // Reads one section of cells: `n size` and rows `k i0 ...`, or offsets and connectivity.
 void LegacyReader::read_cells() {
   const auto first = text_.count({"number of cells", 0});
   const auto second = text_.count({"size of cells", 0});
-  // An index above 2^53 is not exact as a double, but it is out of range all the same.
-  const auto whole = [this](double value) {
-    if (!(std::abs(value) < 9e15)) text_.fail("an index of a cell is out of range");
-    return static_cast<std::int64_t>(value);
-  };
+  const auto whole = [this](double value) { return whole_number(value, "an index of a cell"); };
   if (cells_.offset.empty()) cells_.offset.push_back(0);
   const auto base = static_cast<std::int64_t>(cells_.connectivity.size());
   if (text_.peek() == "OFFSETS") {
@@ -201,7 +205,7 @@ void LegacyReader::read_cells() {
 void LegacyReader::read_cell_types() {
   const auto count = text_.count({"number of cells", 0});
   values(count, Type::i32, {"cell type", 0},
-         [this](double value) { cells_.type.push_back(static_cast<std::int64_t>(value)); });
+         [this](double value) { cells_.type.push_back(whole_number(value, "a cell type")); });
 }
 
 void LegacyReader::skip_field() {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "apps/io/read_file.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/read_text.hpp"
 #include "lib/domain/region_mesh.hpp"
@@ -133,9 +134,9 @@ Vec point_in(const RegionMesh& mesh, const std::array<std::uint32_t, 4>& corners
 }
 
 [[noreturn]] void fail_spec(const std::string& spec, const char* what) {
-  throw Error(
-      ErrorCode::invalid_argument,
-      fmt::format("seeds '{}': {}; write random:N[:LO:HI[:SEED]], e.g. random:1000:0:0.01:7", spec, what));
+  throw Error(ErrorCode::invalid_argument,
+              fmt::format("seeds '{}': {}; write random:N[:LO:HI[:SEED]], e.g. random:1000:0:0.01:7",
+                          readable(spec), what));
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <new>
 #include <powercell/powercell.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -54,6 +56,8 @@ pc_status guarded(Body&& body) noexcept {
     return fail(static_cast<pc_status>(static_cast<int>(error.code()) + 1), error.what());
   } catch (const std::bad_alloc&) {
     return fail(PC_OUT_OF_MEMORY, "out of host memory");
+  } catch (const std::length_error&) {
+    return fail(PC_OUT_OF_MEMORY, "out of host memory: a count is more than any array can have");
   } catch (const std::exception& error) {
     return fail(PC_INTERNAL, error.what());
   } catch (...) {
@@ -83,6 +87,15 @@ std::span<const T> view(const T* data, std::size_t size, const char* message) {
   return {data, size};
 }
 
+/// The same for `count` rows of `columns`; a product beyond size_t would look like a small array.
+template <class T>
+std::span<const T> rows_view(const T* data, std::size_t count, std::size_t columns, const char* message) {
+  if (count > std::numeric_limits<std::size_t>::max() / sizeof(T) / columns)
+    throw Error(ErrorCode::invalid_argument,
+                "a count of " + std::to_string(count) + " is more than memory can hold");
+  return view(data, count * columns, message);
+}
+
 template <class T, class U>
 void copy_out(const std::vector<T>& from, U* to) {
   if (to) std::transform(from.begin(), from.end(), to, [](T value) { return static_cast<U>(value); });
@@ -95,14 +108,25 @@ powercell::Ring ring(const double* points, std::size_t first, std::size_t last) 
   return result;
 }
 
+// The bits of a C enumeration: a C caller may put any number there, which C++ must not read as the
+// enumeration.
+template <class Enumeration>
+int number_in(const Enumeration& value) {
+  static_assert(sizeof(Enumeration) == sizeof(int));
+  int number;
+  std::memcpy(&number, &value, sizeof number);
+  return number;
+}
+
 powercell::Options options_of(const pc_options& from) {
-  require(from.precision >= PC_PRECISION_AUTOMATIC && from.precision <= PC_FLOAT32,
+  const int precision = number_in(from.precision), neighbors = number_in(from.neighbors);
+  require(precision >= PC_PRECISION_AUTOMATIC && precision <= PC_FLOAT32,
           "options.precision is none of pc_precision");
-  require(from.neighbors >= PC_NEIGHBORS_AUTOMATIC && from.neighbors <= PC_FLANN,
+  require(neighbors >= PC_NEIGHBORS_AUTOMATIC && neighbors <= PC_FLANN,
           "options.neighbors is none of pc_neighbors");
   powercell::Options to;
-  to.precision = static_cast<powercell::Precision>(from.precision);
-  to.neighbors = static_cast<powercell::Neighbors>(from.neighbors);
+  to.precision = static_cast<powercell::Precision>(precision);
+  to.neighbors = static_cast<powercell::Neighbors>(neighbors);
   to.initial_neighbors = from.initial_neighbors;
   to.threads = from.threads;
   to.chunk_pairs = from.chunk_pairs;
@@ -127,10 +151,11 @@ const char* pc_version(void) {
 }
 
 const char* pc_status_name(pc_status status) {
-  if (status == PC_OK) return "ok";
-  if (status == PC_OUT_OF_MEMORY) return "out_of_memory";
-  if (status < PC_OK || status > PC_OUT_OF_MEMORY) return "unknown";
-  return powercell::name(static_cast<ErrorCode>(static_cast<int>(status) - 1));
+  const int number = number_in(status);
+  if (number == PC_OK) return "ok";
+  if (number == PC_OUT_OF_MEMORY) return "out_of_memory";
+  if (number < PC_OK || number > PC_OUT_OF_MEMORY) return "unknown";
+  return powercell::name(static_cast<ErrorCode>(number - 1));
 }
 
 const char* pc_last_error(void) {
@@ -176,8 +201,9 @@ pc_status pc_domain_surface(const double* vertices, size_t vertex_count, const u
                             size_t triangle_count, pc_domain** domain) {
   return guarded([&] {
     require(domain != nullptr, null_result);
-    hand_over(domain, powercell::Domain::surface(view(vertices, 3 * vertex_count, "vertices is NULL"),
-                                                 view(triangles, 3 * triangle_count, "triangles is NULL")));
+    hand_over(domain,
+              powercell::Domain::surface(rows_view(vertices, vertex_count, 3, "vertices is NULL"),
+                                         rows_view(triangles, triangle_count, 3, "triangles is NULL")));
   });
 }
 
@@ -186,8 +212,8 @@ pc_status pc_domain_volume(const double* vertices, size_t vertex_count, const ui
   return guarded([&] {
     require(domain != nullptr, null_result);
     hand_over(domain,
-              powercell::Domain::volume(view(vertices, 3 * vertex_count, "vertices is NULL"),
-                                        view(tetrahedra, 4 * tetrahedron_count, "tetrahedra is NULL")));
+              powercell::Domain::volume(rows_view(vertices, vertex_count, 3, "vertices is NULL"),
+                                        rows_view(tetrahedra, tetrahedron_count, 4, "tetrahedra is NULL")));
   });
 }
 
@@ -235,7 +261,7 @@ pc_status pc_diagram_set_seeds(pc_diagram* diagram, const double* positions, con
     powercell::Diagram& target = checked(diagram, null_diagram).diagram;
     const int dimension = target.domain().dimension();
     target.set_seeds({dimension,
-                      view(positions, count * static_cast<std::size_t>(dimension), "positions is NULL"),
+                      rows_view(positions, count, static_cast<std::size_t>(dimension), "positions is NULL"),
                       view(weights, weights ? count : 0, "")});
   });
 }

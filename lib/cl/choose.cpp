@@ -48,8 +48,10 @@ std::string not_found_message(std::span<const DeviceInfo> devices, std::string_v
   if (devices.empty())
     return "no OpenCL device on this machine; install a driver, for example one that runs on any CPU: "
            "apt-get install pocl-opencl-icd";
-  std::string message =
-      "no OpenCL device matches \"" + std::string(selector) + "\"" + std::string(origin) + "; there are:";
+  std::string shown(selector.substr(0, 100));
+  for (char& c : shown)
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = '?';
+  std::string message = "no OpenCL device matches \"" + shown + "\"" + std::string(origin) + "; there are:";
   for (const auto& device : devices)
     message += "\n  " + device.selector() + "  " + device.name + " (" + device.platform_name + ")";
   return message + "\nuse \"P:D\", a part of a name, \"cpu\" or \"gpu\"";

@@ -76,13 +76,16 @@ std::optional<Defect> Context::defect(const Geometry& geometry) {
 std::optional<Defect> Context::overlap(const Geometry& a, const Geometry& b) {
   const char meet = GEOSRelatePattern_r(handle_, a.get(), b.get(), "T********");
   if (meet == 0) return std::nullopt;
-  if (meet != 1) fail("comparing two parts");
-  const Geometry common = own(GEOSIntersection_r(handle_, a.get(), b.get()), "intersecting two parts");
-  const Geometry inside = own(GEOSPointOnSurface_r(handle_, common.get()), "finding a point");
-  Defect found;
-  found.reason = "overlap";
-  GEOSGeomGetX_r(handle_, inside.get(), &found.x);
-  GEOSGeomGetY_r(handle_, inside.get(), &found.y);
+  // GEOS intersects in double: where coordinates span many orders of magnitude it may give up.
+  if (meet != 1) return Defect{"cannot be told apart in double precision (" + message_ + ")"};
+  Defect found{"overlap"};
+  const Geometry common(GEOSIntersection_r(handle_, a.get(), b.get()), Destroy{handle_});
+  if (!common) return found;
+  const Geometry inside(GEOSPointOnSurface_r(handle_, common.get()), Destroy{handle_});
+  if (!inside) return found;
+  double x = 0, y = 0;
+  if (GEOSGeomGetX_r(handle_, inside.get(), &x) == 1 && GEOSGeomGetY_r(handle_, inside.get(), &y) == 1)
+    found.reason += ", for instance at " + place(x, y);
   return found;
 }
 

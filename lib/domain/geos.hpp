@@ -45,7 +45,7 @@ class Context {
   Geometry segment(const double* a, const double* b);
 
   std::optional<Defect> defect(const Geometry& geometry);
-  /// A point in the overlap, if the interiors of a and b meet.
+  /// If the interiors of a and b meet or may meet: the reason says where, or why that is not known.
   std::optional<Defect> overlap(const Geometry& a, const Geometry& b);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "lib/domain/orient2d.hpp"
@@ -78,6 +79,12 @@ void check_magnitude(double largest) {
 }
 
 }  // namespace
+
+std::string place(double x, double y) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.17g, %.17g)", x, y);
+  return text;
+}
 
 std::string ring_name(std::uint32_t part, std::uint32_t hole) {
   return "part " + std::to_string(part) +

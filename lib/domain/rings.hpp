@@ -33,6 +33,9 @@ struct IndexedRings {
   std::size_t vertex_count() const { return vertices.size() / 2; }
 };
 
+/// "(0.25, 1e-06)", with all digits of both.
+std::string place(double x, double y);
+
 /// "part 2, hole 0"
 std::string ring_name(std::uint32_t part, std::uint32_t hole);
 

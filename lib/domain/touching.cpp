@@ -2,17 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "lib/domain/orient2d.hpp"
 
 namespace powercell {
-
-std::string place(double x, double y) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.17g, %.17g)", x, y);
-  return text;
-}
 
 void split_touched_edges(geos::Context& geos, IndexedRings& rings) {
   if (rings.rings.size() < 2) return;
@@ -54,8 +47,7 @@ void check_disjoint(geos::Context& geos, const std::vector<geos::Geometry>& poly
     for (std::size_t q : near) {
       if (const auto common = geos.overlap(polygons[p], polygons[q])) {
         throw Error(ErrorCode::invalid_domain, "parts " + std::to_string(p) + " and " + std::to_string(q) +
-                                                   " overlap, for instance at " +
-                                                   place(common->x, common->y) +
+                                                   " " + common->reason +
                                                    ": parts may touch but not overlap, unite them first");
       }
     }

@@ -16,7 +16,4 @@ void split_touched_edges(geos::Context& geos, IndexedRings& rings);
 /// legal.
 void check_disjoint(geos::Context& geos, const std::vector<geos::Geometry>& polygons);
 
-/// "(0.25, 1e-06)", with all digits of both.
-std::string place(double x, double y);
-
 }  // namespace powercell
