@@ -1,0 +1,228 @@
+// powercell.h in any order of calls, with null pointers, short arrays and counts of any size.
+#include <powercell.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/input.hpp"
+
+namespace powercell::fuzz {
+namespace {
+
+constexpr std::size_t kHuge = std::numeric_limits<std::size_t>::max() / 3 + 2;  // times 3 it is 3 again
+
+void check(pc_status status) {
+  require(status >= PC_OK && status <= PC_OUT_OF_MEMORY, "a status that is none");
+  if (status == PC_OK) return;
+  if (status != PC_DEVICE_NOT_FOUND) require_readable(pc_last_error());  // that one lists the devices
+  require(status == PC_INVALID_ARGUMENT || status == PC_INVALID_SEED || status == PC_INVALID_DOMAIN ||
+              status == PC_DEVICE_NOT_FOUND || status == PC_UNSUPPORTED || status == PC_INTERRUPTED,
+          std::string(pc_status_name(status)) + ": " + pc_last_error());
+}
+
+pc_device* shared() {
+  static pc_device* const device = [] {
+    pc_device* made = nullptr;
+    const pc_status status = pc_device_create(nullptr, &made);
+    if (status != PC_OK) throw std::runtime_error(pc_last_error());
+    return made;
+  }();
+  return device;
+}
+
+/// The handles of one input; freed at the end.
+class Session {
+ public:
+  explicit Session(Input& input) : input_(input) {}
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session() {
+    pc_diagram_destroy(diagram_);
+    pc_domain_destroy(domain_);
+  }
+
+  void make_domain() {
+    pc_domain_destroy(domain_);
+    domain_ = nullptr;
+    const DomainInput from = input_.below(4) == 3 ? any_domain(input_) : good_domain(input_);
+    pc_domain** out = input_.below(32) == 31 ? nullptr : &domain_;
+    const double* vertices = input_.below(32) == 31 ? nullptr : from.vertices.data();
+    const bool huge = input_.below(32) == 31;
+    switch (from.kind) {
+      case DomainInput::Kind::polygon:
+        make_polygon(from, out);
+        break;
+      case DomainInput::Kind::surface:
+        check(pc_domain_surface(vertices, huge ? kHuge : from.vertices.size() / 3, from.elements.data(),
+                                from.elements.size() / 3, out));
+        break;
+      case DomainInput::Kind::volume:
+        check(pc_domain_volume(vertices, from.vertices.size() / 3, from.elements.data(),
+                               huge ? (std::size_t{1} << 62) + 1 : from.elements.size() / 4, out));
+        break;
+      default: {
+        const std::size_t d = from.vertices.size() / 2;
+        // Any other dimension must be refused before an array is read.
+        const int said = (d == 2 || d == 3) ? static_cast<int>(d) : static_cast<int>(input_.byte()) + 4;
+        check(pc_domain_box(vertices, vertices ? vertices + d : nullptr, said, out));
+      }
+    }
+    require(out || !domain_, "a domain without a place to put it");
+  }
+
+  void make_diagram() {
+    pc_diagram_destroy(diagram_);
+    diagram_ = nullptr;
+    pc_options options;
+    pc_options_init(&options);
+    options.precision = static_cast<pc_precision>(input_.below(3));
+    options.threads = 1;
+    if (input_.below(16) == 15) options.threads = static_cast<int>(input_.byte()) - 100;
+    if (input_.below(16) == 15) options.precision = static_cast<pc_precision>(3 + input_.below(4));
+    if (input_.below(8) == 7) {
+      options.progress = [](double, void* user) { return static_cast<int>(--*static_cast<int*>(user) > 0); };
+      calls_left_ = static_cast<int>(input_.below(16));
+      options.progress_user = &calls_left_;
+    }
+    check(pc_diagram_create(input_.below(32) == 31 ? nullptr : shared(), domain_,
+                            input_.flag() ? &options : nullptr,
+                            input_.below(32) == 31 ? nullptr : &diagram_));
+  }
+
+  void step() {
+    switch (input_.below(8)) {
+      case 0:
+        make_domain();
+        break;
+      case 1:
+        make_diagram();
+        break;
+      case 2:
+        set_seeds();
+        break;
+      case 3:
+        set_weights();
+        break;
+      case 4:
+        read_measures();
+        break;
+      case 5:
+        read_adjacency();
+        break;
+      case 6:
+        read_dual();
+        break;
+      default: {
+        double measure = -1;
+        const pc_status status = pc_domain_measure(domain_, input_.below(8) == 7 ? nullptr : &measure);
+        check(status);
+        require(status == PC_OK || measure == -1, "a failed call wrote its result");
+      }
+    }
+  }
+
+ private:
+  void make_polygon(const DomainInput& from, pc_domain** out) {
+    std::vector<double> points;
+    std::vector<std::size_t> rings{0}, parts{0};
+    const auto add = [&](const Ring& ring) {
+      for (const auto& point : ring) points.insert(points.end(), point.begin(), point.end());
+      rings.push_back(points.size() / 2);
+    };
+    for (const PolygonPart& part : from.parts) {
+      add(part.outer);
+      for (const Ring& hole : part.holes) add(hole);
+      parts.push_back(rings.size() - 1);
+    }
+    if (input_.below(16) == 15 && rings.size() > 2) std::swap(rings[1], rings[2]);
+    if (input_.below(16) == 15) parts.back() = 0;
+    check(pc_domain_polygon(points.data(), rings.data(), parts.data(), parts.size() - 1, out));
+  }
+
+  std::size_t size() {
+    std::size_t n = 0;
+    check(pc_diagram_size(diagram_, &n));
+    return n;
+  }
+
+  void set_seeds() {
+    const std::size_t n = input_.below(16);
+    const std::vector<double> positions = input_.numbers(3 * n), weights = input_.numbers(n);
+    const bool huge = input_.below(32) == 31;
+    check(pc_diagram_set_seeds(diagram_, input_.below(32) == 31 ? nullptr : positions.data(),
+                               input_.flag() ? nullptr : weights.data(), huge ? kHuge : n));
+  }
+
+  void set_weights() {
+    const std::size_t n = input_.below(4) == 3 ? input_.below(16) : size();
+    const std::vector<double> weights = input_.numbers(n);
+    check(pc_diagram_set_weights(diagram_, input_.below(16) == 15 ? nullptr : weights.data(), n));
+  }
+
+  void read_measures() {
+    const std::size_t n = size();
+    std::vector<double> mass(n), centroid(3 * n), moment(n);
+    std::vector<std::uint8_t> status(n);
+    check(pc_diagram_measures(
+        diagram_, input_.flag() ? mass.data() : nullptr, input_.flag() ? centroid.data() : nullptr,
+        input_.flag() ? moment.data() : nullptr, input_.flag() ? status.data() : nullptr));
+  }
+
+  void read_adjacency() {
+    std::size_t count = 0;
+    const pc_status first = pc_diagram_adjacency(diagram_, nullptr, nullptr, nullptr, &count);
+    check(first);
+    if (first != PC_OK) return;
+    const std::size_t room = input_.below(4) == 3 ? input_.below(4) : count;
+    std::vector<std::uint64_t> offset(size() + 1);
+    std::vector<std::uint32_t> neighbor(room + 1);
+    std::vector<double> wall(room);
+    std::size_t given = room;
+    const pc_status second = pc_diagram_adjacency(diagram_, offset.data(), neighbor.data(),
+                                                  input_.flag() ? wall.data() : nullptr, &given);
+    check(second);
+    require(given == count, "the count of neighbours changed");
+    require((second == PC_OK) == (room >= count), "an array too short was taken, or a long one not");
+    if (second == PC_OK) require(offset.back() == count, "the last offset is not the count");
+  }
+
+  void read_dual() {
+    std::size_t count = 0;
+    int corners = 0;
+    const pc_status first = pc_diagram_dual(diagram_, &corners, nullptr, &count);
+    check(first);
+    if (first != PC_OK) return;
+    const std::size_t room = input_.below(4) == 3 ? input_.below(4) : count;
+    std::vector<std::uint32_t> simplices(room * 4 + 1);
+    std::size_t given = room;
+    const pc_status second = pc_diagram_dual(diagram_, &corners, simplices.data(), &given);
+    check(second);
+    require((second == PC_OK) == (room >= count), "an array too short was taken, or a long one not");
+  }
+
+  Input& input_;
+  pc_domain* domain_ = nullptr;
+  pc_diagram* diagram_ = nullptr;
+  int calls_left_ = 0;
+};
+
+}  // namespace
+
+void c_interface(Bytes bytes) {
+  Input input(bytes);
+  if (input.below(64) == 63) {  // a selector of any bytes
+    std::string selector;
+    for (std::size_t k = input.below(20); k > 0; --k) selector += static_cast<char>(input.byte());
+    pc_device* device = nullptr;
+    check(pc_device_create(selector.c_str(), &device));
+    pc_device_destroy(device);
+  }
+  Session session(input);
+  session.make_domain();
+  session.make_diagram();
+  for (int steps = 0; steps < 8 && !input.at_end(); ++steps) session.step();
+}
+
+}  // namespace powercell::fuzz

@@ -1,0 +1,138 @@
+// Any bits as seeds in device memory: each seed gets a status, and the others are as without the bad ones.
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <powercell/opencl.hpp>
+
+#include "tests/fuzz/laws.hpp"
+
+namespace powercell::fuzz {
+namespace {
+
+void succeed(cl_int status, const char* what) {
+  if (status != CL_SUCCESS) throw std::runtime_error(std::string(what) + ": " + std::to_string(status));
+}
+
+/// A context and queue of the caller, never freed.
+struct Caller {
+  cl_context context = nullptr;
+  cl_command_queue queue = nullptr;
+};
+
+const Caller& caller() {
+  static const Caller made = [] {
+    const DeviceInfo info = shared_device().info();
+    cl_platform_id platforms[16];
+    cl_device_id found[16];
+    succeed(clGetPlatformIDs(16, platforms, nullptr), "clGetPlatformIDs");
+    succeed(clGetDeviceIDs(platforms[info.platform], CL_DEVICE_TYPE_ALL, 16, found, nullptr),
+            "clGetDeviceIDs");
+    Caller result;
+    cl_int status = CL_SUCCESS;
+    result.context = clCreateContext(nullptr, 1, &found[info.device], nullptr, nullptr, &status);
+    succeed(status, "clCreateContext");
+    result.queue = clCreateCommandQueue(result.context, found[info.device], 0, &status);
+    succeed(status, "clCreateCommandQueue");
+    return result;
+  }();
+  return made;
+}
+
+const Device& device() {
+  static const auto* made = new Device(device_from_queue(caller().queue));
+  return *made;
+}
+
+/// A buffer that is released.
+struct Memory {
+  explicit Memory(std::size_t bytes, const void* values = nullptr) {
+    cl_int status = CL_SUCCESS;
+    handle = clCreateBuffer(caller().context, CL_MEM_READ_WRITE | (values ? CL_MEM_COPY_HOST_PTR : 0),
+                            bytes > 0 ? bytes : 1, const_cast<void*>(bytes > 0 ? values : nullptr), &status);
+    if (bytes == 0 && status != CL_SUCCESS)
+      handle = clCreateBuffer(caller().context, CL_MEM_READ_WRITE, 1, nullptr, &status);
+    succeed(status, "clCreateBuffer");
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  ~Memory() { clReleaseMemObject(handle); }
+  cl_mem handle = nullptr;
+};
+
+template <class Real>
+void run(Input& input, const Domain& domain, Precision precision) {
+  Options options;
+  options.precision = precision;
+  DeviceDiagram diagram(device(), domain, options);
+  const std::size_t n = input.below(20), d = static_cast<std::size_t>(domain.dimension());
+  const SeedInput given = any_seeds(input, domain, n);
+  const std::vector<Real> positions(given.positions.begin(), given.positions.end());
+  const std::vector<Real> weights(given.weights.begin(), given.weights.end());
+  const Memory position_memory(positions.size() * sizeof(Real), positions.data());
+  const Memory weight_memory(n * sizeof(Real), weights.data());
+  const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
+  diagram.enqueue(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n),
+                  measure_memory.handle, status_memory.handle);
+  std::vector<Real> rows(n * (2 + d));
+  std::vector<cl_uint> status(n);
+  if (n > 0) {
+    succeed(clEnqueueReadBuffer(caller().queue, measure_memory.handle, CL_TRUE, 0, rows.size() * sizeof(Real),
+                                rows.data(), 0, nullptr, nullptr),
+            "reading measures");
+    succeed(clEnqueueReadBuffer(caller().queue, status_memory.handle, CL_TRUE, 0, n * sizeof(cl_uint),
+                                status.data(), 0, nullptr, nullptr),
+            "reading statuses");
+  }
+
+  SeedInput valid;
+  double total = 0;
+  bool whole = true;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string seed = "seed " + std::to_string(i) + ": ";
+    require(status[i] <= static_cast<cl_uint>(DeviceSeedStatus::unfinished), seed + "no status");
+    const auto what = static_cast<DeviceSeedStatus>(status[i]);
+    const double mass = rows[i * (2 + d)];
+    bool finite = std::isfinite(weights[i]);
+    for (std::size_t k = 0; k < d; ++k) finite = finite && std::isfinite(positions[i * d + k]);
+    require(finite || what == DeviceSeedStatus::invalid, seed + "not finite, and not said so");
+    if (what == DeviceSeedStatus::invalid || what == DeviceSeedStatus::unfinished) {
+      require(std::isnan(mass), seed + "a measure of a cell that is not known");
+      whole = whole && what == DeviceSeedStatus::invalid;
+    } else {
+      require(what == DeviceSeedStatus::ok ? mass > 0 : mass == 0, seed + "mass and status contradict");
+      total += mass;
+    }
+    if (what == DeviceSeedStatus::invalid) continue;
+    valid.weights.push_back(weights[i]);
+    for (std::size_t k = 0; k < d; ++k) valid.positions.push_back(positions[i * d + k]);
+  }
+  if (!whole || valid.weights.empty()) return;
+  const SeedsView view{domain.dimension(), valid.positions, valid.weights};
+  const auto low = domain.low(), high = domain.high();
+  const double size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  const double allowed = static_cast<double>(n) * plane_error(domain, view, precision) / size;
+  const double least = precision == Precision::float32 ? 1e-5 : 1e-12;
+  if (allowed < 0.01)
+    require(std::fabs(total - domain.measure()) <= (least + 8 * allowed) * domain.measure(),
+            "the masses sum to " + std::to_string(total) + " of " + std::to_string(domain.measure()));
+}
+
+}  // namespace
+
+void device_diagrams(Bytes bytes) {
+  Input input(bytes);
+  try {
+    const bool single = input.flag() || !shared_device().info().fp64;
+    const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
+    if (single)
+      run<float>(input, domain, Precision::float32);
+    else
+      run<double>(input, domain, Precision::float64);
+  } catch (const Error& error) {
+    require(error.code() == ErrorCode::invalid_domain || error.code() == ErrorCode::unsupported,
+            std::string(name(error.code())) + ": " + error.what());
+    require_readable(error.what());
+  }
+}
+
+}  // namespace powercell::fuzz

@@ -1,0 +1,120 @@
+// A diagram used in any order of calls, with any numbers; where the library accepts them, the laws hold.
+#include <powercell/diagram.hpp>
+#include <powercell/verify.hpp>
+#include <string>
+
+#include "tests/fuzz/laws.hpp"
+
+namespace powercell::fuzz {
+namespace {
+
+/// One diagram and the seeds it should have by now.
+class Session {
+ public:
+  Session(Input& input, const Domain& domain, const Options& options)
+      : input_(input), diagram_(shared_device(), domain, options) {}
+
+  void step() {
+    switch (input_.below(8)) {
+      case 0:
+        set_seeds();
+        break;
+      case 1:
+        set_weights();
+        break;
+      case 2:
+        check_adjacency(diagram_.adjacency(), diagram_.measures());
+        break;
+      case 3:
+        check_cells(diagram_.cells(), diagram_.domain(), view(), error());
+        break;
+      case 4:
+        check_dual(diagram_.dual(), diagram_.measures());
+        break;
+      case 5:
+        check_joined(join(diagram_.domain(), diagram_.cells()), view().size());
+        break;
+      case 6:
+        check_verify();
+        break;
+      default:
+        check_measures(diagram_.measures(), diagram_.domain(), view(), error());
+    }
+  }
+
+  void set_seeds() {
+    SeedInput next = any_seeds(input_, diagram_.domain(), input_.below(20));
+    diagram_.set_seeds({diagram_.domain().dimension(), next.positions, next.weights});
+    seeds_ = std::move(next);  // only if accepted: a diagram that refuses keeps what it has
+  }
+
+ private:
+  SeedsView view() const { return {diagram_.domain().dimension(), seeds_.positions, seeds_.weights}; }
+  double error() const { return plane_error(diagram_.domain(), view(), diagram_.precision()); }
+
+  void set_weights() {
+    std::vector<double> next = input_.numbers(input_.below(8) == 7 ? input_.below(20) : diagram_.size());
+    diagram_.set_weights(next);
+    require(next.size() == view().size(), "weights of another number than the seeds were accepted");
+    seeds_.weights = std::move(next);
+  }
+
+  void check_verify() {
+    const auto low = diagram_.domain().low(), high = diagram_.domain().high();
+    const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    const auto checks = verify(diagram_, view(), {20, input_.byte()});
+    if (error() > 1e-9 * size) return;  // its tolerance of the partition does not know such seeds
+    for (const LawCheck& check : checks) require(check.passed, check.law + ": " + check.detail);
+  }
+
+  Input& input_;
+  Diagram diagram_;
+  SeedInput seeds_;
+};
+
+Options any_options(Input& input) {
+  Options options;
+  const std::size_t choice = input.below(8);
+  if (choice & 1) options.precision = Precision::float32;
+  if (choice & 2) options.neighbors = Neighbors::flann;
+  if (choice & 4) options.chunk_pairs = 1 + input.below(40);
+  options.threads = 1;
+  if (input.below(32) == 31) {
+    options.initial_neighbors = static_cast<int>(input.byte()) - 100;
+    options.lift_eta = input.number();
+    options.threads = static_cast<int>(input.byte()) - 100;
+    options.twin_queries = input.flag();
+  }
+  return options;
+}
+
+/// Runs `body`; only what the caller did wrong may be refused.
+template <class Body>
+bool accepted(Body body) {
+  try {
+    body();
+    return true;
+  } catch (const Error& error) {
+    const ErrorCode code = error.code();
+    require(code == ErrorCode::invalid_argument || code == ErrorCode::invalid_seed ||
+                code == ErrorCode::invalid_domain || code == ErrorCode::unsupported,
+            std::string(name(code)) + ": " + error.what());
+    require_readable(error.what());
+    return false;
+  }
+}
+
+}  // namespace
+
+void diagrams(Bytes bytes) {
+  Input input(bytes);
+  const Options options = any_options(input);
+  accepted([&] {
+    const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
+    Session session(input, domain, options);
+    accepted([&] { session.set_seeds(); });
+    for (int steps = 0; steps < 8 && !input.at_end(); ++steps) accepted([&] { session.step(); });
+  });
+}
+
+}  // namespace powercell::fuzz

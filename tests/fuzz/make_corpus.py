@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Writes the inputs that the fuzzers start from into corpus/TARGET/start_*.
+
+The first byte of a file input chooses the format (files.cpp); inputs of the other targets are numbers and
+choices (input.hpp), here random ones from a fixed seed. What the fuzzers found lies beside, under other names.
+"""
+import pathlib
+import random
+
+here = pathlib.Path(__file__).parent
+data = here.parent / "readers" / "data"
+
+meshes = {".off": "@", ".obj": "A", ".ply": "B", ".stl": "C", ".mesh": "D", ".msh": "E", ".tet": "F", ".txt": "G"}
+grids = {".vtk": "@", ".vtu": "A"}
+
+small_meshes = {
+    "@": "OFF\n# a square\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 0 1 2 255 0 0\n",
+    "A": "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf -3 -2 -1\n",
+    "B": "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty double y\nproperty float z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    "C": "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+         "endsolid a\n",
+    "D": "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTetrahedra 1\n"
+         "1 2 3 4 0\nTriangles 1\n1 2 3 0\nEnd\n",
+    "E": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+         "$Elements\n2\n1 4 2 0 1 1 2 3 4\n2 2 2 0 1 1 2 3\n$EndElements\n",
+    "F": "4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 2 3\n",
+    "G": "4 1\n0 0\n1 0\n1 1\n0 1\n0 1 2 3\n",
+    "O": "4 2\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n0 0 1 2\n1 0 1 3\n",
+}
+polygons = {
+    "geometry": '<{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[2,1],[2,2],[1,1]]]}',
+    "features": '<{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"a":1},"geometry":'
+                '{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]],[[[2,0],[3,0],[3,1],[2,0]]]]}}]}',
+    "collection": '<{"type":"GeometryCollection","geometries":[{"type":"Polygon","coordinates":[[[0,0],[1,0],[0,1]]]}]}',
+    "wkt": "=POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 1))",
+    "wkt_multi": "=MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((2 0, 3 0, 3 1, 2 0)))\nPOLYGON((5 5,6 5,6 6,5 5))",
+    "wkt_collection": "=GEOMETRYCOLLECTION (POLYGON ((0 0, 4 0, 4 4, 0 0)), POLYGON ((1 0, 5 0, 5 4, 1 0)))",
+    "svg_path": '><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path fill-rule="evenodd" '
+                'd="M0 0h9v9h-9zM1,1 l2 0 0 2 z m5 5 c1 0 2 1 2 2 s1 1 1 2 q1 1 2 0 t1 1 a1 2 30 1 0 2 2 z"/></svg>',
+    "svg_shapes": '><svg><g transform="translate(1 2) rotate(30) scale(2,3)"><rect x="1" y="1" width="3" height="2" '
+                  'rx="0.5"/><circle cx="5" cy="5" r="2"/><ellipse cx="1" cy="1" rx="2" ry="1"/></g>'
+                  '<polygon points="0,0 1,0 1,1"/><polyline points="0 0 3 0 3 3" transform="matrix(1 0 0 1 9 9)"/></svg>',
+}
+seeds = {
+    "rows": "00.5 0.5 1\n0.25 0.75 2\n",
+    "csv": "1x,y,z,weight\n0,0,0,1\n1,2,3,4\n",
+    "other_columns": "0name;w;y;x\na;1;2;3\nb;4;5;6\n",
+    "count": "12\n0 0 0\n1 1 1\n",
+    "random": "4100:0:0.5:7",
+    "range": "4100000:-1e3:1e-3",
+}
+
+
+def write(target, name, content):
+    folder = here / "corpus" / target
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"start_{name}").write_bytes(content if isinstance(content, bytes) else content.encode())
+
+
+for selector, text in small_meshes.items():
+    write("meshes", f"small_{selector}", selector + text)
+for path in sorted(data.iterdir()):
+    if path.suffix in meshes and path.stat().st_size < 7000:
+        write("meshes", path.name, meshes[path.suffix].encode() + path.read_bytes())
+    elif path.suffix in grids and path.stat().st_size < 6000:
+        write("grids", path.name, grids[path.suffix].encode() + path.read_bytes())
+    elif path.suffix == ".npy":
+        write("seeds", path.name, b"2" + path.read_bytes())
+        write("seeds", path.name + "_3", b"3" + path.read_bytes())
+for name, text in polygons.items():
+    write("polygons", name, text)
+for name, text in seeds.items():
+    write("seeds", name, text)
+
+generator = random.Random(1)
+for target in ("domains", "diagrams", "c_interface", "device_diagrams"):
+    for k in range(12):
+        write(target, f"random_{k}", bytes(generator.randrange(256) for _ in range(40 + 40 * k)))

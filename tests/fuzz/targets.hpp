@@ -1,0 +1,45 @@
+/// \file
+/// The fuzz targets: each takes any bytes, calls the library or a reader with what they say, and checks
+/// what must hold. It returns where all is well, and throws Finding, or is stopped by a sanitizer, where not.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace powercell::fuzz {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// What a target found wrong.
+struct Finding : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+inline void require(bool condition, const std::string& what) {
+  if (!condition) throw Finding(what);
+}
+
+// Readers of files (files.cpp). The first byte chooses the format, the rest is the file.
+void meshes(Bytes input);    ///< .off .obj .ply .stl .mesh .msh .tet .txt
+void grids(Bytes input);     ///< .vtk .vtu
+void polygons(Bytes input);  ///< .geojson .wkt .svg
+void seeds(Bytes input);     ///< text, .npy, random:
+
+// Public entry points. The bytes are numbers and choices, see input.hpp.
+void domains(Bytes input);      ///< Domain::polygon, surface, volume, box (domains.cpp)
+void diagrams(Bytes input);     ///< Diagram in any order of calls, join, verify (diagrams.cpp)
+void c_interface(Bytes input);  ///< powercell.h, null pointers and short arrays included (c_interface.cpp)
+void device_diagrams(Bytes input);  ///< DeviceDiagram, against Diagram (device_diagrams.cpp)
+
+struct Target {
+  const char* name;
+  void (*run)(Bytes);
+};
+inline constexpr Target kTargets[] = {{"meshes", meshes},           {"grids", grids},
+                                      {"polygons", polygons},       {"seeds", seeds},
+                                      {"domains", domains},         {"diagrams", diagrams},
+                                      {"c_interface", c_interface}, {"device_diagrams", device_diagrams}};
+
+}  // namespace powercell::fuzz

@@ -1,0 +1,45 @@
+#!/bin/sh
+# Fuzzes one target, or each in turn, and keeps what it finds.
+#
+#   tools/fuzz.sh TARGET MINUTES     e.g. tools/fuzz.sh meshes 60; "all" for every target, one after the other
+#
+# Builds the targets with clang in build/fuzz first. The growing corpus lies in build/fuzz/corpus/TARGET, inputs
+# that failed in build/fuzz/findings/TARGET. Once the cause is mended, keep such an input, made as small as
+# `build/fuzz/tests/fuzz_TARGET -minimize_crash=1` makes it, in tests/fuzz/corpus/TARGET under a name that says
+# what it was: ctest replays it. Exits 1 when something was found.
+set -eu
+cd "$(dirname "$0")/.."
+
+all="meshes grids polygons seeds domains diagrams c_interface device_diagrams"
+[ $# -eq 2 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+targets=$1
+[ "$targets" = all ] && targets=$all
+seconds=$(($2 * 60))
+
+cmake --preset fuzz --log-level=WARNING
+cmake --build --preset fuzz --parallel "${JOBS:-$(nproc)}"
+
+# OpenCL drivers leak at exit and map memory where AddressSanitizer keeps a gap; what the library leaks is
+# another test's matter.
+export ASAN_OPTIONS="detect_leaks=0:protect_shadow_gap=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
+found=0
+for target in $targets; do
+  corpus=build/fuzz/corpus/$target
+  findings=build/fuzz/findings/$target
+  mkdir -p "$corpus" "$findings"
+  dictionary=tests/fuzz/dictionaries/$target.dict
+  set -- -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=25 -max_len=4096 -print_final_stats=1
+  [ -e "$dictionary" ] && set -- "$@" -dict="$dictionary"
+  echo "fuzz.sh: $target for $seconds s"
+  # Kernels are compiled before the clock runs, or a slow machine calls their compilation a hang.
+  nice -n 19 "build/fuzz/tests/fuzz_$target" -runs=0 -timeout=900 "tests/fuzz/corpus/$target" >"$findings/log" 2>&1 ||
+    { found=1; echo "fuzz.sh: $target fails on its kept corpus, see $findings/log"; continue; }
+  nice -n 19 "build/fuzz/tests/fuzz_$target" "$@" -artifact_prefix="$findings/" "$corpus" \
+    "tests/fuzz/corpus/$target" >"$findings/log" 2>&1 || {
+    found=1
+    grep -E '^(finding|SUMMARY|.*runtime error)' "$findings/log" || true
+    echo "fuzz.sh: $target failed; the input lies in $findings, the log is $findings/log"
+  }
+  grep -E '^stat::(number_of_executed_units|average_exec|new_units)|DONE' "$findings/log" || true
+done
+exit $found
