@@ -28,6 +28,8 @@ forbid lib/transport "lib/(primitives|$stages|diagram|verify|c_api|cl|density)/"
   "transport is built on the public headers and lib/linear" 'lib/domain/region_mesh\.hpp"'
 forbid lib/treemap "lib/($stages|primitives|cl|diagram|verify|c_api|transport|density)/" \
   "treemaps are built on the public headers and lib/linear" 'lib/seeds/(threads|seed_set)\.hpp"'
+forbid lib/remeshing "lib/(linear|primitives|$stages|diagram|verify|c_api|cl|density|transport)/" \
+  "remeshing is built on the public headers"
 # The pictures draw the regions that Domain::mesh() hands out, a struct without code.
 forbid apps "lib/" "the tool is built on the public headers" 'lib/domain/region_mesh\.hpp"'
 [ $bad -eq 0 ] && echo "check_includes: includes point one way"

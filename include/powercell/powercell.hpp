@@ -9,6 +9,7 @@
 #include <powercell/error.hpp>
 #include <powercell/options.hpp>
 #include <powercell/peaks.hpp>
+#include <powercell/remeshing.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
 #include <powercell/transport.hpp>

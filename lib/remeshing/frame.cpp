@@ -1,0 +1,30 @@
+#include "lib/remeshing/frame.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace powercell::remeshing {
+
+Frame frame_of(std::span<const double> vertices) {
+  constexpr double most = std::numeric_limits<double>::max();
+  std::array<double, 3> low{most, most, most}, high{-most, -most, -most};
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if (!std::isfinite(vertices[k])) continue;
+    low[k % 3] = std::min(low[k % 3], vertices[k]);
+    high[k % 3] = std::max(high[k % 3], vertices[k]);
+  }
+  if (low[0] > high[0]) return {};
+  const Vec a{low[0], low[1], low[2]}, b{high[0], high[1], high[2]};
+  const double length = norm(b - a);
+  // A power of two: scaling rounds nothing.
+  return {(a + b) * 0.5, length > 0 && std::isfinite(length) ? std::exp2(std::ceil(std::log2(length))) : 1};
+}
+
+std::vector<double> Frame::to(std::span<const double> vertices) const {
+  const double shift[3] = {centre.x, centre.y, centre.z};
+  std::vector<double> result(vertices.begin(), vertices.end());
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = (result[k] - shift[k % 3]) / length;
+  return result;
+}
+
+}  // namespace powercell::remeshing

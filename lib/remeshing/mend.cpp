@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <powercell/error.hpp>
+#include <string>
+
+#include "lib/remeshing/dual.hpp"
+#include "lib/remeshing/mesh_check.hpp"
+
+namespace powercell::remeshing {
+namespace {
+
+[[noreturn]] void too_few(std::size_t most) {
+  throw Error(ErrorCode::invalid_argument,
+              "too few points for the topology of the surface: its parts lie so close together that " +
+                  std::to_string(most) + " do not tell them apart; ask for more");
+}
+
+/// The longest chord at a seed, as a curve and a rank; false if it is on none.
+bool longest_chord(const Sampling& sampling, std::uint32_t seed,
+                   std::pair<std::uint32_t, std::size_t>& chord) {
+  double longest = 0;
+  for (std::uint32_t c = 0; c < sampling.curve_count(); ++c) {
+    const auto& seeds = sampling.on_curve(c);
+    for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
+      if (seeds[k] != seed && seeds[k + 1] != seed) continue;
+      const LocalDiagram& diagram = sampling.diagram();
+      const double length = norm(diagram.seed(seeds[k]).at - diagram.seed(seeds[k + 1]).at);
+      if (length <= longest) continue;
+      longest = length;
+      chord = {c, k};
+    }
+  }
+  return longest > 0;
+}
+
+/// A seed more in a cell that is no disc or meets another twice.
+void add_in_cell(Sampling& sampling, std::uint32_t seed) {
+  const FarPoint far = sampling.farthest_of(seed);
+  if (far.place.triangle != nothing) {
+    sampling.add_free(far.place);
+    return;
+  }
+  std::pair<std::uint32_t, std::size_t> chord;
+  if (longest_chord(sampling, seed, chord)) {
+    sampling.split(chord.first, chord.second);
+    return;
+  }
+  for (const std::uint32_t j : sampling.diagram().neighbors(seed))
+    if (const FarPoint other = sampling.farthest_of(j); other.place.triangle != nothing) {
+      sampling.add_free(other.place);
+      return;
+    }
+}
+
+}  // namespace
+
+DualMesh mend(Sampling& sampling, std::size_t most) {
+  const Surface& surface = sampling.diagram().surface();
+  while (true) {
+    Defects defects;
+    DualMesh dual = dual_of(sampling, defects);
+    if (defects.none()) {
+      const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
+      if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))
+        throw Error(ErrorCode::internal, "the dual is a manifold of another topology than the surface");
+      return dual;
+    }
+    const std::size_t before = sampling.diagram().alive();
+    // Later ranks of a curve first: they do not move the earlier ones.
+    for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
+      sampling.split(chord->first, chord->second);
+    for (const FarPoint& fragment : defects.fragments) sampling.add_free(fragment.place);
+    // One seed for a defect that several cells share; the next round tells what is left.
+    std::vector<char> treated(sampling.diagram().size(), 0);
+    for (const std::uint32_t i :
+         sampling.diagram().alive() > before ? std::vector<std::uint32_t>{} : defects.seeds) {
+      if (treated[i]) continue;
+      treated[i] = 1;
+      for (const std::uint32_t j : sampling.diagram().neighbors(i))
+        if (j < treated.size()) treated[j] = 1;
+      add_in_cell(sampling, i);
+    }
+    if (sampling.diagram().alive() == before || sampling.diagram().alive() > most) too_few(most);
+  }
+}
+
+}  // namespace powercell::remeshing

@@ -1,0 +1,25 @@
+/// \file
+/// What makes a list of triangles an oriented manifold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace powercell::remeshing {
+
+struct MeshCheck {
+  std::vector<std::uint32_t> not_manifold;  ///< vertices of bad edges and of several fans, not distinct
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> boundary_edges;  ///< directed as in their triangle
+  std::vector<bool> used;                                               ///< per vertex
+  int euler = 0;
+  int loops = 0;                     ///< of the boundary; right where all is manifold
+  std::vector<std::uint64_t> edges;  ///< from << 32 | to, sorted
+
+  bool has_edge(std::uint32_t from, std::uint32_t to) const;
+};
+
+MeshCheck check_mesh(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices);
+
+}  // namespace powercell::remeshing

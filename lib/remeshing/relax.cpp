@@ -1,0 +1,225 @@
+#include "lib/remeshing/relax.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "lib/remeshing/triangle.hpp"
+
+namespace powercell::remeshing {
+namespace {
+
+using Row = WorkMesh::Row;
+
+Vec surface_normal(const Surface& surface, std::uint32_t t) {
+  return unit(normal_of(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)));
+}
+
+constexpr double worst = 2;  ///< cosine of no angle: a triangle that must not be
+
+/// Largest cosine of an angle of the triangles around v with v at `at`; `worst` where one turns over.
+double cosine_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
+  double most = -1;
+  for (const std::uint32_t t : mesh.around(v)) {
+    const Row& row = mesh.triangle(t);
+    std::array<Vec, 3> old{mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])}, corner = old;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (row[k] == v) corner[k] = at;
+    const Vec before = normal_of(old[0], old[1], old[2]), after = normal_of(corner[0], corner[1], corner[2]);
+    if (dot(before, after) <= 0.5 * norm(before) * norm(after)) return worst;
+    most = std::max(most, largest_cosine(corner[0], corner[1], corner[2]));
+  }
+  return most;
+}
+
+/// How the two triangles of an edge would be after a flip: the larger of their largest cosines; `worst`
+/// where they would fold.
+double cosine_flipped(const WorkMesh& mesh, const WorkMesh::Edge& e) {
+  const Vec a = mesh.at(e.a), b = mesh.at(e.b), c = mesh.at(e.c), d = mesh.at(e.d);
+  const Vec left = unit(normal_of(a, d, c)), right = unit(normal_of(d, b, c));
+  const Vec old_left = unit(normal_of(a, b, c)), old_right = unit(normal_of(b, a, d));
+  const double least_bend = std::min(0.8, dot(old_left, old_right) - 0.1);
+  if (dot(left, right) < least_bend) return worst;
+  const Vec mean = unit(old_left + old_right);
+  if (dot(left, mean) < 0.6 || dot(right, mean) < 0.6) return worst;
+  return std::max(largest_cosine(a, d, c), largest_cosine(d, b, c));
+}
+
+double cosine_of(const WorkMesh& mesh, const WorkMesh::Edge& e) {
+  const Vec a = mesh.at(e.a), b = mesh.at(e.b), c = mesh.at(e.c), d = mesh.at(e.d);
+  return std::max(largest_cosine(a, b, c), largest_cosine(b, a, d));
+}
+
+/// The degree that makes a vertex regular.
+int regular(const WorkMesh& mesh, std::uint32_t v) {
+  return mesh.vertex(v).boundary ? 4 : 6;
+}
+
+/// Change of the sum of squared excess degrees by a flip.
+int degree_gain(const WorkMesh& mesh, const WorkMesh::Edge& e) {
+  int gain = 0;
+  for (const auto& [v, step] : {std::pair{e.a, -1}, {e.b, -1}, {e.c, 1}, {e.d, 1}}) {
+    const int excess = static_cast<int>(mesh.degree(v)) - regular(mesh, v);
+    gain += excess * excess - (excess + step) * (excess + step);
+  }
+  return gain;
+}
+
+/// The centroid of the triangles around a vertex, each weighted by its area and h^-4.
+Vec centroid_around(const WorkMesh& mesh, std::uint32_t v) {
+  Vec sum;
+  double weight = 0;
+  for (const std::uint32_t t : mesh.around(v)) {
+    const Row& row = mesh.triangle(t);
+    const Vec a = mesh.at(row[0]), b = mesh.at(row[1]), c = mesh.at(row[2]);
+    const double h = (mesh.vertex(row[0]).h + mesh.vertex(row[1]).h + mesh.vertex(row[2]).h) / 3;
+    const double w = norm(normal_of(a, b, c)) / (h * h * h * h);
+    sum += (a + b + c) * (w / 3);
+    weight += w;
+  }
+  return sum * (1 / weight);
+}
+
+bool try_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v, Vec to,
+              double most) {
+  const Place place = project(surface, mesh.vertex(v).place, to);
+  if (cosine_around(mesh, v, place.at) >= most) return false;
+  mesh.move(v, place, sizing.at(surface, place));
+  return true;
+}
+
+void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
+  const double well = std::cos(40 * std::numbers::pi / 180);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
+    const double before = cosine_around(mesh, v, mesh.at(v));
+    try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, well));
+  }
+}
+
+/// Moves a vertex in its tangent plane where that makes the least angle around it larger.
+bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v) {
+  const double before = cosine_around(mesh, v, mesh.at(v));
+  const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
+  const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
+  for (double step = 0.2; step > 0.01; step /= 2) {
+    double least = before - 1e-3;
+    Vec best;
+    bool found = false;
+    for (int k = 0; k < 8; ++k) {
+      const double angle = k * std::numbers::pi / 4, length = step * mesh.vertex(v).h;
+      const Vec to = at + u * (length * std::cos(angle)) + w * (length * std::sin(angle));
+      const double cosine = cosine_around(mesh, v, to);
+      if (cosine >= least) continue;
+      least = cosine;
+      best = to;
+      found = true;
+    }
+    if (found && try_move(mesh, surface, sizing, v, best, before - 1e-4)) return true;
+  }
+  return false;
+}
+
+/// Sum over the triangles around v, with v at `at`, of (a^2 + b^2 + c^2) / (4 sqrt(3) area), which is 1 where
+/// they are equilateral; infinity where one turns over.
+double distortion_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
+  double sum = 0;
+  for (const std::uint32_t t : mesh.around(v)) {
+    const Row& row = mesh.triangle(t);
+    const std::size_t k = row[0] == v ? 0 : row[1] == v ? 1 : 2;
+    const Vec b = mesh.at(row[(k + 1) % 3]), c = mesh.at(row[(k + 2) % 3]);
+    const Vec before = normal_of(mesh.at(v), b, c), after = normal_of(at, b, c);
+    const double area = norm(after);
+    if (!(dot(before, after) > 0.5 * norm(before) * area)) return std::numeric_limits<double>::infinity();
+    const double d = (norm2(b - at) + norm2(c - at) + norm2(c - b)) / area;
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Moves each vertex where that makes the distortion around it less.
+void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, double step) {
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
+    const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
+    const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
+    const double before = distortion_around(mesh, v, at);
+    double least = before;
+    Vec best;
+    for (int k = 0; k < 8; ++k) {
+      const double angle = k * std::numbers::pi / 4, length = step * mesh.vertex(v).h;
+      const Vec to = at + u * (length * std::cos(angle)) + w * (length * std::sin(angle));
+      const double distortion = distortion_around(mesh, v, to);
+      if (distortion >= least) continue;
+      least = distortion;
+      best = to;
+    }
+    if (!(least < before)) continue;
+    const Place place = project(surface, mesh.vertex(v).place, best);
+    if (distortion_around(mesh, v, place.at) < before) mesh.move(v, place, sizing.at(surface, place));
+  }
+}
+
+/// Works on the vertices of the triangles with angles below `degrees`.
+void lift_least_angles(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, double degrees,
+                       int passes) {
+  const double bound = std::cos(degrees * std::numbers::pi / 180);
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<std::uint32_t> bad;
+    for (const Row& row : mesh.triangles())
+      if (row[0] != row[1] && largest_cosine(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])) > bound)
+        bad.insert(bad.end(), row.begin(), row.end());
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    bool any = false;
+    for (const std::uint32_t v : bad) {
+      for (const std::uint32_t u : mesh.neighbors(v)) {
+        const auto e = mesh.edge(v, u);
+        if (!e || !mesh.can_flip(*e)) continue;
+        if (cosine_flipped(mesh, *e) >= cosine_of(mesh, *e) - 0.005) continue;
+        mesh.flip(*e);
+        any = true;
+      }
+      if (mesh.vertex(v).kind == Hold::Kind::free) any |= search_move(mesh, surface, sizing, v);
+    }
+    if (!any) return;
+  }
+}
+
+}  // namespace
+
+std::size_t flip_edges(WorkMesh& mesh) {
+  const double well = std::cos(30 * std::numbers::pi / 180);
+  std::size_t flips = 0;
+  for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a) {
+    if (!mesh.is_alive(a)) continue;
+    for (const std::uint32_t b : mesh.neighbors(a)) {
+      if (b < a) continue;
+      const auto e = mesh.edge(a, b);
+      if (!e || !mesh.can_flip(*e)) continue;
+      const double before = cosine_of(mesh, *e), after = cosine_flipped(mesh, *e);
+      const int gain = degree_gain(mesh, *e);
+      const bool better = after < before - 0.01 && (gain >= 0 || before > well);
+      if (!better && !(gain >= 2 && after < well)) continue;
+      mesh.flip(*e);
+      ++flips;
+    }
+  }
+  return flips;
+}
+
+void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rounds) {
+  constexpr int spreading = 5;  // first rounds, which even out sizes; the others see to shapes
+  constexpr std::array<double, 3> steps = {0.1, 0.05, 0.025};  // of h
+  for (int round = 0; round < rounds; ++round) {
+    flip_edges(mesh);
+    if (round < spreading)
+      smooth(mesh, surface, sizing);
+    else
+      improve(mesh, surface, sizing, steps[static_cast<std::size_t>(round) % steps.size()]);
+  }
+  if (rounds > 0) lift_least_angles(mesh, surface, sizing, 40, 30);
+}
+
+}  // namespace powercell::remeshing

@@ -1,0 +1,91 @@
+// remesh(): from the input mesh to the new one.
+#include <algorithm>
+#include <chrono>
+#include <powercell/error.hpp>
+#include <powercell/remeshing.hpp>
+#include <string>
+#include <utility>
+
+#include "lib/remeshing/dual.hpp"
+#include "lib/remeshing/farthest.hpp"
+#include "lib/remeshing/frame.hpp"
+#include "lib/remeshing/relax.hpp"
+#include "lib/remeshing/work_mesh.hpp"
+
+namespace powercell {
+namespace {
+
+using namespace remeshing;
+
+void check(const RemeshOptions& o) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw Error(ErrorCode::invalid_argument, what);
+  };
+  require(o.count >= 4, "too few points: a surface needs at least 4");
+  require(o.count < 0x7fffffff, "more points than 31 bits can number");
+  require(o.gradation > 0 && o.gradation <= 10, "the gradation must be above 0 and at most 10");
+  require(o.contrast >= 1 && o.contrast <= 1000, "the contrast must be from 1 to 1000");
+  require(o.sharp_angle > 0 && o.sharp_angle <= 180,
+          "the sharp angle must be above 0 and at most 180 degrees");
+  require(o.rounds >= 0 && o.relaxations >= 0, "rounds must not be negative");
+}
+
+class Watch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void store(const WorkMesh& mesh, const Frame& frame, RemeshResult& result) {
+  std::vector<std::uint32_t> number(mesh.vertex_count(), nothing);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive(v)) continue;
+    number[v] = static_cast<std::uint32_t>(result.sizing.size());
+    const Vec at = frame.back(mesh.at(v));
+    result.mesh.vertices.insert(result.mesh.vertices.end(), {at.x, at.y, at.z});
+    result.fixed.push_back(mesh.vertex(v).kind != Hold::Kind::free);
+    result.sizing.push_back(mesh.vertex(v).h * frame.length);
+  }
+  for (const WorkMesh::Row& row : mesh.triangles())
+    if (row[0] != row[1])
+      for (const std::uint32_t v : row) result.mesh.triangles.push_back(number[v]);
+}
+
+}  // namespace
+
+RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
+                    const RemeshOptions& options) {
+  check(options);
+  RemeshResult result;
+  Watch watch;
+  const Frame frame = frame_of(vertices);
+  const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
+  const double spacing = std::sqrt(input.area() / (static_cast<double>(options.count) * std::sqrt(3.0) / 2));
+  std::vector<double> shape = relative_sizing(input, spacing, options.contrast);
+  const Surface surface = refined(input, spacing, shape);
+  const Sizing sizing = scaled_sizing(surface, shape, options.gradation, options.count);
+
+  Sampling sampling(surface, sizing, kept_curves(surface, options.sharp_angle), options.random_seed);
+  sampling.place_on_curves(options.count);
+  fill_farthest(sampling, options.count);
+  result.least_spacing = optimise_farthest(sampling, options.rounds, options.progress);
+  result.seconds_sample = watch.lap();
+
+  const DualMesh dual = mend(sampling, 2 * options.count + 200);
+  result.added = sampling.diagram().alive() - options.count;
+  WorkMesh mesh(sampling, dual);
+  result.seconds_dual = watch.lap();
+
+  reach_count(mesh, surface, sizing, options.count);
+  relax(mesh, surface, sizing, options.relaxations);
+  store(mesh, frame, result);
+  result.seconds_relax = watch.lap();
+  return result;
+}
+
+}  // namespace powercell

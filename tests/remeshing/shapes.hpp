@@ -1,0 +1,29 @@
+/// \file
+/// Surfaces for the tests of remeshing.
+#pragma once
+
+#include <powercell/shapes.hpp>
+#include <string>
+#include <vector>
+
+#include "lib/remeshing/surface.hpp"
+
+namespace powercell::test {
+
+TriangleMesh cube_of_12();             ///< the unit cube, two triangles a side
+TriangleMesh plate(double thickness);  ///< the unit square of that thickness, 12 triangles
+TriangleMesh bumpy_ball();             ///< closed, an uneven radius
+TriangleMesh wavy_sheet();             ///< open, one boundary loop with four corners
+TriangleMesh tube();                   ///< open at both ends, two boundary loops
+TriangleMesh small_torus();
+
+struct NamedMesh {
+  std::string name;
+  TriangleMesh mesh;
+  int euler, loops;
+};
+std::vector<NamedMesh> smooth_meshes();
+
+remeshing::Surface surface_from(const TriangleMesh& mesh);
+
+}  // namespace powercell::test
