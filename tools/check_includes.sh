@@ -30,6 +30,10 @@ forbid lib/treemap "lib/($stages|primitives|cl|diagram|verify|c_api|transport|de
   "treemaps are built on the public headers and lib/linear" 'lib/seeds/(threads|seed_set)\.hpp"'
 forbid lib/remeshing "lib/(linear|primitives|$stages|diagram|verify|c_api|cl|density|transport)/" \
   "remeshing is built on the public headers"
+forbid lib/periodic "lib/(primitives|$stages|diagram|verify|c_api|cl|transport|density)/" \
+  "periodic diagrams are built on the public headers"
+forbid lib/sampling "lib/(primitives|neighbors|pairs|clip|integrate|collect|diagram|verify|c_api|cl|transport|density|linear)/" \
+  "sampling is built on the public headers and lib/periodic"
 # The pictures draw the regions that Domain::mesh() hands out, a struct without code.
 forbid apps "lib/" "the tool is built on the public headers" 'lib/domain/region_mesh\.hpp"'
 [ $bad -eq 0 ] && echo "check_includes: includes point one way"

@@ -9,8 +9,10 @@
 #include <powercell/error.hpp>
 #include <powercell/options.hpp>
 #include <powercell/peaks.hpp>
+#include <powercell/point_sets.hpp>
 #include <powercell/remeshing.hpp>
 #include <powercell/results.hpp>
+#include <powercell/sampling.hpp>
 #include <powercell/seeds.hpp>
 #include <powercell/transport.hpp>
 #include <powercell/treemap.hpp>

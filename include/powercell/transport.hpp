@@ -56,6 +56,9 @@ struct TransportStep {
 struct TransportOptions {
   /// Mass for each unit of area or volume.
   Density density = Density::constant(1);
+  /// The domain is a box of the plane with its opposite sides identified; the density must be constant. Seeds
+  /// outside stand for their copies inside, and centroids are near the seeds as given.
+  bool periodic = false;
   /// Converged when max |m_i / v_i - 1| is below. 0 means 1e-6, in single precision 1e-3.
   double tolerance = 0;
   /// Steps of all phases together.
@@ -109,7 +112,8 @@ struct TransportResult {
 /// empty at the start, seeds outside the domain, masses over many orders of magnitude, seeds at one position.
 class POWERCELL_API TransportSolver {
  public:
-  /// \throw Error invalid_argument (an option out of its range), no_fp64
+  /// \throw Error invalid_argument (an option out of its range), no_fp64, unsupported (periodic, and no box of the
+  /// plane or a density that is not constant)
   TransportSolver(Device device, Domain domain, TransportOptions options = {});
   TransportSolver(TransportSolver&&) noexcept;
   TransportSolver& operator=(TransportSolver&&) noexcept;
@@ -138,7 +142,8 @@ class POWERCELL_API TransportSolver {
   /// Of the last solve.
   const TransportResult& result() const;
 
-  /// The diagram of all seeds with the weights of the last solve. \throw Error invalid_argument before it
+  /// The diagram of all seeds with the weights of the last solve. \throw Error invalid_argument before it,
+  /// unsupported for a periodic box
   Diagram& diagram();
 
   struct State;  ///< library-internal

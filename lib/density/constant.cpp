@@ -1,6 +1,23 @@
 #include "lib/density/constant.hpp"
 
+#include <algorithm>
+
 namespace powercell {
+namespace {
+
+struct ConstantSource : PointSource {
+  double value;
+  explicit ConstantSource(double v) : value(v) {}
+  void evaluate(std::span<const Point>, std::uint32_t, std::span<double> values) override {
+    std::fill(values.begin(), values.end(), value);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PointSource> ConstantDensity::source(const Domain&) const {
+  return std::make_unique<ConstantSource>(value_);
+}
 
 double ConstantDensity::total(const Domain& domain, int) const {
   return value_ * domain.measure();

@@ -11,6 +11,7 @@ class ConstantDensity : public DensityModel {
   explicit ConstantDensity(double value) : value_(value) {}
   double total(const Domain& domain, int threads) const override;
   DensityIntegrals integrate(Diagram& diagram, bool walls, int threads) const override;
+  std::unique_ptr<PointSource> source(const Domain& domain) const override;
   bool is_constant() const override { return true; }
 
  private:

@@ -77,7 +77,7 @@ class Formula : public PointwiseDensity {
     Expression(text_).at({0.5, 0.5, 0.5});  // tells whether it is one
   }
 
- protected:
+ public:
   std::unique_ptr<PointSource> source(const Domain&) const override {
     return std::make_unique<FormulaSource>(text_);
   }
@@ -109,7 +109,7 @@ class FunctionDensity : public PointwiseDensity {
     if (!value_) throw Error(ErrorCode::invalid_argument, "the density's function is empty");
   }
 
- protected:
+ public:
   std::unique_ptr<PointSource> source(const Domain&) const override {
     return std::make_unique<FunctionSource>(value_);
   }

@@ -47,7 +47,7 @@ std::ptrdiff_t pixel_of(double a, double b) {
 }
 
 /// Green's theorem: with R(u, v) the integral of the density along the row up to u, the mass is the integral
-/// of R dv around the piece, and the moments likewise (mathematics, (26)). R is taken from the column of the
+/// of R dv around the piece, and the moments likewise (mathematics, (33)). R is taken from the column of the
 /// seed, which changes nothing around a closed curve and keeps the terms small.
 class ImageIntegrator : public PieceIntegrator {
  public:
@@ -121,18 +121,42 @@ class ImageIntegrator : public PieceIntegrator {
   Sum sum_;
 };
 
+/// Values of the pixels that points lie in.
+class PixelSource : public PointSource {
+ public:
+  explicit PixelSource(const Pixels& pixels) : pixels_(pixels) {}
+  void evaluate(std::span<const Point> x, std::uint32_t, std::span<double> values) override {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const auto [u, v] = pixels_.pixels(x[k][0], x[k][1]);
+      values[k] = pixels_.value(pixel_of(v, v), pixel_of(u, u));
+    }
+  }
+
+ private:
+  const Pixels& pixels_;
+};
+
 class Image : public GeometricDensity {
  public:
   explicit Image(const ImageView& image) : pixels_(image) {}
 
+  std::unique_ptr<PointSource> source(const Domain& domain) const override {
+    require_plane(domain);
+    return std::make_unique<PixelSource>(pixels_);
+  }
+
  protected:
   std::unique_ptr<PieceIntegrator> integrator(const Domain& domain, const Accuracy&) const override {
-    if (domain.kind() != DomainKind::polygon)
-      throw Error(ErrorCode::unsupported, "an image is a density of the plane: the domain must be a polygon");
+    require_plane(domain);
     return std::make_unique<ImageIntegrator>(pixels_);
   }
 
  private:
+  static void require_plane(const Domain& domain) {
+    if (domain.kind() != DomainKind::polygon)
+      throw Error(ErrorCode::unsupported, "an image is a density of the plane: the domain must be a polygon");
+  }
+
   Pixels pixels_;
 };
 

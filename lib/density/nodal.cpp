@@ -64,8 +64,6 @@ class Nodal : public PointwiseDensity {
                     [](std::size_t k) { return "vertex " + std::to_string(k); });
   }
 
- protected:
-  bool linear() const override { return true; }
   std::unique_ptr<PointSource> source(const Domain& domain) const override {
     const RegionMesh& mesh = domain.mesh();
     if (domain.kind() == DomainKind::polygon || mesh.shape == RegionShape::box)
@@ -77,6 +75,9 @@ class Nodal : public PointwiseDensity {
                                                    std::to_string(mesh.vertices.size() / 3) + " vertices");
     return std::make_unique<LinearSource>(mesh, values_);
   }
+
+ protected:
+  bool linear() const override { return true; }
 
  private:
   std::vector<double> values_;

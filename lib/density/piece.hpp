@@ -2,13 +2,12 @@
 /// A convex piece of a cell as integration sees it. Internal.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <powercell/results.hpp>
 
-namespace powercell {
+#include "lib/density/model.hpp"
 
-using Point = std::array<double, 3>;  // third coordinate 0 in 2D
+namespace powercell {
 
 inline Point minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};

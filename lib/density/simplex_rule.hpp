@@ -10,7 +10,7 @@ namespace powercell {
 
 /// The invariant rules of Grundmann and Möller (SIAM J. Numer. Anal. 15, 1978) on a segment, triangle or
 /// tetrahedron. Rule s is exact for polynomials of degree 2s+1, and its points are those of rule s-1 and
-/// some more, so that going on costs only these and the difference tells the error (mathematics, (25)).
+/// some more, so that going on costs only these and the difference tells the error (mathematics, (32)).
 struct SimplexRules {
   static constexpr std::size_t count = 5;
   std::vector<std::array<double, 4>> point;       ///< barycentric coordinates, those of rule 0 first

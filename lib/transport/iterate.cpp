@@ -28,15 +28,19 @@ Evaluator::Evaluator(Diagram& diagram, const Density& density, std::span<const d
       dimension_(static_cast<std::size_t>(diagram.domain().dimension())),
       threads_(threads) {}
 
+void Evaluator::measure(Iterate& at) {
+  diagram_.set_weights({at.weights.data(), static_cast<std::size_t>(at.weights.size())});
+  if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
+  at.cells = integrate(diagram_, density_, true, threads_);
+  at.conductance = conductances(diagram_, at.cells.walls, positions_);
+}
+
 Iterate Evaluator::evaluate(Vector weights) {
   const auto start = std::chrono::steady_clock::now();
   Iterate result;
   weights.array() -= weights.mean();
-  diagram_.set_weights({weights.data(), static_cast<std::size_t>(weights.size())});
-  if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
-  result.cells = integrate(diagram_, density_, true, threads_);
-  result.conductance = conductances(diagram_, result.cells.walls, positions_);
   result.weights = std::move(weights);
+  measure(result);
   for (const double m : result.cells.mass) result.empty += m > 0 ? 0 : 1;
   ++count_;
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

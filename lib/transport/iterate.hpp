@@ -35,6 +35,7 @@ class Evaluator {
  public:
   /// All are kept by reference. \param positions  n x d, those of the diagram
   Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, int threads);
+  virtual ~Evaluator() = default;
 
   /// The diagram keeps these weights. Their mean is taken off first.
   Iterate evaluate(Vector weights);
@@ -44,6 +45,10 @@ class Evaluator {
   Diagram& diagram() { return diagram_; }
   std::size_t count() const { return count_; }  ///< diagrams so far
   double seconds() const { return seconds_; }   ///< wall clock in them
+
+ protected:
+  /// Cells and conductances of at.weights.
+  virtual void measure(Iterate& at);
 
  private:
   Diagram& diagram_;

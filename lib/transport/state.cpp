@@ -9,6 +9,7 @@
 
 #include "lib/transport/course.hpp"
 #include "lib/transport/merge.hpp"
+#include "lib/transport/periodic_evaluator.hpp"
 
 namespace powercell {
 namespace {
@@ -40,7 +41,19 @@ Vector vector_of(const std::vector<double>& values) {
 TransportSolver::State::State(Device device, Domain domain, TransportOptions given)
     : options(std::move(given)),
       tolerance(options.tolerance),
-      diagram(std::move(device), std::move(domain), options.diagram) {}
+      diagram(std::move(device), std::move(domain), options.diagram) {
+  if (!options.periodic) return;
+  if (!options.density.is_constant())
+    throw Error(ErrorCode::unsupported, "in a periodic box the density must be constant");
+  periodic.emplace(diagram.device(), diagram.domain(), options.diagram);
+}
+
+std::unique_ptr<Evaluator> TransportSolver::State::evaluator(std::span<const double> kept_positions) {
+  const int threads = options.diagram.threads;
+  if (periodic)
+    return std::make_unique<PeriodicEvaluator>(diagram, *periodic, options.density, kept_positions, threads);
+  return std::make_unique<Evaluator>(diagram, options.density, kept_positions, threads);
+}
 
 double TransportSolver::State::used_tolerance() const {
   if (tolerance > 0) return tolerance;
@@ -82,11 +95,11 @@ const TransportResult& TransportSolver::State::solve() {
   next.total_mass = total;
   next.tolerance = used_tolerance();
   next.target = target;
-  Evaluator evaluator(diagram, options.density, kept_positions, options.diagram.threads);
-  Course course(evaluator, options, next.tolerance, vector_of(rows(joined, kept, 1)));
+  const std::unique_ptr<Evaluator> cells = evaluator(kept_positions);
+  Course course(*cells, options, next.tolerance, vector_of(rows(joined, kept, 1)));
   const Iterate at = run_course(course, vector_of(kept_weights));
   next.steps = course.steps();
-  next.diagrams = evaluator.count();
+  next.diagrams = cells->count();
   next.error = at.error(course.target());
   next.converged = next.error < next.tolerance;
   next.primal = at.primal();

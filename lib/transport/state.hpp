@@ -2,8 +2,11 @@
 /// What a TransportSolver keeps between calls. Internal.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <powercell/transport.hpp>
 
+#include "lib/periodic/periodic_diagram.hpp"
 #include "lib/transport/iterate.hpp"
 
 namespace powercell {
@@ -12,6 +15,7 @@ struct TransportSolver::State {
   TransportOptions options;
   double tolerance = 0;  // as in TransportOptions
   Diagram diagram;
+  std::optional<PeriodicDiagram> periodic;  // has the cells where the options ask for it
   bool diagram_has_all = false;  // of the seeds; else those that are not merged
 
   std::vector<double> positions, weights, masses;  // of all seeds; no masses: equal ones
@@ -28,6 +32,7 @@ struct TransportSolver::State {
   const TransportResult& solve();
 
  private:
+  std::unique_ptr<Evaluator> evaluator(std::span<const double> kept_positions);
   /// Masses asked for, rescaled to the sum `total`. \throw Error invalid_argument
   std::vector<double> targets(double total) const;
   void fill_result(const Iterate& at, const std::vector<std::uint32_t>& kept);

@@ -128,6 +128,7 @@ const TransportResult& TransportSolver::result() const {
 Diagram& TransportSolver::diagram() {
   State& s = *state_;
   if (!s.solved) refuse("diagram before solve: there are no weights yet");
+  if (s.periodic) throw Error(ErrorCode::unsupported, "there is no diagram of a periodic box to hand out");
   if (!s.diagram_has_all) {
     s.diagram.set_seeds(s.seeds());
     s.diagram_has_all = true;

@@ -7,7 +7,7 @@
 
 #include "lib/verify/law.hpp"
 #include "lib/verify/rounding.hpp"
-#include "lib/verify/sample.hpp"
+#include "lib/domain/random_points.hpp"
 
 namespace powercell {
 

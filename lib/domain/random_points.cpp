@@ -1,4 +1,4 @@
-#include "lib/verify/sample.hpp"
+#include "lib/domain/random_points.hpp"
 
 #include <algorithm>
 #include <cmath>
