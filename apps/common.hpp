@@ -58,6 +58,7 @@ Command add_diagram(CLI::App& app);
 Command add_verify(CLI::App& app);
 Command add_demo(CLI::App& app);
 Command add_bench(CLI::App& app);
+Command add_transport(CLI::App& app);
 
 /// "12,345".
 std::string with_commas(std::size_t number);

@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
       "  powercell demo                                       pictures of three real shapes\n"
       "  powercell devices                                    what --device accepts\n"
       "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
+      "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
       "  powercell verify --device cpu                        does this device compute rightly?\n"
       "  powercell bench                                      how fast?\n"
       "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE.");
@@ -45,6 +46,7 @@ int run(int argc, char** argv) {
       {"devices", powercell::app::add_devices(app)}, {"diagram", powercell::app::add_diagram(app)},
       {"verify", powercell::app::add_verify(app)},   {"demo", powercell::app::add_demo(app)},
       {"bench", powercell::app::add_bench(app)},
+      {"transport", powercell::app::add_transport(app)},
   };
   try {
     app.parse(argc, argv);

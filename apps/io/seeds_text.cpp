@@ -2,18 +2,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cctype>
 #include <optional>
 
+#include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/read_text.hpp"
 
 namespace powercell::io {
 namespace {
-
-constexpr std::size_t kMostColumns = 64;
-using Fields = std::array<std::string_view, kMostColumns>;
 
 class SeedsText {
  public:
@@ -24,7 +21,6 @@ class SeedsText {
   SeedTable read();
 
  private:
-  std::size_t split(std::string_view line, Fields& fields) const;
   bool first_line(const Fields& fields, std::size_t columns);
   void header(const Fields& fields, std::size_t columns);
   void set_columns(std::size_t columns);
@@ -46,33 +42,6 @@ class SeedsText {
   std::size_t columns_ = 0;  // of every row; 0 before the first
 };
 
-// A comma or a semicolon ends a field; blanks do where neither stands between two fields.
-std::size_t SeedsText::split(std::string_view line, Fields& fields) const {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  std::size_t count = 0, at = 0;
-  while (at < line.size()) {
-    if (count == kMostColumns) scanner_.fail(fmt::format("more than {} columns", kMostColumns));
-    const std::size_t begin = at;
-    if (line[at] == '"') {  // quoted, as in the headers of some spreadsheets
-      at = std::min(line.find('"', at + 1), line.size() - 1) + 1;
-      fields[count++] = line.substr(begin + 1, at - begin >= 2 ? at - begin - 2 : 0);
-    } else {
-      while (at < line.size() && !blank(line[at]) && line[at] != ',' && line[at] != ';') ++at;
-      fields[count++] = line.substr(begin, at - begin);
-    }
-    while (at < line.size() && blank(line[at])) ++at;
-    if (at < line.size() && (line[at] == ',' || line[at] == ';')) {
-      ++at;
-      while (at < line.size() && blank(line[at])) ++at;
-      if (at == line.size()) {
-        if (count == kMostColumns) scanner_.fail(fmt::format("more than {} columns", kMostColumns));
-        fields[count++] = {};  // "1,2," has an empty third field
-      }
-    }
-  }
-  return count;
-}
-
 void SeedsText::fail_number(std::string_view field, Parsed parsed, std::size_t column) const {
   const std::string what =
       fmt::format("{}:{}: seed {} (from 0), column {}: {}", name_, scanner_.line_number(), table_.count(),
@@ -86,8 +55,7 @@ void SeedsText::fail_number(std::string_view field, Parsed parsed, std::size_t c
 void SeedsText::header(const Fields& fields, std::size_t columns) {
   unsigned found = 0;
   for (std::size_t k = 0; k < columns; ++k) {
-    std::string field(trimmed(fields[k]));
-    for (char& c : field) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string field = column_name(fields[k]);
     if (field.size() == 1 && field[0] >= 'x' && field[0] <= 'z') {
       position_column_[static_cast<std::size_t>(field[0] - 'x')] = k;
       found |= 1u << (field[0] - 'x');
@@ -162,7 +130,7 @@ SeedTable SeedsText::read() {
   Fields fields;
   bool first = true;
   while (const auto line = scanner_.line()) {
-    const std::size_t columns = split(*line, fields);
+    const std::size_t columns = split_fields(scanner_, *line, fields);
     if (first && first_line(fields, columns)) {
       first = false;
       continue;

@@ -76,7 +76,7 @@ struct TransportOptions {
 };
 
 /// What a solve came to. Arrays are in the order of the seeds given.
-struct TransportResult {
+struct POWERCELL_API TransportResult {
   /// max |m_i / v_i - 1| < tolerance. If not, what follows is the best iterate: no empty cell if there was
   /// one without, and of those the one of least error.
   bool converged = false;

@@ -65,7 +65,7 @@ std::vector<double> TransportSolver::State::targets(double total) const {
   const double sum = vector_of(masses).sum();
   if (!options.rescale && !(std::abs(sum - total) <= sum_tolerance * total))
     throw Error(ErrorCode::invalid_argument, "the masses sum to " + digits(sum) + ", the domain's mass is " +
-                                                 digits(total) + "; rescale them if their ratios are meant");
+                                                 digits(total) + "; let them be rescaled (--rescale) if their ratios are meant");
   std::vector<double> result = masses;
   for (double& m : result) m *= total / sum;
   return result;

@@ -458,4 +458,5 @@ class Bench(ToolTest):
         self.assertEqual((self.folder / "a.json").read_text(), "older")
 
 
-unittest.main(verbosity=1)
+if __name__ == "__main__":
+    unittest.main(verbosity=1)

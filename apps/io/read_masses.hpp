@@ -1,0 +1,21 @@
+/// \file
+/// The argument of --masses: a column of a table.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace powercell::io {
+
+/// One number a seed, in the order of the rows. \param column  of the header; empty: "mass", or the only one
+/// \throw Error invalid_file (file and line; a number of rows other than `seeds`),
+///   invalid_argument (a mass that is negative, zero or not finite: file, line and seed)
+std::vector<double> read_masses(const std::string& path, const std::string& column, std::size_t seeds);
+
+/// The same from memory.
+std::vector<double> parse_masses(std::string_view text, const std::string& column, std::size_t seeds,
+                                 const std::string& name);
+
+}  // namespace powercell::io

@@ -1,0 +1,265 @@
+// powercell transport: the weights of prescribed masses, from files to files.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/io/output.hpp"
+#include "apps/io/read_density.hpp"
+#include "apps/io/read_domain.hpp"
+#include "apps/io/read_masses.hpp"
+#include "apps/io/read_seeds.hpp"
+#include "apps/io/write_table.hpp"
+#include "apps/io/write_transport.hpp"
+#include "apps/progress.hpp"
+#include "apps/report.hpp"
+
+namespace powercell::app {
+namespace {
+
+struct TransportArguments : CommonOptions {
+  std::string domain, kind, seeds, masses, mass_column, density, linear = "auto", table, walls, log;
+  double tolerance = 0;
+  int most_steps = 500;
+  bool rescale = false;
+  std::vector<std::string> outputs;
+};
+
+const std::map<std::string, LinearSolver> solvers = {{"auto", LinearSolver::automatic},
+                                                     {"dense", LinearSolver::dense},
+                                                     {"direct", LinearSolver::direct},
+                                                     {"multilevel", LinearSolver::multilevel}};
+
+/// Which part of the way from the first error to the tolerance is done; errors fall by factors.
+double fraction_done(const TransportStep& step, double first_error, double tolerance) {
+  if (!(step.error > tolerance)) return 1;
+  return std::clamp(std::log(first_error / step.error) / std::log(first_error / tolerance), 0.0, 1.0);
+}
+
+TransportOptions solver_options(const TransportArguments& arguments, const Domain& domain) {
+  TransportOptions options;
+  if (!arguments.density.empty()) options.density = io::read_density(arguments.density, domain);
+  options.tolerance = arguments.tolerance;
+  options.max_steps = arguments.most_steps;
+  options.linear = solvers.at(arguments.linear);
+  options.rescale = arguments.rescale;
+  options.diagram = library_options(arguments, "cells");
+  options.diagram.progress = [](double) { return !interrupted(); };
+  auto bar = std::make_shared<ProgressBar>("transport", arguments.quiet || arguments.json);
+  const double tolerance = arguments.tolerance > 0 ? arguments.tolerance : 1e-6;
+  options.progress = [bar, tolerance, first = 0.0](const TransportStep& step) mutable {
+    first = std::max(first, step.error);
+    bar->update(fraction_done(step, first, tolerance));
+    return !interrupted();
+  };
+  return options;
+}
+
+struct TransportReport {
+  RunReport run;  // of the diagram at the end
+  double solve = 0;
+};
+
+void write_files(const TransportArguments& arguments, TransportSolver& solver, const SeedsView& seeds,
+                 RunReport& report) {
+  const auto written = [&report](const std::string& path) { report.files.push_back(path); };
+  if (!arguments.outputs.empty()) {
+    Diagram& diagram = solver.diagram();
+    const JoinedCells joined = join(diagram.domain(), diagram.cells());
+    const io::DiagramOutput output{diagram.domain(), seeds,  diagram.measures(),
+                                   diagram.cells(),  joined, diagram.adjacency()};
+    for (const std::string& path : arguments.outputs) {
+      io::write_output(path, output);
+      written(path);
+    }
+  }
+  if (!arguments.table.empty()) {
+    io::write_transport_table(arguments.table, seeds, solver.result());
+    written(arguments.table);
+  }
+  if (!arguments.walls.empty()) {
+    io::write_walls(arguments.walls, solver.diagram().adjacency());
+    written(arguments.walls);
+  }
+  if (!arguments.log.empty()) {
+    io::write_steps(arguments.log, solver.result());
+    written(arguments.log);
+  }
+}
+
+nlohmann::json as_json(const TransportReport& report, const TransportResult& result) {
+  const RunReport& run = report.run;
+  double diagrams = 0, linear = 0;
+  for (const TransportStep& step : result.steps) {
+    diagrams += step.diagram_seconds;
+    linear += step.linear_seconds;
+  }
+  return {{"seeds", run.seeds},
+          {"cells", run.cells},
+          {"hidden", run.hidden},
+          {"merged", result.merged},
+          {"converged", result.converged},
+          {"error", result.error},
+          {"tolerance", result.tolerance},
+          {"steps", result.newton_steps()},
+          {"diagrams", result.diagrams},
+          {"primal", result.primal},
+          {"dual", result.dual},
+          {"total_mass", result.total_mass},
+          {"domain_measure", run.domain_measure},
+          {"device", run.device},
+          {"precision", run.precision},
+          {"neighbors", run.neighbors},
+          {"version", version()},
+          {"seconds",
+           {{"solve", report.solve},
+            {"diagrams", diagrams},
+            {"linear", linear},
+            {"read", run.read},
+            {"build", run.build},
+            {"write", run.write}}},
+          {"files", run.files}};
+}
+
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", with_commas(count), what, count == 1 ? "" : "s");
+}
+
+std::string result_line(const TransportReport& report, const TransportResult& result) {
+  std::string line =
+      fmt::format("{} cells, masses met to {:.1e} in {} ({})", with_commas(report.run.cells), result.error,
+                  counted(result.newton_steps(), "step"), counted(result.diagrams, "diagram"));
+  if (result.merged > 0) line += fmt::format(", {} merged with others", counted(result.merged, "seed"));
+  if (report.run.hidden > 0) line += fmt::format(", {} hidden", with_commas(report.run.hidden));
+  return line + fmt::format(
+                    "; W2^2 = {:.12g} (dual {:.12g}); {}, {}, {}; {:.3f} s (and {:.3f} s reading, "
+                    "{:.3f} s writing)",
+                    result.primal, result.dual, report.run.device, report.run.precision, report.run.neighbors,
+                    report.solve, report.run.read, report.run.write);
+}
+
+[[noreturn]] void refuse_unconverged(const TransportResult& result, const RunReport& report) {
+  std::size_t worst = 0;
+  double error = -1;
+  for (std::size_t i = 0; i < result.mass.size(); ++i) {
+    if (result.merged_with[i] != i) continue;
+    const double here = std::abs(result.mass[i] / result.target[i] - 1);
+    if (here > error) {
+      error = here;
+      worst = i;
+    }
+  }
+  throw Error(ErrorCode::not_converged,
+              fmt::format("not converged: after {} the masses are met to {:.1e}, not {:.1e} (seed {}: {:.6g} "
+                          "for {:.6g}){}; try --max-steps, --tolerance or --precision double",
+                          counted(result.newton_steps(), "step"), result.error, result.tolerance, worst,
+                          result.mass[worst], result.target[worst],
+                          report.files.empty() ? "" : "; the files hold the best weights found"));
+}
+
+int run(const TransportArguments& arguments) {
+  Stopwatch watch;
+  const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
+  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
+  std::vector<double> masses;
+  if (!arguments.masses.empty())
+    masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());
+  const TransportOptions options = solver_options(arguments, domain.domain);
+  TransportReport report;
+  const double read = watch.lap();
+
+  TransportSolver solver(open_device(arguments), domain.domain, options);
+  solver.set_seeds({table.dimension, table.positions, table.weights});
+  solver.set_masses(masses);
+  watch.lap();
+  compute([&] { solver.solve(); });
+  report.solve = watch.lap();
+  const TransportResult& result = solver.result();
+  const SeedsView seeds{table.dimension, table.positions, result.weights};
+  report.run = report_of(solver.diagram());
+  report.run.read = read;
+  require_partition(report.run);
+  watch.lap();
+  write_files(arguments, solver, seeds, report.run);
+  report.run.write = watch.lap();
+  report.run.build = solver.diagram().device().build_seconds();
+
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(report, result).dump(2));
+  } else if (!arguments.quiet) {
+    fmt::print("{}\n", domain.description);
+    for (const std::string& path : report.run.files) fmt::print("wrote {}\n", path);
+    fmt::print("{}\n", result_line(report, result));
+  }
+  if (!result.converged) {
+    std::fflush(stdout);
+    refuse_unconverged(result, report.run);
+  }
+  return 0;
+}
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
+    "  powercell transport --domain italy.geojson --seeds towns.csv --masses people.csv --rescale -o "
+    "map.png\n"
+    "  powercell transport --domain part.mesh --seeds grains.txt --masses sizes.csv --table weights.csv\n"
+    "  powercell transport --domain square --seeds s.csv --density 'exp(-8*((x-.5)^2+(y-.5)^2))' --log "
+    "steps.jsonl\n"
+    "The table holds weights, so that it can be the --seeds of a later run and of 'powercell diagram'.";
+
+void add_solver_options(CLI::App& command, TransportArguments& arguments) {
+  command
+      .add_option(
+          "--masses", arguments.masses,
+          "Table with one mass a seed, in their order: one column, or one named 'mass'; else equal masses")
+      ->type_name("FILE.csv");
+  command.add_option("--mass-column", arguments.mass_column, "Name of that column")->needs("--masses");
+  command.add_flag("--rescale", arguments.rescale,
+                   "Masses are ratios: multiply them so that they sum to the domain's mass");
+  command.add_option(
+      "--density", arguments.density,
+      "Mass for each unit of area or volume: a number, a formula in x, y, z, or a file (.txt) with one "
+      "value for each vertex of the mesh");
+  command
+      .add_option("--tolerance", arguments.tolerance,
+                  "Largest relative error of a mass; 1e-6 (single precision: 1e-3) if not given")
+      ->check(CLI::PositiveNumber & CLI::Range(1e-16, 0.999));
+  command.add_option("--max-steps", arguments.most_steps, "Steps at most")->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--linear", arguments.linear,
+                  "What solves the linear systems: auto, dense, direct or multilevel")
+      ->check(CLI::IsMember({"auto", "dense", "direct", "multilevel"}));
+}
+
+}  // namespace
+
+Command add_transport(CLI::App& app) {
+  auto arguments = std::make_shared<TransportArguments>();
+  CLI::App* command = app.add_subcommand("transport", "Find the weights with which cells have given masses");
+  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
+  add_solver_options(*command, *arguments);
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "File to write, as often as wanted: " + std::string(io::known_outputs()))
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--table", arguments->table, "CSV with one row a seed: weight, mass, centroid, ...")
+      ->type_name("FILE.csv");
+  command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
+      ->type_name("FILE.csv");
+  command->add_option("--log", arguments->log, "JSON Lines: one object a step of the solver")
+      ->type_name("FILE.jsonl");
+  add_common_options(*command, *arguments);
+  command->footer(examples);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace powercell::app

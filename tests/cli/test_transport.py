@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""powercell transport from outside.
+
+usage: test_transport.py PATH_OF_POWERCELL [unittest options]
+"""
+
+import json
+import math
+import unittest
+
+from test_cli import DATA, ToolTest, run
+
+
+class Transport(ToolTest):
+    square = ("transport", "--domain", "square", "--seeds")
+
+    def test_table_feeds_the_next_run_and_the_diagram(self):
+        report = self.report(*self.square, "random:200", "--table", "t.csv", "-o", "p.png", "--log", "s.jsonl")
+        self.assertTrue(report["converged"])
+        self.assertLess(report["error"], 1e-6)
+        self.assertAlmostEqual(report["primal"], report["dual"], delta=1e-8)
+        rows = self.rows("t.csv")
+        for row in rows:
+            self.assertAlmostEqual(float(row["mass"]) * 200, 1, delta=1e-6)
+            self.assertEqual(row["status"], "ok")
+        self.assertAlmostEqual(sum(float(row["second_moment"]) for row in rows), report["primal"], delta=1e-12)
+        steps = [json.loads(line) for line in (self.folder / "s.jsonl").read_text().splitlines()]
+        self.assertEqual(len(steps), report["steps"] + 1)
+        self.assertEqual(steps[-1]["error"], report["error"])
+        self.assertEqual(sum(step["diagrams"] for step in steps), report["diagrams"])
+        self.assertGreater((self.folder / "p.png").stat().st_size, 10000)
+        self.assertEqual(self.report(*self.square, "t.csv")["steps"], 0)
+        self.good("diagram", "--domain", "square", "--seeds", "t.csv", "--table", "d.csv")
+        for ours, theirs in zip(rows, self.rows("d.csv")):
+            self.assertAlmostEqual(float(ours["mass"]), float(theirs["measure"]), delta=1e-12)
+
+    def test_masses_by_column_and_rescaled(self):
+        self.write("m.csv", "name,people\n" + "".join(f"t{i},{1 + i}\n" for i in range(20)))
+        self.report("transport", "--domain", DATA / "italy.geojson", "--seeds", "random:20", "--masses", "m.csv",
+                    "--mass-column", "people", "--rescale", "--table", "t.csv")
+        mass = [float(row["mass"]) for row in self.rows("t.csv")]
+        for i in range(20):
+            self.assertAlmostEqual(mass[i] / mass[0], 1 + i, delta=1e-4)
+
+    def test_density_surface_and_volume(self):
+        for domain, density in (("square", "exp(-4*(x^2+y^2))"), ("ball:4", "1+x^2"), ("sphere:6", "2")):
+            with self.subTest(domain=domain):
+                report = self.report("transport", "--domain", domain, "--seeds", "random:50", "--density", density,
+                                     "--table", "t.csv")
+                for row in self.rows("t.csv"):
+                    self.assertAlmostEqual(float(row["mass"]) * 50 / report["total_mass"], 1, delta=2e-6)
+        self.assertAlmostEqual(report["total_mass"], 2 * report["domain_measure"], delta=1e-9)
+
+    def test_duplicates_are_merged_and_said(self):
+        self.write("s.csv", "x,y\n0.2,0.2\n0.7,0.7\n0.2,0.2\n")
+        done = self.good(*self.square, "s.csv", "--table", "t.csv")
+        self.assertIn("1 seed merged", done.stdout)
+        rows = self.rows("t.csv")
+        self.assertEqual([row["merged_with"] for row in rows], ["", "", "0"])
+        self.assertEqual([row["status"] for row in rows], ["ok", "ok", "duplicate"])
+        self.assertAlmostEqual(float(rows[0]["mass"]), 2 / 3, delta=1e-6)
+
+    def test_bad_masses(self):
+        seeds = self.write("s.csv", "x,y\n0.2,0.2\n0.7,0.7\n")
+        for text, pattern in (("1\n-1\n", r"m.csv:2: seed 1 .* -1; masses must be positive"),
+                              ("mass\n0\n1\n", r"m.csv:2: seed 0 .* 0; masses must be positive"),
+                              ("1\nnan\n", r"m.csv:2: seed 1 .*nan"), ("1\nx\n", r"m.csv:2: seed 1.*'x'"),
+                              ("1\n", r"1 masses for 2 seeds"), ("a,b\n1,2\n3,4\n", r"no column 'mass'"),
+                              ("1 2\n3 4\n", r"2 columns and no header"),
+                              ("2\n3\n", r"the masses sum to 5, the domain's mass is 1.*--rescale")):
+            with self.subTest(text=text):
+                self.write("m.csv", text)
+                self.bad(1, pattern, *self.square, seeds, "--masses", "m.csv", "--table", "t.csv")
+        self.bad(1, "density", *self.square, seeds, "--density", "x-0.5")
+        self.bad(1, "expression|formula", *self.square, seeds, "--density", "x+*")
+        self.bad(2, "tolerance", *self.square, seeds, "--tolerance", "-1")
+
+    def test_not_converged_keeps_the_best_and_fails(self):
+        arguments = (*self.square, "random:300", "--max-steps", "1", "--table", "t.csv")
+        done = run(*arguments, "--json", cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "not converged: after 1 step the masses.*the files hold the best")
+        report = json.loads(done.stdout)
+        self.assertFalse(report["converged"])
+        errors = [abs(float(row["mass"]) * 300 - 1) for row in self.rows("t.csv")]
+        self.assertTrue(math.isclose(max(errors), report["error"], rel_tol=1e-9))
+
+
+if __name__ == "__main__":
+    unittest.main()
