@@ -83,34 +83,6 @@ TEST_CASE("new weights decide anew which of two equal seeds is the duplicate") {
   }
 }
 
-TEST_CASE("small chunks give the same bits") {
-  for_each_domain_and_setup([](const Domain& domain, const Setup& setup, const SeedArray& seeds, Random&) {
-    Diagram whole(setup.device, domain, setup.options);
-    whole.set_seeds(seeds.view());
-    for (const std::uint64_t pairs : {std::uint64_t{1}, std::uint64_t{64}, std::uint64_t{1000}}) {
-      if (pairs == 1 && domain.region_count() > 1) continue;  // thousands of launches of one pair
-      CAPTURE(pairs);
-      Options options = setup.options;
-      options.chunk_pairs = pairs;
-      Diagram chunked(setup.device, domain, options);
-      chunked.set_seeds(seeds.view());
-      check_same(whole, chunked);
-    }
-  });
-}
-
-TEST_CASE("the number of threads and repetition give the same bits") {
-  for_each_domain_and_setup([](const Domain& domain, const Setup& setup, const SeedArray& seeds, Random&) {
-    Options one_thread = setup.options;
-    one_thread.threads = 1;
-    Diagram first(setup.device, domain, setup.options), again(setup.device, domain, setup.options),
-        single(setup.device, domain, one_thread);
-    for (Diagram* diagram : {&first, &again, &single}) diagram->set_seeds(seeds.view());
-    check_same(first, again);
-    check_same(first, single);
-  });
-}
-
 TEST_CASE("the order in which results are asked for does not matter") {
   for_each_domain_and_setup([](const Domain& domain, const Setup& setup, const SeedArray& seeds, Random&) {
     Diagram forwards(setup.device, domain, setup.options), backwards(setup.device, domain, setup.options);
