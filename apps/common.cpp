@@ -31,7 +31,7 @@ void add_engine_options(CLI::App& command, CommonOptions& options) {
                   "Where candidate neighbours come from: auto, tree or flann")
       ->check(CLI::IsMember({"auto", "tree", "flann"}));
   command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 4096));
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {

@@ -80,7 +80,7 @@ void TextScanner::skip_blanks() {
       ++at_;
     } else if (blank(c)) {
       ++at_;
-    } else if (c == comment_) {
+    } else if (c == comment_ && comment_ != '\0') {
       while (at_ < text_.size() && text_[at_] != '\n') ++at_;
     } else {
       return;

@@ -51,10 +51,13 @@ std::string not_found_message(std::span<const DeviceInfo> devices, std::string_v
   std::string shown(selector.substr(0, 100));
   for (char& c : shown)
     if (std::iscntrl(static_cast<unsigned char>(c))) c = '?';
-  std::string message = "no OpenCL device matches \"" + shown + "\"" + std::string(origin) + "; there are:";
-  for (const auto& device : devices)
-    message += "\n  " + device.selector() + "  " + device.name + " (" + device.platform_name + ")";
-  return message + "\nuse \"P:D\", a part of a name, \"cpu\" or \"gpu\"";
+  std::string message = "no OpenCL device matches \"" + shown + "\"" + std::string(origin) + "; there are";
+  const char* separator = " ";
+  for (const auto& device : devices) {
+    message += separator + device.selector() + " " + device.name + " (" + device.platform_name + ")";
+    separator = ", ";
+  }
+  return message + "; use \"P:D\", a part of a name, \"cpu\" or \"gpu\"";
 }
 
 }  // namespace

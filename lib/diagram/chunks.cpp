@@ -17,6 +17,8 @@ constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_co
 constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 /// Where device memory does not suffice, chunks are halved down to this before the error is passed on.
 constexpr std::uint64_t least_chunk_pairs = 1024;
+/// Rows of vertices and faces within a chunk are numbered by 32 bits, at most some 750 to a pair.
+constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
 /// Of a cell's largest wall: a one-sided wall below it is rounding (docs/mathematics.md).
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
@@ -32,7 +34,7 @@ ChunkRun::ChunkRun(Diagram::State& state, bool want_adjacency, bool want_cells)
       geometry_(state.domain.mesh(), state.seeds, state.scene.frame()) {}
 
 std::uint64_t ChunkRun::chunk_pairs() const {
-  if (s_.options.chunk_pairs > 0) return s_.options.chunk_pairs;
+  if (s_.options.chunk_pairs > 0) return std::min(s_.options.chunk_pairs, most_chunk_pairs);
   const DeviceInfo& device = s_.device.info();
   if (device.type != DeviceInfo::Type::cpu) return chunk_pairs_gpu;
   return std::min(chunk_pairs_cpu, std::max(1u, device.compute_units) * chunk_pairs_core);

@@ -10,6 +10,8 @@
 namespace powercell {
 namespace {
 
+constexpr std::size_t most_points = std::size_t{1} << 30;  // so that edges of convex pieces fit 32 bits
+
 /// Ring 0 is the outer one, ring k hole k - 1.
 const Ring& ring_of(const PolygonPart& part, std::uint32_t k) {
   return k == 0 ? part.outer : part.holes[k - 1];
@@ -108,8 +110,10 @@ std::uint32_t IndexedRings::find(double x, double y) const {
 
 IndexedRings index_rings(std::span<const PolygonPart> parts) {
   if (parts.empty()) refuse("the domain is empty: the polygon has no parts");
+  if (parts.size() > most_points) refuse("a polygon can have at most 2^30 parts");
   double largest = 0;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].holes.size() > most_points) refuse(ring_name(p, 0) + ": a part can have at most 2^30 holes");
     for (std::uint32_t h = 0; h <= parts[p].holes.size(); ++h) {
       largest = std::max(largest, largest_coordinate(ring_of(parts[p], h), ring_name(p, h)));
     }
@@ -129,7 +133,7 @@ IndexedRings index_rings(std::span<const PolygonPart> parts) {
   }
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() > (std::size_t{1} << 30)) refuse("a polygon can have at most 2^30 points");
+  if (points.size() > most_points) refuse("a polygon can have at most 2^30 points");
   for (const auto& point : points)
     indexed.vertices.insert(indexed.vertices.end(), point.begin(), point.end());
   for (std::size_t r = 0; r < cleaned.size(); ++r) {

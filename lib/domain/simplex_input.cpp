@@ -17,10 +17,16 @@ void check_simplices(std::span<const double> vertices, std::span<const std::uint
            std::to_string(elements.size()) + " numbers");
   }
   if (rows == 0) refuse("the domain is empty: it has no " + elements_name);
-  constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
-  if (elements.size() > limit || vertices.size() / 3 > limit) {
-    refuse("too many " + elements_name + " or vertices: " + std::to_string(rows) + " and " +
-           std::to_string(vertices.size() / 3));
+  // Places in the array of indices are numbered by 32 bits, vertices on the device by 31.
+  constexpr std::size_t most_rows = std::numeric_limits<std::uint32_t>::max(),
+                        most_vertices = (std::size_t{1} << 31) - 1;
+  if (rows > most_rows / static_cast<std::size_t>(corners)) {
+    refuse(std::to_string(rows) + " " + elements_name + " are more than the " +
+           std::to_string(most_rows / static_cast<std::size_t>(corners)) + " that a domain can have");
+  }
+  if (vertices.size() / 3 > most_vertices) {
+    refuse(std::to_string(vertices.size() / 3) + " vertices are more than the " +
+           std::to_string(most_vertices) + " that a domain can have");
   }
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     if (!std::isfinite(vertices[k])) {

@@ -1,5 +1,6 @@
 #include "lib/seeds/threads.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <system_error>
 #include <thread>
@@ -10,7 +11,8 @@
 namespace powercell {
 
 int thread_count(int requested) {
-  if (requested > 0) return requested;
+  constexpr int most = 4096;  // above it threads cost more than they could do
+  if (requested > 0) return std::min(requested, most);
   const unsigned machine = std::thread::hardware_concurrency();  // 0 where unknown
   return machine == 0 ? 1 : static_cast<int>(machine);
 }

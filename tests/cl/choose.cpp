@@ -59,7 +59,7 @@ TEST_CASE("an unknown selector is answered with the devices that exist") {
     const std::string message = error->what();
     CHECK(contains(message, selector));
     CHECK(contains(message, "\" (from X)"));
-    for (const auto& device : machine) CHECK(contains(message, device.selector() + "  " + device.name));
+    for (const auto& device : machine) CHECK(contains(message, device.selector() + " " + device.name));
   }
   const auto none = error_of([] { cl::select_device({}, "cpu"); });
   REQUIRE(none);
