@@ -30,6 +30,10 @@ void add_engine_options(CLI::App& command, CommonOptions& options) {
       .add_option("--neighbors", options.neighbors,
                   "Where candidate neighbours come from: auto, tree or flann")
       ->check(CLI::IsMember({"auto", "tree", "flann"}));
+  command
+      .add_option("--decisions", options.decisions,
+                  "exact, or fast: cells whose shape rounding may have decided are left as they are, and counted")
+      ->check(CLI::IsMember({"exact", "fast"}));
   command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
       ->check(CLI::Range(0, 4096));
 }
@@ -73,6 +77,7 @@ Options library_options(const CommonOptions& options, std::string_view what) {
   Options result;
   result.precision = precisions.at(options.precision);
   result.neighbors = providers.at(options.neighbors);
+  result.decisions = options.decisions == "fast" ? Decisions::fast : Decisions::exact;
   result.threads = options.threads;
   auto bar = std::make_shared<ProgressBar>(std::string(what), options.quiet || options.json);
   result.progress = [bar](double fraction) {

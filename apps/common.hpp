@@ -21,6 +21,7 @@ struct CommonOptions {
   std::string device;
   std::string precision = "auto";
   std::string neighbors = "auto";
+  std::string decisions = "exact";
   int threads = 0;
   bool json = false;
   bool quiet = false;
@@ -28,9 +29,9 @@ struct CommonOptions {
 
 /// Adds --json and --quiet.
 void add_output_options(CLI::App& command, CommonOptions& options);
-/// Adds --neighbors and --threads.
+/// Adds --neighbors, --decisions and --threads.
 void add_engine_options(CLI::App& command, CommonOptions& options);
-/// Adds --device, --precision, --neighbors, --threads, --json and --quiet.
+/// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// Adds --domain, --seeds and --kind.

@@ -58,6 +58,7 @@ nlohmann::json as_json(const RunReport& report) {
             {"write", report.write}}},
           {"pairs", t.pair_count},
           {"retried", t.retried},
+          {"uncertain", t.uncertain},
           {"on_host", t.on_host},
           {"rounds", t.rounds},
           {"files", report.files}};

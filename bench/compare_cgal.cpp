@@ -27,6 +27,7 @@ struct Arguments {
   WeightRange weights = WeightRange::W1;
   Distribution distribution = Distribution::white;
   Neighbors neighbors = Neighbors::automatic;
+  Precision precision = Precision::float64;
   std::uint64_t seed = 1;
 };
 
@@ -44,6 +45,9 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--distribution", a.distribution, "white, blue or cluster")
       ->transform(CLI::CheckedTransformer(distributions));
   app.add_option("--neighbors", a.neighbors, "tree or flann")->transform(CLI::CheckedTransformer(providers));
+  app.add_option("--precision", a.precision, "float64 or float32")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Precision>{{"float64", Precision::float64}, {"float32", Precision::float32}}));
   app.add_option("--seed", a.seed, "of the random numbers")->capture_default_str();
   try {
     app.parse(argc, argv);
@@ -110,7 +114,7 @@ int run(const Arguments& a) {
   Random random(a.seed);
   const SeedArray seeds = random_seeds(a.distribution, a.weights, a.n, a.dimension, random);
   Options options;
-  options.precision = Precision::float64;
+  options.precision = a.precision;
   options.neighbors = a.neighbors;
   Diagram diagram(Device::choose(), unit_box(a.dimension), options);
   auto start = std::chrono::steady_clock::now();
@@ -125,7 +129,7 @@ int run(const Arguments& a) {
   const ReferenceDiagram reference =
       cut_by_candidates(box_mesh(a.dimension), seeds.view(), cgal.offset, cgal.neighbor, cgal.hidden);
   const std::vector<double> voro =
-      a.dimension == 3 ? radical_cells(seeds.view(), {}).volume : std::vector<double>{};
+      a.dimension == 3 && a.precision == Precision::float64 ? radical_cells(seeds.view(), {}).volume : std::vector<double>{};
 
   Counts counts;
   compare_walls(counts, diagram.adjacency(), reference, mean_wall(reference));

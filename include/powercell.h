@@ -61,10 +61,14 @@ typedef struct pc_diagram pc_diagram; /**< a power diagram of seeds in a domain,
 /** Returns 0 to stop the computation with PC_INTERRUPTED. Must not throw. */
 typedef int (*pc_progress)(double fraction, void* user);
 
+/** What becomes of cells whose shape rounding may have decided (powercell::Decisions). */
+typedef enum pc_decisions { PC_DECISIONS_EXACT = 0, PC_DECISIONS_FAST } pc_decisions;
+
 /** Options of a diagram. Fill with pc_options_init() first. */
 typedef struct pc_options {
   pc_precision precision;
   pc_neighbors neighbors;
+  pc_decisions decisions;
   int initial_neighbors; /**< FLANN only: 0 means 16, or 32 in volumes */
   int threads;           /**< host threads; 0 means all */
   uint64_t chunk_pairs;  /**< most (region, seed) pairs on the device at once; 0 means by its memory */

@@ -9,6 +9,8 @@
 #define PIECE_MORE 3    /* the neighbour list ended before the stopping rule held */
 #define PIECE_FULL 4    /* does not fit this variant's capacity */
 #define PIECE_TANGLED 5 /* rounding made the cut topologically impossible */
+/* Added to one of the first three: rounding may have decided (docs/mathematics.md, "Certain decisions"). */
+#define PIECE_UNCERTAIN 8
 
 /* What a cut did. */
 #define CUT_NONE 0

@@ -34,6 +34,7 @@ json runs_json(const TimedRuns& runs, double rate) {
             {"collect", t.collect}}},
           {"pairs", t.pair_count},
           {"retried", t.retried},
+          {"uncertain", t.uncertain},
           {"on_host", t.on_host}};
 }
 

@@ -21,8 +21,15 @@ enum class Neighbors {
   flann,      ///< the paper's: k nearest lifted neighbours of the twin, from a KD-tree on the host
 };
 
+/// What becomes of cells whose shape rounding may have decided: grids, cospherical seeds, walls in facets.
+enum class Decisions {
+  exact,  ///< decided anew on the host with exact numbers, ties broken by the index of the seed
+  fast,   ///< left as they are, and counted (Timings::uncertain)
+};
+
 struct Options {
   Precision precision = Precision::automatic;
+  Decisions decisions = Decisions::exact;
   Neighbors neighbors = Neighbors::automatic;
 
   /// FLANN only: neighbours asked for at first, doubled for the cells that have not met the stopping

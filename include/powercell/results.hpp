@@ -51,7 +51,8 @@ struct Border {
 };
 
 /// The geometry of the cells as convex pieces, one for each region of the domain that a cell meets.
-/// A piece thinner than rounding is kept, so that cells have no gaps, but adds nothing to the measures.
+/// A piece without thickness in a facet between regions is kept, since it carries a wall, but adds nothing to the
+/// measures; where seeds tie, faces and edges may have no extent.
 /// Cell i owns the pieces [cell_offset[i], cell_offset[i+1]).
 /// Piece p has the vertices [vertex_offset[p], vertex_offset[p+1]) and the faces
 /// [face_offset[p], face_offset[p+1]). For polygons and surfaces a face is an edge: face k of a piece
@@ -97,7 +98,8 @@ struct JoinedCells {
 };
 
 /// The regular triangulation restricted to the domain: one simplex for each point of the domain in
-/// which d+1 cells meet (three on polygons and surfaces, four in volumes).
+/// which d+1 cells meet (three on polygons and surfaces, four in volumes). With exact decisions more cells meet in no
+/// point: ties are broken by the index of the seeds, so that the simplices form a triangulation for any seeds.
 struct Dual {
   int corners = 0;                      ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented
@@ -117,6 +119,7 @@ struct Timings {
   std::uint64_t pair_count = 0;   ///< candidate (region, seed) pairs
   std::uint64_t retried = 0;      ///< pairs that needed a larger variant
   std::uint64_t on_host = 0;      ///< pairs that ended on the host
+  std::uint64_t uncertain = 0;    ///< pairs in which rounding may have decided
   int rounds = 0;                 ///< rounds of neighbour lists (FLANN)
 };
 

@@ -3,6 +3,7 @@
 #ifndef POWERCELL_BASE_CELL
 #define POWERCELL_BASE_CELL
 #include "clip/vertices.cl"
+#include "clip/certain.cl"
 #if CELL_DIMENSION == 3
 #include "clip/polyhedron.cl"
 #else

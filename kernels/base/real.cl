@@ -1,6 +1,6 @@
 /* Scalar types, seeds and the few things that differ between precisions and languages; with
-   lanes.cl, point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64; 80 when compiled as C++ for the last resort on the
-   host), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
+   lanes.cl, point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64; 64 when compiled as C++ for what the host
+   decides), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
    VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
@@ -23,25 +23,30 @@
 
 #define __global
 #define __kernel
-typedef long double real;
+typedef double real;
 typedef double stored_real;
 typedef unsigned int index_t;
 typedef struct {
   double x, y, z, w;
 } seed_t;
-#define REAL_EPSILON 1.0842021724855044e-19L
-#define REAL_MAX 1e4000L
+#define REAL_EPSILON 2.2204460492503131e-16
+#define REAL_MAX 1.0e300
+#define QUICK_PROOF 0
 /* Cells on the host grow: arrays are pointers, capacities are members. */
 #define STORAGE(type, name, count) type* name
 #define STORAGE_ROWS(type, name, rows, count) type* name[rows]
 #define VERTEX_CAPACITY (cell->vertex_capacity)
 #define FACE_CAPACITY (cell->face_capacity)
 #define VERTEX_WORDS 2 /* or any number */
-#define TOLERANCE_FACTOR (cell->tolerance_factor)
-#define HOST_MEMBERS   \
-  int vertex_capacity; \
-  int face_capacity;   \
-  real tolerance_factor;
+#define HOST_MEMBERS                                                       \
+  int vertex_capacity;                                                     \
+  int face_capacity;                                                       \
+  real* error;              /* of each vertex */                           \
+  real worst_error;         /* of all vertices there were */               \
+  powercell::ExactCell* exact;
+/* See base/decide.cl. */
+#define PLACE_VERTEX(cell, v) host_place(cell, v)
+#define COUNT_SIDES(cell, border, tolerance, vertices, inside) host_sides(cell, border, vertices, inside)
 
 #else
 
@@ -60,8 +65,10 @@ typedef uchar index_t;
 #define VERTEX_WORDS ((VERTEX_CAPACITY + 63) / 64) /* of a bit per vertex */
 #define STORAGE(type, name, count) type name[count]
 #define STORAGE_ROWS(type, name, rows, count) type name[rows][count]
-#define TOLERANCE_FACTOR 16
 #define HOST_MEMBERS
+#define PLACE_VERTEX(cell, v)
+#define COUNT_SIDES(cell, border, tolerance, vertices, inside) \
+  count_sides(&(cell)->at, tolerance, vertices, inside)
 
 #if REAL_BITS == 64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -69,6 +76,7 @@ typedef double real;
 typedef double4 seed_t; /* x y z weight */
 #define REAL_EPSILON 2.2204460492503131e-16
 #define REAL_MAX 1.0e300
+#define QUICK_PROOF 1 /* clip/certain.cl: floats are not exact enough for it */
 #else
 typedef float real;
 typedef struct {
@@ -76,6 +84,7 @@ typedef struct {
   float4 low;
 } seed_t; /* x y z weight, each as the sum of two floats */
 #define REAL_EPSILON 1.1920929e-7f
+#define QUICK_PROOF 0
 #define REAL_MAX 1.0e38f
 #endif
 typedef real stored_real;
@@ -104,6 +113,17 @@ static inline void difference(seed_t a, seed_t b, real* d) {
   d[1] = (real)a.y - (real)b.y;
   if (DIMENSION == 3) d[DIMENSION - 1] = (real)a.z - (real)b.z;
 }
+#endif
+
+#if !defined(__cplusplus) && REAL_BITS == 32
+/* What two floats leave out of a coordinate, and of a weight: for the differences of p with anything. */
+static inline real position_blur(seed_t p) {
+  return (fabs(p.high.x) + fabs(p.high.y) + fabs(p.high.z) + 1) * (REAL_EPSILON * REAL_EPSILON);
+}
+static inline real weight_blur(seed_t p) { return fabs(p.high.w) * (REAL_EPSILON * REAL_EPSILON); }
+#else
+static inline real position_blur(seed_t p) { return 0 * p.x; }
+static inline real weight_blur(seed_t p) { return 0 * p.w; }
 #endif
 
 static inline real norm2(const real* d) {

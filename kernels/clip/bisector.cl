@@ -2,7 +2,7 @@
    (docs/mathematics.md (3): kept is 2 q.y <= |q|^2 + w_i - w_j). */
 #ifndef POWERCELL_CLIP_BISECTOR
 #define POWERCELL_CLIP_BISECTOR
-#include "base/cell.cl"
+#include "base/decide.cl"
 
 /* What lies behind a face with border `old` that lies in the bisector of `border` (docs/mathematics.md,
    "Walls in facets"): of two seeds the farther one; behind a facet of the region the new seed, unless
@@ -24,16 +24,38 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
   return s > tolerance || (s >= -tolerance && (uint)border < cell->at.self) ? border : old;
 }
 
+/* For a cell that is empty since all of it is beyond the plane: how far, at least, or below 0 if that is not certain.
+   The cell is no longer usable. */
+static inline real outside_gap(cell_t* cell, const real* q, real level, real sum, real error) {
+  real normal[DIMENSION];
+  for (int k = 0; k < DIMENSION; ++k) normal[k] = -q[k];
+  find_sides(&cell->at, normal, -level); /* free slots hold 0, which may be on the other side */
+  const real gap = (-most_of_used(&cell->at) - error) / (2 * sum);
+  if (!(gap > 0)) return -1;
+  const real moved = cell_certain(cell);
+  return moved < 0 ? moved : gap - moved;
+}
+
 /* Cuts the cell by the bisector with `other`, whose rank is `border`. Of two seeds that share a region
-   within their bisector, as a triangle can lie, the one of lower rank has it. A value of (3)
-   within TOLERANCE_FACTOR rounding errors of its terms counts as zero. Returns a CUT code. */
+   within their bisector, as a triangle can lie, the one of lower rank has it. Returns a CUT code. */
 static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
   real q[DIMENSION], sum = 0;
   difference(other, seed, q);
   for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
   const real q2 = norm2(q), dw = weight_difference(seed, other);
-  const real tolerance = TOLERANCE_FACTOR * REAL_EPSILON * (2 * sum * cell->at.reach + q2 + fabs(dw));
+  cell->at.size2 = 4 * q2;
+  const real tolerance = SIDE_TOLERANCE(cell, sum, q2, dw);
   const int cut = cell_cut(cell, q, q2 + dw, tolerance, border);
+  const real error = plane_error(&cell->at, sum, q2, dw);
+  if (cut == CUT_NONE) note_gap(&cell->at, sum, q2 + dw, error);
+  if (QUICK_PROOF && (cut == CUT_SHRUNK || cut == CUT_EMPTY)) note_cut(&cell->at, sum, error);
+  if (cut == CUT_SHRUNK) {
+    note_drift(&cell->at);
+    return cut;
+  }
+  if (cut == CUT_EMPTY)
+    cell->at.gap = quickly_certain(&cell->at) ? (real)1 : OUTSIDE_GAP(cell, q, q2 + dw, sum, error);
+  if (cut == CUT_TOUCH || cut == CUT_WITHIN) cell->at.gap = -1;
   if (cut == CUT_WITHIN) return cell->at.self < (uint)border ? CUT_NONE : CUT_EMPTY;
   if (cut != CUT_TOUCH) return cut;
   for (int f = 0; f < cell_faces(cell); ++f)

@@ -2,13 +2,21 @@
    vertex v to vertex next[v] and has what lies behind it in border[v]. */
 #ifndef POWERCELL_CLIP_POLYGON
 #define POWERCELL_CLIP_POLYGON
-#include "clip/vertices.cl"
+#include "clip/certain.cl"
+
+/* Edges gone that are kept in mind. */
+#define GONE_MOST 24
 
 typedef struct {
   vertices_t at;
   STORAGE(index_t, next, VERTEX_CAPACITY);
   STORAGE(index_t, previous, VERTEX_CAPACITY);
   STORAGE(int, border, VERTEX_CAPACITY);
+  STORAGE(real4, line, VERTEX_CAPACITY); /* (q, level) of the bisector of an edge; of unit normal in cell_certain */
+  STORAGE(real, doubt, VERTEX_CAPACITY); /* for cell_certain */
+  int gone[GONE_MOST];                   /* what was behind edges that are no more */
+  int gone_count;
+  int corners;                           /* of the region */
   int first; /* some vertex */
   HOST_MEMBERS
 } cell_t;
@@ -24,14 +32,62 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   const uint first = regions.offset[region];
   const int count = (int)(regions.offset[region + 1] - first);
   if (count > VERTEX_CAPACITY) return PIECE_FULL;
-  start_vertices(&cell->at, regions, seeds, self, regions.behind + first);
+  start_vertices(&cell->at, regions, seeds, self, regions.vertex + first, regions.behind + first);
   cell->first = 0;
+  cell->corners = count;
+  cell->gone_count = 0;
   for (int v = 0; v < count; ++v) {
     set_corner(&cell->at, v, regions.corner[regions.vertex[first + (uint)v]]);
     cell->border[v] = ~v;
     link_vertices(cell, v, v + 1 == count ? 0 : v + 1);
   }
   return PIECE_WHOLE;
+}
+
+/* The plane that the cell lies in. */
+static inline certain_plane_t ground_plane(const cell_t* cell) {
+  if (DIMENSION == 2) {
+    const certain_plane_t flat = {make_real4(0, 0, 1, 0), 0};
+    return flat;
+  }
+  const real4 y = region_corner(&cell->at, 0);
+  const real4 a = region_corner(&cell->at, 1) - y, b = region_corner(&cell->at, 2) - y;
+  return facet_plane(&cell->at, y, a, b, cross(a, b));
+}
+
+/* The line of facet `slot` of the region, as a plane of unit normal across the ground. */
+static inline certain_plane_t facet_line(const cell_t* cell, int slot, real4 ground) {
+  const real4 y = region_corner(&cell->at, slot);
+  const real4 along = region_corner(&cell->at, slot + 1 == cell->corners ? 0 : slot + 1) - y;
+  return facet_plane(&cell->at, y, along, ground, cross(along, ground));
+}
+
+/* The line of an edge. */
+static inline certain_plane_t edge_line(const cell_t* cell, int v, real4 ground) {
+  return cell->border[v] < 0 ? facet_line(cell, ~cell->border[v], ground)
+                             : unit_plane(&cell->at, cell->line[v]);
+}
+
+/* Keeps what was behind the edges that have both ends outside the last cut; they are still linked. */
+static inline void forget_edges(cell_t* cell, int first, int last) {
+  for (int v = first; v != last; v = cell->next[v]) {
+    if (cell->gone_count < GONE_MOST) cell->gone[cell->gone_count] = cell->border[v];
+    ++cell->gone_count;
+  }
+}
+
+/* Notes the gaps to the lines of edges that have gone. Where they are too many to have been kept, nothing is
+   certain. */
+static inline void note_gone_edges(cell_t* cell) {
+  if (cell->gone_count > GONE_MOST) cell->at.gap = -1;
+  for (int k = 0; k < min(cell->gone_count, GONE_MOST); ++k) {
+    if (cell->gone[k] < 0) {
+      const certain_plane_t line = facet_line(cell, ~cell->gone[k], ground_plane(cell).plane);
+      note_gone(&cell->at, raw_plane(line), line.doubt);
+    } else {
+      note_gone(&cell->at, raw_bisector(&cell->at, cell->gone[k]), cell->at.blur);
+    }
+  }
 }
 
 /* The ends first..last of the one run of outside vertices; false if there are several. */
@@ -57,7 +113,7 @@ static inline bool find_run(const cell_t* cell, int* first, int* last) {
 static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
   if (find_sides(&cell->at, q, level) < -tolerance) return CUT_NONE;
   int inside, vertices, first = 0, last = 0;
-  const int outside = count_sides(&cell->at, tolerance, &vertices, &inside);
+  const int outside = COUNT_SIDES(cell, border, tolerance, &vertices, &inside);
   if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
   if (outside == 0) return vertices - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
   if (!find_run(cell, &first, &last)) return CUT_TANGLED;
@@ -69,12 +125,17 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   if (b < 0) return CUT_FULL;
   set_edge_point(&cell->at, b, after, last);
   cell->border[a] = border;
+  cell->line[a] = make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, level);
   cell->border[b] = cell->border[last];
+  cell->line[b] = cell->line[last];
   link_vertices(cell, before, a);
   link_vertices(cell, a, b);
   link_vertices(cell, b, after);
+  PLACE_VERTEX(cell, a);
+  PLACE_VERTEX(cell, b);
   cell->first = a;
   drop_outside(&cell->at);
+  forget_edges(cell, first, last);
   return CUT_SHRUNK;
 }
 
@@ -85,6 +146,57 @@ static inline int cell_faces(const cell_t* cell) { return cell->at.blocks * LANE
 static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) {
   if ((cell->at.used[f / WORD_BITS] >> f % WORD_BITS & 1) == 0) return false;
   return cell->at.side[f] >= -tolerance && cell->at.side[cell->next[f]] >= -tolerance;
+}
+
+/* Puts vertex v where its lines meet on the ground; returns how far it was at most from the true place, or below 0 if
+   the lines are nearly dependent. side[v] = error of the new place. */
+static inline real place_vertex(cell_t* cell, int v, certain_plane_t ground) {
+  const int u = cell->previous[v];
+  if ((cell->border[u] & cell->border[v]) < 0) { /* a corner of the region */
+    cell->at.side[v] = corner_error(&cell->at);
+    return cell->at.side[v];
+  }
+  const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
+  const real4 y = meeting_point(&cell->at, ground, in, out);
+  const real x[3] = {y.x, y.y, y.z};
+  real moved = y.w;
+  if (y.w < 0) return -1;
+  for (int k = 0; k < DIMENSION; ++k) {
+    moved += fabs(x[k] - cell->at.x[k][v]);
+    cell->at.x[k][v] = x[k];
+  }
+  cell->at.side[v] = y.w;
+  return moved;
+}
+
+/* Proves the shape of the cell from its edges alone, whatever rounding did on the way to it; the vertices are
+   better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below 0 if
+   the shape is not certain. */
+static inline real cell_certain(cell_t* cell) {
+  real worst = 0;
+  find_radius2(&cell->at);
+  const certain_plane_t ground = ground_plane(cell);
+  int v = cell->first;
+  do {
+    const certain_plane_t line = edge_line(cell, v, ground.plane);
+    cell->line[v] = line.plane;
+    cell->doubt[v] = line.doubt;
+    v = cell->next[v];
+  } while (v != cell->first);
+  do {
+    const real moved = place_vertex(cell, v, ground);
+    if (moved < 0) return -1;
+    worst = fmax(worst, moved);
+    v = cell->next[v];
+  } while (v != cell->first);
+  do { /* each edge goes inwards from the line before it */
+    const int u = cell->previous[v], w = cell->next[v];
+    const certain_plane_t before = {cell->line[u], cell->doubt[u]};
+    const real4 y = make_real4(cell->at.x[0][w], cell->at.x[1][w], DIMENSION == 3 ? cell->at.x[DIMENSION - 1][w] : 0, 0);
+    if (!is_inside(&cell->at, y, cell->at.side[w], before)) return -1;
+    v = w;
+  } while (v != cell->first);
+  return worst;
 }
 
 /* Adds the integrals of 1, y and |y|^2 over triangle (a, b, c) to `moments` (docs/mathematics.md (13)). */
@@ -111,8 +223,10 @@ static inline void triangle_moments(const cell_t* cell, int a, int b, int c, rea
   moments[1 + DIMENSION] += area * (sum2 + squares) / 12;
 }
 
-/* Nothing to prepare before the functions below. */
-static inline void cell_finish(cell_t* cell) { (void)cell; }
+/* Before cell_certain, with `note`. */
+static inline void cell_finish(cell_t* cell, bool note) {
+  if (note) note_gone_edges(cell);
+}
 
 static inline void cell_moments(const cell_t* cell, real* moments) {
   for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;

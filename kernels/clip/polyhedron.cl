@@ -3,7 +3,7 @@
    its loop goes from v on to next[k][v]. */
 #ifndef POWERCELL_CLIP_POLYHEDRON
 #define POWERCELL_CLIP_POLYHEDRON
-#include "clip/vertices.cl"
+#include "clip/certain.cl"
 
 typedef struct {
   vertices_t at;
@@ -12,7 +12,9 @@ typedef struct {
   STORAGE(int, border, FACE_CAPACITY);
   STORAGE(index_t, mark, FACE_CAPACITY); /* NO_VERTEX between cuts */
   STORAGE(real4, point, VERTEX_CAPACITY); /* for the moments */
-  STORAGE(real4, normal, FACE_CAPACITY);
+  STORAGE(real4, normal, FACE_CAPACITY); /* of the bisectors (q, level) until cell_moments, then of the faces */
+  STORAGE(real, doubt, FACE_CAPACITY);   /* for cell_certain */
+  __global const region_shape_t* shape; /* of the region */
   int faces; /* face numbers given out; some may no longer be in use */
   HOST_MEMBERS
 } cell_t;
@@ -22,7 +24,8 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
                              uint region) {
   const uint first = regions.offset[region];
   cell->faces = regions.shape->faces;
-  start_vertices(&cell->at, regions, seeds, self, regions.behind + region * (uint)cell->faces);
+  cell->shape = regions.shape;
+  start_vertices(&cell->at, regions, seeds, self, regions.vertex + first, regions.behind + region * (uint)cell->faces);
   for (int v = 0; v < regions.shape->vertices; ++v) {
     set_corner(&cell->at, v, regions.corner[regions.vertex[first + (uint)v]]);
     for (int k = 0; k < 3; ++k) {
@@ -35,15 +38,48 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   return PIECE_WHOLE;
 }
 
-/* Forgets the faces that no vertex has, so that their numbers can be given out again. */
-static inline void collect_faces(cell_t* cell) {
+/* The plane of facet `f` of the region, by a corner and the two edges beside it that the shape puts f between. */
+static inline certain_plane_t region_plane(const cell_t* cell, int f) {
+  int v = 0, k = 0;
+  while (cell->shape->face[k][v] != f)
+    if (++k == 3) {
+      k = 0;
+      ++v;
+    }
+  const real4 y = region_corner(&cell->at, v);
+  const real4 a = region_corner(&cell->at, cell->shape->next[k][v]) - y;
+  const real4 b = region_corner(&cell->at, cell->shape->next[k == 2 ? 0 : k + 1][v]) - y;
+  return facet_plane(&cell->at, y, a, b, cross(a, b));
+}
+
+/* The plane of face f, with unit normal. */
+static inline certain_plane_t face_plane(const cell_t* cell, int f) {
+  return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]) : unit_plane(&cell->at, cell->normal[f]);
+}
+
+/* Before the number of a face that no vertex has is given out again. */
+static inline void forget_face(cell_t* cell, int f) {
+  if (cell->border[f] < 0) {
+    const certain_plane_t facet = region_plane(cell, ~cell->border[f]);
+    note_gone(&cell->at, raw_plane(facet), facet.doubt);
+  } else {
+    note_gone(&cell->at, cell->normal[f], cell->at.blur);
+  }
+}
+
+/* Forgets the faces that no vertex has, so that their numbers can be given out again; notes the gaps to them if
+   `note`, and then side[] does not hold afterwards. */
+static inline void collect_faces(cell_t* cell, bool note) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1)
       for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][w * WORD_BITS + lowest_bit(bits)]] = 0;
   int used = 0;
   for (int f = 0; f < cell->faces; ++f)
-    if (cell->mark[f] != NO_VERTEX) {
+    if (cell->mark[f] == NO_VERTEX) {
+      if (note) forget_face(cell, f);
+    } else {
       cell->border[used] = cell->border[f];
+      cell->normal[used] = cell->normal[f];
       cell->mark[f] = (index_t)used++;
     }
   for (int w = 0; w < words_of(&cell->at); ++w)
@@ -74,6 +110,7 @@ static inline int cut_edge(cell_t* cell, int out, int k, int in, int cut) {
   cell->face[2][u] = left;
   cell->next[slot_to(cell, in, out)][in] = (index_t)u;
   cell->mark[left] = (index_t)u;
+  PLACE_VERTEX(cell, u);
   return u;
 }
 
@@ -117,13 +154,17 @@ static inline int cut_outside(cell_t* cell, int cut) {
 static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
   if (find_sides(&cell->at, q, level) < -tolerance) return CUT_NONE;
   int inside, vertices;
-  const int outside = count_sides(&cell->at, tolerance, &vertices, &inside);
+  const int outside = COUNT_SIDES(cell, border, tolerance, &vertices, &inside);
   if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
   if (outside == 0) return vertices - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
-  if (cell->faces == FACE_CAPACITY) collect_faces(cell);
+  if (cell->faces == FACE_CAPACITY) {
+    collect_faces(cell, true);
+    find_sides(&cell->at, q, level);
+  }
   if (cell->faces == FACE_CAPACITY) return CUT_FULL;
   const int cut = cell->faces++;
   cell->border[cut] = border;
+  cell->normal[cut] = make_real4(q[0], q[1], q[DIMENSION - 1], level);
   const int result = cut_outside(cell, cut);
   if (result != CUT_SHRUNK) return result;
   drop_outside(&cell->at);
@@ -148,9 +189,70 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
   return used;
 }
 
-/* Before the functions below: mark[f] = the first vertex of each face, the apex of its fan of triangles. */
-static inline void cell_finish(cell_t* cell) {
-  collect_faces(cell);
+/* Puts each vertex where its three planes meet; returns at least the distance between what the vertices were when
+   cuts were decided and the true ones, or below 0 if that is not certain: some planes are nearly dependent. side[v] =
+   error of vertex v. */
+static inline real place_vertices(cell_t* cell) {
+  real worst = 0;
+  for (int w = 0; w < words_of(&cell->at); ++w)
+    for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
+      const int v = w * WORD_BITS + lowest_bit(bits);
+      const int a = cell->face[0][v], b = cell->face[1][v], c = cell->face[2][v];
+      if ((cell->border[a] & cell->border[b] & cell->border[c]) < 0) { /* a corner of the region */
+        cell->at.side[v] = corner_error(&cell->at);
+        worst = fmax(worst, cell->at.side[v]);
+        continue;
+      }
+      const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
+                            pc = {cell->normal[c], cell->doubt[c]};
+      const real4 y = meeting_point(&cell->at, pa, pb, pc);
+      if (y.w < 0) return -1;
+      const real moved = fabs(y.x - cell->at.x[0][v]) + fabs(y.y - cell->at.x[1][v]) +
+                         fabs(y.z - cell->at.x[DIMENSION - 1][v]);
+      cell->at.x[0][v] = y.x;
+      cell->at.x[1][v] = y.y;
+      cell->at.x[DIMENSION - 1][v] = y.z;
+      cell->at.side[v] = y.w;
+      worst = fmax(worst, moved + y.w);
+    }
+  return worst;
+}
+
+/* Whether each edge goes inwards from the face across its start: then the faces bound the intersection of their
+   half-spaces, and no other polyhedron. */
+static inline bool edges_are_certain(const cell_t* cell) {
+  for (int w = 0; w < words_of(&cell->at); ++w)
+    for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
+      const int v = w * WORD_BITS + lowest_bit(bits);
+      for (int k = 0; k < 3; ++k) {
+        const int u = cell->next[k][v], f = cell->face[k == 2 ? 0 : k + 1][v];
+        if (u < v) continue;
+        const certain_plane_t plane = {cell->normal[f], cell->doubt[f]};
+        const real4 y = make_real4(cell->at.x[0][u], cell->at.x[1][u], cell->at.x[DIMENSION - 1][u], 0);
+        if (!is_inside(&cell->at, y, cell->at.side[u], plane)) return false;
+      }
+    }
+  return true;
+}
+
+/* Proves the shape of the cell from its faces alone, whatever rounding did on the way to it; the vertices are
+   better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below 0 if
+   the shape is not certain. */
+static inline real cell_certain(cell_t* cell) {
+  find_radius2(&cell->at);
+  for (int f = 0; f < cell->faces; ++f) {
+    const certain_plane_t unit = face_plane(cell, f);
+    cell->normal[f] = unit.plane;
+    cell->doubt[f] = unit.doubt;
+  }
+  const real moved = place_vertices(cell);
+  return moved < 0 || edges_are_certain(cell) ? moved : -1;
+}
+
+/* Before the functions below and, with `note`, before cell_certain: mark[f] = the first vertex of each face, the apex
+   of its fan of triangles. */
+static inline void cell_finish(cell_t* cell, bool note) {
+  collect_faces(cell, note);
   for (int w = words_of(&cell->at) - 1; w >= 0; --w)
     for (ulong bits = cell->at.used[w]; bits != 0;) {
       const int bit = 63 - (int)clz(bits), v = w * WORD_BITS + bit;

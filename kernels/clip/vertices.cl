@@ -15,19 +15,36 @@ typedef struct {
   STORAGE(ulong, outside, VERTEX_WORDS);  /* vertices outside the last plane that cut */
   int blocks;                             /* in use */
   real reach;                     /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  real radius; /* no vertex is farther from the seed */
+  real most;   /* largest of side[] */
+  real gap;    /* no bisector that cut nothing is nearer to a vertex, rounding taken off; below 0: one may cut */
+  real clear;  /* the same of those that cut */
+  real nearest;                   /* least |side| of a vertex (count_sides) */
+  real rounding;                  /* no vertex is farther from a plane through it, but for what each cut adds */
+  real steep, size2;              /* least squared sine of a bisector with an edge it cut; 4 |q|^2 of the last one */
+  real drift;                     /* what cuts add: roundings of their new vertices */
+  real blur, weight_blur;         /* of the data, beyond relative rounding (base/real.cl) */
   uint self;                      /* rank of the seed */
   __global const seed_t* seeds;   /* all seeds, by rank */
   __global const seed_t* corner;  /* vertices of the domain */
+  __global const uint* region;    /* the corners of the region */
   __global const int* behind;     /* what lies behind the facets of the region */
 } vertices_t;
 
 static inline int words_of(const vertices_t* p) { return VERTEX_WORDS == 1 ? 1 : (p->blocks + 7) / 8; }
 
 static inline void start_vertices(vertices_t* p, regions_t regions, __global const seed_t* seeds, uint self,
-                                  __global const int* behind) {
+                                  __global const uint* region, __global const int* behind) {
   p->blocks = 0;
   p->used[0] = p->outside[0] = 0;
-  p->reach = 0;
+  p->reach = p->radius = 0;
+  p->gap = p->clear = REAL_MAX / 4;
+  p->steep = 1;
+  p->rounding = 0;
+  p->drift = 0;
+  p->blur = position_blur(seeds[self]);
+  p->weight_blur = weight_blur(seeds[self]);
+  p->region = region;
   p->self = self;
   p->seeds = seeds;
   p->corner = regions.corner;
@@ -66,7 +83,7 @@ static inline void set_corner(vertices_t* p, int v, seed_t corner) {
     p->x[k][v] = y[k];
     sum += fabs(y[k]);
   }
-  p->reach = fmax(p->reach, sum);
+  p->radius = p->reach = fmax(p->reach, sum);
   use_slot(p, v);
 }
 
@@ -91,12 +108,14 @@ static inline real find_sides(vertices_t* p, const real* q, real level) {
     store8(s, p->side + b * LANES);
     most = most8(most, s);
   }
-  return lane_most(most);
+  p->most = lane_most(most);
+  return p->most;
 }
 
 /* How many vertices are beyond the tolerance on either side, by side[]. Those outside go to `outside`. */
 static inline int count_sides(vertices_t* p, real tolerance, int* vertices, int* inside) {
   int outside = 0, below = 0, all = 0;
+  real8 nearest = all_lanes(REAL_MAX);
   for (int w = 0; w < words_of(p); ++w) {
     ulong out = 0, in = 0;
     const int end = min(8, p->blocks - 8 * w);
@@ -104,12 +123,17 @@ static inline int count_sides(vertices_t* p, real tolerance, int* vertices, int*
       const real8 s = load8(p->side + (8 * w + b) * LANES);
       out |= (ulong)lane_bits(s > all_lanes(tolerance)) << 8 * b;
       in |= (ulong)lane_bits(s < all_lanes(-tolerance)) << 8 * b;
+      if (QUICK_PROOF) {
+        const mask8 vertex = lanes_of((uint)(p->used[w] >> 8 * b) & 255u);
+        nearest = least8(nearest, choose8(all_lanes(REAL_MAX), size8(s), vertex));
+      }
     }
     p->outside[w] = out & p->used[w];
     outside += (int)popcount(p->outside[w]);
     below += (int)popcount(in & p->used[w]);
     all += (int)popcount(p->used[w]);
   }
+  p->nearest = lane_least(nearest);
   *vertices = all;
   *inside = below;
   return outside;
@@ -121,13 +145,19 @@ static inline bool is_outside(const vertices_t* p, int v) {
 
 /* Vertex u becomes the point on the edge from `in` (kept) to `out` in the plane that side[] is of. */
 static inline void set_edge_point(vertices_t* p, int u, int in, int out) {
-  const real t = fmax((real)0, p->side[in] / (p->side[in] - p->side[out]));
-  for (int k = 0; k < DIMENSION; ++k) p->x[k][u] = p->x[k][in] + t * (p->x[k][out] - p->x[k][in]);
+  const real drop = p->side[in] - p->side[out], t = fmax((real)0, p->side[in] / drop);
+  real length2 = 0;
+  for (int k = 0; k < DIMENSION; ++k) {
+    const real d = p->x[k][out] - p->x[k][in];
+    p->x[k][u] = p->x[k][in] + t * d;
+    length2 += d * d;
+  }
+  if (QUICK_PROOF && drop * drop < p->steep * (p->size2 * length2)) p->steep = drop * drop / (p->size2 * length2);
   use_slot(p, u);
 }
 
 /* Largest squared distance of a vertex from the seed. */
-static inline real find_radius2(const vertices_t* p) {
+static inline real find_radius2(vertices_t* p) {
   real8 most = ZERO8;
   for (int b = 0; b < p->blocks; ++b) {
     real8 s = ZERO8;
@@ -137,7 +167,9 @@ static inline real find_radius2(const vertices_t* p) {
     }
     most = most8(most, s);
   }
-  return lane_most(most);
+  const real radius2 = lane_most(most);
+  p->radius = sqrt(radius2) * (1 + 8 * REAL_EPSILON);
+  return radius2;
 }
 
 /* Bounding box of the vertices. */

@@ -22,15 +22,27 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
   return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
 }
 
+/* Whether a piece that nothing can cut any more is what it would be without rounding: its own shape is certain, and
+   no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better afterwards. */
+static inline bool whole_is_certain(cell_t* cell) {
+  const real moved = cell_certain(cell);
+  return moved >= 0 && moved + cell->at.drift < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius;
+}
+
 /* Writes a piece that ended with `status`; returns the final status. */
 static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
   real moments[2 + DIMENSION];
+  bool certain = cell->at.gap > 0;
   for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   if (status == PIECE_WHOLE) {
-    cell_finish(cell);
+    find_radius2(&cell->at);
+    certain = quickly_certain(&cell->at);
+    cell_finish(cell, !certain);
+    certain = certain || WHOLE_IS_CERTAIN(cell);
     cell_moments(cell, moments);
-    if (cell_is_flat(cell, moments[0])) {
+    if (CELL_IS_FLAT(cell, moments)) {
       status = PIECE_FLAT;
+      certain = false;
       for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
     }
     if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
@@ -47,7 +59,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
   }
   for (int k = 0; k < 2 + DIMENSION; ++k)
     out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] = (stored_real)moments[k];
-  return status;
+  return status <= PIECE_FLAT && !certain ? status | PIECE_UNCERTAIN : status;
 }
 
 #endif

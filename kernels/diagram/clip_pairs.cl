@@ -24,6 +24,7 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
   int result = state[i] == SEED_OK ? PIECE_WHOLE : PIECE_EMPTY;
   if (result == PIECE_WHOLE)
     result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
+  else cell.at.gap = 1; /* not even started, and certainly empty */
   if (result == PIECE_WHOLE) result = clip_by_tree(&cell, tree, blocks, i);
   status[pair] = (uint)write_piece(&cell, out, result, pair, 0);
 }

@@ -3,7 +3,9 @@
 
 #define MEASURES (2 + DIMENSION)
 
-static inline bool is_finished(uint piece) {
+/* Pieces that rounding may have decided count as they are. */
+static inline bool is_finished(uint status) {
+  const uint piece = status & ~(uint)PIECE_UNCERTAIN;
   return piece == PIECE_WHOLE || piece == PIECE_EMPTY || piece == PIECE_FLAT;
 }
 

@@ -13,7 +13,7 @@ static inline mask8 seeds_may_cut(const real8* q, real8 dw, const real* low, con
     size = size + size8(q[k]) * all_lanes(2 * fmax(fabs(low[k]), fabs(high[k])));
     q2 = q2 + q[k] * q[k];
   }
-  return reach + reach + (size + q2) * all_lanes(32 * REAL_EPSILON) > q2 + dw;
+  return reach + reach + (size + q2) * all_lanes(SEARCH_MARGIN) > q2 + dw;
 }
 
 /* The same over the vertices: (3) does not hold for some vertex. */
@@ -31,7 +31,7 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
       reach = most8(reach, s);
     }
   const real8 size = sum * all_lanes(2 * p->reach) + q2 + size8(dw);
-  return reach + reach + size * all_lanes(32 * REAL_EPSILON) > q2 + dw;
+  return reach + reach + size * all_lanes(SEARCH_MARGIN) > q2 + dw;
 }
 
 /* Of the eight nodes with boxes [a, b]: the least value of |y-p_j|^2 - w_j - |y|^2 + w_i over the cell's box and
@@ -46,7 +46,7 @@ static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, cons
     const real8 s = size8(a[k]) + size8(b[k]) + size8(l) + size8(h);
     size = size + s * s;
   }
-  return value < size * all_lanes(8 * REAL_EPSILON);
+  return value < size * all_lanes(SEARCH_MARGIN);
 }
 
 /* The same over the vertices (docs/mathematics.md (9a)). */
@@ -67,7 +67,7 @@ static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* 
       }
       most = most8(most, s);
     }
-  return dw < most + size * all_lanes(8 * REAL_EPSILON);
+  return dw < most + size * all_lanes(SEARCH_MARGIN);
 }
 
 #endif

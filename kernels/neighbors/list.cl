@@ -34,14 +34,14 @@ typedef struct {
 static inline int clip_by_list(cell_t* cell, lists_t lists, uint i, uint row, list_use_t* use) {
   const seed_t seed = lists.seeds[i];
   const real h = lists.lift[i];
-  real stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + 16 * REAL_EPSILON);
+  real stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + SEARCH_MARGIN);
   for (uint k = 0; k < lists.count; ++k) {
     const uint j = lists.neighbor[row * lists.stride + k];
     if (lifted_distance2(lists, i, j) >= stop) return PIECE_WHOLE;
     const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
     ++use->tried;
     if (cut != CUT_NONE) ++use->cuts;
-    if (cut == CUT_SHRUNK) stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + 16 * REAL_EPSILON);
+    if (cut == CUT_SHRUNK) stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + SEARCH_MARGIN);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
   return lists.count + 1 >= lists.total ? PIECE_WHOLE : PIECE_MORE;

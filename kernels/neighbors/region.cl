@@ -26,7 +26,7 @@ static inline real cell_reach(const cell_t* cell, const real* centre) {
     const real t = fmax(high[k] - centre[k], centre[k] - low[k]);
     r2 += t * t;
   }
-  return 2 * sqrt(r2);
+  return 2 * sqrt(r2) * (1 + SEARCH_MARGIN);
 }
 
 /* The point from which cuts are ordered: the seed, or the middle of the region where that is farther from
@@ -74,7 +74,10 @@ static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uin
     real8 best = load8(key);
     for (int k = LANES; k < keys; k += LANES) best = least8(best, load8(key + k));
     const real least = lane_least(best);
-    if (!(untagged(least) < reach)) return PIECE_WHOLE; /* that plane is beyond every vertex, and so are the rest */
+    if (!(untagged(least) < reach)) { /* that plane is beyond every vertex, and so are the rest */
+      cell->at.gap = fmin(cell->at.gap, SEARCH_MARGIN / 8 * reach);
+      return PIECE_WHOLE;
+    }
     const uint at = tag_of(least), row = at / LANES * LANES;
     store8(with_lane(load8(key + row), at % LANES, LISTED_LAST), key + row);
     const uint j = lists.seed[lists.offset[region] + at];

@@ -10,14 +10,14 @@
 
 /* True if no seed outside the near leaves can cut the cell: their distance from the home
    box against the radius of the cell (docs/mathematics.md (10b)). */
-static inline bool near_is_enough(const cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
+static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   const uint home = i / TREE_FAN;
   const seed_t seed = tree.seeds[i], first = tree.node_low[home];
   const real bound = blocks.near_bound[home];
   if (tree.levels == 1 || bound <= -REAL_MAX / 2) return bound > 0;
   const real heaviest = weight_difference(tree.node_low[tree.level_offset[tree.levels] - 1], first);
   const real lifted2 = bound + heaviest, own = bound + weight_difference(seed, first);
-  return lifted2 > 0 && own * (1 - 64 * REAL_EPSILON) > 2 * sqrt(find_radius2(&cell->at) * lifted2);
+  return lifted2 > 0 && own * (1 - SEARCH_MARGIN) > 2 * sqrt(find_radius2(&cell->at) * lifted2);
 }
 
 /* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the vertices

@@ -124,7 +124,11 @@ powercell::Options options_of(const pc_options& from) {
           "options.precision is none of pc_precision");
   require(neighbors >= PC_NEIGHBORS_AUTOMATIC && neighbors <= PC_FLANN,
           "options.neighbors is none of pc_neighbors");
+  const int decisions = number_in(from.decisions);
+  require(decisions == PC_DECISIONS_EXACT || decisions == PC_DECISIONS_FAST,
+          "options.decisions is none of pc_decisions");
   powercell::Options to;
+  to.decisions = decisions == PC_DECISIONS_FAST ? powercell::Decisions::fast : powercell::Decisions::exact;
   to.precision = static_cast<powercell::Precision>(precision);
   to.neighbors = static_cast<powercell::Neighbors>(neighbors);
   to.initial_neighbors = from.initial_neighbors;

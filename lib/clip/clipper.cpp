@@ -5,6 +5,7 @@
 
 #include "kernels/layout.h"
 #include "lib/clip/golden.hpp"
+#include "lib/seeds/threads.hpp"
 
 namespace powercell {
 
@@ -13,15 +14,19 @@ namespace {
 /// Bytes of output rows in device memory at once.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
+/// Pairs that are worth more than one thread of the host.
+constexpr std::size_t least_shared = 8;
+
 /// Arguments that all clip kernels share come first; those of the candidates follow.
 constexpr unsigned common_arguments = 17;
 
 }  // namespace
 
-Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs)
+Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs, ClipOptions options)
     : scene_(scene),
       candidates_(candidates),
       outputs_(outputs | candidates.outputs()),
+      options_(options),
       active_(scene.context()),
       seed_(scene.context()),
       region_(scene.context()),
@@ -127,6 +132,8 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
   }
   if (worst > PIECE_FLAT)
     for (std::size_t row = 0; row < rows; ++row) {
+      if (launch_status_[row] & PIECE_UNCERTAIN) outcome.uncertain.push_back(active[row]);
+      pieces_.status[active[row]] = launch_status_[row] &= ~std::uint32_t{PIECE_UNCERTAIN};
       if (launch_status_[row] == PIECE_MORE) outcome.more.push_back(active[row]);
       if (launch_status_[row] == PIECE_FULL) outcome.full.push_back(active[row]);
       if (launch_status_[row] == PIECE_TANGLED) outcome.tangled.push_back(active[row]);
@@ -149,22 +156,42 @@ void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {
   }
 }
 
+void Clipper::write_moments(const List& pairs, const std::vector<HostPiece>& done) {
+  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
+  const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
+  const auto patch = [&](auto& all) {
+    using Real = typename std::remove_reference_t<decltype(all)>::value_type;
+    moments_.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      std::transform(done[k].moments.begin(), done[k].moments.end(),
+                     all.begin() + static_cast<std::ptrdiff_t>((pairs[k] - first) * count),
+                     [](double x) { return static_cast<Real>(x); });
+    moments_.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+  };
+  if (scene_.float32()) {
+    std::vector<float> all(rows * count);
+    patch(all);
+  } else {
+    std::vector<double> all(rows * count);
+    patch(all);
+  }
+}
+
 void Clipper::finish_on_host(const List& pairs) {
   if (pairs.empty()) return;
   if (!host_scene_) host_scene_ = make_host_scene(scene_);
-  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
-  for (const std::uint32_t pair : pairs) {
-    HostPiece piece = clip_on_host(*host_scene_, pair_seed_[pair], pair_region_[pair]);
-    if (scene_.float32()) {
-      const std::vector<float> narrow(piece.moments.begin(), piece.moments.end());
-      moments_.write(narrow.data(), count * sizeof(float), pair * count * sizeof(float));
-    } else {
-      moments_.write(piece.moments.data(), count * sizeof(double), pair * count * sizeof(double));
-    }
-    pieces_.status[pair] = static_cast<std::uint32_t>(piece.status);
-    pieces_.batch[pair] = static_cast<std::uint32_t>(pieces_.used);
-    pieces_.row[pair] = 0;
-    pieces_.add_batch() = std::move(piece.batch);
+  std::vector<HostPiece> done(pairs.size());
+  parallel_for(pairs.size() < least_shared ? 1 : options_.threads, pairs.size(),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k)
+                   done[k] = clip_on_host(*host_scene_, pair_seed_[pairs[k]], pair_region_[pairs[k]]);
+               });
+  write_moments(pairs, done);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    pieces_.status[pairs[k]] = static_cast<std::uint32_t>(done[k].status);
+    pieces_.batch[pairs[k]] = static_cast<std::uint32_t>(pieces_.used);
+    pieces_.row[pairs[k]] = 0;
+    if (wants_rows()) pieces_.add_batch() = std::move(done[k].batch);
   }
   statistics_.on_host += pairs.size();
 }
@@ -203,6 +230,9 @@ const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
     Outcome outcome;
     run_rung(rung, pending, outcome);
     last_resort.insert(last_resort.end(), outcome.tangled.begin(), outcome.tangled.end());
+    statistics_.uncertain += outcome.uncertain.size();
+    if (options_.exact)
+      last_resort.insert(last_resort.end(), outcome.uncertain.begin(), outcome.uncertain.end());
     pending = std::move(outcome.full);
     std::sort(pending.begin(), pending.end());
   }

@@ -1,6 +1,6 @@
 /// \file
 /// Clips chunks of (region, seed) pairs on the device: rounds of candidates, the capacity ladder, and
-/// the host as the last resort.
+/// the host for what rounding may have decided and as the last resort.
 #pragma once
 
 #include <map>
@@ -19,13 +19,19 @@ namespace powercell {
 struct ClipStatistics {
   std::uint64_t retried = 0;  ///< pairs that went to a larger variant
   std::uint64_t on_host = 0;  ///< pairs that ended on the host
+  std::uint64_t uncertain = 0;  ///< pairs that rounding may have decided
   int rounds = 0;             ///< most rounds of candidates that a chunk needed
+};
+
+struct ClipOptions {
+  bool exact = true;  ///< pairs that rounding may have decided are decided on the host
+  int threads = 1;    ///< of the host
 };
 
 class Clipper {
  public:
   /// \param outputs OUTPUT_... of kernels/layout.h
-  Clipper(const Scene& scene, Candidates& candidates, int outputs);
+  Clipper(const Scene& scene, Candidates& candidates, int outputs, ClipOptions options = {});
 
   /// Clips pair k = (pair_seed[k], pair_region[k]), ranks ascending. Afterwards every pair has a final
   /// status; moments() holds its moments in device memory, and the result, good until the next call, its rows
@@ -45,7 +51,7 @@ class Clipper {
  private:
   using List = std::vector<std::uint32_t>;
   struct Outcome {
-    List more, full, tangled;
+    List more, full, tangled, uncertain;
   };
 
   cl::Kernel& kernel(std::size_t rung);
@@ -58,12 +64,15 @@ class Clipper {
   void run_rung(std::size_t rung, const List& active, Outcome& outcome);
   /// Takes in the pairs of a chunk; returns all of them as pending.
   List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
+  /// Clips `pairs`, ascending, on the host.
   void finish_on_host(const List& pairs);
+  void write_moments(const List& pairs, const std::vector<HostPiece>& done);
   bool wants_rows() const;
 
   const Scene& scene_;
   Candidates& candidates_;
   int outputs_;
+  ClipOptions options_;
   std::map<std::size_t, cl::Kernel> kernels_;
   std::optional<HostScene> host_scene_;
   std::span<const std::uint32_t> pair_seed_, pair_region_;

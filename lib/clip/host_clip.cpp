@@ -5,14 +5,14 @@
 namespace powercell {
 
 namespace host_polygon2 {
-HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t, double);
+HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t);
 void pack_blocks(HostScene&);
 }  // namespace host_polygon2
 namespace host_polygon3 {
-HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t, double);
+HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t);
 }
 namespace host_polyhedron {
-HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t, double);
+HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t);
 void pack_blocks(HostScene&);
 }  // namespace host_polyhedron
 
@@ -34,7 +34,10 @@ HostScene make_host_scene(const Scene& scene) {
                  {},
                  {},
                  {},
+                 {},
+                 seeds.input,
                  {}};
+  host.scale = exact_scale(host.points, host.corners);
   mesh.dimension == 3 ? host_polyhedron::pack_blocks(host) : host_polygon2::pack_blocks(host);
   return host;
 }
@@ -43,13 +46,10 @@ HostPiece clip_on_host(const HostScene& scene, std::uint32_t rank, std::uint32_t
   const auto clip = scene.mesh->cell_dimension == 3 ? host_polyhedron::clip
                     : scene.mesh->dimension == 3    ? host_polygon3::clip
                                                     : host_polygon2::clip;
-  // A tangled cut is one that rounding made ambiguous; a wider tolerance takes the near-zero sides as zero.
-  for (double tolerance = 16; tolerance < 1e9; tolerance *= 64) {
-    std::size_t vertices = 1024;
-    HostPiece piece = clip(scene, rank, region, vertices, tolerance);
-    while (piece.status == PIECE_FULL) piece = clip(scene, rank, region, vertices *= 4, tolerance);
-    if (piece.status != PIECE_TANGLED) return piece;
-  }
+  std::size_t vertices = 256;
+  HostPiece piece = clip(scene, rank, region, vertices);
+  while (piece.status == PIECE_FULL) piece = clip(scene, rank, region, vertices *= 4);
+  if (piece.status != PIECE_TANGLED) return piece;
   throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank) +
                                        " of the Hilbert order could not be clipped without contradiction "
                                        "even on the host; please report the input");

@@ -1,12 +1,13 @@
 /// \file
-/// The last resort: one piece clipped on the host, in extended precision and with arrays that grow, by
-/// the kernels' own source compiled as C++.
+/// One piece clipped on the host, with exact decisions and arrays that grow, by the kernels' own source compiled
+/// as C++: for pieces that rounding may have decided on the device, or that fit none of its variants.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "lib/clip/exact_cell.hpp"
 #include "lib/clip/pieces.hpp"
 #include "lib/clip/scene.hpp"
 
@@ -29,12 +30,14 @@ struct HostScene {
   std::vector<double> seed_block, node_block;  ///< kernels/neighbors/blocks.cl
   std::vector<std::uint32_t> near_count;       ///< per leaf: none, since lists serve many cells
   std::vector<double> near_bound;
+  std::span<const std::uint32_t> input;        ///< per rank: the index by which ties are broken
+  ExactScale scale;
 };
 
 HostScene make_host_scene(const Scene& scene);
 
 /// Clips the piece of seed `rank` in `region` by all other seeds.
-/// \throw Error internal if rounding defeats even this (names the seed by its rank)
+/// \throw Error internal if the result contradicts itself: a defect (names the seed by its rank)
 HostPiece clip_on_host(const HostScene& scene, std::uint32_t rank, std::uint32_t region);
 
 }  // namespace powercell

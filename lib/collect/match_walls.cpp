@@ -114,6 +114,7 @@ class WallMatcher {
       for (std::size_t k = 0; k < row.count; ++k) {
         const std::uint32_t j = row.neighbor[k];
         const double measure = row.measure(k);
+        if (measure == 0) continue;  // a tie without extent, on both sides
         if (!std::signbit(measure)) {
           if (!ok_[j] || !(measure > negligible_ * std::max(rows_.largest[i], rows_.largest[j]))) continue;
           worst = std::max(worst, measure);

@@ -19,7 +19,7 @@ constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Rows of vertices and faces within a chunk are numbered by 32 bits, at most some 750 to a pair.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
-/// Of a cell's largest wall: a one-sided wall below it is rounding (docs/mathematics.md).
+/// Of a cell's largest wall, where decisions are fast: a one-sided wall below it is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 }  // namespace
@@ -66,7 +66,8 @@ void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
 
 void ChunkRun::clip_all() {
   const std::uint64_t total = s_.pairs.region.size();
-  clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_);
+  const ClipOptions clip_options{s_.options.decisions == Decisions::exact, thread_count(s_.options.threads)};
+  clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_, clip_options);
   const double neighbor_seconds = s_.candidates->host_seconds(), built_before = s_.device.build_seconds();
   Stopwatch watch;
   std::uint64_t chunk = chunk_pairs();
@@ -78,7 +79,7 @@ void ChunkRun::clip_all() {
       // Nothing of the chunk has been collected yet: smaller ones may fit.
       if (error.code() != ErrorCode::out_of_device_memory || chunk <= least_chunk_pairs) throw;
       chunk = std::max(least_chunk_pairs, chunk / 2);
-      clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_);  // gives its buffers back
+      clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_, clip_options);  // gives its buffers back
       continue;
     }
     begin = end;
@@ -91,6 +92,7 @@ void ChunkRun::clip_all() {
                     (s_.device.build_seconds() - built_before);
   s_.timings.retried = clipper_->statistics().retried;
   s_.timings.on_host = clipper_->statistics().on_host;
+  s_.timings.uncertain = clipper_->statistics().uncertain;
   s_.timings.rounds = clipper_->statistics().rounds;
 }
 
@@ -108,7 +110,9 @@ std::vector<std::uint32_t> ChunkRun::run() {
   if (want_adjacency_)
     s_.adjacency =
         walls_.finish(s_.seeds, measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
-                      s_.scene.float32() ? negligible_float : negligible_double);
+                      s_.options.decisions == Decisions::exact ? 0
+                      : s_.scene.float32()                     ? negligible_float
+                                                               : negligible_double);
   if (want_cells_) s_.cells = geometry_.finish(measures.status);
   // Those of whole cells stay when the geometry of their pieces is asked for.
   if (!s_.measures) s_.measures = std::move(measures);

@@ -87,7 +87,7 @@ TEST_CASE("cells of any number of faces come out whole") {
     CAPTURE(c.around);
     const RandomScene s(context, c.dimension, surrounded(c.dimension, c.around), false);
     TreeCandidates tree(s.scene);
-    Clipper clipper(s.scene, tree, OUTPUT_MOMENTS | OUTPUT_WALLS);
+    Clipper clipper(s.scene, tree, OUTPUT_MOMENTS | OUTPUT_WALLS, {.exact = false});
     const auto ranks = all_ranks(s);
     const PieceSet pieces = clipper.clip(ranks, std::vector<std::uint32_t>(ranks.size(), 0));
     CHECK(faces_of_middle(s, pieces) == static_cast<std::size_t>(c.around));

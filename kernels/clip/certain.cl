@@ -1,0 +1,139 @@
+/* What makes the outcome of a cell certain in spite of rounding (docs/mathematics.md, "Certain decisions"): common to
+   polygons and polyhedra. */
+#ifndef POWERCELL_CLIP_CERTAIN
+#define POWERCELL_CLIP_CERTAIN
+#include "clip/vertices.cl"
+
+/* Planes that clear every vertex by this part of the cell's radius need not be noted one by one: searches keep this
+   margin when they leave out seeds. */
+#if REAL_BITS == 32
+#define SEARCH_MARGIN ((real)0.03125) /* 2^-5 */
+#else
+#define SEARCH_MARGIN ((real)9.5367431640625e-7) /* 2^-20 */
+#endif
+
+/* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the radius
+   of the cell. */
+typedef struct {
+  real4 plane;
+  real doubt;
+} certain_plane_t;
+
+/* Error of a corner of the region. */
+static inline real corner_error(const vertices_t* p) { return 2 * (REAL_EPSILON * p->reach + p->blur); }
+
+/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw the difference of the weights. */
+static inline real plane_error(const vertices_t* p, real sum, real q2, real dw) {
+  return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + 8 * p->blur * (p->radius + sum) +
+         2 * p->weight_blur;
+}
+
+/* Largest of side[] of a vertex. */
+static inline real most_of_used(const vertices_t* p) {
+  real most = -REAL_MAX;
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1)
+      most = fmax(most, p->side[w * WORD_BITS + lowest_bit(bits)]);
+  return most;
+}
+
+/* After a cut: its vertices lie between those before it but for rounding. */
+static inline void note_drift(vertices_t* p) { p->drift += 2 * REAL_EPSILON * p->radius; }
+
+/* The same for a plane that cuts, or that all vertices are outside of, after count_sides. */
+static inline void note_cut(vertices_t* p, real sum, real error) {
+  const real clear = p->nearest - error;
+  if (clear < 2 * sum * p->clear) p->clear = clear / (2 * sum);
+  error += 12 * REAL_EPSILON * sum * p->radius; /* of the ratio in set_edge_point */
+  if (error > 2 * sum * p->rounding) p->rounding = error / (2 * sum);
+}
+
+/* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything on the
+   way (docs/mathematics.md (64)). */
+static inline bool quickly_certain(const vertices_t* p) {
+  const real rounding = p->rounding + corner_error(p) + p->drift;
+  const real gap = fmin(p->gap, p->clear);
+  const real steep = DIMENSION == 2 ? sqrt(p->steep) : p->steep;
+  return QUICK_PROOF && 16 * rounding < steep * fmin(gap, SEARCH_MARGIN / 16 * p->radius);
+}
+
+/* Notes how near a plane 2 q.y = level that cuts nothing comes to the vertices, after find_sides. */
+static inline void note_gap(vertices_t* p, real sum, real level, real error) {
+  const real clear = -(level < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -level */
+  if (clear < 2 * sum * p->gap) p->gap = clear / (2 * sum);
+}
+
+/* The same for the plane of a face that has gone, whatever it is the plane of: 2 q.y = level. */
+static inline void note_gone(vertices_t* p, real4 q, real doubt) {
+  const real sum = fabs(q.x) + fabs(q.y) + fabs(q.z);
+  const real error = REAL_EPSILON * (8 * sum * p->radius + 4 * fabs(q.w)) + 2 * sum * doubt;
+  real normal[DIMENSION];
+  if (q.w - error - 2 * sum * p->radius >= 2 * sum * p->gap) return;
+  normal[0] = q.x;
+  normal[1] = q.y;
+  if (DIMENSION == 3) normal[DIMENSION - 1] = q.z;
+  find_sides(p, normal, q.w);
+  note_gap(p, sum, q.w, error);
+}
+
+/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. */
+static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
+  certain_plane_t unit;
+  const real size = sqrt(raw.x * raw.x + raw.y * raw.y + raw.z * raw.z), scale = 1 / size;
+  const real h = raw.w * scale * (real)0.5;
+  unit.plane = make_real4(raw.x * scale, raw.y * scale, raw.z * scale, h);
+  unit.doubt = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h)) +
+               (4 * p->blur * (p->radius + size) + p->weight_blur) * scale;
+  return unit;
+}
+
+/* 2 q.y = level of the bisector with seed `other`. */
+static inline real4 raw_bisector(const vertices_t* p, int other) {
+  const seed_t seed = p->seeds[p->self], there = p->seeds[other];
+  real q[DIMENSION];
+  difference(there, seed, q);
+  return make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, norm2(q) + weight_difference(seed, there));
+}
+
+/* Corner k of the region relative to the seed; .w is 0. */
+static inline real4 region_corner(const vertices_t* p, int k) {
+  real y[DIMENSION];
+  difference(p->corner[p->region[k]], p->seeds[p->self], y);
+  return make_real4(y[0], y[1], DIMENSION == 3 ? y[DIMENSION - 1] : 0, 0);
+}
+
+/* The plane through y with normal n = a x b, which is outward. */
+static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a, real4 b, real4 n) {
+  certain_plane_t unit;
+  const real size = sqrt(dot(n, n)), scale = 1 / size;
+  unit.plane = n * scale;
+  unit.plane.w = dot(unit.plane, y);
+  unit.doubt = (16 * REAL_EPSILON * p->reach + 8 * p->blur) * (sqrt(dot(a, a) * dot(b, b)) * scale);
+  return unit;
+}
+
+/* As a raw plane. */
+static inline real4 raw_plane(certain_plane_t unit) {
+  return make_real4(unit.plane.x, unit.plane.y, unit.plane.z, 2 * unit.plane.w);
+}
+
+/* The point of three planes, and at least its error in w; below 0 if the planes are nearly dependent, or not
+   oriented as at a vertex of a cell. */
+static inline real4 meeting_point(const vertices_t* p, certain_plane_t a, certain_plane_t b, certain_plane_t c) {
+  const real4 bc = cross(b.plane, c.plane), ca = cross(c.plane, a.plane), ab = cross(a.plane, b.plane);
+  const real d = dot(a.plane, bc); /* bc.w is 0 */
+  if (!(d > 256 * REAL_EPSILON)) return make_real4(0, 0, 0, -1);
+  const real scale = 1 / d;
+  const real sum = fabs(a.plane.w) + fabs(b.plane.w) + fabs(c.plane.w);
+  real4 y = (bc * a.plane.w + ca * b.plane.w + ab * c.plane.w) * scale;
+  y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + p->radius));
+  return y;
+}
+
+/* Whether vertex y with its error is inside the plane. */
+static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_plane_t plane) {
+  const real s = plane.plane.x * y.x + plane.plane.y * y.y + plane.plane.z * y.z - plane.plane.w;
+  return s < -(error + plane.doubt + 4 * REAL_EPSILON * (p->radius + fabs(plane.plane.w)));
+}
+
+#endif

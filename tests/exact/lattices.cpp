@@ -1,0 +1,199 @@
+// Seeds with ties everywhere: lattices plain, tilted, tiny, huge and far from the origin, and spheres. The
+// cells of a lattice are known, and its dual must be a triangulation all the same.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <powercell/diagram.hpp>
+#include <set>
+
+#include "tests/exact/check_triangulation.hpp"
+#include "tests/support/generators.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+/// Where a lattice lies: x -> scale * (rotation(x - 1/2) + 1/2) + offset.
+struct Place {
+  std::string name;
+  double angle = 0, scale = 1, offset = 0;
+};
+const std::vector<Place> places = {{"plain"},          {"tilted", 0.7},
+                                   {"tiny", 0, 1e-6},  {"small", 0, 0x1p-20},
+                                   {"huge", 0.3, 1e9}, {"far", 0, 1, 1048576}};
+
+struct Lattice {
+  std::string name;
+  int dimension;
+  std::size_t k;                             ///< periods along an axis
+  std::vector<std::array<double, 3>> basis;  ///< within a period of size 1
+  std::size_t neighbors;                     ///< of a cell inside
+};
+std::vector<Lattice> lattices() {
+  return {{"square", 2, 8, {{0, 0, 0}}, 4},
+          {"cubic", 3, 5, {{0, 0, 0}}, 6},
+          {"body-centred", 3, 4, {{0, 0, 0}, {0.5, 0.5, 0.5}}, 14},
+          {"face-centred", 3, 4, {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}}, 12}};
+}
+
+struct Seeds {
+  SeedArray array;
+  std::vector<bool> inside;  ///< the cell does not meet the boundary of the lattice
+};
+
+Seeds lattice_seeds(const Lattice& lattice, const Place& place) {
+  Seeds seeds;
+  seeds.array.dimension = lattice.dimension;
+  const double h = 1.0 / static_cast<double>(lattice.k);
+  const std::size_t layers = lattice.dimension == 3 ? lattice.k : 1;
+  for (std::size_t z = 0; z < layers; ++z)
+    for (std::size_t y = 0; y < lattice.k; ++y)
+      for (std::size_t x = 0; x < lattice.k; ++x)
+        for (const auto& b : lattice.basis) {
+          double p[3] = {(static_cast<double>(x) + b[0] + 0.25) * h,
+                         (static_cast<double>(y) + b[1] + 0.25) * h,
+                         (static_cast<double>(z) + b[2] + 0.25) * h};
+          bool inside = true;
+          for (int k = 0; k < lattice.dimension; ++k) inside = inside && p[k] > 1.2 * h && p[k] < 1 - 1.2 * h;
+          const double c = std::cos(place.angle), s = std::sin(place.angle), u = p[0] - 0.5, v = p[1] - 0.5;
+          p[0] = c * u - s * v + 0.5;
+          p[1] = s * u + c * v + 0.5;
+          for (int k = 0; k < lattice.dimension; ++k)
+            seeds.array.positions.push_back(place.scale * p[k] + place.offset);
+          seeds.array.weights.push_back(0);
+          seeds.inside.push_back(inside);
+        }
+  return seeds;
+}
+
+/// A box around all of it, with room for the corners of the dual.
+Domain room_for(const Place& place, int dimension) {
+  const std::vector<double> low(static_cast<std::size_t>(dimension), place.offset - 2 * place.scale),
+      high(static_cast<std::size_t>(dimension), place.offset + 3 * place.scale);
+  return Domain::box(low, high);
+}
+
+Options options_for(Precision precision) {
+  Options options;
+  options.precision = precision;
+  return options;
+}
+
+void check_symmetric(const Adjacency& a) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> wall;
+  for (std::uint32_t i = 0; i + 1 < a.offset.size(); ++i)
+    for (std::uint64_t k = a.offset[i]; k < a.offset[i + 1]; ++k) {
+      wall[{i, a.neighbor[k]}] = a.wall[k];
+      REQUIRE(a.wall[k] > 0);
+    }
+  for (const auto& [pair, measure] : wall) {
+    const auto back = wall.find({pair.second, pair.first});
+    REQUIRE(back != wall.end());
+    REQUIRE(back->second == measure);
+  }
+}
+
+long double hull_measure(const Lattice& lattice, const Place& place) {
+  // The hull of a centred lattice is a box without what its missing last layer leaves out.
+  const long double side =
+      place.scale * static_cast<long double>(lattice.k - 1) / static_cast<long double>(lattice.k);
+  return std::pow(side, static_cast<long double>(lattice.dimension));
+}
+
+}  // namespace
+
+TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
+  for (const Lattice& lattice : lattices())
+    for (const Place& place : places)
+      for (const Precision precision : {Precision::float64, Precision::float32}) {
+        if (precision == Precision::float32 && place.name != "plain" && place.name != "huge") continue;
+        const std::string label =
+            lattice.name + " " + place.name + (precision == Precision::float32 ? " float" : " double");
+        CAPTURE(label);
+        const Seeds seeds = lattice_seeds(lattice, place);
+        Diagram diagram(Device::choose(), room_for(place, lattice.dimension), options_for(precision));
+        diagram.set_seeds(seeds.array.view());
+        diagram.compute(true, true);
+        const Measures& measures = diagram.measures();
+        const double cell = std::pow(place.scale / static_cast<double>(lattice.k), lattice.dimension) /
+                            static_cast<double>(lattice.basis.size());
+        const bool single = precision == Precision::float32;
+        // Positions far from the origin or tilted are no exact lattice: rounding moves them.
+        const double rounding =
+            4e-16 * (1 + place.offset / place.scale) * static_cast<double>(lattice.k) * 30;
+        const double tolerance = (single ? 1e-5 : 1e-12) + rounding;
+        CHECK(diagram.timings().uncertain > 0);
+        CHECK(measures.relative_error() < (single ? 1e-6 : 1e-14));
+        CHECK(measures.count(SeedStatus::ok) == seeds.array.size());
+        const Adjacency& adjacency = diagram.adjacency();
+        check_symmetric(adjacency);
+        for (std::size_t i = 0; i < seeds.array.size(); ++i) {
+          if (!seeds.inside[i]) continue;
+          CHECK(measures.mass[i] / cell == doctest::Approx(1).epsilon(tolerance));
+          // Where positions are exact, so are neighbours.
+          if (place.angle == 0 && place.name != "tiny" && (lattice.k & (lattice.k - 1)) == 0)
+            CHECK(adjacency.offset[i + 1] - adjacency.offset[i] == lattice.neighbors);
+        }
+        const long double measure = check_triangulation(diagram.dual(), seeds.array);
+        if (lattice.basis.size() == 1)
+          CHECK(static_cast<double>(measure / hull_measure(lattice, place)) ==
+                doctest::Approx(1).epsilon(1e-9));
+      }
+}
+
+TEST_CASE("a million ties: all seeds on a sphere about one more") {
+  for (const int dimension : {2, 3})
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+      CAPTURE(dimension);
+      // Rational points of the unit sphere times 65536, exact after scaling: (a^2-b^2, 2ab)/(a^2+b^2) is not,
+      // so points (x, y, z) of integers with x^2 + y^2 + z^2 = r^2.
+      const long radius = dimension == 2 ? 5525 : 45;
+      SeedArray seeds;
+      seeds.dimension = dimension;
+      const long depth = dimension == 3 ? radius : 0;
+      for (long x = -radius; x <= radius; ++x)
+        for (long y = -radius; y <= radius; ++y) {
+          const long rest = radius * radius - x * x - y * y;
+          if (rest < 0) continue;
+          const long z = std::lround(std::sqrt(static_cast<double>(rest)));
+          if (z * z != rest || z > depth) continue;
+          for (const long sign : {-1L, 1L}) {
+            if (z == 0 && sign > 0) continue;
+            seeds.positions.push_back(static_cast<double>(x));
+            seeds.positions.push_back(static_cast<double>(y));
+            if (dimension == 3) seeds.positions.push_back(static_cast<double>(sign * z));
+            seeds.weights.push_back(0);
+          }
+        }
+      CAPTURE(seeds.size());
+      REQUIRE(seeds.size() > 60);
+      const double half = 4.0 * static_cast<double>(radius);
+      const std::vector<double> low(static_cast<std::size_t>(dimension), -half),
+          high(static_cast<std::size_t>(dimension), half);
+      Diagram diagram(Device::choose(), Domain::box(low, high), options_for(precision));
+      diagram.set_seeds(seeds.view());
+      diagram.compute(true, true);
+      CHECK(diagram.measures().relative_error() < (precision == Precision::float32 ? 1e-6 : 1e-14));
+      check_symmetric(diagram.adjacency());
+      // All corners of the dual are the one centre: the hull of the seeds, triangulated.
+      check_triangulation(diagram.dual(), seeds);
+      CHECK(diagram.dual().size() >= seeds.size() - static_cast<std::size_t>(dimension));
+      std::set<std::uint32_t> used(diagram.dual().simplices.begin(), diagram.dual().simplices.end());
+      CHECK(used.size() == seeds.size());
+    }
+}
+
+TEST_CASE("fast decisions leave ties as they are, and count them") {
+  const Seeds seeds = lattice_seeds(lattices()[1], places[0]);
+  Options options = options_for(Precision::automatic);
+  options.decisions = Decisions::fast;
+  Diagram diagram(Device::choose(), room_for(places[0], 3), options);
+  diagram.set_seeds(seeds.array.view());
+  diagram.measures();
+  CHECK(diagram.timings().uncertain > 0);
+  CHECK(diagram.timings().on_host == 0);
+}
