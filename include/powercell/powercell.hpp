@@ -16,5 +16,6 @@
 #include <powercell/seeds.hpp>
 #include <powercell/transport.hpp>
 #include <powercell/treemap.hpp>
+#include <powercell/triangulation.hpp>
 #include <powercell/verify.hpp>
 #include <powercell/version.hpp>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/collect/exact_orientation.hpp"
+
 namespace powercell {
 namespace {
 
@@ -132,7 +134,7 @@ std::vector<Row<C>> collect(const Cells& cells) {
 
 /// Turns each row to positive orientation by the positions of its seeds. Differences are exact in long
 /// double unless positions differ in scale by more than its extra bits; below `rounding` times the product
-/// of the edge lengths the sign of the determinant is not known, and the row stays as it is.
+/// of the edge lengths the sign of the determinant is found exactly.
 template <std::size_t C>
 void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
   constexpr std::size_t d = C - 1;
@@ -156,7 +158,8 @@ void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
             e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
             e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     }
-    if (det < -scale) std::swap(row[d - 1], row[d]);
+    const bool negative = det < -scale || (det <= scale && exact_orientation(seeds.positions, row) < 0);
+    if (negative) std::swap(row[d - 1], row[d]);
   }
 }
 
@@ -176,7 +179,28 @@ Dual finish(std::vector<Row<C>> rows) {
   return dual;
 }
 
+/// Rows with their smallest seed first, in space all ascending, in the plane turned by `orient` if at all.
+template <std::size_t C>
+Dual extended(const Dual& dual, const std::vector<std::uint32_t>& more, const SeedsView& seeds) {
+  std::vector<Row<C>> rows;
+  rows.reserve((dual.simplices.size() + more.size()) / C);
+  for (const std::vector<std::uint32_t>* from : {&dual.simplices, &more})
+    for (std::size_t at = 0; at < from->size(); at += C) {
+      Row<C> row;
+      std::copy_n(from->begin() + static_cast<std::ptrdiff_t>(at), C, row.begin());
+      std::sort(row.begin(), row.end());
+      rows.push_back(row);
+    }
+  keep_distinct(rows, 0);
+  orient(rows, seeds);
+  return finish(std::move(rows));
+}
+
 }  // namespace
+
+Dual extend_dual(const Dual& dual, const std::vector<std::uint32_t>& rows, const SeedsView& seeds) {
+  return dual.corners == 3 ? extended<3>(dual, rows, seeds) : extended<4>(dual, rows, seeds);
+}
 
 Dual make_dual(const Cells& cells, const SeedsView& seeds) {
   if (cells.cell_dimension == 3) {

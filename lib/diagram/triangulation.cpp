@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cmath>
+#include <powercell/diagram.hpp>
+#include <powercell/triangulation.hpp>
+
+#include "kernels/layout.h"
+#include "lib/clip/host_clip.hpp"
+#include "lib/clip/scene.hpp"
+#include "lib/collect/dual.hpp"
+#include "lib/neighbors/packed_tree.hpp"
+#include "lib/seeds/seed_set.hpp"
+#include "lib/seeds/threads.hpp"
+
+namespace powercell {
+namespace {
+
+/// Half the side of the box on the device, in extents of the seeds: few cells inside leave it.
+constexpr double near_room = 2;
+/// The same of the box on the host: 2^80.
+constexpr double far_room = 0x1p80;
+
+struct Extent {
+  std::vector<double> middle;
+  double size = 0;  ///< largest side of the bounding box
+
+  explicit Extent(const SeedsView& seeds) {
+    const auto d = static_cast<std::size_t>(seeds.dimension);
+    for (std::size_t k = 0; k < d; ++k) {
+      double low = seeds.positions[k], high = low;
+      for (std::size_t at = k; at < seeds.positions.size(); at += d) {
+        low = std::min(low, seeds.positions[at]);
+        high = std::max(high, seeds.positions[at]);
+      }
+      middle.push_back(low + (high - low) / 2);
+      size = std::max(size, high - low);
+    }
+  }
+
+  Domain box(double room) const {
+    std::vector<double> low, high;
+    for (const double x : middle) {
+      low.push_back(x - room * size);
+      high.push_back(x + room * size);
+    }
+    return Domain::box(low, high);
+  }
+};
+
+/// Cells clipped on the host in the far box, from those that leave the near one outwards.
+class OuterCells {
+ public:
+  OuterCells(const Device& device, const Extent& extent, const SeedsView& seeds, int threads)
+      : threads_(threads),
+        seeds_(make_seed_set(seeds, seeds.dimension, threads)),
+        tree_(build_packed_tree(seeds_, threads)),
+        domain_(extent.box(far_room)),
+        scene_(device.context(), domain_.mesh(), false),
+        known_(seeds_.size(), false) {
+    scene_.set_seeds(seeds_, tree_);
+    host_ = make_host_scene(scene_);
+  }
+
+  /// \param inside  per seed as given: its cell is known and does not leave the near box
+  /// Appends rows of seed indices.
+  void collect(const std::vector<bool>& inside, const std::vector<bool>& leaves,
+               std::vector<std::uint32_t>& rows) {
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t rank = 0; rank < seeds_.size(); ++rank) {
+      known_[rank] = inside[seeds_.input[rank]];
+      if (leaves[seeds_.input[rank]]) reach(rank, front);
+    }
+    while (!front.empty()) {
+      std::vector<HostPiece> pieces(front.size());
+      parallel_for(threads_, front.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) pieces[k] = clip_on_host(host_, front[k], 0);
+      });
+      std::vector<std::uint32_t> next;
+      for (std::size_t k = 0; k < front.size(); ++k) {
+        if (pieces[k].status == PIECE_EMPTY) continue;
+        for (const std::int32_t border : pieces[k].batch.border)
+          if (border >= 0) reach(static_cast<std::uint32_t>(border), next);
+        add_corners(front[k], pieces[k].batch, rows);
+      }
+      front = std::move(next);
+    }
+  }
+
+ private:
+  void reach(std::uint32_t rank, std::vector<std::uint32_t>& front) {
+    if (known_[rank]) return;
+    known_[rank] = true;
+    front.push_back(rank);
+  }
+
+  void add_row(std::uint32_t rank, std::initializer_list<std::int32_t> borders,
+               std::vector<std::uint32_t>& rows) const {
+    if (*std::min_element(borders.begin(), borders.end()) < 0) return;  // a corner at the box
+    rows.push_back(seeds_.input[rank]);
+    for (const std::int32_t border : borders)
+      rows.push_back(seeds_.input[static_cast<std::uint32_t>(border)]);
+  }
+
+  void add_corners(std::uint32_t rank, const PieceBatch& batch, std::vector<std::uint32_t>& rows) const {
+    const std::vector<std::int32_t>& border = batch.border;
+    if (seeds_.dimension == 2) {
+      for (std::size_t k = 0; k < border.size(); ++k)
+        add_row(rank, {border[k == 0 ? border.size() - 1 : k - 1], border[k]}, rows);
+      return;
+    }
+    for (std::size_t v = 0; v < batch.vertices(0); ++v)
+      add_row(rank,
+              {border[batch.link[6 * v + 3]], border[batch.link[6 * v + 4]], border[batch.link[6 * v + 5]]},
+              rows);
+  }
+
+  int threads_;
+  SeedSet seeds_;
+  PackedTree tree_;
+  Domain domain_;
+  Scene scene_;
+  HostScene host_;
+  std::vector<bool> known_;
+};
+
+/// Which cells meet the boundary of the domain.
+std::vector<bool> at_boundary(const Cells& cells) {
+  std::vector<bool> at(cells.cell_count(), false);
+  for (std::size_t i = 0; i < cells.cell_count(); ++i)
+    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
+      for (std::uint64_t f = cells.face_offset[p]; f < cells.face_offset[p + 1]; ++f)
+        if (cells.border[f].kind != Border::Kind::wall) at[i] = true;
+  return at;
+}
+
+}  // namespace
+
+Dual regular_triangulation(const Device& device, const SeedsView& seeds, const Options& options) {
+  if (seeds.dimension != 2 && seeds.dimension != 3)
+    throw Error(ErrorCode::invalid_argument,
+                "a triangulation needs seeds of 2 or 3 coordinates, not " + std::to_string(seeds.dimension));
+  const int threads = thread_count(options.threads);
+  make_seed_set(seeds, seeds.dimension, threads);  // refuses what is not finite before anything is made of it
+  Dual none;
+  none.corners = seeds.dimension + 1;
+  if (seeds.size() < static_cast<std::size_t>(none.corners)) return none;
+  const Extent extent(seeds);
+  if (!(extent.size > 0)) return none;
+  Options exact = options;
+  exact.decisions = Decisions::exact;
+  Diagram diagram(device, extent.box(near_room), exact);
+  diagram.set_seeds(seeds);
+  diagram.compute(false, true);
+  const std::vector<bool> leaves = at_boundary(diagram.cells());
+  std::vector<bool> inside(seeds.size());
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i] = diagram.measures().status[i] == SeedStatus::ok && !leaves[i];
+  std::vector<std::uint32_t> rows;
+  OuterCells(device, extent, seeds, threads).collect(inside, leaves, rows);
+  return extend_dual(diagram.dual(), rows, seeds);
+}
+
+}  // namespace powercell

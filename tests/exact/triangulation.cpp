@@ -1,0 +1,88 @@
+// The regular triangulation against CGAL's, simplex by simplex, and as a triangulation of the hull where
+// CGAL's ties are broken otherwise.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <powercell/triangulation.hpp>
+
+#include "tests/exact/check_triangulation.hpp"
+#include "tests/support/cgal.hpp"
+#include "tests/support/generators.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+/// Of the bounding box, which is the hull of a grid.
+long double box_measure(const SeedArray& seeds) {
+  long double measure = 1;
+  for (int k = 0; k < seeds.dimension; ++k) {
+    double low = seeds.coordinate(0, k), high = low;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      low = std::min(low, seeds.coordinate(i, k));
+      high = std::max(high, seeds.coordinate(i, k));
+    }
+    measure *= static_cast<long double>(high) - low;
+  }
+  return measure;
+}
+
+std::vector<std::vector<std::uint32_t>> sorted_rows(const std::vector<std::uint32_t>& corners,
+                                                    std::size_t width) {
+  std::vector<std::vector<std::uint32_t>> rows;
+  for (std::size_t at = 0; at < corners.size(); at += width) {
+    rows.emplace_back(corners.begin() + static_cast<std::ptrdiff_t>(at),
+                      corners.begin() + static_cast<std::ptrdiff_t>(at + width));
+    std::sort(rows.back().begin(), rows.back().end());
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("random seeds: CGAL's triangulation, simplex by simplex") {
+  Random random(test_seed());
+  for (const int dimension : {2, 3})
+    for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
+      for (const Distribution distribution : {Distribution::white, Distribution::cluster})
+        for (const std::size_t n : {std::size_t{5}, std::size_t{60}, std::size_t{2000}}) {
+          CAPTURE(dimension);
+          CAPTURE(name(weights));
+          CAPTURE(n);
+          const SeedArray seeds = random_seeds(distribution, weights, n, dimension, random);
+          const Dual dual = regular_triangulation(Device::choose(), seeds.view());
+          const auto width = static_cast<std::size_t>(dimension) + 1;
+          CHECK(sorted_rows(dual.simplices, width) ==
+                sorted_rows(regular_triangulation(seeds.view()).simplices, width));
+          check_triangulation(dual, seeds);
+        }
+}
+
+TEST_CASE("a grid: the hull is covered once") {
+  for (const int dimension : {2, 3}) {
+    const SeedArray seeds = grid(dimension == 2 ? 12 : 5, dimension);
+    const Dual dual = regular_triangulation(Device::choose(), seeds.view());
+    const long double covered = check_triangulation(dual, seeds), hull = box_measure(seeds);
+    CHECK(static_cast<double>(covered / hull) == doctest::Approx(1).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("seeds that do not span the space have no simplices; too few neither") {
+  for (const int dimension : {2, 3}) {
+    const Device device = Device::choose();
+    CHECK(regular_triangulation(device, SeedsView{dimension, {}, {}}).size() == 0);
+    SeedArray line;
+    line.dimension = dimension;
+    for (int i = 0; i < 20; ++i) {
+      for (int k = 0; k < dimension; ++k) line.positions.push_back(i * (k + 1));
+      line.weights.push_back(i % 3);
+    }
+    CHECK(regular_triangulation(device, line.view()).size() == 0);
+    const SeedArray same{dimension, std::vector<double>(static_cast<std::size_t>(9 * dimension), 0.5),
+                         std::vector<double>(9, 1)};
+    CHECK(regular_triangulation(device, same.view()).size() == 0);
+  }
+  CHECK_THROWS_AS(regular_triangulation(Device::choose(), SeedsView{4, {}, {}}), Error);
+}
