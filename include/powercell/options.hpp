@@ -23,7 +23,7 @@ enum class Neighbors {
 
 /// What becomes of cells whose shape rounding may have decided: grids, cospherical seeds, walls in facets.
 enum class Decisions {
-  exact,  ///< decided anew on the host with exact numbers, ties broken by the index of the seed
+  exact,  ///< decided anew on the host with exact numbers, ties broken by the positions of the seeds
   fast,   ///< left as they are, and counted (Timings::uncertain)
 };
 

@@ -99,7 +99,7 @@ struct JoinedCells {
 
 /// The regular triangulation restricted to the domain: one simplex for each point of the domain in
 /// which d+1 cells meet (three on polygons and surfaces, four in volumes). With exact decisions more cells meet in no
-/// point: ties are broken by the index of the seeds, so that the simplices form a triangulation for any seeds.
+/// point: ties are broken by the order of their positions, so that the simplices form a triangulation for any seeds.
 struct Dual {
   int corners = 0;                      ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented

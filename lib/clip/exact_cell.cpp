@@ -60,7 +60,7 @@ class Exact final : public ExactCell {
 
   bool is_corner_outside(std::uint32_t corner, std::int32_t other) override {
     const int sign = apply(plane(other), mesh_vertex(corner)).sign();
-    return sign != 0 ? sign > 0 : input(static_cast<std::uint32_t>(other)) < input(rank_);
+    return sign != 0 ? sign > 0 : static_cast<std::uint32_t>(other) < rank_;
   }
 
   int hull_dimension(std::span<const ExactVertex> vertices) override {
@@ -200,30 +200,28 @@ class Exact final : public ExactCell {
     return sum;
   }
 
-  std::uint32_t input(std::uint32_t rank) const { return scene_.input[rank]; }
-
   /// Sign of det(rows of the vertex, plane) once all weights are larger by their infinitesimals: a bisector
   /// with j gains (e_j - e_i) times the row (0, ..., 0, 1), and its determinant the like with that row put
   /// in.
   int infinitesimal(const ExactVertex& vertex, std::int32_t other, const Row& plane) {
     struct Term {
-      std::uint32_t input;
+      std::uint32_t rank;
       Int factor;
     };
     Row unit;
     std::fill(unit.begin(), unit.end(), Int(0));
     unit[last()] = 1;
-    std::vector<Term> terms = {{input(static_cast<std::uint32_t>(other)), homogeneous(vertex)[last()]}};
+    std::vector<Term> terms = {{static_cast<std::uint32_t>(other), homogeneous(vertex)[last()]}};
     for (std::size_t k = 0; k < static_cast<std::size_t>(planes()); ++k) {
       if (vertex[k] < 0) continue;
       std::array<const Row*, 3> rows = rows_of(vertex);
       rows[k] = &unit;
-      terms.push_back({input(static_cast<std::uint32_t>(vertex[k])), apply(plane, meeting_of(rows))});
+      terms.push_back({static_cast<std::uint32_t>(vertex[k]), apply(plane, meeting_of(rows))});
     }
     Int own(0);
     for (const Term& term : terms) own -= term.factor;
-    terms.push_back({input(rank_), own});
-    std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.input < b.input; });
+    terms.push_back({rank_, own});
+    std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.rank < b.rank; });
     for (const Term& term : terms)
       if (term.factor.sign() != 0) return term.factor.sign();
     return 0;  // cannot be: the factor of `other` is the denominator of the vertex

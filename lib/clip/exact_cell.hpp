@@ -26,10 +26,10 @@ ExactScale exact_scale(std::span<const std::byte> points, std::span<const std::b
 /// volumes.
 using ExactVertex = std::array<std::int32_t, 3>;
 
-/// Exact predicates in integers (Boost.Multiprecision). Where the numbers as given make a tie, the weight of
-/// each seed counts as larger by an infinitesimal, that of a lower input index by an infinitely larger one
-/// than all behind it (simulation of simplicity), so that every cell decides alike (docs/mathematics.md,
-/// "Certain decisions").
+/// Exact predicates in integers (Boost.Multiprecision). Where the numbers as given make a tie, the weight of each
+/// seed counts as larger by an infinitesimal, that of a lower rank by an infinitely larger one than all behind it
+/// (simulation of simplicity), so that every cell decides alike, in whatever order the seeds were given
+/// (docs/mathematics.md, "Certain decisions").
 class ExactCell {
  public:
   virtual ~ExactCell() = default;

@@ -35,7 +35,6 @@ HostScene make_host_scene(const Scene& scene) {
                  {},
                  {},
                  {},
-                 seeds.input,
                  {}};
   host.scale = exact_scale(host.points, host.corners);
   mesh.dimension == 3 ? host_polyhedron::pack_blocks(host) : host_polygon2::pack_blocks(host);

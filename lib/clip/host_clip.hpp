@@ -30,7 +30,6 @@ struct HostScene {
   std::vector<double> seed_block, node_block;  ///< kernels/neighbors/blocks.cl
   std::vector<std::uint32_t> near_count;       ///< per leaf: none, since lists serve many cells
   std::vector<double> near_bound;
-  std::span<const std::uint32_t> input;        ///< per rank: the index by which ties are broken
   ExactScale scale;
 };
 
