@@ -34,6 +34,7 @@ void add_engine_options(CLI::App& command, CommonOptions& options) {
       .add_option("--decisions", options.decisions,
                   "exact, or fast: cells whose shape rounding may have decided are left as they are, and counted")
       ->check(CLI::IsMember({"exact", "fast"}));
+  command.add_flag("--certify", options.certify, "Check each result by the laws that need no reference");
   command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
       ->check(CLI::Range(0, 4096));
 }
@@ -78,6 +79,7 @@ Options library_options(const CommonOptions& options, std::string_view what) {
   result.precision = precisions.at(options.precision);
   result.neighbors = providers.at(options.neighbors);
   result.decisions = options.decisions == "fast" ? Decisions::fast : Decisions::exact;
+  result.certify = options.certify;
   result.threads = options.threads;
   auto bar = std::make_shared<ProgressBar>(std::string(what), options.quiet || options.json);
   result.progress = [bar](double fraction) {

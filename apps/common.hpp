@@ -22,6 +22,7 @@ struct CommonOptions {
   std::string precision = "auto";
   std::string neighbors = "auto";
   std::string decisions = "exact";
+  bool certify = false;
   int threads = 0;
   bool json = false;
   bool quiet = false;
@@ -29,7 +30,7 @@ struct CommonOptions {
 
 /// Adds --json and --quiet.
 void add_output_options(CLI::App& command, CommonOptions& options);
-/// Adds --neighbors, --decisions and --threads.
+/// Adds --neighbors, --decisions, --certify and --threads.
 void add_engine_options(CLI::App& command, CommonOptions& options);
 /// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);

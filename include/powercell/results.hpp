@@ -115,6 +115,7 @@ struct Timings {
   double neighbors = 0;  ///< neighbour lists on the host (FLANN)
   double clip = 0;       ///< kernels
   double collect = 0;    ///< results on the host
+  double certify = 0;    ///< checking laws (Options::certify)
   double build = 0;      ///< compiling kernels (not in total)
   std::uint64_t pair_count = 0;   ///< candidate (region, seed) pairs
   std::uint64_t retried = 0;      ///< pairs that needed a larger variant

@@ -8,8 +8,10 @@
    margin when they leave out seeds. */
 #if REAL_BITS == 32
 #define SEARCH_MARGIN ((real)0.03125) /* 2^-5 */
+#define LEAST_FILLING ((real)0.05) /* of the cube of the radius: smaller cells are left to the host */
 #else
 #define SEARCH_MARGIN ((real)9.5367431640625e-7) /* 2^-20 */
+#define LEAST_FILLING 0
 #endif
 
 /* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the radius

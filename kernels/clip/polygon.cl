@@ -228,6 +228,16 @@ static inline void cell_finish(cell_t* cell, bool note) {
   if (note) note_gone_edges(cell);
 }
 
+/* Whether the cell may go on in other regions. */
+static inline bool cell_goes_on(const cell_t* cell) {
+  int v = cell->first;
+  do {
+    if (cell->border[v] < 0 && cell->at.behind[~cell->border[v]] != BEHIND_NOTHING) return true;
+    v = cell->next[v];
+  } while (v != cell->first);
+  return false;
+}
+
 static inline void cell_moments(const cell_t* cell, real* moments) {
   for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   const int first = cell->first;

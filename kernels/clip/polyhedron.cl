@@ -261,6 +261,13 @@ static inline void cell_finish(cell_t* cell, bool note) {
     }
 }
 
+/* Whether the cell may go on in other regions. Needs cell_finish. */
+static inline bool cell_goes_on(const cell_t* cell) {
+  for (int f = 0; f < cell->faces; ++f)
+    if (cell->border[f] < 0 && cell->at.behind[~cell->border[f]] != BEHIND_NOTHING) return true;
+  return false;
+}
+
 /* Adds the integrals over the tetrahedron of `top` and the triangle a, v, w, all with |y|^2 in the last
    component: to sums those of 1 and of 24 y, and to `squares` parts of that of 120 |y|^2
    (docs/mathematics.md (14)). Returns the normal of the triangle, twice its area long. */

@@ -29,6 +29,12 @@ static inline bool whole_is_certain(cell_t* cell) {
   return moved >= 0 && moved + cell->at.drift < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius;
 }
 
+/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few digits. */
+static inline bool measure_is_good(const cell_t* cell, real measure) {
+  const real r = cell->at.radius;
+  return measure >= LEAST_FILLING * (CELL_DIMENSION == 3 ? r * r * r : r * r) || cell_goes_on(cell);
+}
+
 /* Writes a piece that ended with `status`; returns the final status. */
 static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
   real moments[2 + DIMENSION];
@@ -40,6 +46,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     cell_finish(cell, !certain);
     certain = certain || WHOLE_IS_CERTAIN(cell);
     cell_moments(cell, moments);
+    certain = certain && measure_is_good(cell, moments[0]);
     if (CELL_IS_FLAT(cell, moments)) {
       status = PIECE_FLAT;
       certain = false;

@@ -9,6 +9,7 @@
 #include "lib/neighbors/cell_candidates.hpp"
 #include "lib/neighbors/region_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
+#include "lib/verify/certificate.hpp"
 #ifdef POWERCELL_HAS_FLANN
 #include "lib/neighbors/list_candidates.hpp"
 #endif
@@ -132,6 +133,18 @@ void Diagram::State::pass(bool want_adjacency, bool want_cells) {
   }
 }
 
+void Diagram::State::certify() {
+  Stopwatch certificate;
+  try {
+    require_certificate({domain, seeds, *measures, adjacency ? &*adjacency : nullptr, precision == Precision::float32,
+                         thread_count(options.threads)});
+  } catch (...) {
+    forget_results();
+    throw;
+  }
+  timings.certify = certificate.seconds();
+}
+
 void Diagram::State::run(bool want_adjacency, bool want_cells) {
   if (!given) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   const double built_before = device.build_seconds();
@@ -144,6 +157,7 @@ void Diagram::State::run(bool want_adjacency, bool want_cells) {
   } else {
     pass(want_adjacency, want_cells);
   }
+  if (options.certify) certify();
   timings.build = device.build_seconds() - built_before;
   timings.total = prepared + watch.seconds() - timings.build;
 }

@@ -54,6 +54,8 @@ struct Diagram::State {
   std::unique_ptr<Candidates> make_candidates() const;
   /// Clips all pairs once; again where cells turn out to need their regions.
   void pass(bool want_adjacency, bool want_cells);
+  /// Throws unless the results keep their laws, and forgets them then.
+  void certify();
   /// Clips all pairs and fills measures, and adjacency and cells where asked.
   void run(bool want_adjacency, bool want_cells);
 };

@@ -1,0 +1,110 @@
+#include "lib/verify/certificate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <powercell/error.hpp>
+#include <string>
+
+#include "lib/domain/random_points.hpp"
+#include "lib/seeds/threads.hpp"
+#include "lib/verify/laws.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr double partition_double = 1e-12, partition_float = 1e-6;
+/// Of the largest wall. The sides of a wall are measured in the coordinates of two seeds.
+constexpr double asymmetry_double = 1e-9, asymmetry_float = 1e-3;
+constexpr std::size_t points = 32;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorCode::internal, "the certificate of the diagram does not hold: " + what);
+}
+
+void require_partition(const Certified& r) {
+  const double error = r.measures.mass.empty() ? 0 : r.measures.relative_error();
+  if (error <= (r.float32 ? partition_float : partition_double)) return;
+  refuse("the cells measure " + digits(r.measures.total()) + " together, the domain " +
+         digits(r.measures.domain_measure));
+}
+
+/// The first seed whose figures no cell of the domain can have.
+void require_numbers(const Certified& r) {
+  const auto d = static_cast<std::size_t>(r.measures.dimension);
+  const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
+  double extent = 0, reach = 0;
+  for (std::size_t k = 0; k < d; ++k) {
+    extent = std::max(extent, high[k] - low[k]);
+    reach = std::max({reach, std::abs(low[k]), std::abs(high[k])});
+  }
+  const double slack = extent * (r.float32 ? 1e-4 : 1e-8) + reach * 1e-14;
+  const std::size_t wrong = first_of(r.measures.mass.size(), r.threads, [&](std::size_t i) {
+    if (!(r.measures.mass[i] >= 0) || !(r.measures.second_moment[i] >= 0)) return true;
+    if ((r.measures.status[i] == SeedStatus::ok) != (r.measures.mass[i] > 0)) return true;
+    if (r.measures.status[i] != SeedStatus::ok) return false;
+    for (std::size_t k = 0; k < d; ++k) {
+      const double x = r.measures.centroid[i * d + k];
+      if (!(x >= low[k] - slack && x <= high[k] + slack)) return true;
+    }
+    return false;
+  });
+  if (wrong < r.measures.mass.size())
+    refuse("seed " + std::to_string(wrong) + " has the mass " + digits(r.measures.mass[wrong]) +
+           " or a centroid that no cell of the domain has");
+}
+
+void require_symmetry(const Certified& r) {
+  if (r.adjacency == nullptr || r.adjacency->wall.empty()) return;
+  const double largest = *std::max_element(r.adjacency->wall.begin(), r.adjacency->wall.end());
+  if (r.adjacency->asymmetry <= largest * (r.float32 ? asymmetry_float : asymmetry_double)) return;
+  refuse("the two sides of a wall differ by " + digits(r.adjacency->asymmetry));
+}
+
+/// The rank of least power distance from x.
+std::size_t owner_of(const SeedSet& seeds, const Vector& x) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  std::size_t owner = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    double power = -seeds.weights[i];
+    for (std::size_t k = 0; k < d; ++k) {
+      const double q = static_cast<double>(x[k]) - seeds.positions[i * d + k];
+      power += q * q;
+    }
+    if (power < least) {
+      least = power;
+      owner = i;
+    }
+  }
+  return owner;
+}
+
+void require_owners(const Certified& r) {
+  if (r.seeds.size() == 0) return;
+  const std::vector<Sample> samples = random_points(r.domain.mesh(), points, r.seeds.size());
+  std::vector<std::size_t> owner(samples.size());
+  parallel_for(r.threads, samples.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) owner[k] = owner_of(r.seeds, samples[k].point);
+  });
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const std::size_t i = r.seeds.input[owner[k]];
+    if (r.measures.status[i] == SeedStatus::ok) continue;
+    refuse("seed " + std::to_string(i) + " has no cell, but owns the point (" +
+           digits(static_cast<double>(samples[k].point[0])) + ", " +
+           digits(static_cast<double>(samples[k].point[1])) + ", " +
+           digits(static_cast<double>(samples[k].point[2])) + ")");
+  }
+}
+
+}  // namespace
+
+void require_certificate(const Certified& result) {
+  require_partition(result);
+  require_numbers(result);
+  require_symmetry(result);
+  require_owners(result);
+}
+
+}  // namespace powercell

@@ -1,0 +1,77 @@
+// The certificate of every result: it holds for what the library computes, and refuses what was tampered with.
+#include "lib/verify/certificate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <powercell/diagram.hpp>
+
+#include "tests/support/domains.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/setups.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+TEST_CASE("certificates of ordinary and degenerate diagrams hold, on every kind of domain") {
+  Random random(test_seed());
+  const std::vector<NamedDomain> kinds = {{"islands", Domain::polygon(islands())},
+                                          {"torus", surface_of(torus(12, 7))},
+                                          {"ball", volume_of(ball_tetrahedra(0))},
+                                          {"cube", unit_box(3)}};
+  for (const NamedDomain& named : kinds)
+    for (Setup setup : main_setups()) {
+      INFO(named.name << ", " << setup.name);
+      setup.options.certify = true;
+      Diagram diagram(setup.device, named.domain, setup.options);
+      diagram.set_seeds(seeds_for(named.domain, Distribution::white, WeightRange::W2, 400, random).view());
+      CHECK_NOTHROW(diagram.compute(true, true));
+      CHECK(diagram.timings().certify > 0);
+      diagram.set_seeds(grid(named.domain.dimension() == 2 ? 8 : 4, named.domain.dimension(),
+                             Box{named.domain.low(), named.domain.high()})
+                            .view());
+      CHECK_NOTHROW(diagram.compute(true, false));
+      diagram.set_seeds({named.domain.dimension(), {}, {}});
+      CHECK_NOTHROW(diagram.measures());
+    }
+}
+
+TEST_CASE("a certificate is refused for what no diagram is, and names the seed") {
+  Random random(test_seed());
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 300, 3, random);
+  const Domain domain = unit_box(3);
+  Diagram diagram(Device::choose(), domain, {});
+  diagram.set_seeds(seeds.view());
+  diagram.compute(true, false);
+  const SeedSet set = make_seed_set(seeds.view(), 3, 1);
+  const auto refusal = [&](const std::function<void(Measures&, Adjacency&)>& tamper) -> std::string {
+    Measures measures = diagram.measures();
+    Adjacency adjacency = diagram.adjacency();
+    tamper(measures, adjacency);
+    try {
+      require_certificate({domain, set, measures, &adjacency, false, 2});
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::internal);
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(refusal([](Measures&, Adjacency&) {}) == "");
+  CHECK(refusal([](Measures& m, Adjacency&) { m.mass[7] *= 1.001; }).find("measure") != std::string::npos);
+  CHECK(refusal([](Measures& m, Adjacency&) {
+          m.mass[8] += 2 * m.mass[7];
+          m.mass[7] *= -1;
+        }).find("seed 7") != std::string::npos);
+  CHECK(refusal([](Measures& m, Adjacency&) { m.centroid[3 * 41 + 1] = 1.5; }).find("seed 41") != std::string::npos);
+  CHECK(refusal([](Measures& m, Adjacency&) { m.second_moment[5] = std::numeric_limits<double>::quiet_NaN(); })
+            .find("seed 5 ") != std::string::npos);
+  CHECK(refusal([](Measures&, Adjacency& a) { a.asymmetry = 0.01; }).find("two sides") != std::string::npos);
+  // All but one seed said to be hidden: most points then have an owner without a cell.
+  CHECK(refusal([](Measures& m, Adjacency&) {
+          for (std::size_t i = 1; i < m.mass.size(); ++i) {
+            m.mass[0] += m.mass[i];
+            m.mass[i] = m.second_moment[i] = 0;
+            m.status[i] = SeedStatus::hidden;
+          }
+        }).find("owns the point") != std::string::npos);
+}
