@@ -204,27 +204,33 @@ class Exact final : public ExactCell {
   /// with j gains (e_j - e_i) times the row (0, ..., 0, 1), and its determinant the like with that row put
   /// in.
   int infinitesimal(const ExactVertex& vertex, std::int32_t other, const Row& plane) {
-    struct Term {
-      std::uint32_t rank;
-      Int factor;
-    };
+    std::array<std::int32_t, 5> seeds{static_cast<std::int32_t>(rank_), other};
+    std::size_t count = 2;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(planes()); ++k)
+      if (vertex[k] >= 0) seeds[count++] = vertex[k];
+    std::sort(seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      const int sign = factor(vertex, other, plane, seeds[k]).sign();
+      if (sign != 0) return sign;
+    }
+    return 0;  // cannot be: the factor of `other` is the denominator of the vertex
+  }
+
+  /// Of the infinitesimal of one of those seeds.
+  Int factor(const ExactVertex& vertex, std::int32_t other, const Row& plane, std::int32_t seed) {
+    if (seed == other) return homogeneous(vertex)[last()];
+    if (seed == static_cast<std::int32_t>(rank_)) {
+      Int own = -homogeneous(vertex)[last()];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(planes()); ++k)
+        if (vertex[k] >= 0) own -= factor(vertex, other, plane, vertex[k]);
+      return own;
+    }
     Row unit;
     std::fill(unit.begin(), unit.end(), Int(0));
     unit[last()] = 1;
-    std::vector<Term> terms = {{static_cast<std::uint32_t>(other), homogeneous(vertex)[last()]}};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(planes()); ++k) {
-      if (vertex[k] < 0) continue;
-      std::array<const Row*, 3> rows = rows_of(vertex);
-      rows[k] = &unit;
-      terms.push_back({static_cast<std::uint32_t>(vertex[k]), apply(plane, meeting_of(rows))});
-    }
-    Int own(0);
-    for (const Term& term : terms) own -= term.factor;
-    terms.push_back({rank_, own});
-    std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.rank < b.rank; });
-    for (const Term& term : terms)
-      if (term.factor.sign() != 0) return term.factor.sign();
-    return 0;  // cannot be: the factor of `other` is the denominator of the vertex
+    std::array<const Row*, 3> rows = rows_of(vertex);
+    rows[static_cast<std::size_t>(std::find(vertex.begin(), vertex.end(), seed) - vertex.begin())] = &unit;
+    return apply(plane, meeting_of(rows));
   }
 
   /// p / q in the units of the scene.
@@ -314,7 +320,7 @@ ExactScale exact_scale(std::span<const std::byte> points, std::span<const std::b
 std::unique_ptr<ExactCell> ExactCell::make(const HostScene& scene, std::uint32_t rank, std::uint32_t region) {
   // Largest number met: a plane applied to the meeting of facets, 10 coordinates' worth on surfaces.
   const int most = 10 * (scene.scale.bits + 2) + 16;
-  if (most <= 768) return std::make_unique<Exact<Fixed<768>>>(scene, rank, region);
+  if (most <= 640) return std::make_unique<Exact<Fixed<640>>>(scene, rank, region);
   if (most <= 2048) return std::make_unique<Exact<Fixed<2048>>>(scene, rank, region);
   return std::make_unique<Exact<mp::cpp_int>>(scene, rank, region);
 }

@@ -2,10 +2,8 @@
 /// Whether simplices are a triangulation.
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <algorithm>
-#include <map>
+#include <array>
 #include <powercell/results.hpp>
 #include <vector>
 
@@ -30,32 +28,46 @@ inline long double signed_measure(const Dual& dual, std::size_t s, const SeedArr
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/// No facet is in more than two simplices, and where in two, they lie on either side of it; returns the
-/// measure of their union, which is then their sum.
-inline long double check_triangulation(const Dual& dual, const SeedArray& seeds) {
+struct Triangulated {
+  long double measure = 0;  ///< of the union, if there are no faults
+  std::size_t faults =
+      0;  ///< simplices without a positive measure, facets in more than two or twice on one side
+};
+
+/// Whether no facet is in more than two simplices, and where in two, they lie on either side of it.
+inline Triangulated check_triangulation(const Dual& dual, const SeedArray& seeds) {
+  struct Side {
+    std::array<std::uint32_t, 3> facet{~0U, ~0U, ~0U};
+    int sign = 1;
+  };
   const auto corners = static_cast<std::size_t>(dual.corners);
-  std::map<std::vector<std::uint32_t>, std::vector<int>> facets;
-  long double sum = 0;
+  std::vector<Side> sides;
+  sides.reserve(dual.simplices.size());
+  Triangulated result;
   for (std::size_t s = 0; s < dual.size(); ++s) {
     const long double measure = signed_measure(dual, s, seeds);
-    REQUIRE(measure > 0);
-    sum += measure;
+    result.faults += !(measure > 0);
+    result.measure += measure / (corners == 3 ? 2 : 6);
     for (std::size_t skip = 0; skip < corners; ++skip) {
-      std::vector<std::uint32_t> facet;
+      Side side;
+      side.sign = skip % 2 == 0 ? 1 : -1;
+      std::size_t at = 0;
       for (std::size_t c = 0; c < corners; ++c)
-        if (c != skip) facet.push_back(dual.simplices[s * corners + c]);
-      int sign = skip % 2 == 0 ? 1 : -1;
-      for (std::size_t a = 0; a < facet.size(); ++a)
-        for (std::size_t b = a + 1; b < facet.size(); ++b) sign = facet[a] > facet[b] ? -sign : sign;
-      std::sort(facet.begin(), facet.end());
-      facets[facet].push_back(sign);
+        if (c != skip) side.facet[at++] = dual.simplices[s * corners + c];
+      for (std::size_t a = 0; a < at; ++a)
+        for (std::size_t b = a + 1; b < at; ++b)
+          side.sign = side.facet[a] > side.facet[b] ? -side.sign : side.sign;
+      std::sort(side.facet.begin(), side.facet.end());
+      sides.push_back(side);
     }
   }
-  for (const auto& [facet, sides] : facets) {
-    REQUIRE(sides.size() <= 2);
-    if (sides.size() == 2) REQUIRE(sides[0] == -sides[1]);
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.facet < b.facet; });
+  for (std::size_t k = 1; k < sides.size(); ++k) {
+    if (sides[k].facet != sides[k - 1].facet) continue;
+    result.faults += sides[k].sign == sides[k - 1].sign;
+    result.faults += k >= 2 && sides[k].facet == sides[k - 2].facet;
   }
-  return sum / (corners == 3 ? 2 : 6);
+  return result;
 }
 
 }  // namespace powercell::test

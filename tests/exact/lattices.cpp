@@ -1,5 +1,7 @@
 // Seeds with ties everywhere: lattices plain, tilted, tiny, huge and far from the origin, and spheres. The
 // cells of a lattice are known, and its dual must be a triangulation all the same.
+#include "tests/exact/lattices.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,66 +18,6 @@ using namespace powercell;
 using namespace powercell::test;
 
 namespace {
-
-/// Where a lattice lies: x -> scale * (rotation(x - 1/2) + 1/2) + offset.
-struct Place {
-  std::string name;
-  double angle = 0, scale = 1, offset = 0;
-};
-const std::vector<Place> places = {{"plain"},          {"tilted", 0.7},
-                                   {"tiny", 0, 1e-6},  {"small", 0, 0x1p-20},
-                                   {"huge", 0.3, 1e9}, {"far", 0, 1, 1048576}};
-
-struct Lattice {
-  std::string name;
-  int dimension;
-  std::size_t k;                             ///< periods along an axis
-  std::vector<std::array<double, 3>> basis;  ///< within a period of size 1
-  std::size_t neighbors;                     ///< of a cell inside
-};
-std::vector<Lattice> lattices() {
-  return {{"square", 2, 8, {{0, 0, 0}}, 4},
-          {"cubic", 3, 5, {{0, 0, 0}}, 6},
-          {"body-centred", 3, 4, {{0, 0, 0}, {0.5, 0.5, 0.5}}, 14},
-          {"face-centred", 3, 4, {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}}, 12}};
-}
-
-struct Seeds {
-  SeedArray array;
-  std::vector<bool> inside;  ///< the cell does not meet the boundary of the lattice
-};
-
-Seeds lattice_seeds(const Lattice& lattice, const Place& place) {
-  Seeds seeds;
-  seeds.array.dimension = lattice.dimension;
-  const double h = 1.0 / static_cast<double>(lattice.k);
-  const std::size_t layers = lattice.dimension == 3 ? lattice.k : 1;
-  for (std::size_t z = 0; z < layers; ++z)
-    for (std::size_t y = 0; y < lattice.k; ++y)
-      for (std::size_t x = 0; x < lattice.k; ++x)
-        for (const auto& b : lattice.basis) {
-          double p[3] = {(static_cast<double>(x) + b[0] + 0.25) * h,
-                         (static_cast<double>(y) + b[1] + 0.25) * h,
-                         (static_cast<double>(z) + b[2] + 0.25) * h};
-          bool inside = true;
-          for (int k = 0; k < lattice.dimension; ++k) inside = inside && p[k] > 1.2 * h && p[k] < 1 - 1.2 * h;
-          const double c = std::cos(place.angle), s = std::sin(place.angle), u = p[0] - 0.5, v = p[1] - 0.5;
-          p[0] = c * u - s * v + 0.5;
-          p[1] = s * u + c * v + 0.5;
-          for (int k = 0; k < lattice.dimension; ++k)
-            seeds.array.positions.push_back(place.scale * p[k] + place.offset);
-          seeds.array.weights.push_back(0);
-          seeds.inside.push_back(inside);
-        }
-  return seeds;
-}
-
-/// A box around all of it, with room for the corners of the dual.
-Domain room_for(const Place& place, int dimension) {
-  const std::vector<double> low(static_cast<std::size_t>(dimension), place.offset - 2 * place.scale),
-      high(static_cast<std::size_t>(dimension), place.offset + 3 * place.scale);
-  return Domain::box(low, high);
-}
 
 Options options_for(Precision precision) {
   Options options;
@@ -114,7 +56,7 @@ TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
         const std::string label =
             lattice.name + " " + place.name + (precision == Precision::float32 ? " float" : " double");
         CAPTURE(label);
-        const Seeds seeds = lattice_seeds(lattice, place);
+        const LatticeSeeds seeds = lattice_seeds(lattice, place);
         Diagram diagram(Device::choose(), room_for(place, lattice.dimension), options_for(precision));
         diagram.set_seeds(seeds.array.view());
         diagram.compute(true, true);
@@ -138,7 +80,9 @@ TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
           if (place.angle == 0 && place.name != "tiny" && (lattice.k & (lattice.k - 1)) == 0)
             CHECK(adjacency.offset[i + 1] - adjacency.offset[i] == lattice.neighbors);
         }
-        const long double measure = check_triangulation(diagram.dual(), seeds.array);
+        const Triangulated triangulated = check_triangulation(diagram.dual(), seeds.array);
+        CHECK(triangulated.faults == 0);
+        const long double measure = triangulated.measure;
         if (lattice.basis.size() == 1)
           CHECK(static_cast<double>(measure / hull_measure(lattice, place)) ==
                 doctest::Approx(1).epsilon(1e-9));
@@ -180,7 +124,7 @@ TEST_CASE("a million ties: all seeds on a sphere about one more") {
       CHECK(diagram.measures().relative_error() < (precision == Precision::float32 ? 1e-6 : 1e-14));
       check_symmetric(diagram.adjacency());
       // All corners of the dual are the one centre: the hull of the seeds, triangulated.
-      check_triangulation(diagram.dual(), seeds);
+      CHECK(check_triangulation(diagram.dual(), seeds).faults == 0);
       CHECK(diagram.dual().size() >= seeds.size() - static_cast<std::size_t>(dimension));
       std::set<std::uint32_t> used(diagram.dual().simplices.begin(), diagram.dual().simplices.end());
       CHECK(used.size() == seeds.size());
@@ -188,7 +132,7 @@ TEST_CASE("a million ties: all seeds on a sphere about one more") {
 }
 
 TEST_CASE("fast decisions leave ties as they are, and count them") {
-  const Seeds seeds = lattice_seeds(lattices()[1], places[0]);
+  const LatticeSeeds seeds = lattice_seeds(lattices()[1], places[0]);
   Options options = options_for(Precision::automatic);
   options.decisions = Decisions::fast;
   Diagram diagram(Device::choose(), room_for(places[0], 3), options);

@@ -56,7 +56,7 @@ TEST_CASE("random seeds: CGAL's triangulation, simplex by simplex") {
           const auto width = static_cast<std::size_t>(dimension) + 1;
           CHECK(sorted_rows(dual.simplices, width) ==
                 sorted_rows(regular_triangulation(seeds.view()).simplices, width));
-          check_triangulation(dual, seeds);
+          CHECK(check_triangulation(dual, seeds).faults == 0);
         }
 }
 
@@ -64,7 +64,9 @@ TEST_CASE("a grid: the hull is covered once") {
   for (const int dimension : {2, 3}) {
     const SeedArray seeds = grid(dimension == 2 ? 12 : 5, dimension);
     const Dual dual = regular_triangulation(Device::choose(), seeds.view());
-    const long double covered = check_triangulation(dual, seeds), hull = box_measure(seeds);
+    const Triangulated triangulated = check_triangulation(dual, seeds);
+    CHECK(triangulated.faults == 0);
+    const long double covered = triangulated.measure, hull = box_measure(seeds);
     CHECK(static_cast<double>(covered / hull) == doctest::Approx(1).epsilon(1e-13));
   }
 }
