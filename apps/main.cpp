@@ -41,12 +41,14 @@ int run(int argc, char** argv) {
       "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
       "  powercell verify --device cpu                        does this device compute rightly?\n"
       "  powercell bench                                      how fast?\n"
+      "  powercell treemap sales.csv -o sales.svg             hierarchical data as nested cells\n"
       "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE.");
   const std::map<std::string, powercell::app::Command> commands = {
       {"devices", powercell::app::add_devices(app)}, {"diagram", powercell::app::add_diagram(app)},
       {"verify", powercell::app::add_verify(app)},   {"demo", powercell::app::add_demo(app)},
       {"bench", powercell::app::add_bench(app)},
       {"transport", powercell::app::add_transport(app)},
+      {"treemap", powercell::app::add_treemap(app)},
   };
   try {
     app.parse(argc, argv);

@@ -129,11 +129,11 @@ void write_image(const std::string& path, cairo_surface_t* image) {
 
 }  // namespace
 
-void draw_png(const std::string& path, const Scene& scene) {
-  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(scene.width),
-                                                 static_cast<int>(scene.height)));
+void paint_png(const std::string& path, double width, double height, const Painter& paint) {
+  const Surface image(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height)));
   const Context context(cairo_create(image.get()));
-  draw(context.get(), scene);
+  paint(context.get());
   if (cairo_status(context.get()) != CAIRO_STATUS_SUCCESS) {
     throw Error(ErrorCode::write_failed,
                 path + ": cairo: " + cairo_status_to_string(cairo_status(context.get())));
@@ -141,19 +141,28 @@ void draw_png(const std::string& path, const Scene& scene) {
   write_image(path, image.get());
 }
 
-void draw_pdf(const std::string& path, const Scene& scene) {
+void paint_pdf(const std::string& path, double width, double height, const PageText& text,
+               const Painter& paint) {
   Sink sink{AtomicFile(path), {}};
   // A PDF's unit is 1/72 inch, a pixel 1/96 inch.
-  const Surface page(
-      cairo_pdf_surface_create_for_stream(Sink::write, &sink, scene.width * 0.75, scene.height * 0.75));
-  cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_TITLE, scene.title.c_str());
-  cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_SUBJECT, scene.description.c_str());
+  const Surface page(cairo_pdf_surface_create_for_stream(Sink::write, &sink, width * 0.75, height * 0.75));
+  cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_TITLE, text.title.c_str());
+  cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_SUBJECT, text.description.c_str());
   const Context context(cairo_create(page.get()));
   cairo_scale(context.get(), 0.75, 0.75);
-  draw(context.get(), scene);
+  paint(context.get());
   const cairo_status_t drawn = cairo_status(context.get());
   cairo_surface_finish(page.get());
   sink.commit(path, drawn != CAIRO_STATUS_SUCCESS ? drawn : cairo_surface_status(page.get()));
+}
+
+void draw_png(const std::string& path, const Scene& scene) {
+  paint_png(path, scene.width, scene.height, [&](cairo_t* to) { draw(to, scene); });
+}
+
+void draw_pdf(const std::string& path, const Scene& scene) {
+  paint_pdf(path, scene.width, scene.height, {scene.title, scene.description},
+            [&](cairo_t* to) { draw(to, scene); });
 }
 
 void write_pixels(const std::string& path, const std::vector<std::uint8_t>& rgb, int width, int height) {

@@ -3,12 +3,28 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "apps/io/picture_scene.hpp"
 
+using cairo_t = struct _cairo;
+
 namespace powercell::io {
+
+/// Draws in pixels, y downwards; a failure stays in the context and is found when the picture is written.
+using Painter = std::function<void(cairo_t*)>;
+
+struct PageText {
+  const std::string& title;
+  const std::string& description;
+};
+
+/// A picture of that size in pixels, as the painter draws it. \throw Error write_failed
+void paint_png(const std::string& path, double width, double height, const Painter& paint);
+void paint_pdf(const std::string& path, double width, double height, const PageText& text,
+               const Painter& paint);
 
 /// Draws a flat picture as PNG or PDF. \throw Error write_failed
 void draw_png(const std::string& path, const Scene& scene);

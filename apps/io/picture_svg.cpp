@@ -5,32 +5,10 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/picture.hpp"
 #include "apps/io/picture_scene.hpp"
+#include "apps/io/picture_svg_text.hpp"
 
 namespace powercell::io {
 namespace {
-
-std::string escape(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 // A hundredth of a pixel is finer than any screen; whole hundredths keep the file small, and differences
 // of them add up without drift.
@@ -116,6 +94,29 @@ void write_discs(AtomicFile& file, const Scene& scene) {
 
 }  // namespace
 
+std::string xml_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
 void write_svg(const std::string& path, const DiagramOutput& output) {
   const Scene scene = make_scene(output);
   AtomicFile file(path);
@@ -123,7 +124,7 @@ void write_svg(const std::string& path, const DiagramOutput& output) {
       fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
                   "width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\">\n"
                   "<title>{2}</title>\n<desc>{3}</desc>\n",
-                  scene.width, scene.height, escape(scene.title), escape(scene.description)));
+                  scene.width, scene.height, xml_text(scene.title), xml_text(scene.description)));
   file.write(style(scene));
   file.write(
       fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n<g class=\"cells\">\n", hex(paper)));
@@ -134,7 +135,7 @@ void write_svg(const std::string& path, const DiagramOutput& output) {
     if (cell.label.empty())
       text += "\"/>\n";
     else
-      text += "\"><title>" + escape(cell.label) + "</title></path>\n";
+      text += "\"><title>" + xml_text(cell.label) + "</title></path>\n";
     file.write(text);
   }
   std::string outline = "</g>\n<path class=\"outline\" d=\"";

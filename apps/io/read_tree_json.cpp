@@ -1,0 +1,177 @@
+// Nested objects {name, children, value}, and lists of rows {id, parent, name, value}.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "apps/io/read_file.hpp"
+#include "apps/io/read_tree_formats.hpp"
+
+namespace powercell::io {
+namespace {
+
+using nlohmann::json;
+
+json parse(std::string_view text, const std::string& name) {
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    fail_line(name, line_of(text, error.byte > 0 ? error.byte - 1 : 0),
+              fmt::format("is not JSON from here on: {}", error.what()));
+  }
+}
+
+const json* member(const json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    const auto found = object.find(key);
+    if (found != object.end() && !found->is_null()) return &*found;
+  }
+  return nullptr;
+}
+
+// A string as it is, a number as JSON writes it; anything else is refused. `place` says where.
+template <class Place>
+std::string as_text(const json* value, const char* what, const std::string& file, const Place& place) {
+  if (!value) return {};
+  if (value->is_string()) return value->get<std::string>();
+  if (value->is_number()) return value->dump();
+  fail_file(file, fmt::format("{}: its {} is neither a string nor a number", place(), what));
+}
+
+template <class Place>
+double as_value(const json& object, const std::string& file, const Place& place) {
+  const json* value = member(object, {"value", "size", "weight"});
+  if (!value) return 0;
+  if (!value->is_number())
+    fail_file(file, fmt::format("{}: its value {} is not a number", place(), value->dump().substr(0, 40)));
+  const double number = value->get<double>();
+  if (!std::isfinite(number)) fail_file(file, fmt::format("{}: its value is not finite", place()));
+  return number;
+}
+
+NamedTree read_list(const json& list, const std::string& name) {
+  std::vector<TreeRow> rows;
+  rows.reserve(list.size());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const auto place = [&] { return fmt::format("element {}", k + 1); };
+    const json& object = list[k];
+    if (!object.is_object()) fail_file(name, place() + ": is no object {id, parent, name, value}");
+    TreeRow row;
+    row.place = k + 1;
+    row.id = as_text(member(object, {"id", "nodeId"}), "id", name, place);
+    if (row.id.empty()) fail_file(name, place() + ": has no id");
+    row.parent = as_text(member(object, {"parent", "parentId"}), "parent", name, place);
+    row.name = as_text(member(object, {"name", "label"}), "name", name, place);
+    row.value = as_value(object, name, place);
+    rows.push_back(std::move(row));
+  }
+  return link_rows(std::move(rows), name, false);
+}
+
+// Ids are the names from the root on, joined by slashes; of equal names the second is "name#2".
+class Nested {
+ public:
+  explicit Nested(const std::string& file) : file_(file) {}
+
+  NamedTree read(const json& root) {
+    std::vector<std::pair<const json*, std::int64_t>> open = {{&root, -1}};
+    while (!open.empty()) {
+      const auto [object, parent] = open.back();
+      open.pop_back();
+      const std::int64_t node = add(*object, parent);
+      const json* children = object->is_object() ? member(*object, {"children"}) : nullptr;
+      if (!children) continue;
+      if (!children->is_array()) refuse(node, "its children are no list");
+      for (std::size_t k = children->size(); k-- > 0;) open.emplace_back(&(*children)[k], node);
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  [[noreturn]] void refuse(std::int64_t node, const std::string& what) const {
+    fail_file(file_, fmt::format("'{}': {}", tree_.id[static_cast<std::size_t>(node)], what));
+  }
+
+  std::int64_t add(const json& object, std::int64_t parent) {
+    const auto node = static_cast<std::int64_t>(tree_.size());
+    const std::string above = parent < 0 ? "" : tree_.id[static_cast<std::size_t>(parent)] + "/";
+    if (!object.is_object())
+      fail_file(file_, fmt::format("a child of '{}' is no object {{name, children, value}}", above));
+    std::string name = as_text(member(object, {"name", "label", "id"}), "name", file_,
+                               [&] { return "below '" + above + "'"; });
+    if (name.empty()) name = parent < 0 ? "root" : fmt::format("child {}", node);
+    const int times = ++used_[above + name];
+    tree_.id.push_back(times == 1 ? above + name : fmt::format("{}{}#{}", above, name, times));
+    tree_.name.push_back(std::move(name));
+    tree_.parent.push_back(parent);
+    tree_.value.push_back(
+        as_value(object, file_, [&] { return "'" + tree_.id[static_cast<std::size_t>(node)] + "'"; }));
+    return node;
+  }
+
+  const std::string& file_;
+  NamedTree tree_;
+  std::unordered_map<std::string, int> used_;
+};
+
+void add_polygon(const json& element, EarlierLayout& layout, std::size_t place, const std::string& name) {
+  const json* polygon = element.is_object() ? member(element, {"polygon"}) : nullptr;
+  const auto refuse = [&](const char* what) {
+    fail_file(name,
+              fmt::format("element {}: {}; an earlier layout is what 'powercell treemap -o FILE.json' wrote",
+                          place, what));
+  };
+  if (!polygon || !polygon->is_array()) refuse("has no polygon");
+  for (const json& point : *polygon) {
+    if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
+      refuse("its polygon has a corner that is no [x, y]");
+    layout.vertices.push_back(point[0].get<double>());
+    layout.vertices.push_back(point[1].get<double>());
+  }
+}
+
+}  // namespace
+
+NamedTree parse_tree_json(std::string_view text, const std::string& name) {
+  const json document = parse(text, name);
+  if (document.is_array()) return read_list(document, name);
+  if (document.is_object()) return Nested(name).read(document);
+  fail_file(name,
+            "is neither an object {name, children, value} nor a list of rows {id, parent, name, value}");
+}
+
+EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree) {
+  const std::string text = read_file(path);
+  const json document = parse(text, path);
+  if (!document.is_array()) fail_file(path, "is no list of nodes with polygons");
+  std::unordered_map<std::string, std::size_t> at;
+  const auto id_of = [&](const json& element, const char* key) {
+    const json* id = element.is_object() ? member(element, {key}) : nullptr;
+    return id && id->is_string() ? id->get<std::string>() : std::string();
+  };
+  for (std::size_t k = 0; k < document.size(); ++k) at.emplace(id_of(document[k], "id"), k);
+  EarlierLayout layout;
+  layout.vertex_offset.assign(1, 0);
+  layout.seeds.assign(2 * tree.size(), std::nan(""));
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    std::int64_t parent = tree.parent[i];
+    const auto found = at.find(tree.id[i]);
+    if (found != at.end()) {
+      const json& element = document[found->second];
+      add_polygon(element, layout, found->second + 1, path);
+      ++layout.known;
+      if (parent >= 0 && id_of(element, "parent") != tree.id[static_cast<std::size_t>(parent)]) parent = -1;
+      const json* seed = member(element, {"seed"});
+      if (seed && seed->is_array() && seed->size() == 2 && (*seed)[0].is_number() && (*seed)[1].is_number()) {
+        layout.seeds[2 * i] = (*seed)[0].get<double>();
+        layout.seeds[2 * i + 1] = (*seed)[1].get<double>();
+      }
+    }
+    layout.parent.push_back(parent);
+    layout.vertex_offset.push_back(layout.vertices.size() / 2);
+  }
+  return layout;
+}
+
+}  // namespace powercell::io

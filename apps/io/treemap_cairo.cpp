@@ -1,0 +1,106 @@
+#include <cairo.h>
+
+#include <memory>
+
+#include "apps/io/picture_cairo.hpp"
+#include "apps/io/treemap_scene.hpp"
+
+namespace powercell::io {
+namespace {
+
+constexpr const char* font = "DejaVu Sans";
+
+void select_font(cairo_t* to, bool bold, double size) {
+  cairo_select_font_face(to, font, CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(to, size);
+}
+
+void set_colour(cairo_t* to, Colour colour, double opacity = 1) {
+  cairo_set_source_rgba(to, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
+}
+
+void add_outline(cairo_t* to, const TreemapScene& scene, const TreemapScene::Cell& cell) {
+  cairo_new_path(to);
+  for (std::uint64_t v = cell.first; v < cell.end; ++v)
+    cairo_line_to(to, scene.points[2 * v], scene.points[2 * v + 1]);
+  cairo_close_path(to);
+}
+
+void draw_label(cairo_t* to, const TreemapScene::Label& label) {
+  select_font(to, label.bold, label.size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(to, label.text.c_str(), &extents);
+  cairo_font_extents_t lines;
+  cairo_font_extents(to, &lines);
+  cairo_move_to(to, label.x - extents.x_advance / 2, label.y + (lines.ascent - lines.descent) / 2);
+  if (label.bold) {
+    cairo_text_path(to, label.text.c_str());
+    set_colour(to, paper, 0.6);
+    cairo_set_line_width(to, 0.16 * label.size);
+    cairo_stroke_preserve(to);
+    set_colour(to, ink, label.opacity);
+    cairo_fill(to);
+  } else {
+    set_colour(to, ink, label.opacity);
+    cairo_show_text(to, label.text.c_str());
+  }
+}
+
+void draw(cairo_t* to, const TreemapScene& scene) {
+  set_colour(to, paper);
+  cairo_paint(to);
+  cairo_set_line_join(to, CAIRO_LINE_JOIN_ROUND);
+  std::vector<std::size_t> open;
+  const auto wall = [&](const TreemapScene::Cell& cell) {
+    add_outline(to, scene, cell);
+    set_colour(to, paper);
+    cairo_set_line_width(to, cell.wall);
+    cairo_stroke(to);
+  };
+  const auto close_up_to = [&](std::size_t k) {
+    for (; !open.empty() && k > open.back() + scene.below[open.back()]; open.pop_back())
+      wall(scene.cells[open.back()]);
+  };
+  for (std::size_t k = 0; k < scene.cells.size(); ++k) {
+    close_up_to(k);
+    const TreemapScene::Cell& cell = scene.cells[k];
+    if (!cell.leaf) {
+      open.push_back(k);
+      continue;
+    }
+    add_outline(to, scene, cell);
+    set_colour(to, cell.fill);
+    cairo_fill(to);
+    wall(cell);
+  }
+  close_up_to(scene.cells.size() + 1);
+  for (const TreemapScene::Label& label : scene.labels) draw_label(to, label);
+}
+
+}  // namespace
+
+double text_width(const std::string& text, bool bold) {
+  struct Measure {
+    std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface{
+        cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy};
+    std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context{cairo_create(surface.get()), cairo_destroy};
+  };
+  static const Measure measure;
+  constexpr double em = 100;  // large, so that hinting does not round
+  select_font(measure.context.get(), bold, em);
+  cairo_text_extents_t extents;
+  cairo_text_extents(measure.context.get(), text.c_str(), &extents);
+  return extents.x_advance / em;
+}
+
+void draw_treemap_png(const std::string& path, const TreemapScene& scene) {
+  paint_png(path, scene.width, scene.height, [&](cairo_t* to) { draw(to, scene); });
+}
+
+void draw_treemap_pdf(const std::string& path, const TreemapScene& scene) {
+  paint_pdf(path, scene.width, scene.height, {scene.title, scene.description},
+            [&](cairo_t* to) { draw(to, scene); });
+}
+
+}  // namespace powercell::io

@@ -1,0 +1,72 @@
+// Colours of treemaps, in Ottosson's OKLCH (2020), where equal steps look equal.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "apps/io/treemap_scene.hpp"
+
+namespace powercell::io {
+namespace {
+
+struct Lch {
+  double lightness, chroma, hue;  // hue in turns
+};
+
+std::uint8_t channel(double linear) {
+  const double c = std::clamp(linear, 0.0, 1.0);
+  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255 * encoded));
+}
+
+Colour to_colour(const Lch& lch) {
+  const double a = lch.chroma * std::cos(2 * std::numbers::pi * lch.hue);
+  const double b = lch.chroma * std::sin(2 * std::numbers::pi * lch.hue);
+  const double l = std::pow(lch.lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+  const double m = std::pow(lch.lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+  const double s = std::pow(lch.lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+  return {channel(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          channel(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          channel(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+// In [-0.5, 0.5], from the node's number: the same picture every time.
+double jitter(std::uint32_t node, std::uint32_t salt) {
+  std::uint32_t x = node * 0x9e3779b9u + salt;
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return (x ^ (x >> 16)) / 4294967296.0 - 0.5;
+}
+
+}  // namespace
+
+std::vector<Colour> treemap_colours(const TreemapOutput& output) {
+  const Treemap& map = output.map;
+  const std::size_t n = output.tree.size();
+  std::vector<std::uint32_t> order(n), branches;
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return map.depth[a] < map.depth[b]; });
+  for (const std::uint32_t i : order)
+    if (map.depth[i] == 1 && map.kind[i] != TreeNode::dropped) branches.push_back(i);
+  std::stable_sort(branches.begin(), branches.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return map.value[a] > map.value[b]; });
+  std::vector<Lch> lch(n, {0.86, 0.03, 0.68});
+  // The largest branches get the hues farthest apart: steps of the golden section.
+  for (std::size_t k = 0; k < branches.size(); ++k)
+    lch[branches[k]] = {0.80 - 0.05 * static_cast<double>(k % 3), 0.105,
+                        0.70 + 0.6180339887 * static_cast<double>(k)};
+  for (const std::uint32_t i : order) {
+    if (map.depth[i] < 2) continue;
+    const Lch& above = lch[static_cast<std::size_t>(output.tree.parent[i])];
+    const double room = map.depth[i] == 2 ? 1 : 0.55;
+    lch[i] = {std::clamp(above.lightness + 0.11 * room * jitter(i, 1), 0.62, 0.92),
+              std::clamp(above.chroma + 0.05 * room * jitter(i, 2), 0.05, 0.14),
+              above.hue + 0.045 * room * jitter(i, 3)};
+  }
+  std::vector<Colour> colours(n);
+  std::transform(lch.begin(), lch.end(), colours.begin(), to_colour);
+  return colours;
+}
+
+}  // namespace powercell::io

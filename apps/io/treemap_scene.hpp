@@ -1,0 +1,58 @@
+/// \file
+/// The picture of a treemap: made once, drawn as SVG text or by cairo. Internal to the writers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/io/picture_palette.hpp"
+#include "apps/io/write_treemap.hpp"
+
+namespace powercell::io {
+
+/// Everything in pixels, y downwards.
+struct TreemapScene {
+  struct Cell {
+    std::uint32_t node;
+    Colour fill;  ///< of a leaf
+    double wall;  ///< width of the line around it, drawn over all that is inside
+    bool leaf;
+    std::uint64_t first, end;  ///< corners in `points`
+  };
+  struct Label {
+    double x, y, size;  ///< middle of the text, height of an em
+    double width;       ///< of the text
+    bool bold;
+    double opacity;
+    std::string text;
+  };
+  double width = 0, height = 0;
+  std::string title, description;
+  /// Nodes before their children, children together and in order (preorder), and how many nodes lie below
+  /// each.
+  std::vector<Cell> cells;
+  std::vector<std::uint32_t> below;
+  std::vector<double> points;  ///< x, y pairs
+  std::vector<Label> labels;   ///< in drawing order
+};
+
+TreemapScene make_treemap_scene(const TreemapOutput& output, const TreemapStyle& style);
+
+/// A colour for each node: hue by the branch below the root, tints of it further down.
+std::vector<Colour> treemap_colours(const TreemapOutput& output);
+
+/// Names that fit into their cells without touching each other, large groups first.
+void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output);
+
+/// Width of a text of one em in the pictures' font.
+double text_width(const std::string& text, bool bold);
+
+/// Valid UTF-8 without control characters: what is neither becomes U+FFFD.
+std::string printable(const std::string& text);
+
+void draw_treemap_svg(const std::string& path, const TreemapScene& scene, const TreemapOutput& output);
+void draw_treemap_png(const std::string& path, const TreemapScene& scene);
+void draw_treemap_pdf(const std::string& path, const TreemapScene& scene);
+
+}  // namespace powercell::io

@@ -1,0 +1,190 @@
+// powercell treemap: hierarchical data as nested cells of exact areas.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/io/read_tree.hpp"
+#include "apps/io/write_treemap.hpp"
+#include "apps/progress.hpp"
+#include "apps/report.hpp"
+#include "apps/treemap_shape.hpp"
+
+namespace powercell::app {
+namespace {
+
+struct TreemapArguments : CommonOptions {
+  std::string tree, shape = "16:10", previous;
+  std::vector<std::string> outputs;
+  int rounds = TreemapOptions{}.rounds;
+  std::uint64_t random_seed = 1;
+  double tolerance = TreemapOptions{}.tolerance;
+  double size = io::TreemapStyle{}.long_side;
+  bool no_labels = false;
+};
+
+struct Seconds {
+  double read = 0, layout = 0, write = 0;
+};
+
+std::vector<std::string> dropped_ids(const io::NamedTree& tree, const Treemap& map) {
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < tree.size(); ++i)
+    if (map.kind[i] == TreeNode::dropped) ids.push_back(tree.id[i]);
+  return ids;
+}
+
+Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, const Ring& outline) {
+  TreemapOptions options;
+  options.tolerance = arguments.tolerance;
+  options.rounds = arguments.rounds;
+  options.random_seed = arguments.random_seed;
+  options.threads = arguments.threads;
+  std::vector<double> start;
+  if (!arguments.previous.empty()) {
+    const io::EarlierLayout earlier = io::read_earlier_layout(arguments.previous, tree);
+    start = relative_positions(earlier.parent, earlier.seeds, earlier.vertex_offset, earlier.vertices);
+    options.start = start;
+  }
+  // A device is opened only for groups that need one.
+  std::vector<std::size_t> children(tree.size());
+  for (const std::int64_t parent : tree.parent)
+    if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
+  if (*std::max_element(children.begin(), children.end()) > options.large_group)
+    options.device = open_device(arguments);
+  ProgressBar bar("nodes", arguments.quiet || arguments.json);
+  options.progress = [&bar](double fraction) {
+    bar.update(fraction);
+    return !interrupted();
+  };
+  Treemap map;
+  compute([&] { map = treemap({tree.parent, tree.value}, outline, options); });
+  return map;
+}
+
+void tell_json(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
+               const Seconds& seconds) {
+  std::vector<std::string> unsolved;
+  for (const std::size_t i : map.not_converged) unsolved.push_back(tree.id[i]);
+  const nlohmann::json report = {
+      {"nodes", tree.size()},
+      {"leaves", map.leaves},
+      {"levels", *std::max_element(map.depth.begin(), map.depth.end()) + 1},
+      {"dropped", dropped_ids(tree, map)},
+      {"worst_leaf_error", map.worst_error},
+      {"worst_leaf", tree.id[map.worst_leaf]},
+      {"mean_aspect", map.mean_aspect},
+      {"not_converged", unsolved},
+      {"diagrams", map.diagrams},
+      {"newton_steps", map.newton_steps},
+      {"notes", tree.notes},
+      {"version", version()},
+      {"files", files},
+      {"seconds", {{"read", seconds.read}, {"layout", seconds.layout}, {"write", seconds.write}}}};
+  fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void tell(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
+          const Seconds& seconds) {
+  for (const std::string& note : tree.notes) fmt::print("{}\n", note);
+  const std::vector<std::string> dropped = dropped_ids(tree, map);
+  if (!dropped.empty()) {
+    std::string some;
+    for (std::size_t k = 0; k < std::min<std::size_t>(dropped.size(), 5); ++k)
+      some += (k ? ", " : "") + dropped[k];
+    fmt::print("dropped {} nodes without a value above 0: {}{}\n", with_commas(dropped.size()), some,
+               dropped.size() > 5 ? ", ..." : "");
+  }
+  for (const std::string& path : files) fmt::print("wrote {}\n", path);
+  fmt::print("{} nodes, {} leaves; worst area off by {:.2g} % ('{}'), mean aspect {:.3f}; {:.2f} s\n",
+             with_commas(tree.size() - dropped.size()), with_commas(map.leaves), 100 * map.worst_error,
+             tree.id[map.worst_leaf], map.mean_aspect, seconds.layout);
+}
+
+int run(const TreemapArguments& arguments) {
+  for (const std::string& path : arguments.outputs) io::check_treemap_output(path);
+  Stopwatch watch;
+  Seconds seconds;
+  const Ring outline = treemap_shape(arguments.shape);
+  const io::NamedTree tree = io::read_tree(arguments.tree);
+  seconds.read = watch.lap();
+  const Treemap map = lay_out(arguments, tree, outline);
+  seconds.layout = watch.lap();
+  for (const std::string& path : arguments.outputs)
+    io::write_treemap(path, {tree, map}, {arguments.size, !arguments.no_labels});
+  seconds.write = watch.lap();
+  if (arguments.json)
+    tell_json(tree, map, arguments.outputs, seconds);
+  else if (!arguments.quiet)
+    tell(tree, map, arguments.outputs, seconds);
+  if (!map.not_converged.empty())
+    throw Error(
+        ErrorCode::not_converged,
+        fmt::format(
+            "the children of '{}'{} have areas that are off by more than the tolerance, at worst {:.2g} %; "
+            "what was written is the best found",
+            tree.id[map.not_converged.front()],
+            map.not_converged.size() == 1 ? "" : fmt::format(" and of {} more", map.not_converged.size() - 1),
+            100 * map.worst_error));
+  return 0;
+}
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  powercell treemap sales.csv -o sales.svg\n"
+    "  powercell treemap flare.json --shape circle -o flare.png -o flare-layout.json\n"
+    "  powercell treemap ~/project -o project.svg                    sizes of the files in a folder\n"
+    "  powercell treemap new.csv --previous old-layout.json -o new.svg -o new-layout.json\n"
+    "A table has rows id, parent, name, value; JSON is nested {name, children, value} or a list of such "
+    "rows.\n"
+    "Areas are exact; what has no value above 0 is dropped and named.";
+
+}  // namespace
+
+Command add_treemap(CLI::App& app) {
+  auto arguments = std::make_shared<TreemapArguments>();
+  CLI::App* command = app.add_subcommand("treemap", "Draw hierarchical data as nested cells of exact areas");
+  command->add_option("tree", arguments->tree, "A table (.csv .txt .tsv), .json, or a folder")
+      ->required()
+      ->type_name("TREE");
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "File to write, as often as wanted: " + std::string(io::known_treemap_outputs()))
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command
+      ->add_option("--shape", arguments->shape,
+                   "W:H, circle, hexagon, circle:N (N corners), or a file with one convex polygon")
+      ->capture_default_str();
+  command
+      ->add_option("--previous", arguments->previous,
+                   "An earlier layout (.json) to stay close to, matched by id")
+      ->type_name("FILE.json");
+  command
+      ->add_option("--rounds", arguments->rounds, "Rounds of moving cells at most; more makes them rounder")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--tolerance", arguments->tolerance, "Largest relative error of an area")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", arguments->random_seed, "Where cells start: another number, another layout")
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "Long side of the picture in pixels")
+      ->check(CLI::Range(64.0, 20000.0))
+      ->capture_default_str();
+  command->add_flag("--no-labels", arguments->no_labels, "No names in the picture");
+  command->add_option("--device", arguments->device,
+                      "For groups of thousands: part of a device's name, P:D, cpu or gpu");
+  command->add_option("--threads", arguments->threads, "Threads on the host; 0 means all")
+      ->check(CLI::NonNegativeNumber);
+  add_output_options(*command, *arguments);
+  command->footer(examples);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace powercell::app

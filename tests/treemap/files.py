@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""`powercell treemap` from outside: every format in and out, what must be refused, and the written files
+measured again by measure_again.py.
+
+usage: files.py PATH_OF_POWERCELL
+exit:  0 all right, 1 something is wrong, 77 shapely is missing
+"""
+import json
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = str(pathlib.Path(sys.argv.pop(1)).resolve())
+CHECK = pathlib.Path(__file__).with_name("measure_again.py")
+
+try:
+    import shapely.geometry  # noqa: F401
+except ImportError as missing:
+    print("skipped:", missing)
+    sys.exit(77)
+
+
+def made_rows(count, seed=1):
+    """Rows of a tree with values over four orders of magnitude, some of them 0 or negative."""
+    source = random.Random(seed)
+    rows = [("r", "", "the root", "")]
+    for k in range(count):
+        parent = rows[source.randrange(max(0, len(rows) - 40), len(rows))][0]
+        value = 10 ** source.uniform(0, 4) if source.random() > 0.05 else source.choice([0, -3])
+        rows.append((f"n{k}", parent, f'node "{k}" & <{k}>, é', repr(value)))
+    return rows
+
+
+class Treemap(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_tool(self, *arguments):
+        return subprocess.run([TOOL, "treemap", *map(str, arguments)], cwd=self.folder, text=True,
+                              stdin=subprocess.DEVNULL, capture_output=True, timeout=300)
+
+    def good(self, *arguments):
+        done = self.run_tool(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return name
+
+    def table(self, name, rows, separator=","):
+        quote = lambda field: '"' + field.replace('"', '""') + '"'
+        lines = [separator.join(["id", "parent", "name", "value"])]
+        lines += [separator.join([i, p, quote(n), v]) for i, p, n, v in rows]
+        return self.write(name, "\n".join(lines) + "\n")
+
+    def measured_again(self, *files):
+        done = subprocess.run([sys.executable, CHECK, *files], cwd=self.folder, text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_table_to_every_format(self):
+        self.table("t.csv", made_rows(1500))
+        told = json.loads(self.good("t.csv", "-o", "t.json", "-o", "t.svg", "-o", "t.png", "-o", "t.pdf", "--json"))
+        self.assertLess(told["worst_leaf_error"], 1e-6)
+        self.assertGreater(len(told["dropped"]), 10)
+        self.measured_again("t.csv", "t.json", "t.svg")
+        self.assertEqual((self.folder / "t.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual((self.folder / "t.pdf").read_bytes()[:5], b"%PDF-")
+
+    def test_shapes(self):
+        self.table("t.csv", made_rows(150))
+        ring = [[0, 0], [5, 0], [6, 3], [2, 4], [0, 0]]
+        self.write("field.geojson", json.dumps({"type": "Polygon", "coordinates": [ring]}))
+        for shape in ("1:1", "3:1.5", "circle", "circle:7", "hexagon", "field.geojson"):
+            with self.subTest(shape=shape):
+                self.good("t.csv", "--shape", shape, "-o", "t.json", "-o", "t.svg")
+                self.measured_again("t.csv", "t.json", "t.svg")
+
+    def test_nested_and_listed_json(self):
+        nested = {"name": "top", "children": [
+            {"name": "a", "children": [{"name": "x", "value": 1}, {"name": "x", "size": 2.5}]},
+            {"name": "b", "value": 4}, {"name": "nothing", "value": 0}]}
+        self.write("n.json", json.dumps(nested))
+        self.assertIn("dropped 1 nodes without a value above 0: top/nothing", self.good("n.json", "-o", "out.json"))
+        self.measured_again("n.json", "out.json")
+        # What was written is a list of rows and lays out again.
+        self.good("out.json", "-o", "again.json")
+        self.measured_again("n.json", "again.json")
+
+    def test_semicolons_with_an_implied_root(self):
+        self.write("t.txt", "nodeId;parentId;name;weight\n1;0;a;1\n2;1;b;2.5\n3;1;c;1e-3\n4;0;d;1\n")
+        self.good("t.txt", "-o", "t.json")
+        self.measured_again("t.txt", "t.json")
+
+    def test_folder(self):
+        (self.folder / "scan" / "sub").mkdir(parents=True)
+        for name, size in (("a.bin", 1000), ("sub/b.bin", 3000), ("sub/c.bin", 500), ("empty", 0)):
+            (self.folder / "scan" / name).write_bytes(b"x" * size)
+        (self.folder / "scan" / "loop").symlink_to(self.folder / "scan")
+        self.good("scan", "-o", "s.json")
+        values = {row["id"]: row["value"] for row in json.loads((self.folder / "s.json").read_text())}
+        self.assertEqual(values, {".": 4500, "a.bin": 1000, "sub": 3500, "sub/b.bin": 3000, "sub/c.bin": 500})
+
+    def test_update_stays_close(self):
+        rows = made_rows(300)
+        self.table("t.csv", rows)
+        self.good("t.csv", "-o", "old.json")
+        self.good("t.csv", "--previous", "old.json", "-o", "same.json")
+        source = random.Random(5)
+        changed = [(i, p, n, repr(float(v) * source.uniform(0.9, 1.1)) if v else v) for i, p, n, v in rows]
+        self.table("new.csv", changed + [("fresh", "r", "fresh", "5000")])
+        self.good("new.csv", "--previous", "old.json", "-o", "new.json")
+        self.good("new.csv", "--seed", "9", "-o", "other.json")
+        self.measured_again("new.csv", "new.json")
+        seeds = [{r["id"]: r["seed"] for r in json.loads((self.folder / f"{name}.json").read_text())}
+                 for name in ("old", "same", "new", "other")]
+
+        def moved(other):
+            return sum(abs(complex(*p) - complex(*other[i])) for i, p in seeds[0].items() if i in other) / len(seeds[0])
+        self.assertLess(moved(seeds[1]), 0.02)
+        self.assertLess(moved(seeds[2]), 0.15 * moved(seeds[3]))
+
+    def test_refusals_name_the_place_and_leave_nothing(self):
+        head = "id,parent,name,value\nr,,root,\n"
+        cases = {
+            "t.csv:4: 'b' has the parent 'zz', which has no row": head + "a,r,a,1\nb,zz,b,1\n",
+            "t.csv:4: 's' has no parent, but neither has 'r' of line 2": head + "a,r,a,1\ns,,s,1\n",
+            "is among its own ancestors": head + "a,b,a,1\nb,a,b,1\n",
+            "t.csv:3: the value of 'a': 'ten' is not a number": head + "a,r,a,ten\n",
+            "t.csv:3: the value of 'a': 'nan'": head + "a,r,a,nan\n",
+            "t.csv:4: the id 'a' is that of line 3 already": head + "a,r,a,1\na,r,a,2\n",
+            "t.csv:3: 3 fields where 4 are expected": head + "a,r,1\n",
+            "t.csv:3: a quote is opened and never closed": head + 'a,r,"a,1\n',
+            "nothing to lay out": head + "a,r,a,0\n",
+            "t.csv:3: the row has no id": head + ",r,a,1\n",
+            "the header has no column value": "id,parent,name\nr,,root\n",
+            "has no rows": "id,parent,name,value\n",
+        }
+        for says, text in cases.items():
+            with self.subTest(says=says):
+                self.write("t.csv", text)
+                self.refused(says, 1, "t.csv", "-o", "t.svg", "-o", "t.json")
+        for says, text in {"is not JSON from here on": '{"name": "a", "children": [',
+                           "'a/b': its value \"3\" is not a number": '{"name":"a","children":[{"name":"b","value":"3"}]}',
+                           "'a': its children are no list": '{"name":"a","children":{"name":"b"}}',
+                           "element 2: is no object": '[{"id":1},3]',
+                           "neither an object": "3"}.items():
+            with self.subTest(says=says):
+                self.write("t.json", text)
+                self.refused(says, 1, "t.json", "-o", "t.svg")
+
+    def test_shapes_that_are_refused(self):
+        self.table("t.csv", made_rows(5))
+        arrow = {"type": "Polygon", "coordinates": [[[0, 0], [2, 1], [0, 2], [1, 1], [0, 0]]]}
+        self.write("arrow.geojson", json.dumps(arrow))
+        ring = {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]],
+                                                   [[1, 1], [2, 1], [2, 2], [1, 1]]]}
+        self.write("ring.geojson", json.dumps(ring))
+        self.refused("not convex at (1.0", 1, "t.csv", "--shape", "arrow.geojson", "-o", "t.svg")
+        self.refused("1 parts, 1 holes", 1, "t.csv", "--shape", "ring.geojson", "-o", "t.svg")
+        self.refused("above 0", 1, "t.csv", "--shape", "0:1", "-o", "t.svg")
+        self.refused("3 to 10000 corners", 1, "t.csv", "--shape", "circle:2", "-o", "t.svg")
+        self.refused("no format for a treemap", 1, "t.csv", "-o", "t.svg", "-o", "t.xls")
+        self.refused("", 1, "absent.csv", "-o", "t.svg")
+        self.refused("--help", 2, "t.csv", "--rounds", "-1", "-o", "t.svg")
+        self.refused("no list of nodes", 1, "t.csv", "--previous", "arrow.geojson", "-o", "t.svg")
+
+    def refused(self, says, code, *arguments):
+        before = sorted(self.folder.rglob("*"))
+        done = self.run_tool(*arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(says, done.stderr)
+        self.assertTrue(done.stderr.startswith("powercell: error: "), done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+
+if __name__ == "__main__":
+    unittest.main()
