@@ -107,10 +107,11 @@ bool overlap(const Box& a, const Box& b) {
 struct Limits {
   double least, most;  // sizes of the font, pixels
 };
-Limits limits(std::uint32_t depth, bool leaf) {
-  if (leaf) return {6.5, 30};
-  if (depth == 1) return {9, 64};
-  return {8.5, depth == 2 ? 30.0 : 18.0};
+// `scale` is that of the picture: what can be read stays as it is, what is large grows with it
+Limits limits(std::uint32_t depth, bool leaf, double scale) {
+  if (leaf) return {6.5, 26 * scale};
+  if (depth == 1) return {9, 54 * scale};
+  return {8.5, (depth == 2 ? 28 : 18) * scale};
 }
 
 class Labels {
@@ -184,7 +185,7 @@ class Labels {
     if (parent_[k] != k && scene_.below[parent_[k]] == scene_.below[k] + 1 && depth > 1 &&
         blockers_[parent_[k]].half_width > 0)
       return;  // an only child: its parent's label says enough
-    const Limits allowed = limits(depth, cell.leaf);
+    const Limits allowed = limits(depth, cell.leaf, std::max(scene_.width, scene_.height) / 1600);
     const std::string text = printable(output_.tree.name[cell.node]);
     const bool bold = !cell.leaf;
     const double half_width = 0.5 * text_width(text, bold), half_height = 0.5 * line_height;
