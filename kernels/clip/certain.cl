@@ -51,7 +51,7 @@ static inline void note_cut(vertices_t* p, real sum, real error) {
 }
 
 /* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything on the
-   way (docs/mathematics.md (64)). */
+   way (docs/mathematics.md (84)). */
 static inline bool quickly_certain(const vertices_t* p) {
   const real rounding = p->rounding + corner_error(p) + p->drift;
   const real gap = fmin(p->gap, p->clear);
