@@ -1,6 +1,8 @@
 #include "lib/treemap/hierarchy.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -91,10 +93,13 @@ void check_range(const Hierarchy& h) {
   if (!(total > 0)) refuse("no node has a value above 0, so there is nothing to lay out");
   if (!std::isfinite(total))
     refuse("the values sum to more than a double holds; divide them by a common number");
-  for (std::size_t i = 0; i < h.size(); ++i)
-    if (h.kind[i] == TreeNode::leaf && h.value[i] < least_share * total)
-      refuse("the value of node " + std::to_string(i) + " is " + std::to_string(h.value[i] / total * 1e16) +
-             "e-16 of the sum; a cell below 1e-16 of the outline has no exact area in double coordinates");
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (h.kind[i] != TreeNode::leaf || h.value[i] >= least_share * total) continue;
+    std::array<char, 32> share{};
+    std::snprintf(share.data(), share.size(), "%.2g", h.value[i] / total);
+    refuse("the value of node " + std::to_string(i) + " is " + share.data() +
+           " of the sum; a cell below 1e-16 of the outline has no exact area in double coordinates");
+  }
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ class ToolTest(unittest.TestCase):
 
 class Usage(ToolTest):
     def test_help_has_examples(self):
-        for command in ([], ["devices"], ["diagram"], ["verify"], ["demo"], ["bench"]):
+        for command in ([], ["devices"], ["diagram"], ["verify"], ["demo"], ["bench"], ["treemap"]):
             self.assertIn("Examples:", self.good(*command, "--help").stdout)
 
     def test_version(self):
