@@ -48,7 +48,7 @@ def read_tree(path):
         first = file.readline()
         file.seek(0)
         for row in csv.reader(file, delimiter=";" if ";" in first else ","):
-            rows[row[0]] = (row[1] or None, row[3])
+            rows[row[0]] = (row[1] or None, row[-1])
     rows.pop("id", None), rows.pop("nodeId", None)
     rows = {key: (parent, float(value or 0)) for key, (parent, value) in rows.items()}
     if not any(parent is None for parent, _ in rows.values()):
