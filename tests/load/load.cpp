@@ -1,0 +1,172 @@
+// Long use: many diagrams one after the other, many updates of one, many threads. Here in short; as long as
+// it is promised (docs/reliability.md, "Load") with
+//   test_load --no-skip -tc='long*'
+#include <doctest/doctest.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/domains.hpp"
+#include "tests/support/opencl_shim.hpp"
+#include "tests/support/same_bits.hpp"
+#include "tests/support/setups.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+/// Resident memory of this process, bytes, with what the allocator keeps for later given back.
+std::size_t resident() {
+  malloc_trim(0);
+  std::size_t pages = 0, resident_pages = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident_pages;
+  return resident_pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+struct Case {
+  NamedDomain domain;
+  SeedArray seeds;
+};
+
+std::vector<Case> cases(std::size_t n, std::uint64_t seed) {
+  std::vector<Case> list;
+  for (const NamedDomain& named : {NamedDomain{"letter U", Domain::polygon(letter_u())},
+                                   {"torus", surface_of(torus(12, 7))},
+                                   {"ball", volume_of(ball_tetrahedra(0))},
+                                   {"cube", unit_box(3)}}) {
+    Random random(seed);
+    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
+  }
+  return list;
+}
+
+Results fresh(const Setup& setup, const Case& c) {
+  Diagram diagram(setup.device, c.domain.domain, setup.options);
+  diagram.set_seeds(c.seeds.view());
+  return results_of(diagram);
+}
+
+constexpr std::size_t MiB = std::size_t{1} << 20;
+
+/// Makes and destroys `count` diagrams after `warm_up` others; memory must not grow by more than `allowed`.
+void many_diagrams(std::size_t warm_up, std::size_t count, std::size_t allowed) {
+  const Setup& setup = main_setups().front();
+  const std::vector<Case> list = cases(100, test_seed());
+  std::vector<Results> expected;
+  for (const Case& c : list) expected.push_back(fresh(setup, c));
+  const auto make = [&](std::size_t k) {
+    CHECK(bit_differences(fresh(setup, list[k % list.size()]), expected[k % list.size()]) == "");
+  };
+  for (std::size_t k = 0; k < warm_up; ++k) make(k);
+  const shim::Alive objects = shim::alive();
+  const std::size_t before = resident();
+  for (std::size_t k = 0; k < count; ++k) make(k);
+  const std::size_t after = resident();
+  CHECK_MESSAGE(shim::alive() == objects, shim::to_string(shim::alive()), "not ", shim::to_string(objects));
+  MESSAGE(count, " diagrams: ", before / 1024, " KiB before, ", after / 1024, " KiB after");
+  CHECK(after <= before + allowed);
+}
+
+/// Gives one diagram `count` sets of weights; now and then a fresh diagram must have the same bits.
+void many_updates(std::size_t warm_up, std::size_t count, std::size_t every, std::size_t allowed) {
+  const Setup& setup = main_setups().front();
+  for (Case c : cases(60, test_seed())) {
+    INFO(c.domain.name);
+    Random random(test_seed());
+    const double h = spacing(c.domain.domain.measure(), c.seeds.size(), c.domain.domain.cell_dimension());
+    Diagram diagram(setup.device, c.domain.domain, setup.options);
+    diagram.set_seeds(c.seeds.view());
+    std::size_t before = 0, compared = 0;
+    shim::Alive objects;
+    for (std::size_t k = 0; k < warm_up + count; ++k) {
+      if (k == warm_up) {
+        results_of(diagram);
+        before = resident();
+        objects = shim::alive();
+      }
+      set_weights(c.seeds, WeightRange::W2, h, random);
+      diagram.set_weights(c.seeds.weights);
+      diagram.measures();
+      if (k % 3 == 0) diagram.adjacency();
+      if (k % every != 0) continue;
+      CHECK(bit_differences(results_of(diagram), fresh(setup, c)) == "");
+      ++compared;
+    }
+    CHECK(compared >= 2);
+    results_of(diagram);
+    const std::size_t after = resident();
+    CHECK_MESSAGE(shim::alive() == objects, shim::to_string(shim::alive()), "not ", shim::to_string(objects));
+    MESSAGE(c.domain.name, ", ", count, " updates: ", before / 1024, " KiB before, ", after / 1024,
+            " KiB after");
+    CHECK(after <= before + allowed);
+  }
+}
+
+/// Threads that make, change and destroy diagrams of their own on one device, all at once.
+void many_threads(std::size_t threads, std::size_t rounds) {
+  for (const Setup& setup : main_setups()) {
+    INFO(setup.name);
+    const std::vector<Case> list = cases(80, test_seed());
+    std::vector<Results> expected;
+    for (const Case& c : list) expected.push_back(fresh(setup, c));
+    const shim::Alive objects = shim::alive();
+    // A device of its own, on which no program is built yet: they are built and tested by whoever comes
+    // first.
+    const Device device = Device::choose(setup.device.info().selector());
+    std::atomic<std::size_t> wrong{0}, errors{0}, done{0};
+    std::vector<std::thread> all;
+    for (std::size_t t = 0; t < threads; ++t)
+      all.emplace_back([&, t] {
+        for (std::size_t round = 0; round < rounds; ++round) {
+          const std::size_t k = (t + round) % list.size();
+          try {
+            const Setup own{setup.name, device, setup.options};
+            wrong += !bit_differences(fresh(own, list[k]), expected[k]).empty();
+            ++done;
+          } catch (const std::exception& error) {
+            ++errors;
+            MESSAGE(error.what());
+          }
+        }
+      });
+    for (std::thread& thread : all) thread.join();
+    CHECK(wrong == 0);
+    CHECK(errors == 0);
+    CHECK(done == threads * rounds);
+    shim::Alive now = shim::alive();
+    CHECK(now.buffers == objects.buffers);
+    CHECK(now.kernels == objects.kernels);
+    CHECK(now.events == objects.events);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("diagrams made and destroyed leave no memory behind") {
+  many_diagrams(40, 80, 2 * MiB);
+}
+
+TEST_CASE("updates of the weights leave no memory behind and give what fresh diagrams give") {
+  many_updates(60, 120, 45, 2 * MiB);
+}
+
+TEST_CASE("threads with their own diagrams on one device do not disturb each other") {
+  many_threads(6, 2);
+}
+
+TEST_CASE("long: a thousand diagrams made and destroyed" * doctest::skip()) {
+  many_diagrams(200, 1000, 2 * MiB);
+}
+
+TEST_CASE("long: 10000 updates of the weights" * doctest::skip()) {
+  many_updates(500, 10000, 1000, 2 * MiB);
+}
+
+TEST_CASE("long: 32 threads" * doctest::skip()) {
+  many_threads(32, 40);
+}
