@@ -1,7 +1,9 @@
 #include "lib/cl/disk_cache.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <thread>
 
@@ -104,6 +106,22 @@ TEST_CASE("an entry that cannot be put in place leaves nothing behind") {
   CHECK_FALSE(cache.write(key, cl::Binary(10, 1)));
   CHECK_FALSE(cache.read(key));
   CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("where there is no room for an entry, none is left half written") {
+  TemporaryFolder folder;
+  const cl::DiskCache cache(folder.path());
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const rlimit small{1000, before.rlim_max};  // files end there, as on a full disk
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+  const bool written = cache.write(key_of({"a"}), cl::Binary(100000, 1));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK_FALSE(written);
+  CHECK(files_in(folder.path()) == 0);
+  CHECK(cache.write(key_of({"a"}), cl::Binary(100000, 1)));
 }
 
 TEST_CASE("many writers and readers of one entry see it whole") {
