@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
       "  powercell devices                                    what --device accepts\n"
       "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
       "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
+      "  powercell remesh mesh.off --count 5000 -o new.off    well-shaped triangles\n"
       "  powercell verify --device cpu                        does this device compute rightly?\n"
       "  powercell bench                                      how fast?\n"
       "  powercell treemap sales.csv -o sales.svg             hierarchical data as nested cells\n"
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
       {"bench", powercell::app::add_bench(app)},
       {"transport", powercell::app::add_transport(app)},
       {"treemap", powercell::app::add_treemap(app)},
+      {"remesh", powercell::app::add_remesh(app)},
   };
   try {
     app.parse(argc, argv);

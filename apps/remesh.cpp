@@ -1,0 +1,210 @@
+// powercell remesh: a new mesh of a triangle surface, and how good it is.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <powercell/remeshing.hpp>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/read_domain.hpp"
+#include "apps/io/read_file.hpp"
+#include "apps/io/write_triangles.hpp"
+#include "apps/report.hpp"
+
+namespace powercell::app {
+namespace {
+
+struct RemeshArguments : CommonOptions {
+  std::string input, report;
+  std::vector<std::string> outputs;
+  RemeshOptions remesh;
+};
+
+/// What was made of what, and how well.
+struct Outcome {
+  RemeshResult result;
+  MeshQuality before, after;
+  double diagonal = 0;
+  double input_to_mesh = 0, mesh_to_input = 0;  ///< Hausdorff, one-sided
+  double read = 0, remesh = 0, check = 0, write = 0;
+};
+
+double diagonal_of(const Domain& domain) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += std::pow(domain.high()[k] - domain.low()[k], 2);
+  return std::sqrt(sum);
+}
+
+nlohmann::json as_json(const MeshQuality& q) {
+  return {{"vertices", q.vertices},
+          {"triangles", q.triangles},
+          {"q_min", q.q_min},
+          {"q_mean", q.q_mean},
+          {"angle_min", q.angle_min},
+          {"angle_max", q.angle_max},
+          {"angle_min_mean", q.angle_min_mean},
+          {"below_30", q.below_30},
+          {"degree_5_to_7", q.regular},
+          {"euler_characteristic", q.euler_characteristic},
+          {"boundary_loops", q.boundary_loops},
+          {"manifold", q.manifold}};
+}
+
+nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
+  return {{"input", as_json(o.before)},
+          {"mesh", as_json(o.after)},
+          {"diagonal", o.diagonal},
+          {"hausdorff", {{"input_to_mesh", o.input_to_mesh}, {"mesh_to_input", o.mesh_to_input}}},
+          {"rounds", o.result.least_spacing.size()},
+          {"least_spacing", o.result.least_spacing},
+          {"added", o.result.added},
+          {"seconds",
+           {{"read", o.read},
+            {"remesh", o.remesh},
+            {"sample", o.result.seconds_sample},
+            {"dual", o.result.seconds_dual},
+            {"relax", o.result.seconds_relax},
+            {"check", o.check},
+            {"write", o.write}}},
+          {"files", arguments.outputs},
+          {"version", version()}};
+}
+
+void tell_quality(const char* name, const MeshQuality& q) {
+  fmt::print("{:6} {:>9} {:>9}  {:.3f}  {:.3f}  {:5.1f}  {:6.1f}  {:6.2f} %  {:6.2f} %  {:5}  {:5}{}\n", name,
+             with_commas(q.vertices), with_commas(q.triangles), q.q_min, q.q_mean, q.angle_min, q.angle_max,
+             100 * q.below_30, 100 * q.regular, q.euler_characteristic, q.boundary_loops,
+             q.manifold ? "" : "  not a manifold");
+}
+
+void tell(const RemeshArguments& arguments, const Outcome& o) {
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(arguments, o).dump(2));
+    return;
+  }
+  if (arguments.quiet) return;
+  fmt::print("{:6} {:>9} {:>9}  {:>5}  {:>5}  {:>5}  {:>6}  {:>8}  {:>8}  {:>5}  {:>5}\n", "", "vertices",
+             "triangles", "Q min", "mean", "angle", "max", "below 30", "deg. 5-7", "Euler", "loops");
+  tell_quality("before", o.before);
+  tell_quality("after", o.after);
+  fmt::print("farthest from the input {:.3f} %, the input from it {:.3f} % of the diagonal\n",
+             100 * o.mesh_to_input / o.diagonal, 100 * o.input_to_mesh / o.diagonal);
+  for (const std::string& path : arguments.outputs) fmt::print("wrote {}\n", path);
+  fmt::print(
+      "{} rounds, least spacing {:.3f} of the sizing; {:.2f} s: sampling {:.2f}, dual {:.2f}, relaxation "
+      "{:.2f}\n",
+      o.result.least_spacing.size(), o.result.least_spacing.empty() ? 0 : o.result.least_spacing.back(),
+      o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax);
+}
+
+/// A mesh of another topology is a fault of the library, and no file of it is written.
+void require_same_topology(const Outcome& o) {
+  if (!o.after.manifold ||
+      (o.before.manifold && (o.after.euler_characteristic != o.before.euler_characteristic ||
+                             o.after.boundary_loops != o.before.boundary_loops)))
+    throw Error(ErrorCode::internal, "the new mesh has not the topology of the old one: please report");
+}
+
+void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
+  for (const std::string& path : arguments.outputs) {
+    if (io::lower_extension(path) == ".png")
+      io::draw_before_and_after(path, input, mesh);
+    else
+      io::write_triangles(path, mesh);
+  }
+}
+
+RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input) {
+  RemeshOptions options = arguments.remesh;
+  options.progress = library_options(arguments, "remeshing").progress;
+  RemeshResult result;
+  try {
+    compute([&] { result = remesh(input.vertices, input.triangles, options); });
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::invalid_domain) throw;
+    throw Error(error.code(), fmt::format("{}: {}", arguments.input, error.what()));
+  }
+  return result;
+}
+
+int run(const RemeshArguments& arguments) {
+  for (const std::string& path : arguments.outputs) io::check_triangle_output(path);
+  Outcome outcome;
+  Stopwatch watch;
+  const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);
+  const TriangleMesh input{domain.vertices, domain.elements};
+  outcome.diagonal = diagonal_of(domain.domain);
+  outcome.read = watch.lap();
+  outcome.result = remesh_file(arguments, input);
+  outcome.remesh = watch.lap();
+  const TriangleMesh& mesh = outcome.result.mesh;
+  outcome.before = mesh_quality(input.vertices, input.triangles);
+  outcome.after = mesh_quality(mesh.vertices, mesh.triangles);
+  require_same_topology(outcome);
+  outcome.input_to_mesh = farthest_from(input, mesh);
+  outcome.mesh_to_input = farthest_from(mesh, input);
+  outcome.check = watch.lap();
+  write_files(arguments, input, mesh);
+  outcome.write = watch.lap();
+  if (!arguments.report.empty()) {
+    io::AtomicFile file(arguments.report);
+    file.write(as_json(arguments, outcome).dump(2) + "\n");
+    file.commit();
+  }
+  tell(arguments, outcome);
+  return 0;
+}
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  powercell remesh pretzel.off --count 5000 -o new.off -o before-and-after.png\n"
+    "  powercell remesh part.stl --count 20000 --sharp-angle 30 -o part.ply --report quality.json\n"
+    "  powercell remesh torus:40 --count 3000 --contrast 1 -o even.obj --json\n"
+    "The surface must be a manifold, open or closed; faces of more corners are cut into triangles.";
+
+void add_shape_options(CLI::App& command, RemeshOptions& options) {
+  command.add_option("--contrast", options.contrast, "Largest ratio of two edge lengths; 1 for an even mesh")
+      ->capture_default_str();
+  command.add_option("--gradation", options.gradation, "Most that edges grow over a unit of length")
+      ->capture_default_str();
+  command
+      .add_option("--sharp-angle", options.sharp_angle,
+                  "Degrees: edges whose two normals differ by more are kept, as boundaries are")
+      ->capture_default_str();
+  command.add_option("--rounds", options.rounds, "Of farthest-point optimisation, at most")
+      ->capture_default_str();
+  command.add_option("--relaxations", options.relaxations, "Rounds of the last relaxation")
+      ->capture_default_str();
+  command.add_option("--seed", options.random_seed, "Of random choices: the same seed, the same mesh")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+Command add_remesh(CLI::App& app) {
+  auto arguments = std::make_shared<RemeshArguments>();
+  CLI::App* command = app.add_subcommand("remesh", "Mesh a surface anew with well-shaped triangles");
+  command
+      ->add_option(
+          "input", arguments->input,
+          "A surface: .off .obj .ply .stl .vtk .vtu .msh .mesh, or sphere, torus (with :N for resolution)")
+      ->required();
+  command->add_option("--count", arguments->remesh.count, "Vertices of the new mesh")->required();
+  add_shape_options(*command, arguments->remesh);
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "File to write, as often as wanted: " + std::string(io::known_triangle_files()) +
+                       " for the mesh, .png for both beside each other")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
+  add_output_options(*command, *arguments);
+  command->footer(examples);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace powercell::app
