@@ -19,6 +19,7 @@ namespace {
 
 struct RemeshArguments : CommonOptions {
   std::string input, report;
+  std::string method = "fpo";
   std::vector<std::string> outputs;
   RemeshOptions remesh;
 };
@@ -54,7 +55,8 @@ nlohmann::json as_json(const MeshQuality& q) {
 }
 
 nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
-  return {{"input", as_json(o.before)},
+  return {{"method", arguments.method},
+          {"input", as_json(o.before)},
           {"mesh", as_json(o.after)},
           {"diagonal", o.diagonal},
           {"hausdorff", {{"input_to_mesh", o.input_to_mesh}, {"mesh_to_input", o.mesh_to_input}}},
@@ -120,6 +122,9 @@ void write_files(const RemeshArguments& arguments, const TriangleMesh& input, co
 RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input) {
   RemeshOptions options = arguments.remesh;
   options.progress = library_options(arguments, "remeshing").progress;
+  const bool transport = arguments.method == "transport";
+  options.method = transport ? RemeshMethod::transport : RemeshMethod::farthest_point;
+  if (transport) options.device = open_device(arguments);
   RemeshResult result;
   try {
     compute([&] { result = remesh(input.vertices, input.triangles, options); });
@@ -162,6 +167,7 @@ constexpr const char* examples =
     "Examples:\n"
     "  powercell remesh pretzel.off --count 5000 -o new.off -o before-and-after.png\n"
     "  powercell remesh part.stl --count 20000 --sharp-angle 30 -o part.ply --report quality.json\n"
+    "  powercell remesh mesh.obj --count 5000 --method transport -o new.obj\n"
     "  powercell remesh torus:40 --count 3000 --contrast 1 -o even.obj --json\n"
     "The surface must be a manifold, open or closed; faces of more corners are cut into triangles.";
 
@@ -174,8 +180,7 @@ void add_shape_options(CLI::App& command, RemeshOptions& options) {
       .add_option("--sharp-angle", options.sharp_angle,
                   "Degrees: edges whose two normals differ by more are kept, as boundaries are")
       ->capture_default_str();
-  command.add_option("--rounds", options.rounds, "Of farthest-point optimisation, at most")
-      ->capture_default_str();
+  command.add_option("--rounds", options.rounds, "Of the method, at most")->capture_default_str();
   command.add_option("--relaxations", options.relaxations, "Rounds of the last relaxation")
       ->capture_default_str();
   command.add_option("--seed", options.random_seed, "Of random choices: the same seed, the same mesh")
@@ -193,6 +198,11 @@ Command add_remesh(CLI::App& app) {
           "A surface: .off .obj .ply .stl .vtk .vtu .msh .mesh, or sphere, torus (with :N for resolution)")
       ->required();
   command->add_option("--count", arguments->remesh.count, "Vertices of the new mesh")->required();
+  command
+      ->add_option("--method", arguments->method,
+                   "fpo: each point to the farthest place; transport: cells of equal mass, faster")
+      ->check(CLI::IsMember({"fpo", "transport"}))
+      ->capture_default_str();
   add_shape_options(*command, arguments->remesh);
   command
       ->add_option("-o,--output", arguments->outputs,
@@ -202,6 +212,9 @@ Command add_remesh(CLI::App& app) {
       ->expected(1)
       ->take_all();
   command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
+  command->add_option("--device", arguments->device, "For transport: as 'powercell diagram' takes it");
+  command->add_option("--threads", arguments->threads, "For transport: on the host and of PoCL; 0 means all")
+      ->check(CLI::NonNegativeNumber);
   add_output_options(*command, *arguments);
   command->footer(examples);
   return [arguments] { return run(*arguments); };

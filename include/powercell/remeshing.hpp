@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <powercell/device.hpp>
 #include <powercell/error.hpp>
 #include <powercell/shapes.hpp>
 #include <span>
@@ -13,14 +15,26 @@
 
 namespace powercell {
 
+enum class RemeshMethod {
+  /// Each point in turn is taken out and set in again where it is farthest from the others (Yan, Guo, Zhang,
+  /// Wonka 2014; weights by curvature as in Xiao, Cao, Xu, Chen 2023); the restricted power diagram is
+  /// updated where it changes. On the host, in one thread.
+  farthest_point,
+  /// Points move to the centroids of cells of equal mass for the density h^-2 (see transport.hpp).
+  transport,
+};
+
 struct RemeshOptions {
+  RemeshMethod method = RemeshMethod::farthest_point;
   std::size_t count = 5000;  ///< vertices of the new mesh, met exactly
   double gradation = 0.2;    ///< most that the edge length h grows over a unit of length; above 0
   double contrast = 4;       ///< largest ratio of two edge lengths wanted; 1: a uniform mesh
   double sharp_angle = 45;   ///< degrees; edges whose two normals differ by more are kept, and boundaries
-  int rounds = 20;       ///< of farthest-point optimisation, at most: it stops when the least spacing rests
-  int relaxations = 15;  ///< rounds of the last relaxation; 0: the dual as it is (but for its count)
+  int rounds = 20;           ///< at most: both methods stop when the points rest
+  int relaxations = 15;      ///< rounds of the last relaxation; 0: the dual as it is (but for its count)
   std::uint64_t random_seed = 1;  ///< the same seed gives the same mesh
+  /// For transport; nothing: as Device::choose() does.
+  std::optional<Device> device;
   /// Called with the fraction done; returning false stops with Error interrupted.
   std::function<bool(double)> progress;
 };
@@ -34,10 +48,7 @@ struct RemeshResult {
   double seconds_sample = 0, seconds_dual = 0, seconds_relax = 0;  ///< of wall time
 };
 
-/// A new mesh of a surface by farthest-point optimisation (Yan, Guo, Zhang, Wonka 2014; weights by curvature
-/// as in Xiao, Cao, Xu, Chen 2023): each point in turn is taken out and set in again where it is farthest
-/// from the others; the restricted power diagram is updated where it changes. The mesh is the dual of the
-/// cells, relaxed. On the host, in one thread.
+/// A new mesh of a surface: points are spread over it, and the dual of their cells is relaxed.
 ///
 /// The surface is given as a manifold triangle mesh, open or closed. The vertices of the new one lie on it;
 /// it is a manifold with the same Euler characteristic and boundary loops; boundaries, edges sharper than
@@ -45,7 +56,7 @@ struct RemeshResult {
 /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
 /// \throw Error invalid_domain: triangles of no area, edges of more than two triangles (named), a surface
 /// that cannot be oriented; invalid_argument: options out of range, too few points for the topology or the
-/// kept edges; interrupted
+/// kept edges; interrupted; for transport not_converged and what TransportSolver throws
 POWERCELL_API RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                                   const RemeshOptions& options = {});
 

@@ -1,12 +1,14 @@
 // remesh(): from the input mesh to the new one.
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <powercell/error.hpp>
 #include <powercell/remeshing.hpp>
 #include <string>
 #include <utility>
 
 #include "lib/remeshing/dual.hpp"
+#include "lib/remeshing/even_mass.hpp"
 #include "lib/remeshing/farthest.hpp"
 #include "lib/remeshing/frame.hpp"
 #include "lib/remeshing/relax.hpp"
@@ -56,6 +58,26 @@ void store(const WorkMesh& mesh, const Frame& frame, RemeshResult& result) {
       for (const std::uint32_t v : row) result.mesh.triangles.push_back(number[v]);
 }
 
+std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing, const RemeshOptions& options,
+                                 RemeshResult& result) {
+  const std::vector<Curve> curves = kept_curves(surface, options.sharp_angle);
+  auto sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
+  sampling->place_on_curves(options.count);
+  fill_farthest(*sampling, options.count);
+  if (options.method == RemeshMethod::farthest_point) {
+    result.least_spacing = optimise_farthest(*sampling, options.rounds, options.progress);
+    return sampling;
+  }
+  const Device device = options.device ? *options.device : Device::choose();
+  const std::vector<Place> places =
+      spread_evenly(*sampling, sizing, device, options.rounds, options.progress);
+  sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
+  sampling->place_on_curves(options.count);
+  for (const Place& place : places) sampling->add_free(place);
+  result.least_spacing = {sampling->least_spacing()};
+  return sampling;
+}
+
 }  // namespace
 
 RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
@@ -70,15 +92,12 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   const Surface surface = refined(input, spacing, shape);
   const Sizing sizing = scaled_sizing(surface, shape, options.gradation, options.count);
 
-  Sampling sampling(surface, sizing, kept_curves(surface, options.sharp_angle), options.random_seed);
-  sampling.place_on_curves(options.count);
-  fill_farthest(sampling, options.count);
-  result.least_spacing = optimise_farthest(sampling, options.rounds, options.progress);
+  const std::unique_ptr<Sampling> sampling = sample(surface, sizing, options, result);
   result.seconds_sample = watch.lap();
 
-  const DualMesh dual = mend(sampling, 2 * options.count + 200);
-  result.added = sampling.diagram().alive() - options.count;
-  WorkMesh mesh(sampling, dual);
+  const DualMesh dual = mend(*sampling, 2 * options.count + 200);
+  result.added = sampling->diagram().alive() - options.count;
+  WorkMesh mesh(*sampling, dual);
   result.seconds_dual = watch.lap();
 
   reach_count(mesh, surface, sizing, options.count);

@@ -493,6 +493,12 @@ class Remesh(ToolTest):
         first = (self.folder / "a.off").read_text().split()
         self.assertEqual(first[1:3], ["700", "1408"])
 
+    def test_transport(self):
+        report = self.report("remesh", "torus:12", "--count", 200, "--method", "transport", "--rounds", 2)
+        self.assertEqual(report["method"], "transport")
+        self.assertEqual((report["mesh"]["vertices"], report["mesh"]["triangles"]), (200, 400))
+        self.bad(2, "--method", "remesh", "torus:12", "--count", 50, "--method", "other")
+
     def test_what_cannot_be_remeshed(self):
         pages = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n"
         self.write("pages.off", pages)

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <powercell/error.hpp>
 #include <powercell/remeshing.hpp>
 
@@ -10,7 +11,7 @@
 namespace powercell::test {
 namespace {
 
-double diagonal(const TriangleMesh& mesh) {
+double diagonal(const TriangleMesh &mesh) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     double low = 1e300, high = -1e300;
@@ -24,7 +25,7 @@ double diagonal(const TriangleMesh& mesh) {
 }
 
 /// As every result has to be.
-void check_result(const TriangleMesh& input, const RemeshResult& result, std::size_t count) {
+void check_result(const TriangleMesh &input, const RemeshResult &result, std::size_t count) {
   const MeshQuality before = mesh_quality(input.vertices, input.triangles);
   const MeshQuality after = mesh_quality(result.mesh.vertices, result.mesh.triangles);
   CHECK(after.vertices == count);
@@ -42,53 +43,76 @@ void check_result(const TriangleMesh& input, const RemeshResult& result, std::si
   CHECK(farthest_from(vertices_only, input, 1) < 1e-12 * diagonal(input));
 }
 
-ErrorCode code_of(const TriangleMesh& mesh, const RemeshOptions& options) {
+ErrorCode code_of(const TriangleMesh &mesh, const RemeshOptions &options) {
   try {
     remesh(mesh.vertices, mesh.triangles, options);
-  } catch (const Error& error) {
+  } catch (const Error &error) {
     return error.code();
   }
   FAIL("no error");
   return ErrorCode::internal;
 }
 
+/// Both methods on a shape; `worst_angle` in degrees.
+void check_methods(const TriangleMesh &mesh, std::size_t count, double worst_angle) {
+  for (const RemeshMethod method : {RemeshMethod::farthest_point, RemeshMethod::transport}) {
+    CAPTURE(static_cast<int>(method));
+    RemeshOptions options;
+    options.method = method;
+    options.count = count;
+    options.rounds = 3;
+    const RemeshResult result = remesh(mesh.vertices, mesh.triangles, options);
+    check_result(mesh, result, count);
+    const MeshQuality quality = mesh_quality(result.mesh.vertices, result.mesh.triangles);
+    CHECK(quality.angle_min > worst_angle);
+    CHECK(quality.below_30 == 0);
+    CHECK(quality.regular >= 0.987);
+    CHECK(farthest_from(mesh, result.mesh, 20000) < 0.01 * diagonal(mesh));
+    CHECK(farthest_from(result.mesh, mesh, 20000) < 0.01 * diagonal(mesh));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("smooth surfaces, open and closed") {
-  for (const NamedMesh& shape : smooth_meshes()) {
+  for (const NamedMesh &shape : smooth_meshes()) {
+    CAPTURE(shape.name);
+    check_methods(shape.mesh, 600, 32.6);
+  }
+}
+
+TEST_CASE("farthest-point optimisation reaches the quality that it promises") {
+  for (const NamedMesh &shape : smooth_meshes()) {
     CAPTURE(shape.name);
     RemeshOptions options;
     options.count = 600;
     options.rounds = 3;
     const RemeshResult result = remesh(shape.mesh.vertices, shape.mesh.triangles, options);
-    check_result(shape.mesh, result, options.count);
     const MeshQuality quality = mesh_quality(result.mesh.vertices, result.mesh.triangles);
     CHECK(quality.q_min > 0.6);
     CHECK(quality.q_mean > 0.92);
-    CHECK(quality.angle_min > 32.6);
-    CHECK(quality.below_30 == 0);
-    CHECK(quality.regular >= 0.987);
-    CHECK(farthest_from(shape.mesh, result.mesh) < 0.01 * diagonal(shape.mesh));
-    CHECK(farthest_from(result.mesh, shape.mesh) < 0.01 * diagonal(shape.mesh));
   }
 }
 
 TEST_CASE("sharp edges and corners stay") {
   const TriangleMesh cube = cube_of_12();
-  RemeshOptions options;
-  options.count = 500;
-  options.rounds = 3;
-  const RemeshResult result = remesh(cube.vertices, cube.triangles, options);
-  check_result(cube, result, options.count);
-  // A mesh that keeps all edges of the cube covers the same points.
-  CHECK(farthest_from(result.mesh, cube) < 1e-12);
-  CHECK(farthest_from(cube, result.mesh) < 1e-12);
-  for (std::size_t c = 0; c < 8; ++c) {
-    bool found = false;
-    for (std::size_t v = 0; v < options.count && !found; ++v)
-      found = result.fixed[v] &&
-              std::equal(&cube.vertices[3 * c], &cube.vertices[3 * c] + 3, &result.mesh.vertices[3 * v]);
-    CHECK(found);
+  for (const RemeshMethod method : {RemeshMethod::farthest_point, RemeshMethod::transport}) {
+    RemeshOptions options;
+    options.method = method;
+    options.count = 500;
+    options.rounds = 3;
+    const RemeshResult result = remesh(cube.vertices, cube.triangles, options);
+    check_result(cube, result, options.count);
+    // A mesh that keeps all edges of the cube covers the same points.
+    CHECK(farthest_from(result.mesh, cube, 20000) < 1e-12);
+    CHECK(farthest_from(cube, result.mesh, 20000) < 1e-12);
+    for (std::size_t c = 0; c < 8; ++c) {
+      bool found = false;
+      for (std::size_t v = 0; v < options.count && !found; ++v)
+        found = result.fixed[v] &&
+                std::equal(&cube.vertices[3 * c], &cube.vertices[3 * c] + 3, &result.mesh.vertices[3 * v]);
+      CHECK(found);
+    }
   }
 }
 
@@ -117,7 +141,9 @@ TEST_CASE("edges are shorter where the surface bends more") {
   CHECK(*most / *least == doctest::Approx(1));
 }
 
-TEST_CASE("the optimisation spreads the points, and the same seed gives the same mesh") {
+TEST_CASE(
+    "the optimisation spreads the points, and the same seed gives the "
+    "same mesh") {
   const TriangleMesh ring = small_torus();
   RemeshOptions options;
   options.count = 400;
@@ -136,13 +162,31 @@ TEST_CASE("the optimisation spreads the points, and the same seed gives the same
 TEST_CASE("a surface far from the origin, and a tiny one") {
   for (const double scale : {1e-6, 1e3}) {
     TriangleMesh ball = bumpy_ball();
-    for (double& x : ball.vertices) x = 1e4 * scale + scale * x;
+    for (double &x : ball.vertices) x = 1e4 * scale + scale * x;
     RemeshOptions options;
     options.count = 300;
     options.rounds = 1;
     const RemeshResult result = remesh(ball.vertices, ball.triangles, options);
     check_result(ball, result, options.count);
   }
+}
+
+TEST_CASE("transport spreads the masses and can be interrupted") {
+  const TriangleMesh ring = small_torus();
+  RemeshOptions options;
+  options.method = RemeshMethod::transport;
+  options.count = 300;
+  options.rounds = 4;
+  options.relaxations = 0;
+  options.contrast = 1;
+  // Without relaxation the triangles are those of the dual: of about the same
+  // area, as the cells are.
+  const RemeshResult result = remesh(ring.vertices, ring.triangles, options);
+  check_result(ring, result, options.count);
+  REQUIRE(result.least_spacing.size() == 1);
+  CHECK(result.least_spacing.front() > 0.5);
+  options.progress = [](double) { return false; };
+  CHECK(code_of(ring, options) == ErrorCode::interrupted);
 }
 
 TEST_CASE("what cannot be done is refused") {
