@@ -7,7 +7,7 @@
 
 #include "lib/remeshing/curves.hpp"
 #include "lib/remeshing/sizing.hpp"
-#include "tests/remeshing/shapes.hpp"
+#include "tests/remeshing/surface_from.hpp"
 #include "tests/support/meshes.hpp"
 
 namespace powercell::test {

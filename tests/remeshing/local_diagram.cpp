@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <powercell/powercell.hpp>
 
-#include "tests/remeshing/shapes.hpp"
+#include "tests/remeshing/surface_from.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 

@@ -12,7 +12,7 @@
 #include "lib/remeshing/nearest.hpp"
 #include "lib/remeshing/relax.hpp"
 #include "lib/remeshing/triangle.hpp"
-#include "tests/remeshing/shapes.hpp"
+#include "tests/remeshing/surface_from.hpp"
 #include "tests/support/generators.hpp"
 
 namespace powercell::test {

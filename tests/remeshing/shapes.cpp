@@ -67,8 +67,4 @@ std::vector<NamedMesh> smooth_meshes() {
           {"tube", tube(), 0, 2}};
 }
 
-remeshing::Surface surface_from(const TriangleMesh& mesh) {
-  return remeshing::make_surface(mesh.vertices, mesh.triangles, 45);
-}
-
 }  // namespace powercell::test

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "lib/remeshing/surface.hpp"
-
 namespace powercell::test {
 
 TriangleMesh cube_of_12();             ///< the unit cube, two triangles a side
@@ -23,7 +21,5 @@ struct NamedMesh {
   int euler, loops;
 };
 std::vector<NamedMesh> smooth_meshes();
-
-remeshing::Surface surface_from(const TriangleMesh& mesh);
 
 }  // namespace powercell::test

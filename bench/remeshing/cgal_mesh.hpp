@@ -1,0 +1,26 @@
+/// \file
+/// CGAL on triangle meshes, behind a plain header: the checks of a mesh, and the peer that makes one.
+#pragma once
+
+#include <powercell/shapes.hpp>
+
+namespace powercell::bench {
+
+/// What CGAL says of a mesh made from an input.
+struct MeshVerdict {
+  bool valid = false;  ///< a polygon mesh in its sense: an oriented manifold
+  bool self_intersecting = false;
+  int euler = 0;  ///< vertices - edges + faces
+  int boundary_loops = 0;
+  double mesh_to_input = 0, input_to_mesh = 0;  ///< one-sided Hausdorff distances, by 200,000 random points
+};
+
+MeshVerdict check_by_cgal(const TriangleMesh& input, const TriangleMesh& mesh);
+
+/// CGAL's isotropic remeshing with `iterations`, sharp edges protected as PMP::detect_sharp_edges finds them.
+/// The edge length is searched until the mesh has `count` vertices within 1 %, in at most seven tries: on
+/// even inputs the number jumps. \param seconds  of processor time of the last try alone
+TriangleMesh remesh_by_cgal(const TriangleMesh& input, std::size_t count, int iterations, double sharp_angle,
+                            double& seconds);
+
+}  // namespace powercell::bench
