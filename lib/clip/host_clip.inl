@@ -193,6 +193,12 @@ int cut_by_nearest(cell_t* cell, tree_t tree, std::uint32_t rank) {
   return CUT_NONE;
 }
 
+/// The first `count` values alone, in memory for no more: a chunk may hold very many such rows.
+template <class T>
+void keep(std::vector<T>& values, std::size_t count) {
+  values = std::vector<T>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
 bool has_wall(const PieceBatch& batch) {
   for (std::size_t k = 0; k < batch.border.size(); ++k)
     if (batch.border[k] >= 0 && batch.wall[k] > 0) return true;
@@ -228,10 +234,10 @@ HostPiece clip(const HostScene& scene, std::uint32_t rank, std::uint32_t region,
     status = cut > CUT_SHRUNK ? piece_status(cut) : clip_by_tree(&cell, tree, blocks, rank);
   }
   piece.status = write_piece(&cell, out, status, 0, 0) & ~PIECE_UNCERTAIN;
-  batch.border.resize(batch.faces(0));
-  batch.wall.resize(batch.faces(0));
-  batch.vertex.resize(batch.vertices(0) * DIMENSION);
-  batch.link.resize(batch.vertices(0) * 6);
+  keep(batch.border, batch.faces(0));
+  keep(batch.wall, batch.faces(0));
+  keep(batch.vertex, batch.vertices(0) * DIMENSION);
+  keep(batch.link, batch.vertices(0) * 6);
   if (piece.status == PIECE_WHOLE || piece.status == PIECE_FLAT) {
     const int facets = CELL_DIMENSION == 3
                            ? scene.shape.faces
