@@ -8,7 +8,7 @@ namespace {
 
 constexpr Eigen::Index largest_dense = 64;
 // Where the iteration starts to be faster than the factorisation, measured (docs/applications.md).
-constexpr Eigen::Index largest_direct_plane = 20000, largest_direct_space = 2000;
+constexpr Eigen::Index largest_direct_plane = 16000, largest_direct_space = 1000;
 constexpr int most_iterations = 500;
 
 LinearSolver choose(LinearSolver asked, Eigen::Index n, int dimension) {
