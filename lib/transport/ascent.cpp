@@ -38,6 +38,7 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
     const double value = at.dual(target);
     Direction direction;
     Iterate next;
+    double rise = 0;
     while (true) {
       if (course.at_limit()) return PhaseEnd::step_limit;
       const Vector shifts = shift * typical;
@@ -46,7 +47,7 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
           gradient);
       next = course.evaluator().evaluate(at.weights + direction.linear.solution);
       // The dual is concave: any rise leads up. Where rises drown in rounding the gradient tells.
-      const double rise = next.dual(target) - value;
+      rise = next.dual(target) - value;
       if (rise >= 1e-4 * gradient.dot(direction.linear.solution) ||
           next.gradient(target).norm() <= 0.75 * gradient.norm())
         break;
@@ -54,7 +55,11 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
       if (shift > most_shift) return PhaseEnd::stalled;
     }
     at = std::move(next);
-    shift = std::max(shift / 4, least_shift);
+    // What the quadratic model with L promised, and what came (Marquardt 1963).
+    const Vector& step_taken = direction.linear.solution;
+    const double promised = (gradient.dot(step_taken) + shift * step_taken.cwiseAbs2().dot(typical)) / 2;
+    if (rise > 0.75 * promised) shift = std::max(shift / 4, least_shift);
+    if (rise < 0.25 * promised) shift *= 4;
     TransportStep step;
     step.phase = TransportPhase::ascent;
     step.length = 1;
