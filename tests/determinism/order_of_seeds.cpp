@@ -1,9 +1,6 @@
 // The order of the seeds permutes the results and changes no bit of them.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "tests/determinism/permuted.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
@@ -42,7 +39,7 @@ std::size_t heaviest_at(const SeedArray& seeds, std::size_t k) {
 
 /// Computes `seeds` in the order given and in one or two others.
 void check_orders(const NamedDomain& named, const SeedArray& seeds, Random& random,
-                  const std::vector<Setup>& setups) {
+                  const std::vector<Setup>& setups, bool with_dual = true) {
   Permutation backwards;
   for (std::size_t k = seeds.size(); k-- > 0;) backwards.push_back(static_cast<std::uint32_t>(k));
   for (const Setup& setup : setups) {
@@ -53,7 +50,7 @@ void check_orders(const NamedDomain& named, const SeedArray& seeds, Random& rand
       CHECK(bit_differences(other.measures, expected.measures) == "");
       CHECK(bit_differences(other.adjacency, expected.adjacency) == "");
       CHECK(bit_differences(other.cells, expected.cells) == "");
-      CHECK(bit_differences(other.dual, expected.dual) == "");
+      if (with_dual) CHECK(bit_differences(other.dual, expected.dual) == "");
     }
   }
 }
@@ -71,28 +68,22 @@ TEST_CASE("the order of the seeds permutes measures, adjacency, cells and dual, 
     }
 }
 
-TEST_CASE("grids in another order, where every decision is a tie that the index decides") {
-  // Which pieces of no measure there are is a matter of the order; cells, neighbours and measures are not.
+TEST_CASE("grids in another order, where every decision is a tie") {
   INFO(replay_hint());
-  for (const NamedDomain& named : kinds())
-    for (const Setup& setup : main_setups())
-      for (const double angle : {0.0, 0.7}) {
-        INFO(named.name << ", " << setup.name << ", turned by " << angle);
-        Random random(test_seed());
-        const int d = named.domain.dimension();
-        SeedArray seeds = grid(d == 2 ? 9 : 5, d, Box{named.domain.low(), named.domain.high()});
-        rotate(seeds, angle, {0.5, 0.5, 0.5});
-        const Results expected = results(setup, named.domain, seeds);
-        const Permutation from = random_permutation(seeds.size(), random);
-        const Results other = restored(results(setup, named.domain, permuted(seeds, from)), from);
-        CHECK(other.measures.status == expected.measures.status);
-        CHECK(other.adjacency.offset == expected.adjacency.offset);
-        CHECK(other.adjacency.neighbor == expected.adjacency.neighbor);
-        double off = 0;
-        for (std::size_t i = 0; i < seeds.size(); ++i)
-          off = std::max(off, std::abs(other.measures.mass[i] - expected.measures.mass[i]));
-        CHECK(off <= 1e-13 * named.domain.measure());
-      }
+  for (const NamedDomain& named : kinds()) {
+    Random random(test_seed());
+    const int d = named.domain.dimension();
+    for (const double angle : {0.0, 0.7}) {
+      INFO("turned by " << angle);
+      SeedArray seeds = grid(d == 2 ? 9 : 5, d, Box{named.domain.low(), named.domain.high()});
+      rotate(seeds, angle, {0.5, 0.5, 0.5});
+      // On a surface three cells may meet in several points, around which they follow each other in opposite
+      // ways; which of them orients their one simplex is a matter of the order of the seeds.
+      check_orders(named, seeds, random, main_setups(), d == named.domain.cell_dimension());
+    }
+    check_orders(named, cospherical(40, d, Box{named.domain.low(), named.domain.high()}), random,
+                 main_setups());
+  }
 }
 
 TEST_CASE("seeds far below the grid of the curve, in another order") {
