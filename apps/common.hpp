@@ -63,6 +63,7 @@ Command add_bench(CLI::App& app);
 Command add_transport(CLI::App& app);
 Command add_treemap(CLI::App& app);
 Command add_remesh(CLI::App& app);
+Command add_sample(CLI::App& app);
 
 /// "12,345".
 std::string with_commas(std::size_t number);

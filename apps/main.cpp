@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
       "  powercell verify --device cpu                        does this device compute rightly?\n"
       "  powercell bench                                      how fast?\n"
       "  powercell treemap sales.csv -o sales.svg             hierarchical data as nested cells\n"
+      "  powercell sample --image photo.png -n 8000 -o dots.svg\n"
       "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE.");
   const std::map<std::string, powercell::app::Command> commands = {
       {"devices", powercell::app::add_devices(app)}, {"diagram", powercell::app::add_diagram(app)},
@@ -51,6 +52,7 @@ int run(int argc, char** argv) {
       {"transport", powercell::app::add_transport(app)},
       {"treemap", powercell::app::add_treemap(app)},
       {"remesh", powercell::app::add_remesh(app)},
+      {"sample", powercell::app::add_sample(app)},
   };
   try {
     app.parse(argc, argv);

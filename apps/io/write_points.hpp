@@ -1,0 +1,29 @@
+/// \file
+/// Points with the dots that stand for them, as tables and pictures.
+#pragma once
+
+#include <powercell/domain.hpp>
+#include <span>
+#include <string>
+
+namespace powercell::io {
+
+/// n points; nothing is owned.
+struct PointOutput {
+  const Domain& domain;
+  std::span<const double> positions;  ///< n x d, row-major
+  std::span<const double> weights;    ///< n
+  std::span<const double> mass;       ///< n
+  std::span<const double> radii;      ///< n, of the dots, length; only pictures need them
+};
+
+/// Refuses, before anything is computed, what `write_points` would refuse. \throw Error invalid_file (unknown
+/// extension), unsupported (a picture of points in space)
+void check_points(const std::string& path, const Domain& domain);
+
+/// CSV `x,y[,z],weight,mass` (.csv), rows `x y [z] w` as `--seeds` takes them (.txt), or a picture of black
+/// dots on white paper (.svg .png .pdf), the domain's box 1600 pixels on its long side. \throw Error as
+/// check_points; write_failed
+void write_points(const std::string& path, const PointOutput& output);
+
+}  // namespace powercell::io

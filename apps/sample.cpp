@@ -1,0 +1,198 @@
+// powercell sample: blue noise, quantisers and stippling.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/output.hpp"
+#include "apps/io/write_points.hpp"
+#include "apps/sampling/study.hpp"
+
+namespace powercell::app {
+namespace {
+
+struct SampleArguments : CommonOptions {
+  SourceArguments source;
+  std::size_t count = 1000;
+  std::string mode = "blue", descent = "lloyd", analysis;
+  bool periodic = false;
+  int iterations = 0, runs = 1;
+  double movement = 1e-4, hexatic = 0.61, tolerance = 1e-6;
+  std::uint64_t random_seed = 1;
+  std::vector<std::string> outputs, cells;
+};
+
+SamplingOptions sampling_options(const SampleArguments& arguments, const Source& source) {
+  SamplingOptions options;
+  options.density = source.density;
+  options.mode = arguments.mode == "blue" ? SamplingMode::blue : SamplingMode::quantise;
+  options.descent = arguments.descent == "lloyd" ? SamplingDescent::lloyd : SamplingDescent::lbfgs;
+  options.periodic = arguments.periodic;
+  options.iterations = arguments.iterations;
+  options.hexatic = arguments.hexatic;
+  options.movement = arguments.movement;
+  options.capacity_tolerance = arguments.tolerance;
+  options.random_seed = arguments.random_seed;
+  options.diagram = library_options(arguments, "cells");
+  if (arguments.source.paper != 0) {
+    options.mode = SamplingMode::quantise;
+    options.movement = 0;
+    if (options.iterations == 0) options.iterations = 100;
+  }
+  return options;
+}
+
+void write_cells(const std::string& path, const SampleArguments& arguments, const Device& device,
+                 const Source& source, const SamplingResult& points) {
+  Diagram diagram(device, source.domain, library_options(arguments, "cells"));
+  const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
+  diagram.set_seeds(seeds);
+  diagram.compute(true, true);
+  const JoinedCells joined = join(source.domain, diagram.cells());
+  io::write_output(path,
+                   {source.domain, seeds, diagram.measures(), diagram.cells(), joined, diagram.adjacency()});
+}
+
+std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,
+                                     const Source& source, const Study& study) {
+  std::vector<std::string> written;
+  const SamplingResult& points = study.runs.front().points;
+  std::vector<double> radii;
+  if (source.domain.dimension() == 2 && !arguments.outputs.empty()) radii = dot_radii(device, source, points);
+  for (const std::string& path : arguments.outputs) {
+    io::write_points(path, {source.domain, points.positions, points.weights, points.mass, radii});
+    written.push_back(path);
+  }
+  for (const std::string& path : arguments.cells) {
+    write_cells(path, arguments, device, source, points);
+    written.push_back(path);
+  }
+  if (!arguments.analysis.empty()) {
+    io::AtomicFile file(arguments.analysis);
+    file.write(as_json(study, true).dump() + "\n");
+    file.commit();
+    written.push_back(arguments.analysis);
+  }
+  return written;
+}
+
+void tell(const SampleArguments& arguments, const Source& source, const Study& study,
+          const std::vector<std::string>& written) {
+  if (arguments.json) {
+    nlohmann::json json = as_json(study, false);
+    json["points"] = study.runs.front().points.weights.size();
+    json["files"] = written;
+    fmt::print("{}\n", json.dump(2));
+  } else if (!arguments.quiet) {
+    fmt::print("{}\n", source.description);
+    for (const std::string& path : written) fmt::print("wrote {}\n", path);
+    for (const Run& run : study.runs) fmt::print("{}\n", line_of(run));
+    if (study.runs.size() > 1 || study.spectrum) fmt::print("{}\n", summary_of(study));
+  }
+}
+
+int run(const SampleArguments& arguments) {
+  const Source source = read_source(arguments.source);
+  for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
+  for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());
+  const Device device = open_device(arguments);
+  const SamplingOptions options = sampling_options(arguments, source);
+  const Study study = run_study(device, source, arguments.count, options, arguments.runs);
+  tell(arguments, source, study, write_files(arguments, device, source, study));
+  for (const Run& one : study.runs)
+    if (!one.points.converged)
+      throw Error(
+          ErrorCode::not_converged,
+          fmt::format(
+              "not converged after {} iterations: capacity error {:.1e} (tolerance {:.1e}), mean move "
+              "{:.1e}; the best points are kept; allow more with --iterations",
+              one.points.steps.back().iteration, one.points.capacity_error, arguments.tolerance,
+              one.points.steps.back().gradient));
+  return 0;
+}
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  powercell sample -n 1024 --periodic -o points.svg --runs 10 --analysis spectra.json\n"
+    "  powercell sample -n 8000 --image photo.png -o stipples.svg -o stipples.png\n"
+    "  powercell sample -n 2000 --domain disk --density 'exp(-4*(x^2+y^2))' -o dots.png --cells cells.svg\n"
+    "  powercell sample -n 500 --domain part.mesh --mode quantise --iterations 50 --movement 0 -o "
+    "points.csv\n"
+    "  powercell sample --paper 2        the 2D experiment of Xiao et al. 2023; --paper 3 the one in space";
+
+void add_source(CLI::App& command, SourceArguments& source) {
+  command.add_option("--domain", source.domain,
+                     "As in 'powercell diagram'; the unit square, or the image, if not given");
+  command
+      .add_option("--kind", source.kind,
+                  "What a file is that could be more than one: polygon, surface or volume")
+      ->check(CLI::IsMember({"polygon", "surface", "volume"}));
+  command.add_option(
+      "--density", source.density,
+      "A number, a formula in x, y and z, or a file (.txt) with one value for each vertex of the mesh");
+  command
+      .add_option("--image", source.image, "PNG whose dark parts are dense; it fills the box of the domain")
+      ->type_name("FILE.png");
+  command.add_flag("--bright", source.bright, "The bright parts of the image are dense");
+  command
+      .add_option("--dot-contrast", source.dot_contrast,
+                  "Image: 0 for equal dots, towards 1 for ever more different ones; ink is the same")
+      ->check(CLI::Range(0.0, 0.9));
+  command
+      .add_option("--paper", source.paper,
+                  "The experiment of Xiao et al. 2023 in 2 or 3 dimensions: 1,000 points, "
+                  "100 iterations, density 1/(|x|^2+0.1)")
+      ->check(CLI::IsMember({2, 3}));
+}
+
+}  // namespace
+
+Command add_sample(CLI::App& app) {
+  auto arguments = std::make_shared<SampleArguments>();
+  CLI::App* command =
+      app.add_subcommand("sample", "Blue noise: points whose cells all have the same mass of a density");
+  command->add_option("-n,--points", arguments->count, "Number of points")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}));
+  add_source(*command, arguments->source);
+  command->add_option("--mode", arguments->mode, "blue: even and irregular; quantise: least energy")
+      ->check(CLI::IsMember({"blue", "quantise"}));
+  command->add_option("--descent", arguments->descent, "lloyd or lbfgs")
+      ->check(CLI::IsMember({"lloyd", "lbfgs"}));
+  command->add_flag("--periodic", arguments->periodic,
+                    "Opposite sides of the box are one; uniform density only");
+  command->add_option("--iterations", arguments->iterations, "Moves at most; 0: by the mode")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at")
+      ->check(CLI::Range(0.4, 0.99));
+  command
+      ->add_option("--movement", arguments->movement,
+                   "quantise: end below this move over the spacing; 0: never")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--tolerance", arguments->tolerance, "Of the masses, relative")
+      ->check(CLI::Range(1e-12, 0.1));
+  command->add_option("--random", arguments->random_seed, "Seed of the points to start from");
+  command
+      ->add_option("--runs", arguments->runs,
+                   "Samplings, with random seeds counting up; figures are averaged")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("-o,--output", arguments->outputs, "Points of the first run: .svg .png .pdf, .csv .txt")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command
+      ->add_option("--cells", arguments->cells, "Cells of the first run, as 'powercell diagram' writes them")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--analysis", arguments->analysis, "All figures and spectra as JSON")
+      ->type_name("FILE.json");
+  add_common_options(*command, *arguments);
+  command->footer(examples);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace powercell::app

@@ -1,0 +1,136 @@
+#include "apps/sampling/study.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/report.hpp"
+
+namespace powercell::app {
+namespace {
+
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// JSON has no NaN.
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json as_json(const Run& run) {
+  nlohmann::json steps = nlohmann::json::array();
+  for (const SamplingStep& step : run.points.steps)
+    steps.push_back({{"iteration", step.iteration},
+                     {"energy", step.energy},
+                     {"gradient", step.gradient},
+                     {"hexatic", number(step.hexatic)},
+                     {"capacity_error", step.capacity_error},
+                     {"newton_steps", step.newton_steps},
+                     {"seconds", step.seconds}});
+  return {{"converged", run.points.converged},
+          {"iterations", run.points.steps.back().iteration},
+          {"capacity_error", run.points.capacity_error},
+          {"energy", run.points.energy},
+          {"relative_energy", run.points.relative_energy},
+          {"least_distance", run.spacing.least},
+          {"mean_distance", run.spacing.mean},
+          {"hexatic", number(run.spacing.hexatic)},
+          {"seconds", run.seconds},
+          {"processor_seconds", run.processor_seconds},
+          {"steps", steps}};
+}
+
+template <class Value>
+double mean_of(const Study& study, const Value& value) {
+  double sum = 0;
+  for (const Run& run : study.runs) sum += value(run);
+  return sum / static_cast<double>(study.runs.size());
+}
+
+}  // namespace
+
+Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
+                int runs) {
+  Study study;
+  std::vector<Spectrum> spectra;
+  for (int k = 0; k < runs; ++k) {
+    SamplingOptions own = options;
+    own.random_seed += static_cast<std::uint64_t>(k);
+    Run run;
+    compute([&] {
+      Stopwatch watch;
+      const double before = processor_seconds();
+      run.points = sample(device, source.domain, n, own);
+      run.seconds = watch.lap();
+      run.processor_seconds = processor_seconds() - before;
+      if (n > 1)
+        run.spacing = spacing(device, source.domain, run.points.positions, own.periodic,
+                              source.density.is_constant(), own.diagram);
+      if (own.periodic)
+        spectra.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
+    });
+    study.runs.push_back(std::move(run));
+  }
+  if (!spectra.empty()) study.spectrum = mean(spectra);
+  return study;
+}
+
+nlohmann::json as_json(const Study& study, bool with_power) {
+  nlohmann::json json;
+  for (const Run& run : study.runs) json["runs"].push_back(as_json(run));
+  const auto mean = [&](const auto& value) { return number(mean_of(study, value)); };
+  json["mean"] = {{"capacity_error", mean([](const Run& r) { return r.points.capacity_error; })},
+                  {"relative_energy", mean([](const Run& r) { return r.points.relative_energy; })},
+                  {"least_distance", mean([](const Run& r) { return r.spacing.least; })},
+                  {"mean_distance", mean([](const Run& r) { return r.spacing.mean; })},
+                  {"hexatic", mean([](const Run& r) { return r.spacing.hexatic; })},
+                  {"iterations", mean([](const Run& r) { return double(r.points.steps.back().iteration); })},
+                  {"seconds", mean([](const Run& r) { return r.seconds; })},
+                  {"processor_seconds", mean([](const Run& r) { return r.processor_seconds; })}};
+  if (study.spectrum) {
+    const Spectrum::Radial radial = study.spectrum->radial();
+    std::vector<double> decibels;
+    for (const double a : radial.anisotropy) decibels.push_back(a > 0 ? 10 * std::log10(a) : -100);
+    json["spectrum"] = {
+        {"points", study.spectrum->points},   {"runs", study.spectrum->runs},
+        {"highest", study.spectrum->highest}, {"radial_mean", radial.mean},
+        {"anisotropy_db", decibels},          {"low_frequency", study.spectrum->low_frequency()}};
+    if (with_power) json["spectrum"]["power"] = study.spectrum->power;
+  }
+  return json;
+}
+
+std::string line_of(const Run& run) {
+  const SamplingResult& points = run.points;
+  std::string text = fmt::format(
+      "{} points, {} iterations, capacity error {:.1e}, energy {:.6g} ({:.4f} of the lattice), distances "
+      "least "
+      "{:.3f} mean {:.3f}",
+      with_commas(points.weights.size()), points.steps.back().iteration, points.capacity_error, points.energy,
+      points.relative_energy, run.spacing.least, run.spacing.mean);
+  if (std::isfinite(run.spacing.hexatic)) text += fmt::format(", hexatic order {:.3f}", run.spacing.hexatic);
+  return text + fmt::format("; {:.2f} s ({:.2f} s of processors)", run.seconds, run.processor_seconds);
+}
+
+std::string summary_of(const Study& study) {
+  std::string text = fmt::format(
+      "mean of {}: energy {:.4f} of the lattice, distances least {:.3f} mean {:.3f}, hexatic order {:.3f}",
+      study.runs.size(), mean_of(study, [](const Run& r) { return r.points.relative_energy; }),
+      mean_of(study, [](const Run& r) { return r.spacing.least; }),
+      mean_of(study, [](const Run& r) { return r.spacing.mean; }),
+      mean_of(study, [](const Run& r) { return r.spacing.hexatic; }));
+  if (study.spectrum) text += fmt::format(", low-frequency power {:.2e}", study.spectrum->low_frequency());
+  return text;
+}
+
+}  // namespace powercell::app

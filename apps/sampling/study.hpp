@@ -1,0 +1,39 @@
+/// \file
+/// Several samplings and what is said of them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <powercell/powercell.hpp>
+#include <vector>
+
+#include "apps/sampling/source.hpp"
+
+namespace powercell::app {
+
+struct Run {
+  SamplingResult points;
+  Spacing spacing;
+  double seconds = 0;            ///< wall clock
+  double processor_seconds = 0;  ///< of all threads
+};
+
+struct Study {
+  std::vector<Run> runs;
+  std::optional<Spectrum> spectrum;  ///< the mean, in periodic boxes
+};
+
+/// \param runs  with the random seeds from options.random_seed on
+Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
+                int runs);
+
+/// Keys: runs (a list), mean, spectrum (radial frequencies in waves a box; power, anisotropy in decibels,
+/// low_frequency). \param with_power  also all of the spectrum, row by row
+nlohmann::json as_json(const Study& study, bool with_power);
+
+/// "1,024 points, 22 iterations, ..."
+std::string line_of(const Run& run);
+/// The mean of the runs.
+std::string summary_of(const Study& study);
+
+}  // namespace powercell::app
