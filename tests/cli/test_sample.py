@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""powercell sample from outside.
+
+usage: test_sample.py PATH_OF_POWERCELL [unittest options]
+"""
+
+import json
+import math
+import re
+import struct
+import unittest
+import zlib
+
+from test_cli import ToolTest, run
+
+
+def png(rows, bits=8):
+    """A gray picture; the numbers are those of the file."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    code = ">H" if bits == 16 else ">B"
+    data = b"".join(b"\0" + b"".join(struct.pack(code, v) for v in row) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+
+
+class Sample(ToolTest):
+    def image(self, name, rows, bits=8):
+        (self.folder / name).write_bytes(png(rows, bits))
+
+    def test_periodic_analysis(self):
+        report = self.report("sample", "-n", "200", "--periodic", "--runs", "2", "--analysis", "a.json",
+                             "-o", "p.csv", "-o", "p.svg", "-o", "p.png")
+        self.assertLess(report["mean"]["capacity_error"], 1e-6)
+        self.assertTrue(0.8 < report["mean"]["mean_distance"] < 0.95)
+        self.assertTrue(0.55 < report["mean"]["hexatic"] < 0.68)
+        self.assertLess(report["spectrum"]["low_frequency"], 0.01)
+        analysis = json.loads((self.folder / "a.json").read_text())
+        side = 2 * analysis["spectrum"]["highest"] + 1
+        self.assertEqual(len(analysis["spectrum"]["power"]), side * side)
+        self.assertEqual(len(analysis["runs"]), 2)
+        rows = self.rows("p.csv")
+        self.assertEqual(len(rows), 200)
+        for row in rows:
+            self.assertAlmostEqual(float(row["mass"]) * 200, 1, delta=1e-6)
+            self.assertTrue(0 <= float(row["x"]) <= 1 and 0 <= float(row["y"]) <= 1)
+        # The spectrum again, from the points of the file: the first run is half of the mean.
+        self.assertEqual((self.folder / "p.svg").read_text().count("<circle"), 200)
+
+    def test_table_is_a_diagram_of_equal_masses(self):
+        self.report("sample", "-n", "50", "--domain", "disk", "--mode", "quantise", "--movement", "0.01",
+                    "-o", "p.txt", "--cells", "c.svg")
+        self.good("diagram", "--domain", "disk", "--seeds", "p.txt", "--table", "t.csv")
+        areas = [float(row["measure"]) for row in self.rows("t.csv")]
+        self.assertEqual(len(areas), 50)
+        for area in areas:
+            self.assertAlmostEqual(area * 50 / sum(areas), 1, delta=1e-6)
+        self.assertIn("<path", (self.folder / "c.svg").read_text())
+
+    def test_dots_hold_the_ink_of_the_image(self):
+        for bits, white in ((8, 255), (16, 65535)):
+            # Black below, white above, and a gray of the file in between.
+            self.image("i.png", [[white] * 30] * 10 + [[white // 2] * 30] * 10 + [[0] * 30] * 10, bits)
+            self.report("sample", "-n", "300", "--image", "i.png", "-o", "i.svg", "-o", "i.csv")
+            rows = self.rows("i.csv")
+            self.assertFalse([row for row in rows if float(row["y"]) > 20.5])
+            below = [row for row in rows if float(row["y"]) < 10]
+            self.assertGreater(len(below), 150)
+            circles = re.findall(r'<circle cx="([\d.]+)" cy="([\d.]+)" r="([\d.]+)"',
+                                 (self.folder / "i.svg").read_text())
+            self.assertEqual(len(circles), 300)
+            scale = 1600 / 30
+            ink = sum(math.pi * float(r) ** 2 for _, _, r in circles) / scale**2
+            half = 1 - ((0.5 + 0.055) / 1.055) ** 2.4 if bits == 8 else 0.5  # sRGB; 16 bits are linear
+            self.assertAlmostEqual(ink, 300 * (1 + half), delta=4)
+
+    def test_bright_parts(self):
+        self.image("i.png", [[255] * 8 + [0] * 8] * 8)
+        self.report("sample", "-n", "40", "--image", "i.png", "--bright", "-o", "i.csv")
+        self.assertTrue(all(float(row["x"]) < 8 for row in self.rows("i.csv")))
+
+    def test_experiments_of_the_paper(self):
+        report = self.report("sample", "--paper", "2", "-n", "100", "--iterations", "10")
+        self.assertEqual(report["runs"][0]["iterations"], 10)
+        self.assertLess(report["mean"]["capacity_error"], 1e-6)
+        report = self.report("sample", "--paper", "3", "-n", "60", "--iterations", "3")
+        self.assertIsNone(report["mean"]["hexatic"])
+        self.assertLess(report["mean"]["capacity_error"], 1e-6)
+
+    def test_bad_input(self):
+        self.image("blank.png", [[255] * 4] * 4)
+        self.image("ink.png", [[0] * 4] * 4)
+        (self.folder / "cut.png").write_bytes(png([[0] * 40] * 40)[:60])
+        self.write("text.png", "not a picture")
+        for code, pattern, arguments in [
+                (1, "blank", ["--image", "blank.png"]),
+                (1, "not a PNG", ["--image", "text.png"]),
+                (1, "damaged", ["--image", "cut.png"]),
+                (1, "missing.png", ["--image", "missing.png"]),
+                (1, "polygon", ["--image", "ink.png", "--domain", "sphere"]),
+                (1, "formula", ["--density", "1 +"]),
+                (1, "x = ", ["--density", "x - 0.5"]),
+                (1, "exclude", ["--density", "x", "--image", "ink.png"]),
+                (1, "constant", ["--density", "1+x", "--periodic"]),
+                (1, "box", ["--domain", "disk", "--periodic"]),
+                (1, "extension", ["-o", "points.jpg"]),
+                (1, "flat", ["--domain", "cube", "-o", "points.png"]),
+                (1, "--paper", ["--paper", "2", "--domain", "disk"]),
+                (2, "paper", ["--paper", "4"]),
+                (2, "mode", ["--mode", "pink"]),
+                (2, "points", ["-n", "0"]),
+                (2, "points", ["-n", "-3"]),
+        ]:
+            self.bad(code, pattern, "sample", "-n", "20", *arguments)
+
+    def test_not_converged_is_said_and_the_best_kept(self):
+        done = run("sample", "-n", "100", "--mode", "quantise", "--movement", "1e-9", "--iterations", "2",
+                   "-o", "p.csv", cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "not converged after 2 iterations")
+        self.assertEqual(len(self.rows("p.csv")), 100)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
