@@ -52,6 +52,8 @@ class POWERCELL_API Diagram {
   const Timings& timings() const;  ///< of the last computation
 
   struct State;  ///< library-internal
+  /// For the library's own use.
+  const State& state() const { return *state_; }
 
  private:
   std::unique_ptr<State> state_;

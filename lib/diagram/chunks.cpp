@@ -57,6 +57,9 @@ void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   }
   const std::span pair_region(pairs.region.data() + begin, end - begin);
   const PieceSet& pieces = clipper_->clip(pair_seed_, pair_region);
+  if (s_.options.decisions == Decisions::exact)
+    for (std::size_t k = 0; k < pair_seed_.size(); ++k)
+      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_seed_[k]);
   Stopwatch watch;
   measures_.add(pairs.offset, begin, end, first, last, clipper_->moments());
   if (want_adjacency_) walls_.add(pair_seed_, pieces);
@@ -79,7 +82,8 @@ void ChunkRun::clip_all() {
       // Nothing of the chunk has been collected yet: smaller ones may fit.
       if (error.code() != ErrorCode::out_of_device_memory || chunk <= least_chunk_pairs) throw;
       chunk = std::max(least_chunk_pairs, chunk / 2);
-      clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_, clip_options);  // gives its buffers back
+      clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_,
+                                           clip_options);  // gives its buffers back
       continue;
     }
     begin = end;
@@ -101,6 +105,9 @@ std::vector<std::uint32_t> ChunkRun::run() {
   clipper_.reset();  // its buffers are not needed any more, and what follows needs memory
   Stopwatch watch;
   Measures measures = measures_.finish();
+  flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
+  std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[s_.seeds.input[rank]] > 0; });
+  if (!flat_.empty()) return {};
   if (s_.whole_cells && s_.seeds.size() > 0) {
     std::vector<std::uint32_t> unclear =
         settle_whole_cells(s_.domain.mesh(), *s_.finder, s_.pairs, s_.seeds, s_.scene.float32(),

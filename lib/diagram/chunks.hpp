@@ -17,6 +17,9 @@ class ChunkRun {
   /// state's results stay as they were, and so they do where ranks come back: their cells need the regions of
   /// the domain.
   std::vector<std::uint32_t> run();
+  /// After run(): ranks of exactly flat cells, whose walls lie between those on either side of them. Where there are
+  /// any, the results of the state stayed as they were.
+  const std::vector<std::uint32_t>& flat_cells() const { return flat_; }
 
  private:
   void clip_all();
@@ -33,6 +36,7 @@ class ChunkRun {
   WallCollector walls_;
   GeometryCollector geometry_;
   std::vector<std::uint32_t> pair_seed_;
+  std::vector<std::uint32_t> flat_;  // ranks with a flat piece, then those that have nothing else
   double collect_seconds_ = 0;
 };
 

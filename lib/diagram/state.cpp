@@ -1,6 +1,7 @@
 #include "lib/diagram/state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernels/layout.h"
 #include "lib/diagram/chunks.hpp"
@@ -123,10 +124,34 @@ void Diagram::State::find_pairs(bool want_regions) {
   ready = true;
 }
 
+void Diagram::State::silence(std::span<const std::uint32_t> ranks) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  double diagonal2 = 0, lowest = 0;
+  for (std::size_t k = 0; k < d; ++k) {
+    double low = domain.low()[k], high = domain.high()[k];
+    for (std::size_t at = k; at < seeds.positions.size(); at += d) {
+      low = std::min(low, seeds.positions[at]);
+      high = std::max(high, seeds.positions[at]);
+    }
+    diagonal2 += (high - low) * (high - low);
+  }
+  for (const double w : seeds.weights) lowest = std::max(lowest, std::abs(w));
+  // No point of the domain is nearer to it than to all others, by far. A power of two keeps exact numbers
+  // short.
+  const double down = -std::ldexp(1.0, std::ilogb(std::max(diagonal2, lowest)) + 4);
+  for (const std::uint32_t rank : ranks) seeds.weights[rank] = down;
+  ready = false;
+}
+
 void Diagram::State::pass(bool want_adjacency, bool want_cells) {
   for (;;) {
     if (!seeds.input.empty()) prepare(want_cells);
-    const std::vector<std::uint32_t> unclear = ChunkRun(*this, want_adjacency, want_cells).run();
+    ChunkRun chunks(*this, want_adjacency, want_cells);
+    const std::vector<std::uint32_t> unclear = chunks.run();
+    if (!chunks.flat_cells().empty()) {
+      silence(chunks.flat_cells());
+      continue;
+    }
     if (unclear.empty()) return;
     not_whole.insert(not_whole.end(), unclear.begin(), unclear.end());
     find_pairs(want_cells);
@@ -136,8 +161,8 @@ void Diagram::State::pass(bool want_adjacency, bool want_cells) {
 void Diagram::State::certify() {
   Stopwatch certificate;
   try {
-    require_certificate({domain, seeds, *measures, adjacency ? &*adjacency : nullptr, precision == Precision::float32,
-                         thread_count(options.threads)});
+    require_certificate({domain, seeds, *measures, adjacency ? &*adjacency : nullptr,
+                         precision == Precision::float32, thread_count(options.threads)});
   } catch (...) {
     forget_results();
     throw;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <powercell/diagram.hpp>
 #include <vector>
 
@@ -54,6 +55,8 @@ struct Diagram::State {
   std::unique_ptr<Candidates> make_candidates() const;
   /// Clips all pairs once; again where cells turn out to need their regions.
   void pass(bool want_adjacency, bool want_cells);
+  /// Takes the weights of ranks so far down that nothing is left of their cells.
+  void silence(std::span<const std::uint32_t> ranks);
   /// Throws unless the results keep their laws, and forgets them then.
   void certify();
   /// Clips all pairs and fills measures, and adjacency and cells where asked.

@@ -7,6 +7,7 @@
 #include "lib/clip/host_clip.hpp"
 #include "lib/clip/scene.hpp"
 #include "lib/collect/dual.hpp"
+#include "lib/diagram/state.hpp"
 #include "lib/neighbors/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
 #include "lib/seeds/threads.hpp"
@@ -49,9 +50,9 @@ struct Extent {
 /// Cells clipped on the host in the far box, from those that leave the near one outwards.
 class OuterCells {
  public:
-  OuterCells(const Device& device, const Extent& extent, const SeedsView& seeds, int threads)
+  OuterCells(const Device& device, const Extent& extent, const SeedSet& seeds, int threads)
       : threads_(threads),
-        seeds_(make_seed_set(seeds, seeds.dimension, threads)),
+        seeds_(seeds),
         tree_(build_packed_tree(seeds_, threads)),
         domain_(extent.box(far_room)),
         scene_(device.context(), domain_.mesh(), false),
@@ -114,7 +115,7 @@ class OuterCells {
   }
 
   int threads_;
-  SeedSet seeds_;
+  const SeedSet& seeds_;
   PackedTree tree_;
   Domain domain_;
   Scene scene_;
@@ -155,7 +156,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   for (std::size_t i = 0; i < inside.size(); ++i)
     inside[i] = diagram.measures().status[i] == SeedStatus::ok && !leaves[i];
   std::vector<std::uint32_t> rows;
-  OuterCells(device, extent, seeds, threads).collect(inside, leaves, rows);
+  OuterCells(device, extent, diagram.state().seeds, threads).collect(inside, leaves, rows);
   return extend_dual(diagram.dual(), rows, seeds);
 }
 

@@ -71,6 +71,21 @@ TEST_CASE("a grid: the hull is covered once") {
   }
 }
 
+TEST_CASE("seeds whose cells are exactly flat are no vertices") {
+  for (const int dimension : {2, 3}) {
+    // Of three in a row the middle one is lower by just so much that its two bisectors are one.
+    SeedArray seeds = grid(dimension == 2 ? 8 : 5, dimension);
+    const auto n = seeds.size();
+    const double h = seeds.coordinate(1, 0) - seeds.coordinate(0, 0);
+    seeds.weights[n / 2] -= h * h;
+    const Dual dual = regular_triangulation(Device::choose(), seeds.view());
+    const Triangulated triangulated = check_triangulation(dual, seeds);
+    CHECK(triangulated.faults == 0);
+    CHECK(static_cast<double>(triangulated.measure / box_measure(seeds)) ==
+          doctest::Approx(1).epsilon(1e-13));
+  }
+}
+
 TEST_CASE("seeds that do not span the space have no simplices; too few neither") {
   for (const int dimension : {2, 3}) {
     const Device device = Device::choose();
