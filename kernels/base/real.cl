@@ -1,6 +1,6 @@
-/* Scalar types, seeds and the few things that differ between precisions and languages; with
-   lanes.cl, point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64; 64 when compiled as C++ for what the host
-   decides), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
+/* Scalar types, seeds and the few things that differ between precisions and languages; with decide.cl, lanes.cl,
+   point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64; always 64 when compiled
+   as C++ for what the host decides), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
    VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
@@ -31,7 +31,6 @@ typedef struct {
 } seed_t;
 #define REAL_EPSILON 2.2204460492503131e-16
 #define REAL_MAX 1.0e300
-#define QUICK_PROOF 0
 /* Cells on the host grow: arrays are pointers, capacities are members. */
 #define STORAGE(type, name, count) type* name
 #define STORAGE_ROWS(type, name, rows, count) type* name[rows]
@@ -44,9 +43,6 @@ typedef struct {
   real* error;              /* of each vertex */                           \
   real worst_error;         /* of all vertices there were */               \
   powercell::ExactCell* exact;
-/* See base/decide.cl. */
-#define PLACE_VERTEX(cell, v) host_place(cell, v)
-#define COUNT_SIDES(cell, border, tolerance, vertices, inside) host_sides(cell, border, vertices, inside)
 
 #else
 
@@ -66,9 +62,6 @@ typedef uchar index_t;
 #define STORAGE(type, name, count) type name[count]
 #define STORAGE_ROWS(type, name, rows, count) type name[rows][count]
 #define HOST_MEMBERS
-#define PLACE_VERTEX(cell, v)
-#define COUNT_SIDES(cell, border, tolerance, vertices, inside) \
-  count_sides(&(cell)->at, tolerance, vertices, inside)
 
 #if REAL_BITS == 64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -76,7 +69,6 @@ typedef double real;
 typedef double4 seed_t; /* x y z weight */
 #define REAL_EPSILON 2.2204460492503131e-16
 #define REAL_MAX 1.0e300
-#define QUICK_PROOF 1 /* clip/certain.cl: floats are not exact enough for it */
 #else
 typedef float real;
 typedef struct {
@@ -84,7 +76,6 @@ typedef struct {
   float4 low;
 } seed_t; /* x y z weight, each as the sum of two floats */
 #define REAL_EPSILON 1.1920929e-7f
-#define QUICK_PROOF 0
 #define REAL_MAX 1.0e38f
 #endif
 typedef real stored_real;

@@ -2,7 +2,7 @@
    (docs/mathematics.md (3): kept is 2 q.y <= |q|^2 + w_i - w_j). */
 #ifndef POWERCELL_CLIP_BISECTOR
 #define POWERCELL_CLIP_BISECTOR
-#include "base/decide.cl"
+#include "base/cell.cl"
 
 /* What lies behind a face with border `old` that lies in the bisector of `border` (docs/mathematics.md,
    "Walls in facets"): of two seeds the farther one; behind a facet of the region the new seed, unless

@@ -4,16 +4,6 @@
 #define POWERCELL_CLIP_CERTAIN
 #include "clip/vertices.cl"
 
-/* Planes that clear every vertex by this part of the cell's radius need not be noted one by one: searches keep this
-   margin when they leave out seeds. */
-#if REAL_BITS == 32
-#define SEARCH_MARGIN ((real)0.03125) /* 2^-5 */
-#define LEAST_FILLING ((real)0.05) /* of the cube of the radius: smaller cells are left to the host */
-#else
-#define SEARCH_MARGIN ((real)9.5367431640625e-7) /* 2^-20 */
-#define LEAST_FILLING 0
-#endif
-
 /* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the radius
    of the cell. */
 typedef struct {
@@ -24,7 +14,8 @@ typedef struct {
 /* Error of a corner of the region. */
 static inline real corner_error(const vertices_t* p) { return 2 * (REAL_EPSILON * p->reach + p->blur); }
 
-/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw the difference of the weights. */
+/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw the
+   difference of the weights. */
 static inline real plane_error(const vertices_t* p, real sum, real q2, real dw) {
   return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + 8 * p->blur * (p->radius + sum) +
          2 * p->weight_blur;
@@ -42,7 +33,7 @@ static inline real most_of_used(const vertices_t* p) {
 /* After a cut: its vertices lie between those before it but for rounding. */
 static inline void note_drift(vertices_t* p) { p->drift += 2 * REAL_EPSILON * p->radius; }
 
-/* The same for a plane that cuts, or that all vertices are outside of, after count_sides. */
+/* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after count_sides. */
 static inline void note_cut(vertices_t* p, real sum, real error) {
   const real clear = p->nearest - error;
   if (clear < 2 * sum * p->clear) p->clear = clear / (2 * sum);
