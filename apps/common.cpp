@@ -31,8 +31,9 @@ void add_engine_options(CLI::App& command, CommonOptions& options) {
                   "Where candidate neighbours come from: auto, tree or flann")
       ->check(CLI::IsMember({"auto", "tree", "flann"}));
   command
-      .add_option("--decisions", options.decisions,
-                  "exact, or fast: cells whose shape rounding may have decided are left as they are, and counted")
+      .add_option(
+          "--decisions", options.decisions,
+          "exact, or fast: cells whose shape rounding may have decided are left as they are, and counted")
       ->check(CLI::IsMember({"exact", "fast"}));
   command.add_flag("--certify", options.certify, "Check each result by the laws that need no reference");
   command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
@@ -47,6 +48,13 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->check(CLI::IsMember({"auto", "double", "float"}));
   add_engine_options(command, options);
   add_output_options(command, options);
+}
+
+void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds) {
+  command.add_option("-o,--output", files, "File to write, as often as wanted: " + kinds)
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
 }
 
 void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,

@@ -9,6 +9,7 @@
 #include <powercell/powercell.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -34,6 +35,9 @@ void add_output_options(CLI::App& command, CommonOptions& options);
 void add_engine_options(CLI::App& command, CommonOptions& options);
 /// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// Adds -o: files to write, as often as wanted. \param kinds  which endings there are, for the help
+void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds);
 
 /// Adds --domain, --seeds and --kind.
 void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,

@@ -68,7 +68,8 @@ int run(const DiagramArguments& arguments) {
   diagram.set_seeds(seeds);
   // One pass for all that the files are made from; what none of them needs is not computed.
   const bool geometry = !arguments.outputs.empty();
-  compute([&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
+  compute(
+      [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
   RunReport report = report_of(diagram);
   report.read = read;
   require_partition(report);
@@ -92,12 +93,7 @@ Command add_diagram(CLI::App& app) {
   auto arguments = std::make_shared<DiagramArguments>();
   CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "File to write, as often as wanted: " + std::string(io::known_outputs()))
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()));
   command->add_option("--table", arguments->table, "CSV with one row a seed")->type_name("FILE.csv");
   command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
       ->type_name("FILE.csv");

@@ -204,13 +204,9 @@ Command add_remesh(CLI::App& app) {
       ->check(CLI::IsMember({"fpo", "transport"}))
       ->capture_default_str();
   add_shape_options(*command, arguments->remesh);
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "File to write, as often as wanted: " + std::string(io::known_triangle_files()) +
-                       " for the mesh, .png for both beside each other")
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+  add_output_files(
+      *command, arguments->outputs,
+      std::string(io::known_triangle_files()) + " for the mesh, .png for both beside each other");
   command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
   command->add_option("--device", arguments->device, "For transport: as 'powercell diagram' takes it");
   command->add_option("--threads", arguments->threads, "For transport: on the host and of PoCL; 0 means all")

@@ -179,10 +179,7 @@ Command add_sample(CLI::App& app) {
       ->add_option("--runs", arguments->runs,
                    "Samplings, with random seeds counting up; figures are averaged")
       ->check(CLI::Range(1, 1000));
-  command->add_option("-o,--output", arguments->outputs, "Points of the first run: .svg .png .pdf, .csv .txt")
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+  add_output_files(*command, arguments->outputs, ".svg .png .pdf .csv .txt, of the points of the first run");
   command
       ->add_option("--cells", arguments->cells, "Cells of the first run, as 'powercell diagram' writes them")
       ->type_name("FILE")

@@ -245,12 +245,7 @@ Command add_transport(CLI::App& app) {
   CLI::App* command = app.add_subcommand("transport", "Find the weights with which cells have given masses");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
   add_solver_options(*command, *arguments);
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "File to write, as often as wanted: " + std::string(io::known_outputs()))
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()));
   command->add_option("--table", arguments->table, "CSV with one row a seed: weight, mass, centroid, ...")
       ->type_name("FILE.csv");
   command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")

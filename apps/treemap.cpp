@@ -151,12 +151,7 @@ Command add_treemap(CLI::App& app) {
   command->add_option("tree", arguments->tree, "A table (.csv .txt .tsv), .json, or a folder")
       ->required()
       ->type_name("TREE");
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "File to write, as often as wanted: " + std::string(io::known_treemap_outputs()))
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+  add_output_files(*command, arguments->outputs, std::string(io::known_treemap_outputs()));
   command
       ->add_option("--shape", arguments->shape,
                    "W:H, circle, hexagon, circle:N (N corners), or a file with one convex polygon")
