@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "lib/remeshing/triangle.hpp"
@@ -98,25 +99,31 @@ void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
   }
 }
 
+/// Of eight points at `length` around vertex v in its tangent plane the one of least cost, if below `least`.
+template <class Cost>
+std::optional<Vec> best_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, double length,
+                               double least, const Cost& cost) {
+  const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
+  const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
+  std::optional<Vec> best;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * std::numbers::pi / 4;
+    const Vec to = at + u * (length * std::cos(angle)) + w * (length * std::sin(angle));
+    const double here = cost(to);
+    if (here >= least) continue;
+    least = here;
+    best = to;
+  }
+  return best;
+}
+
 /// Moves a vertex in its tangent plane where that makes the least angle around it larger.
 bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v) {
   const double before = cosine_around(mesh, v, mesh.at(v));
-  const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
-  const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
+  const auto cosine = [&](const Vec& to) { return cosine_around(mesh, v, to); };
   for (double step = 0.2; step > 0.01; step /= 2) {
-    double least = before - 1e-3;
-    Vec best;
-    bool found = false;
-    for (int k = 0; k < 8; ++k) {
-      const double angle = k * std::numbers::pi / 4, length = step * mesh.vertex(v).h;
-      const Vec to = at + u * (length * std::cos(angle)) + w * (length * std::sin(angle));
-      const double cosine = cosine_around(mesh, v, to);
-      if (cosine >= least) continue;
-      least = cosine;
-      best = to;
-      found = true;
-    }
-    if (found && try_move(mesh, surface, sizing, v, best, before - 1e-4)) return true;
+    const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before - 1e-3, cosine);
+    if (best && try_move(mesh, surface, sizing, v, *best, before - 1e-4)) return true;
   }
   return false;
 }
@@ -142,21 +149,11 @@ double distortion_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
 void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, double step) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
-    const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
-    const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
-    const double before = distortion_around(mesh, v, at);
-    double least = before;
-    Vec best;
-    for (int k = 0; k < 8; ++k) {
-      const double angle = k * std::numbers::pi / 4, length = step * mesh.vertex(v).h;
-      const Vec to = at + u * (length * std::cos(angle)) + w * (length * std::sin(angle));
-      const double distortion = distortion_around(mesh, v, to);
-      if (distortion >= least) continue;
-      least = distortion;
-      best = to;
-    }
-    if (!(least < before)) continue;
-    const Place place = project(surface, mesh.vertex(v).place, best);
+    const double before = distortion_around(mesh, v, mesh.at(v));
+    const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before,
+                                  [&](const Vec& to) { return distortion_around(mesh, v, to); });
+    if (!best) continue;
+    const Place place = project(surface, mesh.vertex(v).place, *best);
     if (distortion_around(mesh, v, place.at) < before) mesh.move(v, place, sizing.at(surface, place));
   }
 }
