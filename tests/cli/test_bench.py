@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""powercell bench from outside.
+
+usage: test_bench.py PATH_OF_POWERCELL [unittest options]
+"""
+
+import json
+import signal
+import subprocess
+import time
+import unittest
+
+from test_cli import DATA, TOOL, ToolTest, run
+
+
+class Bench(ToolTest):
+    SMALL = ("bench", "--domain", "square", "--precision", "float", "--n", 1000, "--repeat", 2)
+
+    def measured(self, *arguments, name="new.json"):
+        self.good(*self.SMALL, "--json", name, *arguments)
+        return json.loads((self.folder / name).read_text())
+
+    def changed(self, change):
+        """A record of this device as the file old.json, changed before it is written."""
+        record = self.measured(name="old.json")
+        change(record)
+        return self.write("old.json", json.dumps(record))
+
+    def test_every_device_precision_and_domain(self):
+        record = self.report_of("bench", "--quick", "--repeat", 1, "--n", 1000)
+        devices = self.report("devices")["devices"]
+        expected = {(d["device"], domain, precision) for d in devices for domain in ("square", "cube", "surface", "volume")
+                    for precision in (("double", "float") if d["fp64"] else ("float",))}
+        self.assertEqual({(r["selector"], r["domain"], r["precision"]) for r in record["rows"]}, expected)
+        self.assertEqual(len(record["rows"]), len(expected))
+        regions = {r["domain"]: r["regions"] for r in record["rows"]}
+        self.assertEqual(regions, {"square": 1, "cube": 1, "surface": 5120, "volume": 13824})
+        for row in record["rows"]:
+            self.assertTrue(row["passed"])
+            self.assertLess(row["relative_error"], 1e-3 if row["precision"] == "float" else 1e-9)
+            for fraction in (row["arithmetic_fraction"], row["bandwidth_fraction"]):
+                self.assertGreater(fraction, 0)
+                self.assertLess(fraction, 1)
+
+    def report_of(self, *arguments):
+        return json.loads(self.good(*arguments, "--json", "-").stdout)
+
+    def test_json_tells_what_was_measured(self):
+        record = self.measured()
+        for key in ("format", "format_version", "version", "revision", "date", "devices", "rows", "passed", "seconds"):
+            self.assertIn(key, record)
+        self.assertRegex(record["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        for key in ("name", "driver_version", "opencl_c_version", "compute_units"):
+            self.assertIn(key, record["devices"][0])
+        row = record["rows"][0]
+        for kind in ("measures", "adjacency"):
+            self.assertEqual(len(row[kind]["seconds"]), 2)
+            self.assertAlmostEqual(row[kind]["cells_per_second"], 1000 / min(row[kind]["seconds"]), delta=1)
+            for phase in ("total", "prepare", "pairs", "neighbors", "clip", "collect"):
+                self.assertGreaterEqual(row[kind]["phases"][phase], 0)
+        self.assertGreater(row["first_result_seconds"], 0)
+        self.assertGreaterEqual(row["build_seconds"], 0)
+        self.assertEqual(row["arithmetic_fraction"], row["work_per_cell"]["operations"]
+                         * row["measures"]["cells_per_second"] / row["device_operations_per_second"])
+
+    def test_table(self):
+        device = self.report("devices")["devices"][0]
+        out = self.good(*self.SMALL, "--device", device["device"]).stdout
+        self.assertIn(device["name"], out)
+        self.assertRegex(out, r"GB/s copied, [\d.]+ Gflop/s")
+        self.assertRegex(out, r"square +float +1,000 +[\d,]+ +[\d,]+ +[\d.e-]+ % +[\d.e-]+ % ")
+        self.assertRegex(out.splitlines()[-1], r"^1 row in \d+ s; the measures of every run sum to the domain's$")
+
+    def test_a_file_as_domain_and_quiet(self):
+        done = self.good("bench", "--quick", "--domain", DATA / "bracket.mesh", "--precision", "float", "--repeat", 1,
+                         "--n", 200, "--quiet", "--json", "b.json")
+        self.assertEqual(done.stdout + done.stderr, "")
+        self.assertGreater(json.loads((self.folder / "b.json").read_text())["rows"][0]["regions"], 1000)
+
+    def test_kernels_are_built_anew_when_asked(self):
+        self.measured()
+        warm, cold = self.measured()["rows"][0], self.measured("--cold")["rows"][0]
+        self.assertGreater(cold["build_seconds"], 2 * warm["build_seconds"])
+        self.assertGreater(cold["first_result_seconds"], warm["first_result_seconds"])
+
+    def test_compare(self):
+        def faster(record):
+            record["rows"][0]["adjacency"]["cells_per_second"] *= 1e6
+            record["rows"][0]["n"] = 500
+        old = self.changed(faster)
+        # Seeds as in the earlier record; the same file may be read and then replaced.
+        arguments = ("bench", "--domain", "square", "--precision", "float", "--compare", old)
+        out = self.good(*arguments).stdout
+        self.assertRegex(out, r"square +float +500 +[\d.]+ +0\.00 ")
+        self.good(*arguments, "--fail-below", 1e-9, "--json", old)
+        self.good(*arguments, "--fail-below", 0.001)
+
+    def test_a_rate_below_the_limit_is_a_failure(self):
+        old = self.changed(lambda record: record["rows"][0]["measures"].update(cells_per_second=1e12))
+        done = run(*self.SMALL, "--compare", old, "--fail-below", 0.5, "--json", "new.json", cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^powercell: error: square in float with 1,000 seeds on .* 0\.000 of the rate in "
+                                      r"old\.json, and less than --fail-below 0\.5 is a failure\n$")
+        self.assertTrue((self.folder / "new.json").exists())
+
+    def test_nothing_to_compare_with(self):
+        def elsewhere(record):
+            record["rows"][0]["device"] = "another device"
+        old = self.changed(elsewhere)
+        done = run(*self.SMALL, "--compare", old, cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("old.json has no row of the same device", done.stderr)
+
+    def test_what_cannot_be_read_or_written_is_told_before_anything_is_measured(self):
+        self.bad(1, r"none\.json: no such file", *self.SMALL, "--compare", "none.json")
+        self.bad(1, r"a\.json: is not JSON at byte \d+; --compare takes", *self.SMALL, "--compare",
+                 self.write("a.json", "{"))
+        self.bad(1, r"a\.json: is JSON, but its 'format'", *self.SMALL, "--compare",
+                 self.write("a.json", '{"cells": []}'))
+        self.bad(1, r"a\.json: the file: .*'version'", *self.SMALL, "--compare",
+                 self.write("a.json", '{"format": "powercell bench", "format_version": 1}'))
+        self.bad(1, "missing", *self.SMALL, "--json", "missing/a.json")
+        self.bad(1, "domain 'blob' is not known: --domain takes square", "bench", "--domain", "blob")
+        self.bad(1, "resolution", "bench", "--domain", "sphere:0")
+        self.bad(1, "no such device", "bench", "--device", "no such device")
+
+    def test_interrupt_leaves_the_older_file(self):
+        self.write("a.json", "older")
+        process = subprocess.Popen([TOOL, "bench", "--json", "a.json"], cwd=self.folder, stderr=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, text=True)
+        time.sleep(3)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, error)
+        self.assertEqual(error, "powercell: error: interrupted\n")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["a.json"])
+        self.assertEqual((self.folder / "a.json").read_text(), "older")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)

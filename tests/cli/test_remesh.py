@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""powercell remesh from outside.
+
+usage: test_remesh.py PATH_OF_POWERCELL [unittest options]
+"""
+
+import json
+import unittest
+
+from test_cli import DATA, ToolTest
+
+
+class Remesh(ToolTest):
+    def test_files_report_and_figures(self):
+        report = self.report("remesh", DATA / "pretzel.off", "--count", 700, "--rounds", 2, "-o", "a.off", "-o", "a.obj",
+                             "-o", "a.ply", "-o", "a.stl", "-o", "a.png", "--report", "q.json")
+        mesh = report["mesh"]
+        self.assertEqual((mesh["vertices"], mesh["triangles"], mesh["euler_characteristic"]), (700, 1408, -4))
+        self.assertTrue(mesh["manifold"])
+        self.assertGreater(mesh["q_min"], 0.5)
+        self.assertLess(max(report["hausdorff"].values()), 0.03 * report["diagonal"])
+        self.assertEqual(json.loads((self.folder / "q.json").read_text())["mesh"], mesh)
+        self.assertEqual((self.folder / "a.png").read_bytes()[:4], b"\x89PNG")
+        for name in "a.off", "a.obj", "a.ply", "a.stl":
+            again = self.report("diagram", "--domain", name, "--seeds", "random:10")
+            self.assertAlmostEqual(again["relative_error"], 0, places=9)
+        first = (self.folder / "a.off").read_text().split()
+        self.assertEqual(first[1:3], ["700", "1408"])
+
+    def test_transport(self):
+        report = self.report("remesh", "torus:12", "--count", 200, "--method", "transport", "--rounds", 2)
+        self.assertEqual(report["method"], "transport")
+        self.assertEqual((report["mesh"]["vertices"], report["mesh"]["triangles"]), (200, 400))
+        self.bad(2, "--method", "remesh", "torus:12", "--count", 50, "--method", "other")
+
+    def test_what_cannot_be_remeshed(self):
+        pages = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n"
+        self.write("pages.off", pages)
+        self.bad(1, r"pages\.off: .*edge between vertices 0 and 1 belongs to 3", "remesh", "pages.off", "--count", 50,
+                 "-o", "b.off")
+        self.bad(1, "too few points", "remesh", "torus:12", "--count", 4, "-o", "b.off")
+        self.bad(1, "no-such.off", "remesh", "no-such.off", "--count", 50)
+        self.bad(1, "polygon", "remesh", DATA / "italy.geojson", "--count", 50)
+        self.bad(1, r"\.xyz", "remesh", "torus:12", "--count", 50, "-o", "b.xyz")
+        self.bad(1, "gradation", "remesh", "torus:12", "--count", 50, "--gradation", 0)
+        self.bad(2, "--count", "remesh", "torus:12")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
