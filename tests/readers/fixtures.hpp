@@ -16,7 +16,7 @@ namespace powercell::io::test {
 
 /// A file of tests/readers/data/.
 inline std::string data(const std::string& name) {
-  return (std::filesystem::path(__FILE__).parent_path() / "data" / name).string();
+  return (std::filesystem::path(POWERCELL_READERS_DATA) / name).string();
 }
 inline std::string data_bytes(const std::string& name) {
   return read_file(data(name));
