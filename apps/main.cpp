@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
       "  powercell bench                                      how fast?\n"
       "  powercell treemap sales.csv -o sales.svg             hierarchical data as nested cells\n"
       "  powercell sample --image photo.png -n 8000 -o dots.svg\n"
-      "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE.");
+      "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE, POWERCELL_LOG (info, detail).");
   const std::map<std::string, powercell::app::Command> commands = {
       {"devices", powercell::app::add_devices(app)}, {"diagram", powercell::app::add_diagram(app)},
       {"verify", powercell::app::add_verify(app)},   {"demo", powercell::app::add_demo(app)},

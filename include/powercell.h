@@ -64,11 +64,18 @@ typedef int (*pc_progress)(double fraction, void* user);
 /** What becomes of cells whose shape rounding may have decided (powercell::Decisions). */
 typedef enum pc_decisions { PC_DECISIONS_EXACT = 0, PC_DECISIONS_FAST } pc_decisions;
 
+/** How much of the log is wanted (powercell::LogLevel). */
+typedef enum pc_log_level { PC_LOG_INFO = 0, PC_LOG_DETAIL } pc_log_level;
+
+/** Gets one line of the log, ended by a zero byte. Must not throw or call pc_set_log(). */
+typedef void (*pc_log_sink)(pc_log_level level, const char* line, void* user);
+
 /** Options of a diagram. Fill with pc_options_init() first. */
 typedef struct pc_options {
   pc_precision precision;
   pc_neighbors neighbors;
   pc_decisions decisions;
+  int certify;           /**< not 0: check each result by laws, PC_INTERNAL if one does not hold */
   int initial_neighbors; /**< FLANN only: 0 means 16, or 32 in volumes */
   int threads;           /**< host threads; 0 means all */
   uint64_t chunk_pairs;  /**< most (region, seed) pairs on the device at once; 0 means by its memory */
@@ -82,6 +89,10 @@ POWERCELL_API const char* pc_version(void);
 POWERCELL_API const char* pc_status_name(pc_status status);
 /** What the last failed call of this thread said; "" before the first. Valid until the next failure. */
 POWERCELL_API const char* pc_last_error(void);
+
+/** From now on `sink` gets the lines of the log up to level `most`, from any thread but one at a time; NULL ends that.
+ * While there is none, the environment variable POWERCELL_LOG (info or detail) sends them to standard error. */
+POWERCELL_API pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user);
 
 /** The device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "" for the default. */
 POWERCELL_API pc_status pc_device_create(const char* selector, pc_device** device);

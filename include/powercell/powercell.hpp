@@ -7,6 +7,7 @@
 #include <powercell/diagram.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/error.hpp>
+#include <powercell/log.hpp>
 #include <powercell/options.hpp>
 #include <powercell/peaks.hpp>
 #include <powercell/point_sets.hpp>

@@ -129,6 +129,7 @@ powercell::Options options_of(const pc_options& from) {
           "options.decisions is none of pc_decisions");
   powercell::Options to;
   to.decisions = decisions == PC_DECISIONS_FAST ? powercell::Decisions::fast : powercell::Decisions::exact;
+  to.certify = from.certify != 0;
   to.precision = static_cast<powercell::Precision>(precision);
   to.neighbors = static_cast<powercell::Neighbors>(neighbors);
   to.initial_neighbors = from.initial_neighbors;
@@ -164,6 +165,20 @@ const char* pc_status_name(pc_status status) {
 
 const char* pc_last_error(void) {
   return last_error.c_str();
+}
+
+pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user) {
+  return guarded([&] {
+    const int level = number_in(most);
+    require(level == PC_LOG_INFO || level == PC_LOG_DETAIL, "most is none of pc_log_level");
+    if (!sink) return powercell::set_log({});
+    powercell::set_log(
+        [sink, user](powercell::LogLevel of, std::string_view line) {
+          sink(of == powercell::LogLevel::info ? PC_LOG_INFO : PC_LOG_DETAIL, std::string(line).c_str(),
+               user);
+        },
+        level == PC_LOG_INFO ? powercell::LogLevel::info : powercell::LogLevel::detail);
+  });
 }
 
 pc_status pc_device_create(const char* selector, pc_device** device) {

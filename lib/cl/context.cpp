@@ -4,6 +4,7 @@
 
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program.hpp"
+#include "lib/log.hpp"
 
 namespace powercell::cl {
 namespace {
@@ -13,6 +14,13 @@ T queue_value(cl_command_queue queue, cl_command_queue_info which) {
   T value{};
   check(clGetCommandQueueInfo(queue, which, sizeof value, &value, nullptr), "asking a queue for a property");
   return value;
+}
+
+void log_device(const DeviceInfo& info) {
+  write_log(LogLevel::info, [&] {
+    return "device " + info.selector() + ": " + info.name + " (" + info.platform_name + ", driver " +
+           info.driver_version + "), " + (info.fp64 ? "double and single" : "single") + " precision";
+  });
 }
 
 /// The indices by which `Device::choose` would find the caller's device; for a part of a device, the whole.
@@ -41,6 +49,7 @@ Context::Context(cl_platform_id platform, cl_device_id device, DeviceInfo info)
   queue_ = clCreateCommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE, &status);
   if (status != CL_SUCCESS) clReleaseContext(context_);
   check(status, "creating a queue on " + info_.name);
+  log_device(info_);
 }
 
 Context::Context(cl_command_queue queue) {
@@ -64,6 +73,7 @@ Context::Context(cl_command_queue queue) {
   }
   context_ = context;
   queue_ = queue;
+  log_device(info_);
 }
 
 Context::~Context() {

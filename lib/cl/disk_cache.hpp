@@ -35,6 +35,7 @@ class DiskCache {
 
   /// POWERCELL_CACHE_DIR, else XDG_CACHE_HOME/powercell, else HOME/.cache/powercell, else empty.
   static std::filesystem::path default_folder();
+  const std::filesystem::path& folder() const { return folder_; }
 
   /// The entry, if it is there and whole; one that is truncated, altered or another's is deleted.
   std::optional<Binary> read(const CacheKey& key) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lib/cl/program.hpp"
+#include "lib/log.hpp"
 
 namespace powercell::cl {
 namespace {
@@ -85,6 +86,10 @@ double compiling_launch(Context& context, const Launch& launch, std::size_t glob
   const double execution = event_seconds(event, launch.what);
   const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   context.add_build_seconds(std::max(0.0, all - execution));
+  write_log(LogLevel::detail, [&] {
+    return launch.what + ", groups of " + std::to_string(local) + ", for the first time: compiled in " +
+           in_seconds(std::max(0.0, all - execution));
+  });
   return execution;
 }
 

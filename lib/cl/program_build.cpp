@@ -7,6 +7,7 @@
 
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program_source.hpp"
+#include "lib/log.hpp"
 
 namespace powercell::cl {
 namespace {
@@ -145,7 +146,10 @@ std::shared_ptr<const Program> build_program(const Context& context, const Progr
     cache->remove(key);
   }
   auto program = compile(context, request);
-  if (const Binary binary = binary_of(*program); !binary.empty()) cache->write(key, binary);
+  if (const Binary binary = binary_of(*program); !binary.empty() && !cache->write(key, binary))
+    write_log(LogLevel::info, [&] {
+      return "the compiled " + request.name + " cannot be kept in \"" + cache->folder().string() + "\"";
+    });
   return program;
 }
 
@@ -161,8 +165,13 @@ std::shared_ptr<const Program> Context::program(std::string_view file,
   const DiskCache cache(DiskCache::default_folder());
   ProgramOrigin origin{};
   auto program = build_program(*this, request, uses_disk_cache(*this) ? &cache : nullptr, &origin);
-  if (origin == ProgramOrigin::compiled)
-    add_build_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const bool compiled = origin == ProgramOrigin::compiled;
+  if (compiled) add_build_seconds(seconds);
+  write_log(compiled ? LogLevel::info : LogLevel::detail, [&] {
+    return request.name + (compiled ? " built in " : " taken from the cache in ") + in_seconds(seconds) +
+           ": " + options;
+  });
   programs_.emplace(key, program);
   return program;
 }

@@ -5,6 +5,7 @@
 
 #include "kernels/layout.h"
 #include "lib/clip/golden.hpp"
+#include "lib/log.hpp"
 #include "lib/seeds/threads.hpp"
 
 namespace powercell {
@@ -194,6 +195,7 @@ void Clipper::finish_on_host(const List& pairs) {
     if (wants_rows()) pieces_.add_batch() = std::move(done[k].batch);
   }
   statistics_.on_host += pairs.size();
+  write_log(LogLevel::detail, [&] { return "pieces finished on the host: " + std::to_string(pairs.size()); });
 }
 
 Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
@@ -226,7 +228,14 @@ const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
   List pending = begin(pair_seed, pair_region), last_resort;
   for (std::size_t rung = 0; rung < capacities(scene_.mesh().cell_dimension).size() && !pending.empty();
        ++rung) {
-    if (rung > 0) statistics_.retried += pending.size();
+    if (rung > 0) {
+      statistics_.retried += pending.size();
+      write_log(LogLevel::detail, [&] {
+        return "pieces tried again with room for " +
+               std::to_string(capacities(scene_.mesh().cell_dimension)[rung].vertices) +
+               " vertices: " + std::to_string(pending.size());
+      });
+    }
     Outcome outcome;
     run_rung(rung, pending, outcome);
     last_resort.insert(last_resort.end(), outcome.tangled.begin(), outcome.tangled.end());

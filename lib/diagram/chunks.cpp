@@ -5,6 +5,7 @@
 #include "kernels/layout.h"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/whole_cells.hpp"
+#include "lib/log.hpp"
 
 namespace powercell {
 
@@ -82,10 +83,15 @@ void ChunkRun::clip_all() {
       // Nothing of the chunk has been collected yet: smaller ones may fit.
       if (error.code() != ErrorCode::out_of_device_memory || chunk <= least_chunk_pairs) throw;
       chunk = std::max(least_chunk_pairs, chunk / 2);
+      write_log(LogLevel::info, [&] {
+        return "device memory does not suffice; chunks of " + std::to_string(chunk) + " pairs from now on";
+      });
       clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_,
                                            clip_options);  // gives its buffers back
       continue;
     }
+    write_log(LogLevel::detail,
+              [&] { return std::to_string(end) + " of " + std::to_string(total) + " pairs clipped"; });
     begin = end;
     if (s_.options.progress && !s_.options.progress(static_cast<double>(end) / static_cast<double>(total)))
       throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");

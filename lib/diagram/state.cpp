@@ -7,6 +7,7 @@
 #include "lib/diagram/chunks.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/domain/outline.hpp"
+#include "lib/log.hpp"
 #include "lib/neighbors/cell_candidates.hpp"
 #include "lib/neighbors/region_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
@@ -150,6 +151,10 @@ void Diagram::State::pass(bool want_adjacency, bool want_cells) {
     const std::vector<std::uint32_t> unclear = chunks.run();
     if (!chunks.flat_cells().empty()) {
       silence(chunks.flat_cells());
+      write_log(LogLevel::info, [&] {
+        return std::to_string(chunks.flat_cells().size()) +
+               " seeds with flat cells take no part; once more without them";
+      });
       continue;
     }
     if (unclear.empty()) return;
@@ -170,6 +175,17 @@ void Diagram::State::certify() {
   timings.certify = certificate.seconds();
 }
 
+void Diagram::State::log_run() const {
+  write_log(LogLevel::info, [&] {
+    const Timings& t = timings;
+    return std::to_string(seeds.size()) + " seeds, " + std::to_string(t.pair_count) + " pairs in " +
+           in_seconds(t.total) + " (prepare " + in_seconds(t.prepare) + ", pairs " + in_seconds(t.pairs) +
+           ", neighbours " + in_seconds(t.neighbors) + ", clip " + in_seconds(t.clip) + ", collect " +
+           in_seconds(t.collect) + ") and " + in_seconds(t.build) + " of compilation; " +
+           "pieces finished on the host: " + std::to_string(t.on_host);
+  });
+}
+
 void Diagram::State::run(bool want_adjacency, bool want_cells) {
   if (!given) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   const double built_before = device.build_seconds();
@@ -185,6 +201,7 @@ void Diagram::State::run(bool want_adjacency, bool want_cells) {
   if (options.certify) certify();
   timings.build = device.build_seconds() - built_before;
   timings.total = prepared + watch.seconds() - timings.build;
+  log_run();
 }
 
 }  // namespace powercell

@@ -59,6 +59,7 @@ struct Diagram::State {
   void silence(std::span<const std::uint32_t> ranks);
   /// Throws unless the results keep their laws, and forgets them then.
   void certify();
+  void log_run() const;
   /// Clips all pairs and fills measures, and adjacency and cells where asked.
   void run(bool want_adjacency, bool want_cells);
 };

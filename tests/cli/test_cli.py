@@ -16,7 +16,7 @@ import tempfile
 import time
 import unittest
 
-TOOL = sys.argv.pop(1)
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
 SHAPES = {"italy.geojson": 2, "pretzel.off": 3, "bracket.mesh": 3}
 
@@ -106,6 +106,16 @@ class Devices(ToolTest):
         arguments = ("diagram", "--domain", "square", "--seeds", "random:10")
         self.bad(1, re.escape(name), *arguments, "--device", "no such device")
         self.bad(1, re.escape(name), *arguments, env={"POWERCELL_DEVICE": "99:99"})
+
+
+    def test_log_on_request_only(self):
+        arguments = ("diagram", "--domain", "square", "--seeds", "random:10", "--json")
+        self.assertEqual(self.good(*arguments, env={"POWERCELL_LOG": ""}).stderr, "")
+        told = self.good(*arguments, env={"POWERCELL_LOG": "info"})
+        self.assertEqual(json.loads(told.stdout)["seeds"], 10)
+        self.assertRegex(told.stderr, "powercell: 10 seeds, 10 pairs in ")
+        self.assertNotIn("10 of 10 pairs", told.stderr)
+        self.assertIn("10 of 10 pairs", self.good(*arguments, env={"POWERCELL_LOG": "detail"}).stderr)
 
 
 class Diagram(ToolTest):
