@@ -42,6 +42,7 @@ typedef struct {
   int face_capacity;                                                       \
   real* error;              /* of each vertex */                           \
   real worst_error;         /* of all vertices there were */               \
+  powercell::SeedMarks* tried; /* seeds whose bisectors were decided about */ \
   powercell::ExactCell* exact;
 
 #else

@@ -15,8 +15,8 @@ namespace {
 /// Bytes of output rows in device memory at once.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
-/// Pairs that are worth more than one thread of the host.
-constexpr std::size_t least_shared = 8;
+/// Pairs that a thread of the host takes at once.
+constexpr std::size_t pairs_of_task = 64;
 
 /// Arguments that all clip kernels share come first; those of the candidates follow.
 constexpr unsigned common_arguments = 17;
@@ -157,16 +157,15 @@ void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {
   }
 }
 
-void Clipper::write_moments(const List& pairs, const std::vector<HostPiece>& done) {
+void Clipper::write_moments(const List& pairs, std::span<const double> moments) {
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
   const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
   const auto patch = [&](auto& all) {
     using Real = typename std::remove_reference_t<decltype(all)>::value_type;
     moments_.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
     for (std::size_t k = 0; k < pairs.size(); ++k)
-      std::transform(done[k].moments.begin(), done[k].moments.end(),
-                     all.begin() + static_cast<std::ptrdiff_t>((pairs[k] - first) * count),
-                     [](double x) { return static_cast<Real>(x); });
+      for (std::size_t m = 0; m < count; ++m)
+        all[(pairs[k] - first) * count + m] = static_cast<Real>(moments[k * count + m]);
     moments_.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
   };
   if (scene_.float32()) {
@@ -181,19 +180,30 @@ void Clipper::write_moments(const List& pairs, const std::vector<HostPiece>& don
 void Clipper::finish_on_host(const List& pairs) {
   if (pairs.empty()) return;
   if (!host_scene_) host_scene_ = make_host_scene(scene_);
-  std::vector<HostPiece> done(pairs.size());
-  parallel_for(pairs.size() < least_shared ? 1 : options_.threads, pairs.size(),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k)
-                   done[k] = clip_on_host(*host_scene_, pair_seed_[pairs[k]], pair_region_[pairs[k]]);
-               });
-  write_moments(pairs, done);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    pieces_.status[pairs[k]] = static_cast<std::uint32_t>(done[k].status);
-    pieces_.batch[pairs[k]] = static_cast<std::uint32_t>(pieces_.used);
-    pieces_.row[pairs[k]] = 0;
-    if (wants_rows()) pieces_.add_batch() = std::move(done[k].batch);
-  }
+  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
+  const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task, first_batch = pieces_.used;
+  for (std::size_t task = 0; task < tasks; ++task) pieces_.add_batch() = {};
+  List ranks(pairs.size());
+  std::transform(pairs.begin(), pairs.end(), ranks.begin(),
+                 [&](std::uint32_t pair) { return pair_seed_[pair]; });
+  list_near(*host_scene_, ranks, options_.threads);
+  std::vector<double> moments(pairs.size() * count);
+  std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
+  parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
+    std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
+    if (!host) host = HostClipper::make(*host_scene_);
+    const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
+    PieceBatch unwanted, &rows = wants_rows() ? pieces_.batches[first_batch + task] : unwanted;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t pair = pairs[k];
+      const int status = host->clip(pair_seed_[pair], pair_region_[pair],
+                                    std::span(moments).subspan(k * count, count), rows);
+      pieces_.status[pair] = static_cast<std::uint32_t>(status);
+      pieces_.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
+      pieces_.row[pair] = static_cast<std::uint32_t>(k - begin);
+    }
+  });
+  write_moments(pairs, moments);
   statistics_.on_host += pairs.size();
   write_log(LogLevel::detail, [&] { return "pieces finished on the host: " + std::to_string(pairs.size()); });
 }

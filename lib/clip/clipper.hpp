@@ -17,10 +17,10 @@ namespace powercell {
 
 /// What clipping has done so far.
 struct ClipStatistics {
-  std::uint64_t retried = 0;  ///< pairs that went to a larger variant
-  std::uint64_t on_host = 0;  ///< pairs that ended on the host
+  std::uint64_t retried = 0;    ///< pairs that went to a larger variant
+  std::uint64_t on_host = 0;    ///< pairs that ended on the host
   std::uint64_t uncertain = 0;  ///< pairs that rounding may have decided
-  int rounds = 0;             ///< most rounds of candidates that a chunk needed
+  int rounds = 0;               ///< most rounds of candidates that a chunk needed
 };
 
 struct ClipOptions {
@@ -66,7 +66,8 @@ class Clipper {
   List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
   /// Clips `pairs`, ascending, on the host.
   void finish_on_host(const List& pairs);
-  void write_moments(const List& pairs, const std::vector<HostPiece>& done);
+  /// Rows of 2 + dimension moments, one for each of `pairs`, ascending.
+  void write_moments(const List& pairs, std::span<const double> moments);
   bool wants_rows() const;
 
   const Scene& scene_;

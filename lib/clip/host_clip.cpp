@@ -1,19 +1,22 @@
 #include "lib/clip/host_clip.hpp"
 
-#include <string>
+#include "kernels/layout.h"
+#include "lib/seeds/threads.hpp"
 
 namespace powercell {
 
 namespace host_polygon2 {
-HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t);
+std::unique_ptr<HostClipper> make_clipper(const HostScene&);
 void pack_blocks(HostScene&);
+void list_near_leaf(HostScene&, std::uint32_t);
 }  // namespace host_polygon2
 namespace host_polygon3 {
-HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t);
+std::unique_ptr<HostClipper> make_clipper(const HostScene&);
 }
 namespace host_polyhedron {
-HostPiece clip(const HostScene&, std::uint32_t, std::uint32_t, std::size_t);
+std::unique_ptr<HostClipper> make_clipper(const HostScene&);
 void pack_blocks(HostScene&);
+void list_near_leaf(HostScene&, std::uint32_t);
 }  // namespace host_polyhedron
 
 HostScene make_host_scene(const Scene& scene) {
@@ -36,22 +39,29 @@ HostScene make_host_scene(const Scene& scene) {
                  {},
                  {},
                  {}};
-  host.scale = exact_scale(host.points, host.corners);
   mesh.dimension == 3 ? host_polyhedron::pack_blocks(host) : host_polygon2::pack_blocks(host);
   return host;
 }
 
-HostPiece clip_on_host(const HostScene& scene, std::uint32_t rank, std::uint32_t region) {
-  const auto clip = scene.mesh->cell_dimension == 3 ? host_polyhedron::clip
-                    : scene.mesh->dimension == 3    ? host_polygon3::clip
-                                                    : host_polygon2::clip;
-  std::size_t vertices = 256;
-  HostPiece piece = clip(scene, rank, region, vertices);
-  while (piece.status == PIECE_FULL) piece = clip(scene, rank, region, vertices *= 4);
-  if (piece.status != PIECE_TANGLED) return piece;
-  throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank) +
-                                       " of the Hilbert order could not be clipped without contradiction "
-                                       "even on the host; please report the input");
+void list_near(HostScene& scene, std::span<const std::uint32_t> ranks, int threads) {
+  const std::size_t leaves = scene.near_count.size();
+  if (!scene.near) scene.near = std::make_unique_for_overwrite<std::uint32_t[]>(leaves * NEAR_MOST);
+  std::vector<std::uint32_t> homes;
+  for (const std::uint32_t rank : ranks) {
+    const std::uint32_t home = rank / PackedTree::fan;
+    if (scene.near_count[home] == 0 && (homes.empty() || homes.back() != home)) homes.push_back(home);
+  }
+  const auto list =
+      scene.mesh->dimension == 3 ? host_polyhedron::list_near_leaf : host_polygon2::list_near_leaf;
+  parallel_for(threads, homes.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) list(scene, homes[k]);
+  });
+}
+
+std::unique_ptr<HostClipper> HostClipper::make(const HostScene& scene) {
+  return scene.mesh->cell_dimension == 3 ? host_polyhedron::make_clipper(scene)
+         : scene.mesh->dimension == 3    ? host_polygon3::make_clipper(scene)
+                                         : host_polygon2::make_clipper(scene);
 }
 
 }  // namespace powercell

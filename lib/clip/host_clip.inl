@@ -4,10 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include "kernels/layout.h"
 #include "lib/clip/exact_cell.hpp"
 #include "lib/clip/host_clip.hpp"
+#include "lib/clip/seed_marks.hpp"
 
 namespace powercell::HOST_CLIP_SPACE {
 namespace {
@@ -126,19 +128,73 @@ void pack_blocks(HostScene& scene) {
       pack_node_block(tree, node, level, scene.node_block.data());
 }
 
-/// Facet f of the region in whose plane face `face` lies, or -1.
-int facet_of_face(const cell_t& cell, int face, int facets) {
-  const std::vector<int> vertices = vertices_of_face(&cell, face);
-  for (int f = 0; f < facets; ++f) {
-    const certain_plane_t plane = facet_of_region(&cell, f);
-    const auto lies_in = [&](int v) {
-      real s = -plane.plane.w;
-      const real n[3] = {plane.plane.x, plane.plane.y, plane.plane.z};
-      for (int k = 0; k < DIMENSION; ++k) s += n[k] * cell.at.x[k][v];
-      if (fabs(s) > final_error * cell.at.radius + cell.error[v] + plane.doubt) return false;
-      return cell.exact->lies_in_facet(vertex_planes(&cell, v), f);
+void list_near_leaf(HostScene& scene, std::uint32_t leaf) {
+  const blocks_t blocks = {scene.seed_block.data(), scene.node_block.data(), nullptr, nullptr, nullptr};
+  scene.near_count[leaf] = find_near(tree_of(scene), blocks, leaf, &scene.near[std::size_t{leaf} * NEAR_MOST],
+                                     &scene.near_bound[leaf]);
+}
+
+namespace {
+
+/// What a piece leaves, in arrays with room for more.
+struct Row {
+  std::vector<int> border;
+  std::vector<real> wall, vertex;
+  std::vector<uint> link;
+  uint faces = 0, vertices = 0;
+
+  explicit Row(std::size_t capacity)
+      : border(capacity), wall(capacity), vertex(capacity * DIMENSION), link(capacity * 6) {}
+  void append_to(PieceBatch& batch) const {
+    const auto add = [](auto& to, const auto& from, std::size_t count) {
+      to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
     };
-    if (std::all_of(vertices.begin(), vertices.end(), lies_in)) return f;
+    if (batch.face_offset.empty()) batch.face_offset = batch.vertex_offset = {0};
+    batch.face_offset.push_back(batch.face_offset.back() + faces);
+    batch.vertex_offset.push_back(batch.vertex_offset.back() + vertices);
+    add(batch.border, border, faces);
+    add(batch.wall, wall, faces);
+    add(batch.vertex, vertex, vertices * DIMENSION);
+    add(batch.link, link, vertices * 6);
+  }
+};
+
+/// A facet of the region that some vertex of the cell may lie in.
+struct NearFacet {
+  int facet;
+  certain_plane_t plane;
+  bool may_hold(const cell_t& cell, int v) const {
+    real s = -plane.plane.w;
+    const real n[3] = {plane.plane.x, plane.plane.y, plane.plane.z};
+    for (int k = 0; k < DIMENSION; ++k) s += n[k] * cell.at.x[k][v];
+    return fabs(s) <= final_error * cell.at.radius + cell.error[v] + plane.doubt;
+  }
+};
+
+std::vector<NearFacet> near_facets(const cell_t& cell, int facets) {
+  std::vector<NearFacet> near;
+  for (int f = 0; f < facets; ++f) {
+    const NearFacet facet{f, facet_of_region(&cell, f)};
+    bool any = false;
+    for (int w = 0; w < words_of(&cell.at); ++w)
+      for (ulong bits = cell.at.used[w]; bits != 0 && !any; bits &= bits - 1)
+        any = facet.may_hold(cell, w * WORD_BITS + lowest_bit(bits));
+    if (any) near.push_back(facet);
+  }
+  return near;
+}
+
+/// The facet in whose plane face `face` lies, or -1.
+int facet_of_face(const cell_t& cell, int face, const std::vector<NearFacet>& near) {
+  for (const NearFacet& facet : near) {
+    bool within = true;
+    for (int w = 0; w < words_of(&cell.at); ++w)
+      for (ulong bits = cell.at.used[w]; bits != 0 && within; bits &= bits - 1) {
+        const int v = w * WORD_BITS + lowest_bit(bits);
+        within = !is_on_face(&cell, v, face) ||
+                 (facet.may_hold(cell, v) && cell.exact->lies_in(vertex_planes(&cell, v), ~facet.facet));
+      }
+    if (within) return facet.facet;
   }
   return -1;
 }
@@ -153,21 +209,28 @@ int border_in_facet(const cell_t& cell, int border, int f, bool flat) {
   return cell.exact->is_corner_outside(static_cast<uint>(behind), border) != flat ? border : ~f;
 }
 
-void settle_walls_in_facets(const cell_t& cell, int facets, bool flat, PieceBatch& batch) {
+void settle_walls_in_facets(const cell_t& cell, int facets, bool flat, Row& row) {
+  const std::vector<NearFacet> near = near_facets(cell, facets);
+  if (near.empty()) return;
   int face = first_face(cell);
-  for (std::size_t k = 0; k < batch.border.size(); ++k, face = after_face(cell, face)) {
-    if (batch.border[k] < 0 || batch.wall[k] == 0) continue;
-    const int f = facet_of_face(cell, face, facets);
-    if (f >= 0) batch.border[k] = border_in_facet(cell, batch.border[k], f, flat);
+  for (std::size_t k = 0; k < row.faces; ++k, face = after_face(cell, face)) {
+    if (row.border[k] < 0 || row.wall[k] == 0) continue;
+    const int f = facet_of_face(cell, face, near);
+    if (f >= 0) row.border[k] = border_in_facet(cell, row.border[k], f, flat);
   }
 }
 
-/// Walls whose measure is 0 without the infinitesimals of ties measure 0, to the bit.
-void clear_degenerate_walls(const cell_t& cell, PieceBatch& batch) {
+/// Of what is plainly a wall: far below rounding, far above the least number.
+constexpr real next_to_nothing = 1e-50;
+
+/// Walls whose measure is 0 without the infinitesimals of ties measure 0, to the bit, and no others: what rounding made
+/// nothing measures next to nothing.
+void settle_small_walls(const cell_t& cell, Row& row) {
   const real plain = plainly_solid * (CELL_DIMENSION == 3 ? cell.at.radius * cell.at.radius : cell.at.radius);
   int face = first_face(cell);
-  for (std::size_t k = 0; k < batch.wall.size(); ++k) {
-    if (!(batch.wall[k] > plain) && is_degenerate(&cell, face, CELL_DIMENSION - 1)) batch.wall[k] = 0;
+  for (std::size_t k = 0; k < row.faces; ++k) {
+    if (!(row.wall[k] > plain))
+      row.wall[k] = is_degenerate_wall(&cell, face) ? 0 : fmax(row.wall[k], next_to_nothing * plain);
     face = after_face(cell, face);
   }
 }
@@ -193,63 +256,85 @@ int cut_by_nearest(cell_t* cell, tree_t tree, std::uint32_t rank) {
   return CUT_NONE;
 }
 
-/// The first `count` values alone, in memory for no more: a chunk may hold very many such rows.
-template <class T>
-void keep(std::vector<T>& values, std::size_t count) {
-  values = std::vector<T>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
-}
-
-bool has_wall(const PieceBatch& batch) {
-  for (std::size_t k = 0; k < batch.border.size(); ++k)
-    if (batch.border[k] >= 0 && batch.wall[k] > 0) return true;
+bool has_wall(const Row& row) {
+  for (std::size_t k = 0; k < row.faces; ++k)
+    if (row.border[k] >= 0 && row.wall[k] > 0) return true;
   return false;
 }
 
-/// One try with a capacity; the status may be PIECE_FULL.
-HostPiece clip(const HostScene& scene, std::uint32_t rank, std::uint32_t region, std::size_t vertices) {
-  HostPiece piece;
-  GrowingCell room(vertices);
-  cell_t& cell = room.cell;
-  const std::unique_ptr<ExactCell> exact = ExactCell::make(scene, rank, region);
-  cell.exact = exact.get();
-  const tree_t tree = tree_of(scene);
-  const blocks_t blocks = {scene.seed_block.data(), scene.node_block.data(), nullptr, scene.near_count.data(),
-                           scene.near_bound.data()};
-  PieceBatch& batch = piece.batch;
-  batch.face_offset = batch.vertex_offset = {0, 0};
-  batch.border.resize(vertices);
-  batch.wall.resize(vertices);
-  batch.vertex.resize(vertices * DIMENSION);
-  batch.link.resize(vertices * 6);
-  piece.moments.resize(2 + DIMENSION);
-  const output_t out = {piece.moments.data(), &batch.face_offset[1],   batch.border.data(),
-                        batch.wall.data(),    &batch.vertex_offset[1], batch.vertex.data(),
-                        batch.link.data()};
-  const regions_t regions = {as_seeds(scene.corners), scene.mesh->region_offset.data(),
-                             scene.mesh->region_vertex.data(), scene.behind.data(), &scene.shape};
-  int status = cell_start(&cell, regions, tree.seeds, rank, region);
-  host_start(&cell);
-  if (status == PIECE_WHOLE) {
-    const int cut = cut_by_nearest(&cell, tree, rank);
-    status = cut > CUT_SHRUNK ? piece_status(cut) : clip_by_tree(&cell, tree, blocks, rank);
-  }
-  piece.status = write_piece(&cell, out, status, 0, 0) & ~PIECE_UNCERTAIN;
-  keep(batch.border, batch.faces(0));
-  keep(batch.wall, batch.faces(0));
-  keep(batch.vertex, batch.vertices(0) * DIMENSION);
-  keep(batch.link, batch.vertices(0) * 6);
-  if (piece.status == PIECE_WHOLE || piece.status == PIECE_FLAT) {
-    const int facets = CELL_DIMENSION == 3
-                           ? scene.shape.faces
-                           : static_cast<int>(regions.offset[region + 1] - regions.offset[region]);
-    clear_degenerate_walls(cell, batch);
-    settle_walls_in_facets(cell, facets, piece.status == PIECE_FLAT, batch);
-    if (piece.status == PIECE_FLAT && !has_wall(batch)) {
-      piece.status = PIECE_EMPTY;
-      batch = PieceBatch{{0, 0}, {}, {}, {0, 0}, {}, {}};
+class Clipper final : public HostClipper {
+ public:
+  explicit Clipper(const HostScene& scene)
+      : scene_(scene), tree_(tree_of(scene)), exact_(scene), room_(least_room), row_(least_room) {}
+
+  int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) override {
+    int status = clip_within(room_, row_, rank, region, moments.data());
+    if (status == PIECE_FULL) {  // room that few need, not kept: what a cell leaves does not depend on those before
+      std::size_t vertices = least_room;
+      while (status == PIECE_FULL) {
+        vertices *= 4;
+        GrowingCell room(vertices);
+        Row row(vertices);
+        status = clip_within(room, row, rank, region, moments.data());
+        if (status != PIECE_FULL) row.append_to(rows);
+      }
+    } else {
+      row_.append_to(rows);
     }
+    if (status != PIECE_TANGLED) return status;
+    throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank) +
+                                         " of the Hilbert order could not be clipped without contradiction "
+                                         "even on the host; please report the input");
   }
-  return piece;
+
+ private:
+  static constexpr std::size_t least_room = 256;
+
+  /// One try with a capacity; the status may be PIECE_FULL or PIECE_TANGLED.
+  int clip_within(GrowingCell& room, Row& row, std::uint32_t rank, std::uint32_t region, real* moments) {
+    cell_t& cell = room.cell;
+    exact_.start(rank, region);
+    tried_.clear();
+    cell.exact = &exact_;
+    cell.tried = &tried_;
+    const blocks_t blocks = {scene_.seed_block.data(), scene_.node_block.data(), scene_.near.get(),
+                             scene_.near_count.data(), scene_.near_bound.data()};
+    row.faces = row.vertices = 0;
+    const output_t out = {moments,      &row.faces,        row.border.data(), row.wall.data(),
+                          &row.vertices, row.vertex.data(), row.link.data()};
+    const regions_t regions = {as_seeds(scene_.corners), scene_.mesh->region_offset.data(),
+                               scene_.mesh->region_vertex.data(), scene_.behind.data(), &scene_.shape};
+    int status = cell_start(&cell, regions, tree_.seeds, rank, region);
+    if (status == PIECE_WHOLE) {
+      host_start(&cell);
+      const bool listed = scene_.near_count[rank / TREE_FAN] > 0;
+      const int cut = listed ? CUT_NONE : cut_by_nearest(&cell, tree_, rank);
+      status = cut > CUT_SHRUNK ? piece_status(cut) : clip_by_tree(&cell, tree_, blocks, rank);
+    }
+    status = write_piece(&cell, out, status, 0, 0) & ~PIECE_UNCERTAIN;
+    if (status != PIECE_WHOLE && status != PIECE_FLAT) return status;
+    const int facets = CELL_DIMENSION == 3
+                           ? scene_.shape.faces
+                           : static_cast<int>(regions.offset[region + 1] - regions.offset[region]);
+    settle_small_walls(cell, row);
+    settle_walls_in_facets(cell, facets, status == PIECE_FLAT, row);
+    if (status == PIECE_WHOLE || has_wall(row)) return status;
+    row.faces = row.vertices = 0;
+    return PIECE_EMPTY;
+  }
+
+  const HostScene& scene_;
+  tree_t tree_;
+  ExactCell exact_;
+  SeedMarks tried_;
+  GrowingCell room_;
+  Row row_;
+};
+
+}  // namespace
+
+std::unique_ptr<HostClipper> make_clipper(const HostScene& scene) {
+  return std::make_unique<Clipper>(scene);
 }
 
 }  // namespace powercell::HOST_CLIP_SPACE

@@ -71,10 +71,15 @@ real host_tolerance(const Cell* cell, real sum, real q2, real dw) {
   return plane_error(&cell->at, sum, q2, dw) + 2 * sum * cell->worst_error;
 }
 
-/// Which vertices are outside the bisector with `border`, by side[] or exactly: none is in it.
+/// Which vertices are outside the bisector with `border`, by side[] or exactly: none is in it. A bisector
+/// that was tried before cannot cut any more.
 template <class Cell>
 int host_sides(Cell* cell, int border, int* vertices, int* inside) {
   vertices_t* const p = &cell->at;
+  if (!cell->tried->insert(border)) {
+    *vertices = *inside = 1;
+    return 0;
+  }
   find_radius2(p);
   const seed_t seed = p->seeds[p->self], other = p->seeds[border];
   real q[DIMENSION], sum = 0;
@@ -111,30 +116,89 @@ bool host_finish(Cell* cell) {
 /// Of faces or cells this part of the square or cube of the radius large, the dimension is not in doubt.
 constexpr real plainly_solid = 1e-9;
 
-/// The vertices of face f (an edge of a polygon), or of the cell for f = -1.
+/// Whether the ends of an edge are one point without the infinitesimals of ties: then the plane that u has
+/// and v does not have holds v too.
 template <class Cell>
-std::vector<int> vertices_of_face(const Cell* cell, int f) {
-  std::vector<int> vertices;
+bool coincide(const Cell* cell, int v, int u) {
+  real distance = 0;
+  for (int k = 0; k < DIMENSION; ++k) distance = fmax(distance, fabs(cell->at.x[k][v] - cell->at.x[k][u]));
+  if (distance > 2 * (cell->error[v] + cell->error[u])) return false;
+  const ExactVertex here = vertex_planes(cell, v), there = vertex_planes(cell, u);
+  const auto end = here.begin() + CELL_DIMENSION;
+  const auto* other = std::find_if(there.begin(), there.begin() + CELL_DIMENSION - 1,
+                                   [&](int border) { return std::find(here.begin(), end, border) == end; });
+  return cell->exact->lies_in(here, *other);
+}
+
+/// Calls use(v, u, border) for the edges from v to u of face f, or of a polygon (f does not count), each in
+/// the plane of `border`, while it returns true; whether all did.
+template <class Cell, class Use>
+bool all_edges(const Cell* cell, int f, const Use& use) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      bool on = f < 0;
       if constexpr (requires { cell->previous; }) {
-        on = on || v == f || static_cast<int>(cell->previous[v]) == f;
+        if (!use(v, static_cast<int>(cell->next[v]), cell->border[v])) return false;
       } else {
-        for (const auto& face : cell->face) on = on || static_cast<int>(face[v]) == f;
+        for (int k = 0; k < 3; ++k)
+          if (static_cast<int>(cell->face[k][v]) == f &&
+              !use(v, static_cast<int>(cell->next[k][v]), cell->border[cell->face[k == 0 ? 2 : k - 1][v]]))
+            return false;
       }
-      if (on) vertices.push_back(v);
     }
-  return vertices;
+  return true;
 }
 
-/// Whether those vertices span less than `dimension`.
+/// Whether a face, or a polygon, has no area without the infinitesimals: all edges with a length are
+/// parallel.
 template <class Cell>
-bool is_degenerate(const Cell* cell, int f, int dimension) {
-  std::vector<ExactVertex> vertices;
-  for (const int v : vertices_of_face(cell, f)) vertices.push_back(vertex_planes(cell, v));
-  return cell->exact->hull_dimension(vertices) < dimension;
+bool has_no_area(const Cell* cell, int f) {
+  const int face = CELL_DIMENSION == 3 ? cell->border[f] : 0;
+  int first = 0;
+  bool any = false;
+  return all_edges(cell, f, [&](int v, int u, int border) {
+    if (coincide(cell, v, u)) return true;
+    if (any) return cell->exact->are_parallel(face, first, border);
+    any = true;
+    first = border;
+    return true;
+  });
+}
+
+/// Whether the wall that is face f, or edge f of a polygon, measures nothing without the infinitesimals.
+template <class Cell>
+bool is_degenerate_wall(const Cell* cell, int f) {
+  if constexpr (requires { cell->previous; })
+    return coincide(cell, f, static_cast<int>(cell->next[f]));
+  else
+    return has_no_area(cell, f);
+}
+
+/// Whether the cell measures nothing without the infinitesimals.
+template <class Cell>
+bool is_degenerate_cell(const Cell* cell) {
+  if constexpr (requires { cell->previous; }) {
+    return has_no_area(cell, 0);
+  } else {
+    for (int f = 0; f < cell_faces(cell); ++f) {
+      if (has_no_area(cell, f)) continue;
+      for (int w = 0; w < words_of(&cell->at); ++w)
+        for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1)
+          if (!cell->exact->lies_in(vertex_planes(cell, w * WORD_BITS + lowest_bit(bits)), cell->border[f]))
+            return false;
+    }
+    return true;
+  }
+}
+
+/// Whether vertex v is an end of face f, or of edge f of a polygon.
+template <class Cell>
+bool is_on_face(const Cell* cell, int v, int f) {
+  if constexpr (requires { cell->previous; })
+    return v == f || static_cast<int>(cell->previous[v]) == f;
+  else
+    return static_cast<int>(cell->face[0][v]) == f || static_cast<int>(cell->face[1][v]) == f ||
+           static_cast<int>(cell->face[2][v]) == f;
 }
 
 /// Faces in the order in which they are written; edges go around the ring.
@@ -164,7 +228,7 @@ template <class Cell>
 bool host_is_flat(const Cell* cell, real* moments) {
   const real r = cell->at.radius;
   if (moments[0] > plainly_solid * (CELL_DIMENSION == 3 ? r * r * r : r * r)) return false;
-  if (is_degenerate(cell, -1, CELL_DIMENSION)) return true;
+  if (is_degenerate_cell(cell)) return true;
   const real noise = 64 * REAL_EPSILON * (CELL_DIMENSION == 3 ? r * r * r : r * r);
   if (moments[0] > noise) return false;
   moments[0] = fmax(moments[0], std::numeric_limits<real>::min());

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <powercell/diagram.hpp>
 #include <powercell/triangulation.hpp>
 
@@ -71,22 +73,30 @@ class OuterCells {
       if (leaves[seeds_.input[rank]]) reach(rank, front);
     }
     while (!front.empty()) {
-      std::vector<HostPiece> pieces(front.size());
+      std::vector<Piece> pieces(front.size());
       parallel_for(threads_, front.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) pieces[k] = clip_on_host(host_, front[k], 0);
+        const std::unique_ptr<HostClipper> clipper = HostClipper::make(host_);
+        std::array<double, 5> moments;
+        for (std::size_t k = begin; k < end; ++k)
+          pieces[k].status = clipper->clip(front[k], 0, moments, pieces[k].row);
       });
       std::vector<std::uint32_t> next;
       for (std::size_t k = 0; k < front.size(); ++k) {
         if (pieces[k].status == PIECE_EMPTY) continue;
-        for (const std::int32_t border : pieces[k].batch.border)
+        for (const std::int32_t border : pieces[k].row.border)
           if (border >= 0) reach(static_cast<std::uint32_t>(border), next);
-        add_corners(front[k], pieces[k].batch, rows);
+        add_corners(front[k], pieces[k].row, rows);
       }
       front = std::move(next);
     }
   }
 
  private:
+  struct Piece {
+    int status;
+    PieceBatch row;
+  };
+
   void reach(std::uint32_t rank, std::vector<std::uint32_t>& front) {
     if (known_[rank]) return;
     known_[rank] = true;

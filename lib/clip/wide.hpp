@@ -1,0 +1,142 @@
+/// \file
+/// Integers of a fixed number of limbs, for decisions that are made by the million: no allocation, no loop
+/// that the compiler does not unroll, and products as long as they need to be.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace powercell {
+
+__extension__ using Limbs2 = unsigned __int128;
+__extension__ using SignedLimbs2 = __int128;
+
+/// In two's complement, the least limb first. Sums and differences must fit; products always do.
+template <int n>
+struct Wide {
+  std::array<std::uint64_t, n> limb{};
+
+  static constexpr int limbs = n;
+  bool negative() const { return limb[n - 1] >> 63 != 0; }
+  int sign() const {
+    std::uint64_t any = 0;
+    for (const std::uint64_t part : limb) any |= part;
+    return negative() ? -1 : any != 0;
+  }
+  /// With m limbs: those left out repeat the sign.
+  template <int m>
+  Wide<m> resized() const {
+    Wide<m> x;
+    for (int k = 0; k < m; ++k)
+      x.limb[static_cast<std::size_t>(k)] =
+          k < n ? limb[static_cast<std::size_t>(k)] : (negative() ? ~std::uint64_t{0} : 0);
+    return x;
+  }
+};
+
+inline SignedLimbs2 as_number(const Wide<2>& x) {
+  return static_cast<SignedLimbs2>(static_cast<Limbs2>(x.limb[1]) << 64 | x.limb[0]);
+}
+inline Wide<2> as_wide(SignedLimbs2 x) {
+  return {{static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(static_cast<Limbs2>(x) >> 64)}};
+}
+
+template <int n>
+inline Wide<n> operator+(const Wide<n>& a, const Wide<n>& b) {
+  if constexpr (n == 2) return as_wide(as_number(a) + as_number(b));
+  Wide<n> sum;
+  Limbs2 carry = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    carry += static_cast<Limbs2>(a.limb[k]) + b.limb[k];
+    sum.limb[k] = static_cast<std::uint64_t>(carry);
+    carry >>= 64;
+  }
+  return sum;
+}
+
+template <int n>
+inline Wide<n> operator-(const Wide<n>& a, const Wide<n>& b) {
+  if constexpr (n == 2) return as_wide(as_number(a) - as_number(b));
+  Wide<n> difference;
+  std::uint64_t borrow = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Limbs2 part = static_cast<Limbs2>(a.limb[k]) - b.limb[k] - borrow;
+    difference.limb[k] = static_cast<std::uint64_t>(part);
+    borrow = static_cast<std::uint64_t>(part >> 64) & 1;
+  }
+  return difference;
+}
+
+template <int n>
+inline Wide<n> operator-(const Wide<n>& a) {
+  return Wide<n>{} - a;
+}
+
+template <int n, int m>
+inline Wide<n + m> operator*(const Wide<n>& a, const Wide<m>& b) {
+  Wide<n + m> product;
+  if constexpr (n == 1 && m == 1) {
+    return as_wide(static_cast<SignedLimbs2>(static_cast<std::int64_t>(a.limb[0])) *
+                   static_cast<std::int64_t>(b.limb[0]));
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      std::uint64_t carry = 0;
+      for (std::size_t j = 0; j < m; ++j) {
+        const Limbs2 part = static_cast<Limbs2>(a.limb[i]) * b.limb[j] + product.limb[i + j] + carry;
+        product.limb[i + j] = static_cast<std::uint64_t>(part);
+        carry = static_cast<std::uint64_t>(part >> 64);
+      }
+      product.limb[i + m] = carry;
+    }
+    // As if unsigned so far: a negative factor counted as itself plus 2^64n.
+    const auto take = [&](const auto& x, std::size_t from, bool negative) {
+      const std::uint64_t mask = negative ? ~std::uint64_t{0} : 0;
+      std::uint64_t borrow = 0;
+      for (std::size_t k = 0; k < x.limb.size(); ++k) {
+        const Limbs2 part = static_cast<Limbs2>(product.limb[from + k]) - (x.limb[k] & mask) - borrow;
+        product.limb[from + k] = static_cast<std::uint64_t>(part);
+        borrow = static_cast<std::uint64_t>(part >> 64) & 1;
+      }
+    };
+    take(b, n, a.negative());
+    take(a, m, b.negative());
+  }
+  return product;
+}
+
+/// a.b where |a_k| <= 2^61: then the sums of the products with the lower limbs fit two limbs.
+inline Wide<3> dot_of(const std::array<Wide<1>, 3>& a, const std::array<Wide<2>, 3>& b) {
+  SignedLimbs2 low = 0, high = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto factor = static_cast<SignedLimbs2>(static_cast<std::int64_t>(a[k].limb[0]));
+    low += factor * static_cast<SignedLimbs2>(b[k].limb[0]);
+    high += factor * static_cast<std::int64_t>(b[k].limb[1]);
+  }
+  const Wide<2> top = as_wide(high + (low >> 64));
+  return {{static_cast<std::uint64_t>(low), top.limb[0], top.limb[1]}};
+}
+
+/// x = fraction 2^exponent nearly, |fraction| in [2^63, 2^64] or 0.
+struct Scaled {
+  long double fraction;
+  int exponent;
+};
+template <int n>
+inline Scaled scaled(const Wide<n>& x) {
+  const bool negative = x.negative();
+  const Wide<n> size = negative ? -x : x;
+  for (std::size_t k = n; k-- > 0;) {
+    if (size.limb[k] == 0) continue;
+    const int shift = std::countl_zero(size.limb[k]);
+    std::uint64_t top = size.limb[k] << shift;
+    if (shift > 0 && k > 0) top |= size.limb[k - 1] >> (64 - shift);
+    const auto fraction = static_cast<long double>(top);
+    return {negative ? -fraction : fraction, static_cast<int>(64 * k) - shift};
+  }
+  return {0, 0};
+}
+
+}  // namespace powercell
