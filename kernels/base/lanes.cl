@@ -44,6 +44,10 @@ static inline real8 least8(real8 a, real8 b) { return select(a, b, b < a); }
 static inline real8 most8(real8 a, real8 b) { return select(a, b, a < b); }
 static inline real8 size8(real8 a) { return fabs(a); }
 
+/* Without a branch; b where a is NaN. */
+static inline real least_of(real a, real b) { return a < b ? a : b; }
+static inline real most_of(real a, real b) { return a > b ? a : b; }
+
 static inline real lane_most(real8 a) {
   const real4 b = select(a.lo, a.hi, a.lo < a.hi);
   const real2 c = select(b.lo, b.hi, b.lo < b.hi);
@@ -75,7 +79,10 @@ static inline real8 with_lane(real8 a, uint lane, real x) {
 
 static inline real8 load8(const real* at) { return vload8(0, at); }
 static inline real8 load8_stored(__global const stored_real* at) { return vload8(0, at); }
-static inline void store8(real8 a, real* at) { vstore8(a, 0, at); }
+typedef struct __attribute__((packed, aligned(REAL_BITS / 8))) {
+  real8 lanes;
+} loose8_t;
+static inline void store8(real8 a, real* at) { ((loose8_t*)at)->lanes = a; }
 
 /* Numbers that carry a small index in their lowest bits, so that the least of many tells whose it is. */
 #define TAG_BITS 9

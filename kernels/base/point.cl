@@ -74,7 +74,7 @@ static inline bool is_dead(const parts_t* p) { return p->high[3] <= DEAD_WEIGHT;
 
 static inline bool same_position(const parts_t* a, const parts_t* b) {
   bool same = true;
-  for (int k = 0; k < DIMENSION; ++k) same = same && a->high[k] == b->high[k] && a->low[k] == b->low[k];
+  UNROLL for (int k = 0; k < DIMENSION; ++k) same = same && a->high[k] == b->high[k] && a->low[k] == b->low[k];
   return same;
 }
 
@@ -82,7 +82,7 @@ static inline bool same_position(const parts_t* a, const parts_t* b) {
 static inline seed_t middle_of(seed_t low, seed_t high) {
   const parts_t a = parts_of(low), b = parts_of(high);
   parts_t middle = {{0, 0, 0, 0}, {0, 0, 0, 0}};
-  for (int k = 0; k < DIMENSION; ++k) middle.high[k] = a.high[k] + (b.high[k] - a.high[k]) / 2;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) middle.high[k] = a.high[k] + (b.high[k] - a.high[k]) / 2;
   return seed_of(middle);
 }
 

@@ -19,8 +19,11 @@
 #define OUTPUTS 7
 #endif
 
+/* UNROLL goes before loops over a few coordinates. Compilers that do not unroll on their own (PoCL's) would keep what is
+   indexed in memory; others may ignore it. */
 #ifdef __cplusplus
 
+#define UNROLL
 #define __global
 #define __kernel
 typedef double real;
@@ -48,6 +51,7 @@ typedef struct {
 #else
 
 #pragma OPENCL FP_CONTRACT OFF
+#define UNROLL _Pragma("unroll")
 #ifndef VERTEX_CAPACITY
 #define VERTEX_CAPACITY 64
 #endif
@@ -120,7 +124,7 @@ static inline real weight_blur(seed_t p) { return 0 * p.w; }
 
 static inline real norm2(const real* d) {
   real s = d[0] * d[0];
-  for (int k = 1; k < DIMENSION; ++k) s += d[k] * d[k];
+  UNROLL for (int k = 1; k < DIMENSION; ++k) s += d[k] * d[k];
   return s;
 }
 

@@ -20,7 +20,7 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
   if (DIMENSION == CELL_DIMENSION) return border;
   difference(cell->at.corner[behind], seed, p);
   real s = -level;
-  for (int k = 0; k < DIMENSION; ++k) s += 2 * q[k] * p[k];
+  UNROLL for (int k = 0; k < DIMENSION; ++k) s += 2 * q[k] * p[k];
   return s > tolerance || (s >= -tolerance && (uint)border < cell->at.self) ? border : old;
 }
 
@@ -28,7 +28,7 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
    The cell is no longer usable. */
 static inline real outside_gap(cell_t* cell, const real* q, real level, real sum, real error) {
   real normal[DIMENSION];
-  for (int k = 0; k < DIMENSION; ++k) normal[k] = -q[k];
+  UNROLL for (int k = 0; k < DIMENSION; ++k) normal[k] = -q[k];
   find_sides(&cell->at, normal, -level); /* free slots hold 0, which may be on the other side */
   const real gap = (-most_of_used(&cell->at) - error) / (2 * sum);
   if (!(gap > 0)) return -1;
@@ -41,7 +41,7 @@ static inline real outside_gap(cell_t* cell, const real* q, real level, real sum
 static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
   real q[DIMENSION], sum = 0;
   difference(other, seed, q);
-  for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
   const real q2 = norm2(q), dw = weight_difference(seed, other);
   cell->at.size2 = 4 * q2;
   const real tolerance = SIDE_TOLERANCE(cell, sum, q2, dw);

@@ -14,10 +14,10 @@ static inline uint walls_that_cut(const cell_t* cell, __global const seed_t* see
   for (uint lane = 0; lane < LANES; ++lane) {
     const seed_t other = seeds[neighbor[min(lane, count - 1)]];
     difference(other, seed, d);
-    for (int k = 0; k < DIMENSION; ++k) row[k][lane] = d[k];
+    UNROLL for (int k = 0; k < DIMENSION; ++k) row[k][lane] = d[k];
     row[DIMENSION][lane] = weight_difference(seed, other);
   }
-  for (int k = 0; k < DIMENSION; ++k) q[k] = load8(row[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = load8(row[k]);
   find_box(&cell->at, low, high);
   const uint bits = lane_bits(seeds_may_cut(q, load8(row[DIMENSION]), low, high));
   return count < LANES ? bits & ((1u << count) - 1) : bits;

@@ -35,10 +35,10 @@ static inline void note_drift(vertices_t* p) { p->drift += 2 * REAL_EPSILON * p-
 
 /* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after count_sides. */
 static inline void note_cut(vertices_t* p, real sum, real error) {
-  const real clear = p->nearest - error;
-  if (clear < 2 * sum * p->clear) p->clear = clear / (2 * sum);
+  const real scale = 1 / (2 * sum), clear = (p->nearest - error) * scale;
   error += 12 * REAL_EPSILON * sum * p->radius; /* of the ratio in set_edge_point */
-  if (error > 2 * sum * p->rounding) p->rounding = error / (2 * sum);
+  p->clear = least_of(clear, p->clear);
+  p->rounding = most_of(error * scale, p->rounding);
 }
 
 /* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything on the
@@ -53,7 +53,7 @@ static inline bool quickly_certain(const vertices_t* p) {
 /* Notes how near a plane 2 q.y = level that cuts nothing comes to the vertices, after find_sides. */
 static inline void note_gap(vertices_t* p, real sum, real level, real error) {
   const real clear = -(level < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -level */
-  if (clear < 2 * sum * p->gap) p->gap = clear / (2 * sum);
+  p->gap = least_of(clear / (2 * sum), p->gap);
 }
 
 /* The same for the plane of a face that has gone, whatever it is the plane of: 2 q.y = level. */

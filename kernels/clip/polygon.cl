@@ -96,14 +96,11 @@ static inline bool find_run(const cell_t* cell, int* first, int* last) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.outside[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      if (!is_outside(&cell->at, cell->previous[v])) {
-        *first = v;
-        ++firsts;
-      }
-      if (!is_outside(&cell->at, cell->next[v])) {
-        *last = v;
-        ++lasts;
-      }
+      const bool begins = !is_outside(&cell->at, cell->previous[v]), ends = !is_outside(&cell->at, cell->next[v]);
+      *first = begins ? v : *first;
+      *last = ends ? v : *last;
+      firsts += begins;
+      lasts += ends;
     }
   return firsts == 1 && lasts == 1;
 }
@@ -161,7 +158,7 @@ static inline real place_vertex(cell_t* cell, int v, certain_plane_t ground) {
   const real x[3] = {y.x, y.y, y.z};
   real moved = y.w;
   if (y.w < 0) return -1;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     moved += fabs(x[k] - cell->at.x[k][v]);
     cell->at.x[k][v] = x[k];
   }
@@ -202,7 +199,7 @@ static inline real cell_certain(cell_t* cell) {
 /* Adds the integrals of 1, y and |y|^2 over triangle (a, b, c) to `moments` (docs/mathematics.md (13)). */
 static inline void triangle_moments(const cell_t* cell, int a, int b, int c, real* moments) {
   real u[DIMENSION], v[DIMENSION], sum2 = 0, squares = 0;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     u[k] = cell->at.x[k][b] - cell->at.x[k][a];
     v[k] = cell->at.x[k][c] - cell->at.x[k][a];
   }
@@ -214,7 +211,7 @@ static inline void triangle_moments(const cell_t* cell, int a, int b, int c, rea
   }
   area *= (real)0.5;
   moments[0] += area;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real p = cell->at.x[k][a], q = cell->at.x[k][b], r = cell->at.x[k][c], sum = p + q + r;
     moments[1 + k] += area * sum / 3;
     sum2 += sum * sum;
@@ -239,7 +236,7 @@ static inline bool cell_goes_on(const cell_t* cell) {
 }
 
 static inline void cell_moments(const cell_t* cell, real* moments) {
-  for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   const int first = cell->first;
   for (int v = cell->next[first], w = cell->next[v]; w != first; v = w, w = cell->next[v])
     triangle_moments(cell, first, v, w, moments);
@@ -253,7 +250,7 @@ static inline int cell_write_walls(cell_t* cell, __global int* border, __global 
     const int next = cell->next[v];
     if ((OUTPUTS & OUTPUT_GEOMETRY) || cell->border[v] >= 0) {
       real d[DIMENSION];
-      for (int k = 0; k < DIMENSION; ++k) d[k] = cell->at.x[k][next] - cell->at.x[k][v];
+      UNROLL for (int k = 0; k < DIMENSION; ++k) d[k] = cell->at.x[k][next] - cell->at.x[k][v];
       border[count] = cell->border[v];
       wall[count++] = (stored_real)sqrt(norm2(d));
     }
@@ -267,7 +264,7 @@ static inline int cell_write_vertices(cell_t* cell, __global stored_real* vertex
   (void)link;
   int count = 0, v = cell->first;
   do {
-    for (int k = 0; k < DIMENSION; ++k) vertex[count * DIMENSION + k] = (stored_real)cell->at.x[k][v];
+    UNROLL for (int k = 0; k < DIMENSION; ++k) vertex[count * DIMENSION + k] = (stored_real)cell->at.x[k][v];
     ++count;
     v = cell->next[v];
   } while (v != cell->first);

@@ -28,7 +28,7 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   start_vertices(&cell->at, regions, seeds, self, regions.vertex + first, regions.behind + region * (uint)cell->faces);
   for (int v = 0; v < regions.shape->vertices; ++v) {
     set_corner(&cell->at, v, regions.corner[regions.vertex[first + (uint)v]]);
-    for (int k = 0; k < 3; ++k) {
+    UNROLL for (int k = 0; k < 3; ++k) {
       cell->next[k][v] = (index_t)regions.shape->next[k][v];
       cell->face[k][v] = (index_t)regions.shape->face[k][v];
     }
@@ -72,7 +72,7 @@ static inline void forget_face(cell_t* cell, int f) {
 static inline void collect_faces(cell_t* cell, bool note) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1)
-      for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][w * WORD_BITS + lowest_bit(bits)]] = 0;
+      UNROLL for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][w * WORD_BITS + lowest_bit(bits)]] = 0;
   int used = 0;
   for (int f = 0; f < cell->faces; ++f)
     if (cell->mark[f] == NO_VERTEX) {
@@ -85,7 +85,7 @@ static inline void collect_faces(cell_t* cell, bool note) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      for (int k = 0; k < 3; ++k) cell->face[k][v] = cell->mark[cell->face[k][v]];
+      UNROLL for (int k = 0; k < 3; ++k) cell->face[k][v] = cell->mark[cell->face[k][v]];
     }
   for (int f = 0; f < cell->faces; ++f) cell->mark[f] = NO_VERTEX;
   cell->faces = used;
@@ -130,21 +130,34 @@ static inline int link_cut(cell_t* cell, int first, int count) {
   return length == count && count >= 3 ? CUT_SHRUNK : CUT_TANGLED;
 }
 
+/* Lists the edges from vertices of word w outside to others, as slot within the word times 4 plus k; returns their
+   number. Which edges these are is anybody's guess, so there is no branch to be taken wrong. */
+static inline int list_cut_edges(const cell_t* cell, int w, uchar* edge) {
+  int count = 0;
+  for (ulong bits = cell->at.outside[w]; bits != 0; bits &= bits - 1) {
+    const int bit = lowest_bit(bits);
+    UNROLL for (int k = 0; k < 3; ++k) {
+      edge[count] = (uchar)(4 * bit + k);
+      count += is_outside(&cell->at, cell->next[k][w * WORD_BITS + bit]) ? 0 : 1;
+    }
+  }
+  return count;
+}
+
 /* Cuts all edges from vertices outside to others, and links what is new. */
 static inline int cut_outside(cell_t* cell, int cut) {
   int count = 0, u = 0;
+  uchar edge[3 * WORD_BITS];
   const int words = words_of(&cell->at); /* new vertices may add words */
-  for (int w = 0; w < words; ++w)
-    for (ulong bits = cell->at.outside[w]; bits != 0; bits &= bits - 1) {
-      const int out = w * WORD_BITS + lowest_bit(bits);
-      for (int k = 0; k < 3; ++k) {
-        const int in = cell->next[k][out];
-        if (is_outside(&cell->at, in)) continue;
-        u = cut_edge(cell, out, k, in, cut);
-        if (u < 0) return CUT_FULL;
-        ++count;
-      }
+  for (int w = 0; w < words; ++w) {
+    const int edges = list_cut_edges(cell, w, edge);
+    for (int e = 0; e < edges; ++e) {
+      const int out = w * WORD_BITS + edge[e] / 4, k = edge[e] % 4;
+      u = cut_edge(cell, out, k, cell->next[k][out], cut);
+      if (u < 0) return CUT_FULL;
     }
+    count += edges;
+  }
   return count == 0 ? CUT_TANGLED : link_cut(cell, u, count);
 }
 
@@ -180,7 +193,7 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      for (int k = 0; k < 3; ++k) {
+      UNROLL for (int k = 0; k < 3; ++k) {
         if (cell->face[k][v] != (index_t)f) continue;
         if (cell->at.side[v] < -tolerance) return false;
         used = true;
@@ -224,7 +237,7 @@ static inline bool edges_are_certain(const cell_t* cell) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      for (int k = 0; k < 3; ++k) {
+      UNROLL for (int k = 0; k < 3; ++k) {
         const int u = cell->next[k][v], f = cell->face[k == 2 ? 0 : k + 1][v];
         if (u < v) continue;
         const certain_plane_t plane = {cell->normal[f], cell->doubt[f]};
@@ -257,7 +270,7 @@ static inline void cell_finish(cell_t* cell, bool note) {
     for (ulong bits = cell->at.used[w]; bits != 0;) {
       const int bit = 63 - (int)clz(bits), v = w * WORD_BITS + bit;
       bits &= ~((ulong)1 << bit);
-      for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][v]] = (index_t)v;
+      UNROLL for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][v]] = (index_t)v;
     }
 }
 
@@ -304,7 +317,7 @@ static inline void cell_moments(cell_t* cell, real* moments) {
   for (int w = 0; w < words; ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      for (int k = 0; k < 3; ++k) {
+      UNROLL for (int k = 0; k < 3; ++k) {
         const int f = cell->face[k][v];
         const real4 normal = tetrahedron_moments(top, cell->point[cell->mark[f]], cell->point[v],
                                                  cell->point[cell->next[k][v]], &volume, &sums, &squares);
@@ -343,7 +356,7 @@ static inline int cell_write_vertices(cell_t* cell, __global stored_real* vertex
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1, ++number) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      for (int k = 0; k < 3; ++k) {
+      UNROLL for (int k = 0; k < 3; ++k) {
         vertex[number * 3 + k] = (stored_real)cell->at.x[k][v];
         link[number * 6 + k] = (uint)cell->at.side[cell->next[k][v]];
         link[number * 6 + 3 + k] = cell->face[k][v];

@@ -20,7 +20,7 @@ typedef struct {
   real most;   /* largest of side[] */
   real gap;    /* no bisector that cut nothing is nearer to a vertex, rounding taken off; below 0: one may cut */
   real clear;  /* the same of those that cut */
-  real nearest;                   /* least |side| of a vertex (count_sides) */
+  real nearest;                   /* no vertex, nor the seed, has a smaller |side| (count_sides) */
   real rounding;                  /* no vertex is farther from a plane through it, but for what each cut adds */
   real steep, size2;              /* least squared sine of a bisector with an edge it cut; 4 |q|^2 of the last one */
   real drift;                     /* what cuts add: roundings of their new vertices */
@@ -54,7 +54,7 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
 
 /* Adds a free block. */
 static inline void add_block(vertices_t* p) {
-  for (int k = 0; k < DIMENSION; ++k) store8(ZERO8, p->x[k] + p->blocks * LANES);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) store8(ZERO8, p->x[k] + p->blocks * LANES);
   if (p->blocks % 8 == 0) p->used[p->blocks / 8] = p->outside[p->blocks / 8] = 0;
   ++p->blocks;
 }
@@ -80,7 +80,7 @@ static inline void set_corner(vertices_t* p, int v, seed_t corner) {
   real y[DIMENSION], sum = 0;
   while (v >= p->blocks * LANES) add_block(p);
   difference(corner, p->seeds[p->self], y);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     p->x[k][v] = y[k];
     sum += fabs(y[k]);
   }
@@ -93,7 +93,7 @@ static inline void drop_outside(vertices_t* p) {
   for (int w = 0; w < words_of(p); ++w) {
     p->used[w] &= ~p->outside[w];
     for (ulong bits = p->outside[w]; bits != 0; bits &= bits - 1)
-      for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] = 0;
+      UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] = 0;
   }
 }
 
@@ -101,10 +101,10 @@ static inline void drop_outside(vertices_t* p) {
 static inline real find_sides(vertices_t* p, const real* q, real level) {
   real8 most = all_lanes(-REAL_MAX), a[DIMENSION];
   const real8 l = all_lanes(level);
-  for (int k = 0; k < DIMENSION; ++k) a[k] = all_lanes(2 * q[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) a[k] = all_lanes(2 * q[k]);
   for (int b = 0; b < p->blocks; ++b) {
     real8 s = a[0] * load8(p->x[0] + b * LANES);
-    for (int k = 1; k < DIMENSION; ++k) s = s + a[k] * load8(p->x[k] + b * LANES);
+    UNROLL for (int k = 1; k < DIMENSION; ++k) s = s + a[k] * load8(p->x[k] + b * LANES);
     s = s - l;
     store8(s, p->side + b * LANES);
     most = most8(most, s);
@@ -113,30 +113,38 @@ static inline real find_sides(vertices_t* p, const real* q, real level) {
   return p->most;
 }
 
+/* How many vertices are inside by more than the tolerance, by side[]. */
+static inline int count_inside(const vertices_t* p, real tolerance) {
+  int inside = 0;
+  for (int w = 0; w < words_of(p); ++w) {
+    ulong in = 0;
+    const int end = min(8, p->blocks - 8 * w);
+    for (int b = 0; b < end; ++b)
+      in |= (ulong)lane_bits(load8(p->side + (8 * w + b) * LANES) < all_lanes(-tolerance)) << 8 * b;
+    inside += (int)popcount(in & p->used[w]);
+  }
+  return inside;
+}
+
 /* How many vertices are beyond the tolerance on either side, by side[]. Those outside go to `outside`. */
 static inline int count_sides(vertices_t* p, real tolerance, int* vertices, int* inside) {
-  int outside = 0, below = 0, all = 0;
+  int outside = 0, all = 0;
   real8 nearest = all_lanes(REAL_MAX);
   for (int w = 0; w < words_of(p); ++w) {
-    ulong out = 0, in = 0;
+    ulong out = 0;
     const int end = min(8, p->blocks - 8 * w);
     for (int b = 0; b < end; ++b) {
       const real8 s = load8(p->side + (8 * w + b) * LANES);
       out |= (ulong)lane_bits(s > all_lanes(tolerance)) << 8 * b;
-      in |= (ulong)lane_bits(s < all_lanes(-tolerance)) << 8 * b;
-      if (QUICK_PROOF) {
-        const mask8 vertex = lanes_of((uint)(p->used[w] >> 8 * b) & 255u);
-        nearest = least8(nearest, choose8(all_lanes(REAL_MAX), size8(s), vertex));
-      }
+      nearest = least8(nearest, size8(s));
     }
     p->outside[w] = out & p->used[w];
     outside += (int)popcount(p->outside[w]);
-    below += (int)popcount(in & p->used[w]);
     all += (int)popcount(p->used[w]);
   }
   p->nearest = lane_least(nearest);
   *vertices = all;
-  *inside = below;
+  *inside = p->nearest > tolerance ? all - outside : count_inside(p, tolerance);
   return outside;
 }
 
@@ -146,14 +154,17 @@ static inline bool is_outside(const vertices_t* p, int v) {
 
 /* Vertex u becomes the point on the edge from `in` (kept) to `out` in the plane that side[] is of. */
 static inline void set_edge_point(vertices_t* p, int u, int in, int out) {
-  const real drop = p->side[in] - p->side[out], t = fmax((real)0, p->side[in] / drop);
+  const real drop = p->side[in] - p->side[out], t = most_of(p->side[in] / drop, 0);
   real length2 = 0;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real d = p->x[k][out] - p->x[k][in];
     p->x[k][u] = p->x[k][in] + t * d;
     length2 += d * d;
   }
-  if (QUICK_PROOF && drop * drop < p->steep * (p->size2 * length2)) p->steep = drop * drop / (p->size2 * length2);
+  if (QUICK_PROOF) {
+    const real sine2 = drop * drop / (p->size2 * length2);
+    p->steep = least_of(sine2 >= 0 ? sine2 : 0, p->steep); /* 0 for NaN, where numbers are out of range */
+  }
   use_slot(p, u);
 }
 
@@ -162,7 +173,7 @@ static inline real find_radius2(vertices_t* p) {
   real8 most = ZERO8;
   for (int b = 0; b < p->blocks; ++b) {
     real8 s = ZERO8;
-    for (int k = 0; k < DIMENSION; ++k) {
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
       const real8 x = load8(p->x[k] + b * LANES);
       s = s + x * x;
     }
@@ -175,7 +186,7 @@ static inline real find_radius2(vertices_t* p) {
 
 /* Bounding box of the vertices. */
 static inline void find_box(const vertices_t* p, real* low, real* high) {
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     real8 l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
     for (int b = 0; b < p->blocks; ++b) {
       const mask8 vertex = lanes_of((uint)(p->used[b / 8] >> b % 8 * 8) & 255u);

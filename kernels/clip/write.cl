@@ -17,7 +17,7 @@ typedef struct {
 static inline bool cell_is_flat(const cell_t* cell, real measure) {
   real low[DIMENSION], high[DIMENSION], extent = 0;
   find_box(&cell->at, low, high);
-  for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
   const real thickness = 32 * REAL_EPSILON * cell->at.reach;
   return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
 }
@@ -39,7 +39,7 @@ static inline bool measure_is_good(const cell_t* cell, real measure) {
 static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
   real moments[2 + DIMENSION];
   bool certain = cell->at.gap > 0;
-  for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   if (status == PIECE_WHOLE) {
     find_radius2(&cell->at);
     certain = quickly_certain(&cell->at);
@@ -50,7 +50,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     if (CELL_IS_FLAT(cell, moments)) {
       status = PIECE_FLAT;
       certain = false;
-      for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+      UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
     }
     if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
       const size_t at = (size_t)row * FACE_CAPACITY;
@@ -64,7 +64,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     out.faces[row] = 0;
     if (OUTPUTS & OUTPUT_GEOMETRY) out.vertices[row] = 0;
   }
-  for (int k = 0; k < 2 + DIMENSION; ++k)
+  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k)
     out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] = (stored_real)moments[k];
   return status <= PIECE_FLAT && !certain ? status | PIECE_UNCERTAIN : status;
 }

@@ -84,7 +84,7 @@ static inline void store_part(__global stored_real* block, int row, int lane, re
 /* Coordinates of p into the rows first .. first+DIMENSION-1 of a block. */
 static inline void store_point(__global stored_real* block, int first, int lane, seed_t p) {
   const origin_t o = origin_of(p);
-  for (int k = 0; k < DIMENSION; ++k) store_part(block, first + k, lane, o.high[k], o.low[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) store_part(block, first + k, lane, o.high[k], o.low[k]);
 }
 
 static inline void pack_seed_block(tree_t tree, uint leaf, __global stored_real* seeds) {
@@ -122,13 +122,13 @@ static inline void pack_node_block(tree_t tree, uint node, int level, __global s
 /* Lanes relative to `o`: positions q, and by how much the weight at `o` exceeds theirs. */
 static inline void seed_lanes(blocks_t blocks, uint leaf, const origin_t* o, real8* q, real8* dw) {
   __global const stored_real* block = blocks.seeds + (size_t)leaf * SEED_BLOCK;
-  for (int k = 0; k < DIMENSION; ++k) q[k] = block_row(block, k, o, k);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = block_row(block, k, o, k);
   *dw = -block_row(block, DIMENSION, o, DIMENSION);
 }
 static inline void node_lanes(blocks_t blocks, uint block_number, const origin_t* o, real8* a, real8* b,
                               real8* dw) {
   __global const stored_real* block = blocks.nodes + (size_t)block_number * NODE_BLOCK;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     a[k] = block_row(block, k, o, k);
     b[k] = block_row(block, DIMENSION + k, o, k);
   }

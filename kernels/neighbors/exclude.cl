@@ -8,9 +8,9 @@
    with the box just in their bisector count; a rounding margin is taken off. */
 static inline mask8 seeds_may_cut(const real8* q, real8 dw, const real* low, const real* high) {
   real8 reach = ZERO8, q2 = ZERO8, size = size8(dw);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     reach = reach + most8(q[k] * all_lanes(low[k]), q[k] * all_lanes(high[k]));
-    size = size + size8(q[k]) * all_lanes(2 * fmax(fabs(low[k]), fabs(high[k])));
+    size = size + size8(q[k]) * all_lanes(2 * most_of(fabs(low[k]), fabs(high[k])));
     q2 = q2 + q[k] * q[k];
   }
   return reach + reach + (size + q2) * all_lanes(SEARCH_MARGIN) > q2 + dw;
@@ -19,7 +19,7 @@ static inline mask8 seeds_may_cut(const real8* q, real8 dw, const real* low, con
 /* The same over the vertices: (3) does not hold for some vertex. */
 static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
   real8 reach = all_lanes(-REAL_MAX), q2 = ZERO8, sum = ZERO8;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     q2 = q2 + q[k] * q[k];
     sum = sum + size8(q[k]);
   }
@@ -27,7 +27,7 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
     for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       real8 s = q[0] * all_lanes(p->x[0][v]);
-      for (int k = 1; k < DIMENSION; ++k) s = s + q[k] * all_lanes(p->x[k][v]);
+      UNROLL for (int k = 1; k < DIMENSION; ++k) s = s + q[k] * all_lanes(p->x[k][v]);
       reach = most8(reach, s);
     }
   const real8 size = sum * all_lanes(2 * p->reach) + q2 + size8(dw);
@@ -38,7 +38,7 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
    the seeds j of the node is below 0 (docs/mathematics.md (9)). A rounding margin is taken off. */
 static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, const real* low, const real* high) {
   real8 value = dw, size = size8(dw);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real8 l = all_lanes(low[k]), h = all_lanes(high[k]);
     const real8 dl = most8(most8(a[k] - l, l - b[k]), ZERO8);
     const real8 dh = most8(most8(a[k] - h, h - b[k]), ZERO8);
@@ -52,7 +52,7 @@ static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, cons
 /* The same over the vertices (docs/mathematics.md (9a)). */
 static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* b, real8 dw) {
   real8 most = all_lanes(-REAL_MAX), size = size8(dw);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real8 s = size8(a[k]) + size8(b[k]) + all_lanes(2 * p->reach);
     size = size + s * s;
   }
@@ -60,7 +60,7 @@ static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* 
     for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       real8 s = ZERO8;
-      for (int k = 0; k < DIMENSION; ++k) {
+      UNROLL for (int k = 0; k < DIMENSION; ++k) {
         const real8 x = all_lanes(p->x[k][v]);
         const real8 gap = most8(most8(a[k] - x, x - b[k]), ZERO8);
         s = s + (x * x - gap * gap);

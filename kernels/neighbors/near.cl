@@ -20,7 +20,7 @@ static inline home_t home_of(tree_t tree, blocks_t blocks, uint leaf) {
   home.origin = origin_with_weight(tree.seeds[leaf * TREE_FAN], tree.node_low[leaf]);
   real8 q[DIMENSION], dw;
   seed_lanes(blocks, leaf, &home.origin, q, &dw);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     home.low[k] = lane_least(q[k]);
     home.high[k] = lane_most(q[k]);
   }
@@ -30,7 +30,7 @@ static inline home_t home_of(tree_t tree, blocks_t blocks, uint leaf) {
 /* Squared distance of eight boxes from the home's, plus by how much the weight at home exceeds theirs. */
 static inline real8 lifted_distance8(const home_t* home, const real8* a, const real8* b, real8 dw) {
   real8 d = dw;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real8 gap = most8(most8(a[k] - all_lanes(home->high[k]), all_lanes(home->low[k]) - b[k]), ZERO8);
     d = d + gap * gap;
   }
@@ -72,7 +72,7 @@ static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const 
     node /= TREE_FAN;
     real8 a[DIMENSION], b[DIMENSION], dw, sum = ZERO8;
     node_lanes(blocks, block_of_children(tree, node, level), o, a, b, &dw);
-    for (int k = 0; k < DIMENSION; ++k) sum = sum + (b[k] - a[k]);
+    UNROLL for (int k = 0; k < DIMENSION; ++k) sum = sum + (b[k] - a[k]);
     real extent = 0, lane[LANES];
     const int present = (int)(children_end(tree, node, level - 1) - node * TREE_FAN);
     store8(sum, lane);

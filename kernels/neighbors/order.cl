@@ -21,7 +21,7 @@ typedef struct {
 static inline real8 bisector_keys(const real8* q, real8 dw) {
   const real8 taken = all_lanes(TAKEN);
   real8 q2 = ZERO8;
-  for (int c = 0; c < DIMENSION; ++c) q2 = q2 + q[c] * q[c];
+  UNROLL for (int c = 0; c < DIMENSION; ++c) q2 = q2 + q[c] * q[c];
   const real8 level = q2 + dw;
   return most8(least8(level * (size8(level) / q2), taken), -taken);
 }

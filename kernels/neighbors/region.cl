@@ -22,7 +22,7 @@ static inline bool region_has_list(region_lists_t lists, uint region) {
 static inline real cell_reach(const cell_t* cell, const real* centre) {
   real low[DIMENSION], high[DIMENSION], r2 = 0;
   find_box(&cell->at, low, high);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real t = fmax(high[k] - centre[k], centre[k] - low[k]);
     r2 += t * t;
   }
@@ -34,13 +34,13 @@ static inline real cell_reach(const cell_t* cell, const real* centre) {
 static inline real cell_centre(const cell_t* cell, real* centre) {
   real low[DIMENSION], high[DIMENSION], c2 = 0;
   find_box(&cell->at, low, high);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     centre[k] = (low[k] + high[k]) / 2;
     c2 += centre[k] * centre[k];
   }
   const real reach = cell_reach(cell, centre);
   if (4 * c2 > reach * reach) return reach;
-  for (int k = 0; k < DIMENSION; ++k) centre[k] = 0;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) centre[k] = 0;
   return cell_reach(cell, centre);
 }
 
@@ -54,7 +54,7 @@ static inline int find_list_keys(region_lists_t lists, uint i, uint region, cons
     const uint j = lists.seed[begin + (ulong)min(k, count - 1)];
     real q[DIMENSION], along = 0;
     difference(lists.seeds[j], seed, q);
-    for (int c = 0; c < DIMENSION; ++c) along += q[c] * centre[c];
+    UNROLL for (int c = 0; c < DIMENSION; ++c) along += q[c] * centre[c];
     const real q2 = norm2(q);
     key[k] = k >= count || j == i ? LISTED_LAST
                                   : (q2 + weight_difference(seed, lists.seeds[j]) - 2 * along) / sqrt(q2);

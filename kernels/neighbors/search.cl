@@ -32,7 +32,7 @@ static inline void push_children(stack_t* stack, tree_t tree, blocks_t blocks, u
   if (close && bits != 0) bits &= lane_bits(nodes_cut(close, a, b, dw));
   if (bits == 0) return;
   real8 distance = dw;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real8 gap = most8(most8(a[k], -b[k]), ZERO8);
     distance = distance + gap * gap;
   }

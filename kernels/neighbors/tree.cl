@@ -58,7 +58,7 @@ static inline real node_distance(tree_t tree, uint node, seed_t seed) {
   const seed_t node_low = tree.node_low[node];
   difference(node_low, seed, a);
   difference(tree.node_high[node], seed, b);
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real gap = fmax(fmax(a[k], -b[k]), (real)0);
     near2 += gap * gap;
   }

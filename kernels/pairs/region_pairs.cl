@@ -57,7 +57,7 @@ static inline void find_testers(tree_t tree, uint i, stack_t* stack, testers_t* 
 /* True if the box [a, b] lies outside the half-space, with a margin for rounding. */
 static inline bool box_is_outside(const half_space_t* h, const real* a, const real* b) {
   real value = -h->level, size = h->scale;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     value += 2 * fmin(h->q[k] * a[k], h->q[k] * b[k]);
     size += 2 * fabs(h->q[k]) * fmax(fabs(a[k]), fabs(b[k]));
   }
@@ -85,7 +85,7 @@ static inline bool region_is_outside(const half_space_t* h, region_corners_t reg
   for (uint slot = regions.offset[region]; slot < regions.offset[region + 1]; ++slot) {
     real y[DIMENSION], value = -h->level, size = h->scale;
     difference(regions.corners[regions.vertex[slot]], seed, y);
-    for (int k = 0; k < DIMENSION; ++k) {
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
       value += 2 * h->q[k] * y[k];
       size += 2 * fabs(h->q[k] * y[k]);
     }

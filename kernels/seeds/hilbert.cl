@@ -27,7 +27,7 @@ static inline ulong hilbert_key(const uint* cell) {
   uint entry = 0, axis = 0;
   for (int bit = HILBERT_BITS - 1; bit >= 0; --bit) {
     uint child = 0;
-    for (int k = 0; k < DIMENSION; ++k) child |= ((cell[k] >> bit) & 1u) << k;
+    UNROLL for (int k = 0; k < DIMENSION; ++k) child |= ((cell[k] >> bit) & 1u) << k;
     const uint code = rotate_left(child ^ entry, (uint)DIMENSION - (axis + 1u) % DIMENSION);
     uint w = code;
     for (uint shift = 1; shift < DIMENSION; ++shift) w ^= code >> shift;

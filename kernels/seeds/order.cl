@@ -6,7 +6,7 @@
 __kernel void make_grid(const uint tiles, __global const stored_real* boxes, __global stored_real* grid) {
   if (get_global_id(0) != 0) return;
   real side = 0;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     real low = REAL_MAX, high = -REAL_MAX;
     for (uint t = 0; t < tiles; ++t) {
       low = fmin(low, boxes[(size_t)t * 2 * DIMENSION + (size_t)k]);
@@ -31,7 +31,7 @@ static inline uint take_cell(real* high, real* low) {
 
 static inline ulong curve_key(const parts_t* p, __global const stored_real* grid, bool fine) {
   uint cell[DIMENSION];
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     real low, high = exact_difference(p->high[k], grid[k], &low);
     low += p->low[k];
     high *= grid[3];
@@ -45,7 +45,7 @@ static inline ulong curve_key(const parts_t* p, __global const stored_real* grid
 /* 32 bits that differ for different positions but by chance. */
 static inline ulong position_hash(const parts_t* p) {
   ulong h = 0;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     h = (h ^ ordered_bits(p->high[k])) * (ulong)0x9e3779b97f4a7c15;
     h = (h ^ (h >> 29) ^ ordered_bits(p->low[k])) * (ulong)0xbf58476d1ce4e5b9;
     h ^= h >> 32;

@@ -19,7 +19,7 @@ __kernel void pack_seeds(const uint count, __global const stored_real* frame,
   if (i >= count) return;
   parts_t p = {{0, 0, 0, 0}, {0, 0, 0, 0}};
   bool valid = true;
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     to_frame(frame, positions[(size_t)i * DIMENSION + (size_t)k], k, &p.high[k], &p.low[k]);
     valid = valid && fabs(p.high[k]) <= MOST_COORDINATE;
   }
@@ -41,7 +41,7 @@ __kernel void box_of_tiles(const uint tiles, const uint tile, const uint count, 
   const uint t = (uint)get_global_id(0);
   if (t >= tiles) return;
   real low[DIMENSION], high[DIMENSION];
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     low[k] = REAL_MAX;
     high[k] = -REAL_MAX;
   }
@@ -49,12 +49,12 @@ __kernel void box_of_tiles(const uint tiles, const uint tile, const uint count, 
   for (uint i = begin; i < end; ++i) {
     if (status[i] != SEED_OK) continue;
     const parts_t p = parts_of(points[i]);
-    for (int k = 0; k < DIMENSION; ++k) {
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
       low[k] = fmin(low[k], p.high[k]);
       high[k] = fmax(high[k], p.high[k]);
     }
   }
-  for (int k = 0; k < DIMENSION; ++k) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
     boxes[(size_t)t * 2 * DIMENSION + (size_t)k] = low[k];
     boxes[(size_t)t * 2 * DIMENSION + DIMENSION + (size_t)k] = high[k];
   }

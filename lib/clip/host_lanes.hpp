@@ -53,6 +53,12 @@ inline real8 most8(const real8& a, const real8& b) {
 inline real8 size8(const real8& a) {
   return each_lane<real8>([&](int k) { return fabs(a.lane[k]); });
 }
+inline real least_of(real a, real b) {
+  return a < b ? a : b;
+}
+inline real most_of(real a, real b) {
+  return a > b ? a : b;
+}
 inline real lane_most(const real8& a) {
   return *std::max_element(a.lane, a.lane + LANES);
 }
