@@ -2,6 +2,7 @@
 /// Densities on a domain, and the integrals of a density over the cells of a diagram.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <powercell/diagram.hpp>
 #include <vector>
@@ -75,11 +76,26 @@ struct POWERCELL_API DensityIntegrals {
   double relative_error() const;  ///< |total() - domain_mass| / domain_mass
 };
 
+/// How integrate() is to go about it.
+struct IntegrationOptions {
+  bool walls = false;  ///< also those over the walls
+  /// Where set, asked with the masses (n) once they are known; false leaves the walls out where they would
+  /// cost extra, as they do unless the density is constant.
+  std::function<bool(std::span<const double>)> walls_if;
+  /// Relative, of the masses, where a formula or function is integrated: one looser than the density's own
+  /// takes its place. For iterations that do not need more yet.
+  double tolerance = 0;
+  int threads = 0;  ///< on the host; 0 means all
+};
+
 /// Integrates a density over the cells of a diagram, from its measures and adjacency where the density is
 /// constant, else from the geometry of its cells. The same bits for every number of threads.
-/// \param walls    also those over the walls
-/// \param threads  on the host; 0 means all
 /// \throw as Diagram
+POWERCELL_API DensityIntegrals integrate(Diagram& diagram, const Density& density,
+                                         const IntegrationOptions& options);
+
+/// The same to the density's own tolerance. \param walls  also those over the walls
+/// \param threads  on the host; 0 means all   \throw as Diagram
 POWERCELL_API DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls,
                                          int threads = 0);
 

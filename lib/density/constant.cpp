@@ -23,8 +23,8 @@ double ConstantDensity::total(const Domain& domain, int) const {
   return value_ * domain.measure();
 }
 
-DensityIntegrals ConstantDensity::integrate(Diagram& diagram, bool walls, int) const {
-  diagram.compute(walls, false);
+DensityIntegrals ConstantDensity::integrate(Diagram& diagram, const IntegrationOptions& options) const {
+  diagram.compute(options.walls, false);
   const Measures& measures = diagram.measures();
   DensityIntegrals result;
   result.dimension = measures.dimension;
@@ -32,7 +32,7 @@ DensityIntegrals ConstantDensity::integrate(Diagram& diagram, bool walls, int) c
   result.centroid = measures.centroid;
   result.second_moment = measures.second_moment;
   result.status = measures.status;
-  if (walls) result.walls = diagram.adjacency();
+  if (options.walls) result.walls = diagram.adjacency();
   if (value_ != 1) {
     for (double& m : result.mass) m *= value_;
     for (double& s : result.second_moment) s *= value_;

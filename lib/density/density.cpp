@@ -36,10 +36,23 @@ double Density::total(const Domain& domain, int threads) const {
   return model_->total(domain, thread_count(threads));
 }
 
-DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls, int threads) {
-  DensityIntegrals result = density.model().integrate(diagram, walls, thread_count(threads));
-  result.domain_mass = density.total(diagram.domain(), threads);
+DensityIntegrals integrate(Diagram& diagram, const Density& density, const IntegrationOptions& options) {
+  if (!(options.tolerance >= 0 && options.tolerance < 1))
+    throw Error(ErrorCode::invalid_argument, "the tolerance of integrals is " +
+                                                 std::to_string(options.tolerance) +
+                                                 "; it must be 0 or between 0 and 1");
+  IntegrationOptions counted = options;
+  counted.threads = thread_count(options.threads);
+  DensityIntegrals result = density.model().integrate(diagram, counted);
+  result.domain_mass = density.total(diagram.domain(), options.threads);
   return result;
+}
+
+DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls, int threads) {
+  IntegrationOptions options;
+  options.walls = walls;
+  options.threads = threads;
+  return integrate(diagram, density, options);
 }
 
 double DensityIntegrals::total() const {

@@ -31,7 +31,7 @@ double GeometricDensity::total(const Domain& domain, int threads) const {
   int least_depth = 0;
   while ((domain.region_count() << least_depth) < 1000) ++least_depth;
   const auto sum = [&](double negligible) {
-    const auto make = [&] { return integrator(domain, {negligible, least_depth, more_depth}); };
+    const auto make = [&] { return integrator(domain, {0, negligible, least_depth, more_depth}); };
     return sum_of(cell_moments(regions, {}, make, threads));
   };
   // What is negligible beside the mean is known once the sum is, roughly.
@@ -45,13 +45,13 @@ double GeometricDensity::total(const Domain& domain, int threads) const {
   return total;
 }
 
-DensityIntegrals GeometricDensity::integrate(Diagram& diagram, bool walls, int threads) const {
+DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const IntegrationOptions& options) const {
   const Domain& domain = diagram.domain();
-  const double negligible = negligible_share * total(domain, threads) / domain.measure();
-  const auto make = [&] { return integrator(domain, {negligible, 0, 0}); };
+  const double negligible = negligible_share * total(domain, options.threads) / domain.measure();
+  const auto make = [&] { return integrator(domain, {options.tolerance, negligible, 0, 0}); };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
-  const std::vector<Moments> moments = cell_moments(cells, seeds, make, threads);
+  const std::vector<Moments> moments = cell_moments(cells, seeds, make, options.threads);
 
   DensityIntegrals result;
   const auto d = static_cast<std::size_t>(cells.dimension);
@@ -67,7 +67,8 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, bool walls, int t
                                            : std::numeric_limits<double>::quiet_NaN());
     result.quadrature_error = std::max(result.quadrature_error, m.error);
   }
-  if (walls) result.walls = wall_integrals(cells, result.status, make, threads);
+  if (options.walls && (!options.walls_if || options.walls_if(result.mass)))
+    result.walls = wall_integrals(cells, result.status, make, options.threads);
   return result;
 }
 

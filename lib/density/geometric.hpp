@@ -22,6 +22,7 @@ struct PieceIntegrator {
 
 /// What adaptive integrators need to know.
 struct Accuracy {
+  double tolerance = 0;           ///< of masses, where it is looser than the integrator's own
   double negligible_density = 0;  ///< errors of the tolerance times this, times the volume, don't count
   int least_depth = 0;            ///< bisections before any estimate is believed
   int more_depth = 0;             ///< further bisections, for pieces that are large
@@ -30,7 +31,7 @@ struct Accuracy {
 class GeometricDensity : public DensityModel {
  public:
   double total(const Domain& domain, int threads) const override;
-  DensityIntegrals integrate(Diagram& diagram, bool walls, int threads) const override;
+  DensityIntegrals integrate(Diagram& diagram, const IntegrationOptions& options) const override;
 
  protected:
   /// \throw Error unsupported, invalid_argument if the density does not go with the domain

@@ -19,8 +19,8 @@ struct PointSource {
 struct DensityModel {
   virtual ~DensityModel() = default;
   virtual double total(const Domain& domain, int threads) const = 0;
-  /// Everything but domain_mass. \param walls  also the walls
-  virtual DensityIntegrals integrate(Diagram& diagram, bool walls, int threads) const = 0;
+  /// Everything but domain_mass. \param options  with the number of threads
+  virtual DensityIntegrals integrate(Diagram& diagram, const IntegrationOptions& options) const = 0;
   /// \throw Error unsupported, invalid_argument if the density does not go with the domain
   virtual std::unique_ptr<PointSource> source(const Domain& domain) const = 0;
   virtual bool is_constant() const { return false; }

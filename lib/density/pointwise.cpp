@@ -2,15 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "lib/density/simplex_rule.hpp"
 
 namespace powercell {
 namespace {
 
-/// A simplex of N+1 corners, about the seed.
+/// A place about the seed, with the density there.
+struct Corner {
+  Point at{};
+  double value = 0;
+};
+
 template <int N>
-using Simplex = std::array<Point, N + 1>;
+using Simplex = std::array<Corner, N + 1>;
 
 Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -20,20 +27,21 @@ double dot(const Point& a, const Point& b) {
 }
 
 double measure(const Simplex<1>& s) {
-  const Point e = minus(s[1], s[0]);
+  const Point e = minus(s[1].at, s[0].at);
   return std::sqrt(dot(e, e));
 }
 double measure(const Simplex<2>& s) {
-  const Point normal = cross(minus(s[1], s[0]), minus(s[2], s[0]));
+  const Point normal = cross(minus(s[1].at, s[0].at), minus(s[2].at, s[0].at));
   return std::sqrt(dot(normal, normal)) / 2;
 }
 /// Signed: fans of solids that rounding has bent cancel.
 double measure(const Simplex<3>& s) {
-  return dot(minus(s[1], s[0]), cross(minus(s[2], s[0]), minus(s[3], s[0]))) / 6;
+  return dot(minus(s[1].at, s[0].at), cross(minus(s[2].at, s[0].at), minus(s[3].at, s[0].at))) / 6;
 }
 
-/// Walls make the matrix of an iteration, whose result they do not change.
-constexpr double wall_tolerance = 1e-6;
+/// Walls make the matrix of an iteration, whose result they do not change: they may be off by so much more
+/// than masses, within these bounds.
+constexpr double wall_slack = 1e3, least_wall_tolerance = 1e-6, most_wall_tolerance = 1e-4;
 
 /// Integrates by the rules of a simplex, going to the next until the error is within the tolerance, and then
 /// bisecting the longest edge.
@@ -43,71 +51,100 @@ class SimplexIntegrator : public PieceIntegrator {
                     const Accuracy& accuracy)
       : source_(std::move(source)),
         linear_(linear),
-        cell_tolerance_(tolerance),
+        cell_tolerance_(std::max(tolerance, accuracy.tolerance)),
         negligible_(accuracy.negligible_density),
         least_depth_(accuracy.least_depth),
         more_depth_(accuracy.more_depth) {}
 
   void add(const Piece& piece, const Point& seed, Moments& moments) override {
-    seed_ = seed;
-    region_ = piece.region();
+    begin(piece, seed);
     tolerance_ = cell_tolerance_;
     depth_ = (piece.solid() ? 12 : 20) + more_depth_;
-    const Point apex = minus(middle_of(piece), seed);
+    const auto count = static_cast<std::size_t>(piece.vertex_count());
+    places_.resize(count);
+    for (std::size_t v = 0; v < count; ++v) places_[v] = minus(piece.vertex(v), seed);
+    if (piece.solid()) places_.push_back(middle_of(places_));
+    set_corners();
     if (!piece.solid()) {
-      Point before = minus(piece.vertex(piece.vertex_count() - 1), seed);
-      for (std::uint64_t k = 0; k < piece.vertex_count(); ++k) {
-        const Point next = minus(piece.vertex(k), seed);
-        add_simplex<2>({apex, before, next}, 0, moments);
-        before = next;
-      }
+      for (std::size_t k = 2; k < count; ++k)
+        add_simplex<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
       return;
     }
-    for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f)
-      for_triangles(piece, f, [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+    const Corner& apex = corners_[count];
+    for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f) {
+      const std::uint64_t first = piece.corner(f, 0), end = piece.corner_count(f);
+      for (std::uint64_t k = 2; k < end; ++k)
         add_simplex<3>(
-            {apex, minus(piece.vertex(a), seed), minus(piece.vertex(b), seed), minus(piece.vertex(c), seed)},
-            0, moments);
-      });
+            {apex, corners_[first], corners_[piece.corner(f, k - 1)], corners_[piece.corner(f, k)]}, 0,
+            moments);
+    }
   }
 
   double over_face(const Piece& piece, std::uint64_t face) override {
-    region_ = piece.region();
-    tolerance_ = std::max(cell_tolerance_, wall_tolerance);
+    begin(piece, piece.vertex(piece.corner(face, 0)));
+    tolerance_ = std::clamp(wall_slack * cell_tolerance_, least_wall_tolerance, most_wall_tolerance);
     depth_ = piece.solid() ? 10 : 8;
+    const auto count = static_cast<std::size_t>(piece.corner_count(face));
+    places_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) places_[k] = minus(piece.vertex(piece.corner(face, k)), seed_);
+    set_corners();
     Moments moments;
-    seed_ = piece.vertex(piece.corner(face, 0));
     if (!piece.solid()) {
-      add_simplex<1>({Point{}, minus(piece.vertex(piece.corner(face, 1)), seed_)}, 0, moments);
+      add_simplex<1>({corners_[0], corners_[1]}, 0, moments);
       return moments.mass;
     }
-    for_triangles(piece, face, [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-      add_simplex<2>(
-          {minus(piece.vertex(a), seed_), minus(piece.vertex(b), seed_), minus(piece.vertex(c), seed_)}, 0,
-          moments);
-    });
+    for (std::size_t k = 2; k < count; ++k)
+      add_simplex<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
     return moments.mass;
   }
 
  private:
-  /// The mean of the vertices: simplices from there are smaller than those from a vertex.
-  static Point middle_of(const Piece& piece) {
+  void begin(const Piece& piece, const Point& seed) {
+    seed_ = seed;
+    region_ = piece.region();
+  }
+
+  /// The mean of the vertices: tetrahedra from there are smaller than those from a vertex, and few more.
+  static Point middle_of(std::span<const Point> vertices) {
     Point sum{};
-    for (std::uint64_t v = 0; v < piece.vertex_count(); ++v)
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += piece.vertex(v)[k];
-    for (double& x : sum) x /= static_cast<double>(piece.vertex_count());
+    for (const Point& v : vertices)
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += v[k];
+    for (double& x : sum) x /= static_cast<double>(vertices.size());
     return sum;
   }
 
-  template <class Body>
-  static void for_triangles(const Piece& piece, std::uint64_t face, const Body& body) {
-    const std::uint64_t count = piece.corner_count(face), first = piece.corner(face, 0);
-    for (std::uint64_t k = 2; k < count; ++k) body(first, piece.corner(face, k - 1), piece.corner(face, k));
+  void evaluate(std::span<const Point> places, std::span<double> values) {
+    at_.resize(places.size());
+    for (std::size_t q = 0; q < places.size(); ++q)
+      for (std::size_t k = 0; k < 3; ++k) at_[q][k] = seed_[k] + places[q][k];
+    source_->evaluate(at_, region_, values);
   }
 
-  /// What one rule gives, over a simplex of measure 1.
-  struct Estimate {
-    double mass = 0;
+  /// Corners at places_, which many simplices share. What is linear does not look at them.
+  void set_corners() {
+    corners_.resize(places_.size());
+    values_.resize(places_.size());
+    if (!linear_) evaluate(places_, values_);
+    for (std::size_t c = 0; c < places_.size(); ++c) corners_[c] = {places_[c], values_[c]};
+  }
+
+  /// A simplex about its middle, and what moments are compared by.
+  template <int N>
+  struct Local {
+    Point middle{}, reach{};
+    std::array<Point, N + 1> corner;
+    explicit Local(const Simplex<N>& simplex) {
+      for (const Corner& c : simplex)
+        for (std::size_t k = 0; k < 3; ++k) middle[k] += c.at[k] / (N + 1);
+      for (std::size_t c = 0; c <= N; ++c) corner[c] = minus(simplex[c].at, middle);
+      for (std::size_t k = 0; k < 3; ++k) reach[k] = corner[N][k] * 2 / (N + 3);  // to rule 1's first point
+    }
+  };
+
+  /// Integrals over a simplex of measure 1 about its middle, or the part of them that the points of a rule
+  /// make.
+  struct Sums {
+    double mass = 0, second = 0;
     Point first{};
   };
 
@@ -117,42 +154,47 @@ class SimplexIntegrator : public PieceIntegrator {
     if (size == 0) return;
     if (depth < least_depth_) return bisect<N>(simplex, depth, moments);
     const SimplexRules& rules = simplex_rules(N);
-    std::size_t known = 0;
-    std::array<Estimate, SimplexRules::count> found;
+    const Local<N> local(simplex);
+    std::array<Sums, SimplexRules::count> part;
+    Range range;
+    Sums last;
     double before = 0;
     for (std::size_t s = 0; s < SimplexRules::count; ++s) {
-      evaluate<N>(simplex, rules, known, rules.size[s]);
-      known = rules.size[s];
-      found[s] = estimate(rules, s);
-      if (s == 0) continue;
-      if (linear_) return take(rules, s, size, 0, moments);
-      const double change = difference(found[s], found[s - 1]);
+      part[s] = sum_points<N>(local, rules, s, range);
+      const Sums found = apply(rules, s, part);
+      if (linear_ && s == 1) return take(found, local.middle, size, 0, moments);
+      const double change = s == 0 ? 0 : difference<N>(found, last, local);
       if (s > 1) {
         // Where changes shrink they go on shrinking; a factor of 4 is for safety.
         const double left = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
-        const double allowed = tolerance_ * std::max(std::abs(found[s].mass), negligible_);
-        const bool last = s + 1 == SimplexRules::count;
-        const bool good = left <= allowed && corners_fit<N>(simplex, rules.size[s], allowed);
-        if (good || (last && depth == depth_)) return take(rules, s, size, good ? 0 : left, moments);
+        const double allowed = tolerance_ * std::max(std::abs(found.mass), negligible_);
+        const bool end = s + 1 == SimplexRules::count;
+        const bool good = left <= allowed && corners_fit<N>(simplex, range, allowed);
+        if (good || (end && depth == depth_))
+          return take(found, local.middle, size, good ? 0 : left, moments);
       }
       before = change;
+      last = found;
     }
     bisect<N>(simplex, depth, moments);
   }
 
+  struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void see(double value) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  };
+
   /// Points of rules lie inside, so a jump across a corner goes between them. Next to a smooth extremum the
   /// values at corners are farther out than those at the points by up to twice the range of these.
   template <int N>
-  bool corners_fit(const Simplex<N>& simplex, std::size_t points, double allowed) {
-    const auto [low, high] = std::minmax_element(value_.begin(), value_.begin() + points);
-    const double margin = 4 * (*high - *low) + allowed;
-    std::array<Point, N + 1> corner;
-    std::array<double, N + 1> value;
-    for (std::size_t c = 0; c <= N; ++c)
-      for (std::size_t k = 0; k < 3; ++k) corner[c][k] = seed_[k] + simplex[c][k];
-    source_->evaluate(corner, region_, value);
-    return std::all_of(value.begin(), value.end(),
-                       [&](double v) { return v >= *low - margin && v <= *high + margin; });
+  static bool corners_fit(const Simplex<N>& simplex, const Range& range, double allowed) {
+    const double margin = 4 * (range.high - range.low) + allowed;
+    return std::all_of(simplex.begin(), simplex.end(), [&](const Corner& corner) {
+      return corner.value >= range.low - margin && corner.value <= range.high + margin;
+    });
   }
 
   template <int N>
@@ -161,15 +203,16 @@ class SimplexIntegrator : public PieceIntegrator {
     double longest = -1;
     for (std::size_t a = 0; a <= N; ++a)
       for (std::size_t b = a + 1; b <= N; ++b) {
-        const Point e = minus(simplex[a], simplex[b]);
+        const Point e = minus(simplex[a].at, simplex[b].at);
         if (dot(e, e) > longest) {
           longest = dot(e, e);
           from = a;
           to = b;
         }
       }
-    Point middle;
-    for (std::size_t k = 0; k < 3; ++k) middle[k] = (simplex[from][k] + simplex[to][k]) / 2;
+    Corner middle;
+    for (std::size_t k = 0; k < 3; ++k) middle.at[k] = (simplex[from].at[k] + simplex[to].at[k]) / 2;
+    if (!linear_) evaluate({&middle.at, 1}, {&middle.value, 1});
     for (const std::size_t replaced : {from, to}) {
       Simplex<N> half = simplex;
       half[replaced] = middle;
@@ -177,44 +220,56 @@ class SimplexIntegrator : public PieceIntegrator {
     }
   }
 
-  /// Places and values of the points [begin, end) of the rules.
+  /// Sums over the points that rule s adds to the one before.
   template <int N>
-  void evaluate(const Simplex<N>& simplex, const SimplexRules& rules, std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) {
+  Sums sum_points(const Local<N>& local, const SimplexRules& rules, std::size_t s, Range& range) {
+    const std::size_t begin = s == 0 ? 0 : rules.size[s - 1], count = rules.size[s] - begin;
+    const Point middle{seed_[0] + local.middle[0], seed_[1] + local.middle[1], seed_[2] + local.middle[2]};
+    std::array<Point, most_points> place, at;
+    std::array<double, most_points> value;
+    for (std::size_t q = 0; q < count; ++q) {
       Point y{};
       for (std::size_t c = 0; c <= N; ++c)
-        for (std::size_t k = 0; k < 3; ++k) y[k] += rules.point[q][c] * simplex[c][k];
-      place_[q] = y;
-      at_[q] = {seed_[0] + y[0], seed_[1] + y[1], seed_[2] + y[2]};
+        for (std::size_t k = 0; k < 3; ++k) y[k] += rules.point[begin + q][c] * local.corner[c][k];
+      place[q] = y;
+      at[q] = {middle[0] + y[0], middle[1] + y[1], middle[2] + y[2]};
     }
-    source_->evaluate(std::span(at_).subspan(begin, end - begin), region_,
-                      std::span(value_).subspan(begin, end - begin));
+    source_->evaluate(std::span(at).first(count), region_, std::span(value).first(count));
+    Sums sums;
+    for (std::size_t q = 0; q < count; ++q) {
+      range.see(value[q]);
+      sums.mass += value[q];
+      for (std::size_t k = 0; k < 3; ++k) sums.first[k] += value[q] * place[q][k];
+      sums.second += value[q] * dot(place[q], place[q]);
+    }
+    return sums;
   }
 
-  Estimate estimate(const SimplexRules& rules, std::size_t s) const {
-    Estimate sum;
-    for (std::size_t q = 0; q < rules.size[s]; ++q) {
-      const double part = rules.weight[s][q] * value_[q];
-      sum.mass += part;
-      for (std::size_t k = 0; k < 3; ++k) sum.first[k] += part * (place_[q][k] - place_[0][k]);
+  /// Rule s.
+  static Sums apply(const SimplexRules& rules, std::size_t s,
+                    const std::array<Sums, SimplexRules::count>& part) {
+    Sums sums;
+    for (std::size_t k = 0; k <= s; ++k) {
+      const double weight = rules.weight[s][k];
+      sums.mass += weight * part[k].mass;
+      for (std::size_t c = 0; c < 3; ++c) sums.first[c] += weight * part[k].first[c];
+      sums.second += weight * part[k].second;
     }
-    return sum;
+    return sums;
   }
 
-  /// How far apart two estimates are, in the unit of the mass: moments are about the middle, over the size
-  /// of the simplex.
-  double difference(const Estimate& a, const Estimate& b) const {
-    const Point reach = minus(place_[1], place_[0]), moved = minus(a.first, b.first);
-    return std::max(std::abs(a.mass - b.mass), std::sqrt(dot(moved, moved) / dot(reach, reach)));
+  /// How far apart two rules are, in the unit of the mass: moments over the way from the middle to the second
+  /// point.
+  template <int N>
+  static double difference(const Sums& a, const Sums& b, const Local<N>& local) {
+    const Point moved = minus(a.first, b.first);
+    return std::max(std::abs(a.mass - b.mass), std::sqrt(dot(moved, moved) / dot(local.reach, local.reach)));
   }
 
-  void take(const SimplexRules& rules, std::size_t s, double size, double error, Moments& moments) const {
-    for (std::size_t q = 0; q < rules.size[s]; ++q) {
-      const double part = size * rules.weight[s][q] * value_[q];
-      moments.mass += part;
-      for (std::size_t k = 0; k < 3; ++k) moments.first[k] += part * place_[q][k];
-      moments.second += part * dot(place_[q], place_[q]);
-    }
+  static void take(const Sums& found, const Point& middle, double size, double error, Moments& moments) {
+    moments.mass += size * found.mass;
+    for (std::size_t k = 0; k < 3; ++k) moments.first[k] += size * (found.first[k] + found.mass * middle[k]);
+    moments.second += size * (found.second + 2 * dot(found.first, middle) + found.mass * dot(middle, middle));
     moments.error += std::abs(size) * error;
   }
 
@@ -226,9 +281,10 @@ class SimplexIntegrator : public PieceIntegrator {
   Point seed_{};
   std::uint32_t region_ = 0;
   int depth_ = 0;
-  static constexpr std::size_t most_points = 70;  // rule 4 of a tetrahedron
-  std::array<Point, most_points> place_, at_;     // about the seed, and where that is
-  std::array<double, most_points> value_;
+  static constexpr std::size_t most_points = 35;  // that rule 4 of a tetrahedron adds
+  std::vector<Point> places_, at_;                // about the seed, and where that is
+  std::vector<double> values_;
+  std::vector<Corner> corners_;
 };
 
 }  // namespace

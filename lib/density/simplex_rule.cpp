@@ -36,7 +36,7 @@ SimplexRules make_rules(int n) {
       const int i = s - k;
       const double weight = (i % 2 ? -1 : 1) * std::pow(2.0, -2 * s) * std::pow(degree + n - 2 * i, degree) /
                             (factorial(i) * factorial(degree + n - i)) * factorial(n);
-      rules.weight[s].resize(rules.size[k], weight);
+      rules.weight[s][k] = weight;
     }
   }
   return rules;

@@ -10,12 +10,14 @@ namespace powercell {
 
 /// The invariant rules of Grundmann and Möller (SIAM J. Numer. Anal. 15, 1978) on a segment, triangle or
 /// tetrahedron. Rule s is exact for polynomials of degree 2s+1, and its points are those of rule s-1 and
-/// some more, so that going on costs only these and the difference tells the error (mathematics, (32)).
+/// some more, so that going on costs only these and the difference tells the error (mathematics, (32)). The
+/// points that a rule adds have one weight in each rule, so sums over them are all that is needed.
 struct SimplexRules {
   static constexpr std::size_t count = 5;
-  std::vector<std::array<double, 4>> point;       ///< barycentric coordinates, those of rule 0 first
-  std::array<std::size_t, count> size{};          ///< rule s uses the points [0, size[s])
-  std::array<std::vector<double>, count> weight;  ///< of the points of rule s; they sum to 1
+  std::vector<std::array<double, 4>> point;  ///< barycentric coordinates, those of rule 0 first
+  std::array<std::size_t, count> size{};     ///< rule s uses the points [0, size[s])
+  /// [s][k]: in rule s, of each point that rule k <= s has and k-1 has not; over all points they sum to 1.
+  std::array<std::array<double, count>, count> weight{};
 };
 
 /// \param dimension of the simplex: 1, 2 or 3

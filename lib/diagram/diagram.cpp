@@ -53,7 +53,7 @@ void Diagram::set_weights(std::span<const double> weights) {
   require_in_range(SeedsView{s.domain.dimension(), {}, weights}, s.scene.frame(), threads);
   s.forget_results();
   s.ready = false;
-  parallel_for(threads, s.seeds.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads_for(s.seeds.size(), threads), s.seeds.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) s.seeds.weights[rank] = weights[s.seeds.input[rank]];
   });
   s.timings = {};

@@ -15,7 +15,7 @@ void gather(const SeedsView& seeds, int threads, SeedSet& set) {
   const auto d = static_cast<std::size_t>(set.dimension);
   set.positions.resize(set.size() * d);
   set.weights.resize(set.size());
-  parallel_for(threads, set.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads_for(set.size(), threads), set.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {
       const std::size_t i = set.input[rank];
       std::copy_n(&seeds.positions[i * d], d, &set.positions[rank * d]);

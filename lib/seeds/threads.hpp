@@ -15,6 +15,12 @@ namespace powercell {
 /// so workers must not wait for each other.
 void run_workers(int workers, const std::function<void(int)>& worker);
 
+/// Threads that `count` items of a few operations each are worth: to start one costs as much as thousands do.
+inline int threads_for(std::size_t count, int threads) {
+  constexpr std::size_t share_count = 4096;
+  return count < share_count ? 1 : threads;
+}
+
 /// Calls `body(begin, end)` on contiguous ranges that cover [0, count), at most one for each thread.
 /// `body` runs at the same time for different ranges; the first exception reaches the caller.
 template <class Body>
@@ -46,11 +52,12 @@ void parallel_tasks(int threads, std::size_t tasks, const Body& body) {
   });
 }
 
-/// The least k < count with `holds(k)`, or `count`. `holds` runs at the same time for different k.
+/// The least k < count with `holds(k)`, or `count`. `holds`, of a few operations, runs at the same time for
+/// different k.
 template <class Predicate>
 std::size_t first_of(std::size_t count, int threads, const Predicate& holds) {
   std::atomic<std::size_t> first{count};
-  parallel_for(threads, count, [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (!holds(k)) continue;
       std::size_t known = first.load();

@@ -32,7 +32,7 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
   const Vector typical = typical_derivative(target, course.evaluator().diagram().domain());
   double shift = first_shift;
   while (true) {
-    if (at.empty == 0 && at.error(target) < course.tolerance()) return PhaseEnd::converged;
+    if (course.reached(at)) return PhaseEnd::converged;
     if (repair && damped_newton_can_go_on(at, target)) return PhaseEnd::stalled;
     const Vector gradient = at.gradient(target);
     const double value = at.dual(target);

@@ -29,6 +29,8 @@ class Course {
   const Vector& target() const { return target_; }
   double tolerance() const { return tolerance_; }
   bool at_limit() const { return solved_ >= options_.max_steps; }
+  /// The masses are those asked for: nothing is left to do, and walls may be missing.
+  bool reached(const Iterate& at) const { return at.empty == 0 && at.error(target_) < tolerance_; }
   const std::vector<TransportStep>& steps() const { return steps_; }
 
   /// Solves (L + shift) x = right. An empty shift asks for a connected system.

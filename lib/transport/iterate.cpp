@@ -21,18 +21,19 @@ double Iterate::dual(const Vector& target) const {
   return primal() + weights.dot(gradient(target));
 }
 
-Evaluator::Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, int threads)
+Evaluator::Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions,
+                     IntegrationOptions options)
     : diagram_(diagram),
       density_(density),
       positions_(positions),
       dimension_(static_cast<std::size_t>(diagram.domain().dimension())),
-      threads_(threads) {}
+      options_(std::move(options)) {}
 
 void Evaluator::measure(Iterate& at) {
   diagram_.set_weights({at.weights.data(), static_cast<std::size_t>(at.weights.size())});
   if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
-  at.cells = integrate(diagram_, density_, true, threads_);
-  at.conductance = conductances(diagram_, at.cells.walls, positions_);
+  at.cells = integrate(diagram_, density_, options_);
+  if (!at.cells.walls.offset.empty()) at.conductance = conductances(diagram_, at.cells.walls, positions_);
 }
 
 Iterate Evaluator::evaluate(Vector weights) {

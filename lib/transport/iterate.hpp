@@ -10,9 +10,10 @@ namespace powercell {
 
 /// A point of the course, evaluated.
 struct Iterate {
-  Vector weights;          // of mean 0
-  DensityIntegrals cells;  // with walls
-  /// As cells.walls: c_ij = -dm_i/dw_j (mathematics, (15)).
+  Vector weights;  // of mean 0
+  DensityIntegrals cells;
+  /// As cells.walls: c_ij = -dm_i/dw_j (mathematics, (15)). None where the masses are met and walls cost
+  /// extra.
   std::vector<double> conductance;
   std::size_t empty = 0;  // cells without mass
 
@@ -33,8 +34,10 @@ struct Iterate {
 /// Evaluates weights of the seeds that a diagram has.
 class Evaluator {
  public:
-  /// All are kept by reference. \param positions  n x d, those of the diagram
-  Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, int threads);
+  /// The first three are kept by reference. \param positions  n x d, those of the diagram
+  /// \param options  of the integrals; with walls, but where walls_if says no
+  Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions,
+            IntegrationOptions options);
   virtual ~Evaluator() = default;
 
   /// The diagram keeps these weights. Their mean is taken off first.
@@ -55,7 +58,7 @@ class Evaluator {
   const Density& density_;
   std::span<const double> positions_;
   std::size_t dimension_;
-  int threads_;
+  IntegrationOptions options_;
   std::size_t count_ = 0;
   double seconds_ = 0;
 };

@@ -16,7 +16,7 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
   const double least = 0.5 * std::min(1.0, at.least(target));
   int short_steps = 0;
   while (true) {
-    if (at.error(target) < tolerance) return PhaseEnd::converged;
+    if (at.error(target) < tolerance || course.reached(at)) return PhaseEnd::converged;
     if (course.at_limit()) return PhaseEnd::step_limit;
     const Laplacian system =
         make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, {});

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double sum_tolerance = 1e-9;  // of the masses' sum, relative
+/// What integrals may be off by, of what masses may: the value of the dual is off by about the square of the latter.
+constexpr double integral_share = 1e-4;
 
 std::string digits(double value) {
   std::array<char, 40> text{};
@@ -48,11 +50,20 @@ TransportSolver::State::State(Device device, Domain domain, TransportOptions giv
   periodic.emplace(diagram.device(), diagram.domain(), options.diagram);
 }
 
-std::unique_ptr<Evaluator> TransportSolver::State::evaluator(std::span<const double> kept_positions) {
-  const int threads = options.diagram.threads;
+std::unique_ptr<Evaluator> TransportSolver::State::evaluator(std::span<const double> kept_positions,
+                                                             const Vector& target) {
+  IntegrationOptions integrals;
+  integrals.threads = options.diagram.threads;
+  integrals.tolerance = integral_share * used_tolerance();
+  integrals.walls = true;
+  integrals.walls_if = [&target, tolerance = used_tolerance()](std::span<const double> mass) {
+    const Eigen::Map<const Vector> found(mass.data(), target.size());
+    return !((found.array() / target.array() - 1).abs().maxCoeff() < tolerance);
+  };
   if (periodic)
-    return std::make_unique<PeriodicEvaluator>(diagram, *periodic, options.density, kept_positions, threads);
-  return std::make_unique<Evaluator>(diagram, options.density, kept_positions, threads);
+    return std::make_unique<PeriodicEvaluator>(diagram, *periodic, options.density, kept_positions,
+                                               integrals);
+  return std::make_unique<Evaluator>(diagram, options.density, kept_positions, integrals);
 }
 
 double TransportSolver::State::used_tolerance() const {
@@ -64,8 +75,9 @@ std::vector<double> TransportSolver::State::targets(double total) const {
   if (masses.empty()) return std::vector<double>(size(), total / static_cast<double>(size()));
   const double sum = vector_of(masses).sum();
   if (!options.rescale && !(std::abs(sum - total) <= sum_tolerance * total))
-    throw Error(ErrorCode::invalid_argument, "the masses sum to " + digits(sum) + ", the domain's mass is " +
-                                                 digits(total) + "; let them be rescaled (--rescale) if their ratios are meant");
+    throw Error(ErrorCode::invalid_argument,
+                "the masses sum to " + digits(sum) + ", the domain's mass is " + digits(total) +
+                    "; let them be rescaled (--rescale) if their ratios are meant");
   std::vector<double> result = masses;
   for (double& m : result) m *= total / sum;
   return result;
@@ -95,8 +107,9 @@ const TransportResult& TransportSolver::State::solve() {
   next.total_mass = total;
   next.tolerance = used_tolerance();
   next.target = target;
-  const std::unique_ptr<Evaluator> cells = evaluator(kept_positions);
-  Course course(*cells, options, next.tolerance, vector_of(rows(joined, kept, 1)));
+  const Vector kept_target = vector_of(rows(joined, kept, 1));
+  const std::unique_ptr<Evaluator> cells = evaluator(kept_positions, kept_target);
+  Course course(*cells, options, next.tolerance, kept_target);
   const Iterate at = run_course(course, vector_of(kept_weights));
   next.steps = course.steps();
   next.diagrams = cells->count();

@@ -16,7 +16,7 @@ struct TransportSolver::State {
   double tolerance = 0;  // as in TransportOptions
   Diagram diagram;
   std::optional<PeriodicDiagram> periodic;  // has the cells where the options ask for it
-  bool diagram_has_all = false;  // of the seeds; else those that are not merged
+  bool diagram_has_all = false;             // of the seeds; else those that are not merged
 
   std::vector<double> positions, weights, masses;  // of all seeds; no masses: equal ones
   TransportResult result;
@@ -32,7 +32,8 @@ struct TransportSolver::State {
   const TransportResult& solve();
 
  private:
-  std::unique_ptr<Evaluator> evaluator(std::span<const double> kept_positions);
+  /// \param target  of the kept seeds, kept by reference
+  std::unique_ptr<Evaluator> evaluator(std::span<const double> kept_positions, const Vector& target);
   /// Masses asked for, rescaled to the sum `total`. \throw Error invalid_argument
   std::vector<double> targets(double total) const;
   void fill_result(const Iterate& at, const std::vector<std::uint32_t>& kept);
