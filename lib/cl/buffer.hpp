@@ -59,6 +59,7 @@ class Buffer {
   void zero() { raw_.fill_zero(size_ * sizeof(T)); }
   std::size_t size() const { return size_; }
   cl_mem handle() const { return raw_.handle(); }
+  const RawBuffer& raw() const { return raw_; }
 
  private:
   RawBuffer raw_;

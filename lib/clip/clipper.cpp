@@ -95,7 +95,7 @@ void Clipper::read_rows(const Capacity& capacity, PieceBatch& batch) {
   if (!reader_) reader_.emplace(scene_.context());
   reader_->begin(faces_, static_cast<std::size_t>(capacity.faces), batch.face_offset);
   reader_->read(border_, 1, batch.border);
-  reader_->read_reals(wall_, scene_.float32(), 1, batch.wall);
+  if (outputs_ & OUTPUT_WALLS) reader_->read_reals(wall_, scene_.float32(), 1, batch.wall);
   if (!(outputs_ & OUTPUT_GEOMETRY)) return;
   reader_->begin(vertices_, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset);
   reader_->read_reals(vertex_, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),

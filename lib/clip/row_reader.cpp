@@ -1,51 +1,80 @@
 #include "lib/clip/row_reader.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <numeric>
 
 namespace powercell {
+namespace {
 
-RowReader::RowReader(const std::shared_ptr<cl::Context>& context)
-    : pack_(context, context->program("clip/pack.cl", {}), "pack_rows"),
-      scan_(context, ExclusiveScan::Type::uint32),
-      packed_(context) {}
+/// Entries of all rows, full or not, that are read as they are.
+constexpr std::size_t few_entries = std::size_t{1} << 16;
+
+}  // namespace
+
+RowReader::Packer::Packer(const std::shared_ptr<cl::Context>& context)
+    : pack(context, context->program("clip/pack.cl", {}), "pack_rows"),
+      scan(context, ExclusiveScan::Type::uint32),
+      packed(context) {}
 
 void RowReader::begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
                       std::vector<std::uint32_t>& offset) {
-  scan_.enqueue(counts.handle(), static_cast<std::uint32_t>(counts.size()));
-  offset.resize(counts.size());
-  counts.download(std::span(offset));
-  offset_ = counts.handle();
   rows_ = counts.size() - 1;
   capacity_ = capacity;
+  few_ = rows_ * capacity_ <= few_entries;
+  offset.resize(counts.size());
+  if (few_) {
+    counts.download(std::span(offset));
+    std::exclusive_scan(offset.begin(), offset.end(), offset.begin(), std::uint32_t{0});
+  } else {
+    if (!packer_) packer_.emplace(context_);
+    packer_->scan.enqueue(counts.handle(), static_cast<std::uint32_t>(counts.size()));
+    counts.download(std::span(offset));
+  }
+  device_offset_ = counts.handle();
+  offset_ = &offset;
   total_ = offset.back();
 }
 
 template <class T>
-void RowReader::read_values(cl_mem rows, std::size_t width, std::vector<T>& to) {
+void RowReader::read_few(const cl::RawBuffer& rows, std::size_t width, std::vector<T>& to) {
+  const std::size_t row_bytes = capacity_ * width * sizeof(T);
+  raw_.resize(rows_ * row_bytes);
+  rows.read(raw_.data(), raw_.size());
+  for (std::size_t row = 0; row < rows_; ++row) {
+    const std::size_t first = (*offset_)[row], count = (*offset_)[row + 1] - first;
+    if (count > 0) std::memcpy(&to[first * width], &raw_[row * row_bytes], count * width * sizeof(T));
+  }
+}
+
+template <class T>
+void RowReader::read_values(const cl::RawBuffer& rows, std::size_t width, std::vector<T>& to) {
   to.resize(total_ * width);
   if (to.empty()) return;
+  if (few_) return read_few(rows, width, to);
   const std::size_t bytes = to.size() * sizeof(T);
-  if (bytes > packed_.bytes()) packed_.reserve(bytes + bytes / 4);  // the next launch has about as many
-  pack_
+  cl::RawBuffer& packed = packer_->packed;
+  if (bytes > packed.bytes()) packed.reserve(bytes + bytes / 4);  // the next launch has about as many
+  packer_->pack
       .args(static_cast<cl_uint>(rows_), static_cast<cl_uint>(capacity_),
-            static_cast<cl_uint>(width * sizeof(T) / sizeof(cl_uint)), offset_, rows, packed_)
+            static_cast<cl_uint>(width * sizeof(T) / sizeof(cl_uint)), device_offset_, rows, packed)
       .launch(rows_);
-  packed_.read(to.data(), bytes);
+  packed.read(to.data(), bytes);
 }
 
 void RowReader::read(const cl::Buffer<std::int32_t>& rows, std::size_t width, std::vector<std::int32_t>& to) {
-  read_values(rows.handle(), width, to);
+  read_values(rows.raw(), width, to);
 }
 
 void RowReader::read(const cl::Buffer<std::uint32_t>& rows, std::size_t width,
                      std::vector<std::uint32_t>& to) {
-  read_values(rows.handle(), width, to);
+  read_values(rows.raw(), width, to);
 }
 
 void RowReader::read_reals(const cl::RawBuffer& rows, bool float32, std::size_t width,
                            std::vector<double>& to) {
-  if (!float32) return read_values(rows.handle(), width, to);
-  read_values(rows.handle(), width, narrow_);
+  if (!float32) return read_values(rows, width, to);
+  read_values(rows, width, narrow_);
   to.resize(narrow_.size());
   std::copy(narrow_.begin(), narrow_.end(), to.begin());
 }

@@ -2,7 +2,9 @@
 /// Reads rows of a fixed capacity from the device without what is not in them. Internal.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lib/primitives/scan.hpp"
@@ -10,15 +12,16 @@
 namespace powercell {
 
 /// Count → scan → write: a kernel leaves rows with room for a fixed number of entries and says how many are
-/// in each; they are put one after the other in device memory, and only then read.
+/// in each; they are put one after the other in device memory, and only then read. A few rows are read as
+/// they are and put together on the host: that is less than what eight launches cost.
 class RowReader {
  public:
-  /// Builds the kernels. \throw Error build_failed, opencl
-  explicit RowReader(const std::shared_ptr<cl::Context>& context);
+  explicit RowReader(const std::shared_ptr<cl::Context>& context) : context_(context) {}
 
   /// Takes in how long the rows are, for the reads that follow.
-  /// \param counts   per row, then a 0; replaced by where the rows begin when put together
-  /// \param offset   written: the same on the host, rows + 1
+  /// \param counts   per row, then a 0; undefined afterwards, to be kept for the reads
+  /// \param offset   written: where the rows begin when put together, rows + 1
+  /// \throw Error build_failed, opencl
   void begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity, std::vector<std::uint32_t>& offset);
 
   /// Reads rows of entries of `width` values each.
@@ -28,14 +31,27 @@ class RowReader {
   void read_reals(const cl::RawBuffer& rows, bool float32, std::size_t width, std::vector<double>& to);
 
  private:
-  template <class T>
-  void read_values(cl_mem rows, std::size_t width, std::vector<T>& to);
+  /// Puts rows together on the device.
+  struct Packer {
+    cl::Kernel pack;
+    ExclusiveScan scan;
+    cl::RawBuffer packed;
+    explicit Packer(const std::shared_ptr<cl::Context>& context);
+  };
 
-  cl::Kernel pack_;
-  ExclusiveScan scan_;
-  cl::RawBuffer packed_;
+  template <class T>
+  void read_values(const cl::RawBuffer& rows, std::size_t width, std::vector<T>& to);
+  /// Of few rows, as they are on the device. \param offset  of the rows put together
+  template <class T>
+  void read_few(const cl::RawBuffer& rows, std::size_t width, std::vector<T>& to);
+
+  std::shared_ptr<cl::Context> context_;
+  std::optional<Packer> packer_;  // of many rows
+  std::vector<std::byte> raw_;
   std::vector<float> narrow_;
-  cl_mem offset_ = nullptr;
+  cl_mem device_offset_ = nullptr;
+  const std::vector<std::uint32_t>* offset_ = nullptr;
+  bool few_ = false;
   std::size_t rows_ = 0, capacity_ = 0, total_ = 0;
 };
 
