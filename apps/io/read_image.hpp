@@ -15,8 +15,8 @@ struct GrayImage {
   std::vector<double> values;
 };
 
-/// A PNG of any kind, 8 or 16 bits: its luminance in linear light, in steps of 1/65535; transparent parts are
-/// on white paper. \throw Error invalid_file (no PNG, damaged, or of more than 2^28 pixels)
+/// A PNG of any kind, 8 or 16 bits: its luminance in linear light; transparent parts are on white paper.
+/// \throw Error invalid_file (no PNG, damaged, or of more than 2^28 pixels)
 GrayImage read_image(const std::string& path);
 /// The same from memory.
 GrayImage parse_png(std::string_view bytes, const std::string& name);
