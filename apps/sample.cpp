@@ -131,13 +131,7 @@ void add_source(CLI::App& command, SourceArguments& source) {
       .add_option("--kind", source.kind,
                   "What a file is that could be more than one: polygon, surface or volume")
       ->check(CLI::IsMember({"polygon", "surface", "volume"}));
-  command.add_option(
-      "--density", source.density,
-      "A number, a formula in x, y and z, or a file (.txt) with one value for each vertex of the mesh");
-  command
-      .add_option("--image", source.image, "PNG whose dark parts are dense; it fills the box of the domain")
-      ->type_name("FILE.png");
-  command.add_flag("--bright", source.bright, "The bright parts of the image are dense");
+  add_density_options(command, source);
   command
       .add_option("--dot-contrast", source.dot_contrast,
                   "Image: 0 for equal dots, towards 1 for ever more different ones; ink is the same")

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
+#include "apps/density_choice.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/output.hpp"
-#include "apps/io/read_density.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_masses.hpp"
 #include "apps/io/read_seeds.hpp"
@@ -23,7 +23,8 @@ namespace powercell::app {
 namespace {
 
 struct TransportArguments : CommonOptions {
-  std::string domain, kind, seeds, masses, mass_column, density, linear = "auto", table, walls, log;
+  std::string domain, kind, seeds, masses, mass_column, linear = "auto", table, walls, log;
+  DensityArguments density;
   double tolerance = 0;
   int most_steps = 500;
   bool rescale = false;
@@ -43,7 +44,7 @@ double fraction_done(const TransportStep& step, double first_error, double toler
 
 TransportOptions solver_options(const TransportArguments& arguments, const Domain& domain) {
   TransportOptions options;
-  if (!arguments.density.empty()) options.density = io::read_density(arguments.density, domain);
+  options.density = read_density(arguments.density, domain);
   options.tolerance = arguments.tolerance;
   options.max_steps = arguments.most_steps;
   options.linear = solvers.at(arguments.linear);
@@ -212,6 +213,7 @@ constexpr const char* examples =
     "  powercell transport --domain part.mesh --seeds grains.txt --masses sizes.csv --table weights.csv\n"
     "  powercell transport --domain square --seeds s.csv --density 'exp(-8*((x-.5)^2+(y-.5)^2))' --log "
     "steps.jsonl\n"
+    "  powercell transport --domain square --seeds random:500 --image photo.png -o cells.svg\n"
     "The table holds weights, so that it can be the --seeds of a later run and of 'powercell diagram'.";
 
 void add_solver_options(CLI::App& command, TransportArguments& arguments) {
@@ -223,10 +225,7 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
   command.add_option("--mass-column", arguments.mass_column, "Name of that column")->needs("--masses");
   command.add_flag("--rescale", arguments.rescale,
                    "Masses are ratios: multiply them so that they sum to the domain's mass");
-  command.add_option(
-      "--density", arguments.density,
-      "Mass for each unit of area or volume: a number, a formula in x, y, z, or a file (.txt) with one "
-      "value for each vertex of the mesh");
+  add_density_options(command, arguments.density);
   command
       .add_option("--tolerance", arguments.tolerance,
                   "Largest relative error of a mass; 1e-6 (single precision: 1e-3) if not given")

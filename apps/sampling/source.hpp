@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/density_choice.hpp"
+
 namespace powercell::app {
 
-struct SourceArguments {
-  std::string domain, kind, density, image;
-  bool bright = false;        ///< light parts of the image are dense, instead of dark ones
+struct SourceArguments : DensityArguments {
+  std::string domain, kind;
   double dot_contrast = 0.3;  ///< share of the darkness that dot sizes show, instead of their number
   int paper = 0;              ///< 2 or 3: the experiment of the paper in that dimension
 };

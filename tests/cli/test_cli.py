@@ -10,11 +10,13 @@ import os
 import pathlib
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
@@ -25,6 +27,17 @@ def run(*arguments, cwd=None, env=None, timeout=300):
     return subprocess.run([TOOL, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
                           stdin=subprocess.DEVNULL, capture_output=True,
                           env={**os.environ, **(env or {})})
+
+
+def png(rows, bits=8):
+    """A gray picture; the numbers are those of the file."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    code = ">H" if bits == 16 else ">B"
+    data = b"".join(b"\0" + b"".join(struct.pack(code, v) for v in row) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
 
 
 class ToolTest(unittest.TestCase):
@@ -60,6 +73,10 @@ class ToolTest(unittest.TestCase):
 
     def write(self, name, text):
         (self.folder / name).write_text(text)
+        return name
+
+    def image(self, name, rows, bits=8):
+        (self.folder / name).write_bytes(png(rows, bits))
         return name
 
 

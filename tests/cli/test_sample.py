@@ -7,28 +7,12 @@ usage: test_sample.py PATH_OF_POWERCELL [unittest options]
 import json
 import math
 import re
-import struct
 import unittest
-import zlib
 
-from test_cli import ToolTest, run
-
-
-def png(rows, bits=8):
-    """A gray picture; the numbers are those of the file."""
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    code = ">H" if bits == 16 else ">B"
-    data = b"".join(b"\0" + b"".join(struct.pack(code, v) for v in row) for row in rows)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+from test_cli import ToolTest, png, run
 
 
 class Sample(ToolTest):
-    def image(self, name, rows, bits=8):
-        (self.folder / name).write_bytes(png(rows, bits))
-
     def test_periodic_analysis(self):
         report = self.report("sample", "-n", "200", "--periodic", "--runs", "2", "--analysis", "a.json",
                              "-o", "p.csv", "-o", "p.svg", "-o", "p.png")

@@ -51,6 +51,24 @@ class Transport(ToolTest):
                     self.assertAlmostEqual(float(row["mass"]) * 50 / report["total_mass"], 1, delta=2e-6)
         self.assertAlmostEqual(report["total_mass"], 2 * report["domain_measure"], delta=1e-9)
 
+    def test_density_of_an_image(self):
+        # Luminance of gray 128 in linear light: the right half has the ink that this leaves.
+        light = ((128 / 255 + 0.055) / 1.055) ** 2.4
+        self.image("i.png", [[0] * 16 + [128] * 16] * 8)
+        for more, left, right in ((["--image", "i.png"], 1, 1 - light), (["--image", "i.png", "--bright"], 0, light)):
+            with self.subTest(more=more):
+                report = self.report(*self.square, "random:60", *more, "--table", "t.csv")
+                self.assertAlmostEqual(report["total_mass"], (left + right) / 2, delta=1e-4)
+                rows = self.rows("t.csv")
+                for row in rows:
+                    self.assertAlmostEqual(float(row["mass"]) * 60 / report["total_mass"], 1, delta=2e-6)
+                moment = sum(float(row["mass"]) * float(row["cx"]) for row in rows)
+                self.assertAlmostEqual(moment, left / 8 + right * 3 / 8, delta=1e-4)
+        self.bad(1, "exclude", *self.square, "random:9", "--image", "i.png", "--density", "x")
+        self.bad(1, "--bright needs", *self.square, "random:9", "--bright")
+        self.bad(1, "polygon", "transport", "--domain", "cube", "--seeds", "random:9", "--image", "i.png")
+        self.bad(1, "blank", *self.square, "random:9", "--image", self.image("white.png", [[255] * 4] * 4))
+
     def test_duplicates_are_merged_and_said(self):
         self.write("s.csv", "x,y\n0.2,0.2\n0.7,0.7\n0.2,0.2\n")
         done = self.good(*self.square, "s.csv", "--table", "t.csv")

@@ -1,0 +1,67 @@
+#include "apps/density_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/io/read_density.hpp"
+#include "apps/io/read_image.hpp"
+
+namespace powercell::app {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorCode::invalid_argument, what);
+}
+
+}  // namespace
+
+void add_density_options(CLI::App& command, DensityArguments& arguments) {
+  command.add_option("--density", arguments.density,
+                     "Mass for each unit of area or volume: a number, a formula in x, y and z, or a file "
+                     "(.txt) with one value for each vertex of the mesh");
+  command
+      .add_option("--image", arguments.image,
+                  "PNG whose dark parts are dense; it fills the box of the domain")
+      ->type_name("FILE.png");
+  command.add_flag("--bright", arguments.bright, "The bright parts of the image are dense");
+}
+
+void check(const DensityArguments& arguments) {
+  if (!arguments.density.empty() && !arguments.image.empty())
+    refuse("--density and --image exclude each other");
+  if (arguments.bright && arguments.image.empty()) refuse("--bright needs an --image");
+}
+
+Ink read_ink(const DensityArguments& arguments) {
+  io::GrayImage image = io::read_image(arguments.image);
+  if (!arguments.bright)
+    for (double& value : image.values) value = 1 - value;
+  if (std::all_of(image.values.begin(), image.values.end(), [](double v) { return v == 0; }))
+    throw Error(ErrorCode::invalid_file, fmt::format("{}: the image is blank, there is nothing {} in it",
+                                                     arguments.image, arguments.bright ? "bright" : "dark"));
+  return {image.width, image.height, std::move(image.values)};
+}
+
+Density image_density(const Domain& domain, const Ink& ink, std::span<const double> values) {
+  if (domain.kind() != DomainKind::polygon)
+    refuse("--image is a density of the plane: the domain must be a polygon");
+  return Density::image({ink.width,
+                         ink.height,
+                         values,
+                         {domain.low()[0], domain.low()[1]},
+                         {domain.high()[0], domain.high()[1]}});
+}
+
+Density read_density(const DensityArguments& arguments, const Domain& domain) {
+  check(arguments);
+  if (!arguments.image.empty()) {
+    const Ink ink = read_ink(arguments);
+    return image_density(domain, ink, ink.share);
+  }
+  if (!arguments.density.empty()) return io::read_density(arguments.density, domain);
+  return Density::constant(1);
+}
+
+}  // namespace powercell::app
