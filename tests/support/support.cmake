@@ -11,7 +11,8 @@ if(NOT TARGET powercell_support)
   target_compile_options(powercell_support PRIVATE -Wall -Wextra)
   target_link_libraries(powercell_support PUBLIC powercell_test_lib)
 
-  add_library(powercell_opencl_shim OBJECT EXCLUDE_FROM_ALL ${support}/opencl_shim.cpp)
+  add_library(powercell_opencl_shim OBJECT EXCLUDE_FROM_ALL ${support}/opencl_shim.cpp ${support}/opencl_layer.cpp
+    ${support}/opencl_entries.cpp)
   target_compile_options(powercell_opencl_shim PRIVATE -Wall -Wextra)
   target_link_libraries(powercell_opencl_shim PUBLIC powercell_test_lib ${CMAKE_DL_LIBS})
 

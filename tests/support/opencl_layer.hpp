@@ -1,0 +1,53 @@
+/// \file
+/// The state of the layer over OpenCL (opencl_shim.hpp), and what its entry points do besides passing on.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include "tests/support/opencl_shim.hpp"
+
+namespace powercell::test::shim {
+
+enum Kind { context, queue, buffer, program, kernel, event, map, kinds };
+
+struct Layer {
+  std::mutex mutex;
+  void* loader = nullptr;
+  std::array<void*, entry_count> real{};
+
+  Calls calls{};
+  std::uint64_t device_calls = 0;
+  std::array<std::map<void*, int>, kinds> held;  // references of the program
+  std::map<void*, std::size_t> bytes;            // of buffers
+  std::size_t total_bytes = 0, peak_bytes = 0;
+  int wrong_releases = 0;
+
+  Entry failing = Entry::count;
+  std::uint64_t fail_in = 0, lose_in = 0;  // calls until it happens; 0: never
+  bool lost = false, fired = false;
+  cl_int code = CL_SUCCESS;
+  std::size_t memory_limit = std::numeric_limits<std::size_t>::max(), group_size = 0;
+  std::map<cl_device_info, std::uint64_t> pretended;
+};
+
+Layer& layer();
+
+/// The entry point of the ICD loader. Ends the process if there is none.
+void* loader_entry(Entry entry);
+template <class Function>
+Function* real(Entry entry) {
+  return reinterpret_cast<Function*>(loader_entry(entry));
+}
+
+/// Counts a call; the code with which it is to fail, or CL_SUCCESS.
+cl_int before(Entry entry);
+void hold(Kind kind, void* object);
+void let_go(Kind kind, void* object);
+/// Whether a buffer of so many bytes fits the memory there is said to be.
+bool fits(std::size_t bytes);
+/// Puts the pretended value, if there is one, over what the driver wrote.
+void pretend_over(cl_device_info property, std::size_t size, void* value);
+
+}  // namespace powercell::test::shim
