@@ -45,6 +45,11 @@ typedef struct {
   int face_capacity;                                                       \
   real* error;              /* of each vertex */                           \
   real worst_error;         /* of all vertices there were */               \
+  certain_plane_t* unit;    /* of each face (polygon: edge) */             \
+  ulong* unit_of;           /* the round in which it was found, and what was behind the face then */ \
+  uint round;                                                              \
+  certain_plane_t ground;   /* polygons: their plane */                    \
+  bool moved;               /* since the radius was found */               \
   powercell::SeedMarks* tried; /* seeds whose bisectors were decided about */ \
   powercell::ExactCell* exact;
 

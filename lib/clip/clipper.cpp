@@ -182,7 +182,7 @@ void Clipper::finish_on_host(const List& pairs) {
   if (!host_scene_) host_scene_ = make_host_scene(scene_);
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
   const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task, first_batch = pieces_.used;
-  for (std::size_t task = 0; task < tasks; ++task) pieces_.add_batch() = {};
+  for (std::size_t task = 0; task < tasks; ++task) pieces_.add_batch().clear();
   List ranks(pairs.size());
   std::transform(pairs.begin(), pairs.end(), ranks.begin(),
                  [&](std::uint32_t pair) { return pair_seed_[pair]; });
@@ -191,7 +191,7 @@ void Clipper::finish_on_host(const List& pairs) {
   std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
   parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
     std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
-    if (!host) host = HostClipper::make(*host_scene_);
+    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0);
     const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
     PieceBatch unwanted, &rows = wants_rows() ? pieces_.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {

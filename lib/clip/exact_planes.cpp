@@ -5,6 +5,7 @@
 #include <climits>
 #include <cstring>
 #include <iterator>
+#include <type_traits>
 
 #include "lib/clip/host_clip.hpp"
 
@@ -160,12 +161,41 @@ bool ExactPlanes<Row>::cover(int low, int high) {
   const int room = Limits<Row>::normal - (high_ - low_);
   if (room < 0) return false;
   if (first || low_ < exponent_ || high_ - exponent_ > Limits<Row>::normal)
-    exponent_ = low_ - std::min(room, spare_bits);
+    set_unit(low_ - std::min(room, spare_bits));
   return true;
 }
 
 template <class Row>
+void ExactPlanes<Row>::set_unit(int exponent) {
+  exponent_ = exponent;
+  scale_ = exponent > -1000 && exponent < 1000 ? std::ldexp(1.0, -exponent) : 0;
+}
+
+/// Of seeds of one weight whose differences are doubles that fit the unit, as they mostly are; false if not
+/// so.
+template <class Row>
+bool ExactPlanes<Row>::make_short_bisector(std::int32_t other, Row& row) const {
+  if constexpr (std::is_same_v<typename Row::Normal, Wide<1>>) {
+    const std::array<double, 4> here = packed(scene_->points, rank_),
+                                there = packed(scene_->points, static_cast<std::size_t>(other));
+    if (!any_ || scale_ == 0 || here[3] != there[3]) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ExactDifference q = exact_difference(there[k], here[k]);
+      const double x = q.high * scale_;
+      if (q.low != 0 || !(std::abs(x) <= 0x1p61)) return false;
+      const auto n = static_cast<std::int64_t>(x);
+      if (static_cast<double>(n) != x) return false;
+      row.normal[k].limb[0] = static_cast<std::uint64_t>(n);
+    }
+    level_of(dot_of(row.normal, row.normal), {}, 0, row.level);
+    return true;
+  }
+  return false;
+}
+
+template <class Row>
 bool ExactPlanes<Row>::make_bisector(std::int32_t other, Row& row) {
+  if (make_short_bisector(other, row)) return true;
   const std::array<double, 4> here = packed(scene_->points, rank_),
                               there = packed(scene_->points, static_cast<std::size_t>(other));
   const auto d = static_cast<std::size_t>(scene_->mesh->dimension);
@@ -234,23 +264,27 @@ bool ExactPlanes<Row>::make_facet(std::int32_t border, Row& row) {
 
 template <class Row>
 bool ExactPlanes<Row>::make(std::int32_t border) {
-  const bool had_unit = any_;
-  const int unit = exponent_;
   const auto fill = [&](std::int32_t plane, Row& row) {
     return plane >= 0 ? make_bisector(plane, row) : make_facet(plane, row);
   };
+  const bool had_unit = any_;
+  int unit = exponent_;
   Row row;
   if (!fill(border, row)) return false;
-  if (had_unit && exponent_ != unit) {
-    const std::vector<std::int32_t> others = table_.borders();
-    table_.clear();
-    for (const std::int32_t other : others) {
-      Row again;
-      if (!fill(other, again)) return false;
-      table_.add(other, std::move(again));
-    }
+  if (!had_unit || exponent_ == unit) {
+    table_.add(border, std::move(row));
+    return true;
   }
-  table_.add(border, std::move(row));
+  std::vector<std::int32_t> borders = table_.borders();
+  borders.push_back(border);
+  do {
+    unit = exponent_;
+    table_.clear();
+    for (const std::int32_t other : borders) {
+      if (!fill(other, row)) return false;
+      table_.add(other, row);
+    }
+  } while (exponent_ != unit);  // it goes down only, and no further than for all of them
   return true;
 }
 

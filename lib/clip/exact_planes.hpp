@@ -45,13 +45,16 @@ class ExactPlanes {
   /// Takes numbers into account whose bits are from 2^low to below 2^high; false if the range is too wide.
   /// The unit may change, and all rows with it.
   bool cover(int low, int high);
+  void set_unit(int exponent);
   bool make_bisector(std::int32_t other, Row& row);
+  bool make_short_bisector(std::int32_t other, Row& row) const;
   bool make_facet(std::int32_t border, Row& row);
 
   const HostScene* scene_ = nullptr;
   std::uint32_t rank_ = 0, first_ = 0;
   int corners_ = 0;
   int low_ = 0, high_ = 0, exponent_ = 0;
+  double scale_ = 0;  ///< 2^-exponent, or 0 if that is no double
   bool any_ = false;
   RowTable<Row> table_;
 };

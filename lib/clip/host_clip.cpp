@@ -6,15 +6,15 @@
 namespace powercell {
 
 namespace host_polygon2 {
-std::unique_ptr<HostClipper> make_clipper(const HostScene&);
+std::unique_ptr<HostClipper> make_clipper(const HostScene&, bool);
 void pack_blocks(HostScene&);
 void list_near_leaf(HostScene&, std::uint32_t);
 }  // namespace host_polygon2
 namespace host_polygon3 {
-std::unique_ptr<HostClipper> make_clipper(const HostScene&);
+std::unique_ptr<HostClipper> make_clipper(const HostScene&, bool);
 }
 namespace host_polyhedron {
-std::unique_ptr<HostClipper> make_clipper(const HostScene&);
+std::unique_ptr<HostClipper> make_clipper(const HostScene&, bool);
 void pack_blocks(HostScene&);
 void list_near_leaf(HostScene&, std::uint32_t);
 }  // namespace host_polyhedron
@@ -58,10 +58,10 @@ void list_near(HostScene& scene, std::span<const std::uint32_t> ranks, int threa
   });
 }
 
-std::unique_ptr<HostClipper> HostClipper::make(const HostScene& scene) {
-  return scene.mesh->cell_dimension == 3 ? host_polyhedron::make_clipper(scene)
-         : scene.mesh->dimension == 3    ? host_polygon3::make_clipper(scene)
-                                         : host_polygon2::make_clipper(scene);
+std::unique_ptr<HostClipper> HostClipper::make(const HostScene& scene, bool geometry) {
+  return scene.mesh->cell_dimension == 3 ? host_polyhedron::make_clipper(scene, geometry)
+         : scene.mesh->dimension == 3    ? host_polygon3::make_clipper(scene, geometry)
+                                         : host_polygon2::make_clipper(scene, geometry);
 }
 
 }  // namespace powercell

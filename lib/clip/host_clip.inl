@@ -2,8 +2,10 @@
 // CELL_DIMENSION and the name of the namespace HOST_CLIP_SPACE.
 #include <algorithm>
 #include <bit>
+#include <climits>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <string>
 
 #include "kernels/layout.h"
@@ -14,7 +16,14 @@
 namespace powercell::HOST_CLIP_SPACE {
 namespace {
 
-using std::fabs, std::fmax, std::fmin, std::min, std::sqrt, std::size_t;
+using std::fabs, std::min, std::sqrt, std::size_t;
+/* Of numbers: the library's, which care for NaN, are calls. */
+inline double fmax(double a, double b) {
+  return a < b ? b : a;
+}
+inline double fmin(double a, double b) {
+  return b < a ? b : a;
+}
 using uint = unsigned int;
 using uchar = unsigned char;
 
@@ -49,6 +58,8 @@ class GrowingCell {
       : real_(vertices * (DIMENSION + 3)),
         index_(vertices * 7),
         border_(vertices),
+        unit_of_(vertices),
+        unit_(vertices),
         word_(vertices / 32),
         points_(2 * vertices) {
     auto* real_at = real_.data();
@@ -59,6 +70,8 @@ class GrowingCell {
     cell.at.used = word_.data();
     cell.at.outside = word_.data() + vertices / 64;
     cell.border = border_.data();
+    cell.unit = unit_.data();
+    cell.unit_of = unit_of_.data();
     cell.vertex_capacity = cell.face_capacity = static_cast<int>(vertices);
     link_graph(cell, vertices);
   }
@@ -89,6 +102,8 @@ class GrowingCell {
   std::vector<real> real_;
   std::vector<index_t> index_;
   std::vector<int> border_;
+  std::vector<ulong> unit_of_;
+  std::vector<certain_plane_t> unit_;
   std::vector<ulong> word_;
   std::vector<real4> points_;
 };
@@ -145,15 +160,16 @@ struct Row {
 
   explicit Row(std::size_t capacity)
       : border(capacity), wall(capacity), vertex(capacity * DIMENSION), link(capacity * 6) {}
-  void append_to(PieceBatch& batch) const {
+  void append_to(PieceBatch& batch, bool geometry) const {
     const auto add = [](auto& to, const auto& from, std::size_t count) {
       to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
     };
     if (batch.face_offset.empty()) batch.face_offset = batch.vertex_offset = {0};
     batch.face_offset.push_back(batch.face_offset.back() + faces);
-    batch.vertex_offset.push_back(batch.vertex_offset.back() + vertices);
     add(batch.border, border, faces);
     add(batch.wall, wall, faces);
+    if (!geometry) return;
+    batch.vertex_offset.push_back(batch.vertex_offset.back() + vertices);
     add(batch.vertex, vertex, vertices * DIMENSION);
     add(batch.link, link, vertices * 6);
   }
@@ -223,8 +239,8 @@ void settle_walls_in_facets(const cell_t& cell, int facets, bool flat, Row& row)
 /// Of what is plainly a wall: far below rounding, far above the least number.
 constexpr real next_to_nothing = 1e-50;
 
-/// Walls whose measure is 0 without the infinitesimals of ties measure 0, to the bit, and no others: what rounding made
-/// nothing measures next to nothing.
+/// Walls whose measure is 0 without the infinitesimals of ties measure 0, to the bit, and no others: what
+/// rounding made nothing measures next to nothing.
 void settle_small_walls(const cell_t& cell, Row& row) {
   const real plain = plainly_solid * (CELL_DIMENSION == 3 ? cell.at.radius * cell.at.radius : cell.at.radius);
   int face = first_face(cell);
@@ -264,22 +280,27 @@ bool has_wall(const Row& row) {
 
 class Clipper final : public HostClipper {
  public:
-  explicit Clipper(const HostScene& scene)
-      : scene_(scene), tree_(tree_of(scene)), exact_(scene), room_(least_room), row_(least_room) {}
+  Clipper(const HostScene& scene, bool geometry)
+      : scene_(scene),
+        geometry_(geometry),
+        tree_(tree_of(scene)),
+        exact_(scene),
+        room_(least_room),
+        row_(least_room) {}
 
   int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) override {
     int status = clip_within(room_, row_, rank, region, moments.data());
-    if (status == PIECE_FULL) {  // room that few need, not kept: what a cell leaves does not depend on those before
+    if (status == PIECE_FULL) {  // room that few need, not kept: no cell depends on those before
       std::size_t vertices = least_room;
       while (status == PIECE_FULL) {
         vertices *= 4;
         GrowingCell room(vertices);
         Row row(vertices);
         status = clip_within(room, row, rank, region, moments.data());
-        if (status != PIECE_FULL) row.append_to(rows);
+        if (status != PIECE_FULL) row.append_to(rows, geometry_);
       }
     } else {
-      row_.append_to(rows);
+      row_.append_to(rows, geometry_);
     }
     if (status != PIECE_TANGLED) return status;
     throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank) +
@@ -324,6 +345,7 @@ class Clipper final : public HostClipper {
   }
 
   const HostScene& scene_;
+  const bool geometry_;
   tree_t tree_;
   ExactCell exact_;
   SeedMarks tried_;
@@ -333,8 +355,8 @@ class Clipper final : public HostClipper {
 
 }  // namespace
 
-std::unique_ptr<HostClipper> make_clipper(const HostScene& scene) {
-  return std::make_unique<Clipper>(scene);
+std::unique_ptr<HostClipper> make_clipper(const HostScene& scene, bool geometry) {
+  return std::make_unique<Clipper>(scene, geometry);
 }
 
 }  // namespace powercell::HOST_CLIP_SPACE

@@ -19,17 +19,37 @@ inline bool is_corner(const ExactVertex& planes) {
 /// are still to be cut off, and in the end.
 constexpr real passing_error = 1e-7, final_error = 1e-12;
 
+/// Planes known so far are to be found again: for another cell, or for the radius as it is now.
 template <class Cell>
-real4 placed_by_planes(const Cell* cell, int v) {
+void forget_planes(Cell* cell) {
+  if (++cell->round != 0) return;
+  std::fill(cell->unit_of, cell->unit_of + cell->face_capacity, 0);
+  cell->round = 1;
+}
+
+/// The plane of face f, or the line of edge f of a polygon, found once.
+template <class Cell>
+const certain_plane_t& known_plane(Cell* cell, int f) {
+  const ulong found = static_cast<ulong>(cell->round) << 32 | static_cast<uint>(cell->border[f]);
+  if (cell->unit_of[f] != found) {
+    cell->unit_of[f] = found;
+    if constexpr (requires { cell->previous; })
+      cell->unit[f] = edge_line(cell, f, cell->ground.plane);
+    else
+      cell->unit[f] = face_plane(cell, f);
+  }
+  return cell->unit[f];
+}
+
+template <class Cell>
+real4 placed_by_planes(Cell* cell, int v) {
   if constexpr (requires { cell->previous; }) {
-    const certain_plane_t ground = ground_plane(cell);
-    return meeting_point(&cell->at, ground,
-                         edge_line(cell, static_cast<int>(cell->previous[v]), ground.plane),
-                         edge_line(cell, v, ground.plane));
+    return meeting_point(&cell->at, cell->ground, known_plane(cell, static_cast<int>(cell->previous[v])),
+                         known_plane(cell, v));
   } else {
-    return meeting_point(&cell->at, face_plane(cell, static_cast<int>(cell->face[0][v])),
-                         face_plane(cell, static_cast<int>(cell->face[1][v])),
-                         face_plane(cell, static_cast<int>(cell->face[2][v])));
+    return meeting_point(&cell->at, known_plane(cell, static_cast<int>(cell->face[0][v])),
+                         known_plane(cell, static_cast<int>(cell->face[1][v])),
+                         known_plane(cell, static_cast<int>(cell->face[2][v])));
   }
 }
 
@@ -52,6 +72,7 @@ void host_place(Cell* cell, int v, real good_error) {
     cell->error[v] = y.w;
   }
   cell->worst_error = fmax(cell->worst_error, cell->error[v]);
+  cell->moved = true;
 }
 
 template <class Cell>
@@ -62,6 +83,10 @@ void host_place(Cell* cell, int v) {
 /// Before the first cut.
 template <class Cell>
 void host_start(Cell* cell) {
+  if constexpr (requires { cell->previous; }) cell->ground = ground_plane(cell);
+  forget_planes(cell);
+  cell->moved = true;
+  cell->at.gap = -REAL_MAX / 4;  // nothing is to be proved: gaps are not looked for
   cell->worst_error = corner_error(&cell->at);
   for (int v = 0; v < cell->at.blocks * LANES; ++v) cell->error[v] = cell->worst_error;
 }
@@ -80,7 +105,8 @@ int host_sides(Cell* cell, int border, int* vertices, int* inside) {
     *vertices = *inside = 1;
     return 0;
   }
-  find_radius2(p);
+  if (cell->moved) find_radius2(p);
+  cell->moved = false;
   const seed_t seed = p->seeds[p->self], other = p->seeds[border];
   real q[DIMENSION], sum = 0;
   difference(other, seed, q);
@@ -88,15 +114,21 @@ int host_sides(Cell* cell, int border, int* vertices, int* inside) {
   const real rounding = plane_error(p, sum, norm2(q), weight_difference(seed, other));
   int outside = 0, all = 0;
   for (int w = 0; w < words_of(p); ++w) {
-    p->outside[w] = 0;
-    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
-      const int bit = lowest_bit(bits), v = w * WORD_BITS + bit;
-      ++all;
-      const bool certain = fabs(p->side[v]) > rounding + 2 * sum * cell->error[v];
-      if (!(certain ? p->side[v] > 0 : cell->exact->is_outside(vertex_planes(cell, v), border))) continue;
-      p->outside[w] |= (ulong)1 << bit;
-      ++outside;
+    ulong out = 0, in = 0;
+    for (int b = 8 * w; b < min(8 * w + 8, p->blocks); ++b) {
+      const real8 s = load8(p->side + b * LANES);
+      const real8 error = all_lanes(rounding) + all_lanes(2 * sum) * load8(cell->error + b * LANES);
+      out |= static_cast<ulong>(lane_bits(s > error)) << b % 8 * 8;
+      in |= static_cast<ulong>(lane_bits(s < -error)) << b % 8 * 8;
     }
+    out &= p->used[w];
+    for (ulong doubt = p->used[w] & ~(out | in); doubt != 0; doubt &= doubt - 1) {
+      const int bit = lowest_bit(doubt);
+      if (cell->exact->is_outside(vertex_planes(cell, w * WORD_BITS + bit), border)) out |= (ulong)1 << bit;
+    }
+    p->outside[w] = out;
+    outside += popcount(out);
+    all += popcount(p->used[w]);
   }
   *vertices = all;
   *inside = all - outside;
@@ -107,6 +139,7 @@ int host_sides(Cell* cell, int border, int* vertices, int* inside) {
 template <class Cell>
 bool host_finish(Cell* cell) {
   find_radius2(&cell->at);
+  forget_planes(cell);
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1)
       host_place(cell, w * WORD_BITS + lowest_bit(bits), final_error);
@@ -131,22 +164,24 @@ bool coincide(const Cell* cell, int v, int u) {
 }
 
 /// Calls use(v, u, border) for the edges from v to u of face f, or of a polygon (f does not count), each in
-/// the plane of `border`, while it returns true; whether all did.
+/// the plane of `border`, while it returns true; whether all did. Needs cell_finish.
 template <class Cell, class Use>
 bool all_edges(const Cell* cell, int f, const Use& use) {
-  for (int w = 0; w < words_of(&cell->at); ++w)
-    for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
-      const int v = w * WORD_BITS + lowest_bit(bits);
-      if constexpr (requires { cell->previous; }) {
-        if (!use(v, static_cast<int>(cell->next[v]), cell->border[v])) return false;
-      } else {
-        for (int k = 0; k < 3; ++k)
-          if (static_cast<int>(cell->face[k][v]) == f &&
-              !use(v, static_cast<int>(cell->next[k][v]), cell->border[cell->face[k == 0 ? 2 : k - 1][v]]))
-            return false;
-      }
+  if constexpr (requires { cell->previous; }) {
+    for (int v = cell->first;;) {
+      const int u = static_cast<int>(cell->next[v]);
+      if (!use(v, u, cell->border[v])) return false;
+      if ((v = u) == cell->first) return true;
     }
-  return true;
+  } else {
+    for (int v = static_cast<int>(cell->mark[f]);;) {
+      int k = 0;
+      while (static_cast<int>(cell->face[k][v]) != f) ++k;
+      const int u = static_cast<int>(cell->next[k][v]);
+      if (!use(v, u, cell->border[cell->face[k == 0 ? 2 : k - 1][v]])) return false;
+      if ((v = u) == static_cast<int>(cell->mark[f])) return true;
+    }
+  }
 }
 
 /// Whether a face, or a polygon, has no area without the infinitesimals: all edges with a length are

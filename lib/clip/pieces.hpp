@@ -21,6 +21,15 @@ struct PieceBatch {
   std::vector<double> vertex;                ///< dimension per vertex
   std::vector<std::uint32_t> link;           ///< 6 per vertex (polyhedra)
 
+  /// No rows; the memory is kept.
+  void clear() {
+    face_offset.clear();
+    border.clear();
+    wall.clear();
+    vertex_offset.clear();
+    vertex.clear();
+    link.clear();
+  }
   std::uint32_t faces(std::size_t row) const { return face_offset[row + 1] - face_offset[row]; }
   std::uint32_t vertices(std::size_t row) const { return vertex_offset[row + 1] - vertex_offset[row]; }
 };

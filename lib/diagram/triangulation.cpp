@@ -75,7 +75,7 @@ class OuterCells {
     while (!front.empty()) {
       std::vector<Piece> pieces(front.size());
       parallel_for(threads_, front.size(), [&](std::size_t begin, std::size_t end) {
-        const std::unique_ptr<HostClipper> clipper = HostClipper::make(host_);
+        const std::unique_ptr<HostClipper> clipper = HostClipper::make(host_, true);
         std::array<double, 5> moments;
         for (std::size_t k = begin; k < end; ++k)
           pieces[k].status = clipper->clip(front[k], 0, moments, pieces[k].row);

@@ -64,7 +64,7 @@ TEST_CASE("the host clips as the device does") {
     for (const bool listed : {false, true}) {
       CAPTURE(listed);
       if (listed) list_near(host, ranks, 2);
-      const std::unique_ptr<HostClipper> on_host = HostClipper::make(host);
+      const std::unique_ptr<HostClipper> on_host = HostClipper::make(host, false);
       PieceBatch rows;
       std::vector<double> moment(stride);
       for (const std::uint32_t rank : ranks) {
