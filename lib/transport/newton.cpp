@@ -1,5 +1,4 @@
-#include <cmath>
-
+#include "lib/linear/damping.hpp"
 #include "lib/transport/course.hpp"
 
 namespace powercell {
@@ -13,7 +12,7 @@ constexpr int most_short_steps = 8;      // in a row
 
 PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolerance, TransportPhase phase,
                 double exponent) {
-  const double least = 0.5 * std::min(1.0, at.least(target));
+  const double least = kept_share(at.least(target));
   int short_steps = 0;
   while (true) {
     if (at.error(target) < tolerance || course.reached(at)) return PhaseEnd::converged;
@@ -23,16 +22,13 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
     if (connected_parts(system.matrix) > 1) return PhaseEnd::disconnected;
     const Vector gradient = at.gradient(target);
     const Direction direction = course.solve(system, gradient);
-    double length = 1;
     Iterate next;
-    while (true) {
-      next = course.evaluator().evaluate(at.weights + length * direction.linear.solution);
-      if (next.empty == 0 && next.least(target) >= least &&
-          next.gradient(target).norm() <= (1 - length / 2) * gradient.norm())
-        break;
-      length /= 2;
-      if (length < shortest) return PhaseEnd::stalled;
-    }
+    const double length = damped_length(shortest, [&](double trial) {
+      next = course.evaluator().evaluate(at.weights + trial * direction.linear.solution);
+      return next.empty == 0 && next.least(target) >= least &&
+             falls_enough(next.gradient(target).norm(), gradient.norm(), trial);
+    });
+    if (length == 0) return PhaseEnd::stalled;
     at = std::move(next);
     TransportStep step;
     step.phase = phase;

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "lib/linear/damping.hpp"
+
 namespace powercell::treemap_detail {
 
 struct NewtonOptions {
@@ -38,9 +40,9 @@ class DampedNewton {
   NewtonOutcome solve(const NewtonOptions& options) {
     outcome_ = {};
     if (!start()) return outcome_;
-    const double least_share = 0.5 * std::min(1.0, least_ratio());
+    const double share = kept_share(least_ratio());
     least_.resize(target_.size());
-    for (std::size_t i = 0; i < least_.size(); ++i) least_[i] = least_share * target_[i];
+    for (std::size_t i = 0; i < least_.size(); ++i) least_[i] = share * target_[i];
     double norm = take_residual();
     while (outcome_.error >= options.tolerance) {
       if (outcome_.steps == options.most_steps) return outcome_;
@@ -93,16 +95,18 @@ class DampedNewton {
   // Along delta by 1, 1/2, 1/4, ... until no cell is too small and the residual falls; its norm then. Where
   // the norm is down to the rounding of the large cells, the small ones may still improve.
   bool go(double& norm) {
-    constexpr double rounding = 1e-12;
+    constexpr double rounding = 1e-12, shortest = 1e-6;
     from_ = weights_;
     const double error = outcome_.error;
-    for (double t = 1; t > 1e-6; t *= 0.5) {
-      for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = from_[i] + t * delta_[i];
-      if (!evaluate(least_)) continue;
-      const double reached = take_residual();
-      const bool falls = reached <= (1 - 0.5 * t) * norm;
-      const bool improves = reached < rounding && outcome_.error <= (1 - 0.5 * t) * error;
-      if (!falls && !improves) continue;
+    double reached = 0;
+    const double length = damped_length(shortest, [&](double trial) {
+      for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = from_[i] + trial * delta_[i];
+      if (!evaluate(least_)) return false;
+      reached = take_residual();
+      return falls_enough(reached, norm, trial) ||
+             (reached < rounding && falls_enough(outcome_.error, error, trial));
+    });
+    if (length > 0) {
       norm = reached;
       return true;
     }
