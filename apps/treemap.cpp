@@ -44,6 +44,7 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
   options.rounds = arguments.rounds;
   options.random_seed = arguments.random_seed;
   options.threads = arguments.threads;
+  options.name = [&tree](std::size_t node) { return tree.called(node); };
   std::vector<double> start;
   if (!arguments.previous.empty()) {
     const io::EarlierLayout earlier = io::read_earlier_layout(arguments.previous, tree);

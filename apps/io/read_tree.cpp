@@ -1,11 +1,18 @@
 #include "apps/io/read_tree.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_tree_formats.hpp"
 
 namespace powercell::io {
+
+std::string NamedTree::called(std::size_t node) const {
+  if (row.empty() || row[node] == 0) return fmt::format("'{}'", readable(id[node]));
+  return fmt::format("'{}' ({}{})", readable(id[node]), readable(rows), row[node]);
+}
 
 NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name) {
   return extension == ".json" ? parse_tree_json(bytes, name) : parse_tree_table(bytes, name);

@@ -17,7 +17,14 @@ struct NamedTree {
   std::vector<double> value;         ///< n; 0 where the input has none
   std::vector<std::string> notes;    ///< what was left out on the way, e.g. folders that could not be read
 
+  /// Where rows are numbered: what the number follows, "sales.csv:" or "list.json: element ", and n numbers, 0
+  /// for a row that was only implied. Else empty: ids are paths.
+  std::string rows;
+  std::vector<std::size_t> row;
+
   std::size_t size() const { return id.size(); }
+  /// How messages call a node: 'north' (sales.csv:12).
+  std::string called(std::size_t node) const;
 };
 
 /// Reads, by what `path` is:

@@ -76,7 +76,9 @@ class Linker {
       tree_.parent.push_back(parent);
       tree_.value.push_back(row.value);
     }
+    tree_.rows = file_ + (lines_ ? ":" : ": element ");
     for (TreeRow& row : rows_) {
+      tree_.row.push_back(row.place);
       tree_.id.push_back(std::move(row.id));
       tree_.name.push_back(row.name.empty() ? tree_.id.back() : std::move(row.name));
     }

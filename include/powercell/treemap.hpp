@@ -8,6 +8,7 @@
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace powercell {
@@ -29,6 +30,9 @@ struct TreemapOptions {
   /// An earlier layout to stay close to: n x 2 as `relative_positions` gives them, NaN for a node that was
   /// not in it. Empty: none.
   std::span<const double> start = {};
+
+  /// How messages call a node, by its index; "node 12" if not set.
+  std::function<std::string(std::size_t)> name = {};
 
   int threads = 0;  ///< on the host; 0 means all
   /// For groups of more than `large_group` siblings; without one `Device::choose()` is asked when the first

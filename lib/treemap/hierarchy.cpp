@@ -17,20 +17,18 @@ constexpr double least_share = 1e-16;
   throw Error(ErrorCode::invalid_argument, "treemap: " + why);
 }
 
-std::size_t find_root(const TreeView& tree) {
+std::size_t find_root(const TreeView& tree, const NodeName& name) {
   const auto n = static_cast<std::int64_t>(tree.parent.size());
   std::size_t root = tree.parent.size();
   for (std::size_t i = 0; i < tree.parent.size(); ++i) {
     const std::int64_t parent = tree.parent[i];
     if (parent != TreeView::no_parent && (parent < 0 || parent >= n))
-      refuse("node " + std::to_string(i) + " has the parent " + std::to_string(parent) +
-             ", which is none of the " + std::to_string(n) + " nodes");
-    if (!std::isfinite(tree.value[i])) refuse("the value of node " + std::to_string(i) + " is not finite");
+      refuse(name(i) + " has the parent " + std::to_string(parent) + ", which is none of the " +
+             std::to_string(n) + " nodes");
+    if (!std::isfinite(tree.value[i])) refuse("the value of " + name(i) + " is not finite");
     if (parent != TreeView::no_parent) continue;
     if (root < tree.parent.size())
-      refuse("nodes " + std::to_string(root) + " and " + std::to_string(i) +
-             " are both without a parent; a tree has "
-             "one root");
+      refuse(name(root) + " and " + name(i) + " are both without a parent; a tree has one root");
     root = i;
   }
   if (root == tree.parent.size()) refuse("every node has a parent, so there is no root");
@@ -69,13 +67,13 @@ void order_by_level(Hierarchy& h) {
   }
 }
 
-void refuse_cycle(const Hierarchy& h, const TreeView& tree) {
+void refuse_cycle(const Hierarchy& h, const TreeView& tree, const NodeName& name) {
   std::vector<bool> reached(h.size());
   for (const std::uint32_t i : h.order) reached[i] = true;
   std::size_t node = 0;
   while (reached[node]) ++node;
   for (std::size_t k = 0; k < h.size(); ++k) node = static_cast<std::size_t>(tree.parent[node]);
-  refuse("node " + std::to_string(node) + " is among its own ancestors (a cycle)");
+  refuse(name(node) + " is among its own ancestors (a cycle)");
 }
 
 void sum_values(Hierarchy& h, const TreeView& tree) {
@@ -88,7 +86,7 @@ void sum_values(Hierarchy& h, const TreeView& tree) {
   }
 }
 
-void check_range(const Hierarchy& h) {
+void check_range(const Hierarchy& h, const NodeName& name) {
   const double total = h.value[h.root];
   if (!(total > 0)) refuse("no node has a value above 0, so there is nothing to lay out");
   if (!std::isfinite(total))
@@ -97,28 +95,29 @@ void check_range(const Hierarchy& h) {
     if (h.kind[i] != TreeNode::leaf || h.value[i] >= least_share * total) continue;
     std::array<char, 32> share{};
     std::snprintf(share.data(), share.size(), "%.2g", h.value[i] / total);
-    refuse("the value of node " + std::to_string(i) + " is " + share.data() +
+    refuse("the value of " + name(i) + " is " + share.data() +
            " of the sum; a cell below 1e-16 of the outline has no exact area in double coordinates");
   }
 }
 
 }  // namespace
 
-Hierarchy make_hierarchy(const TreeView& tree) {
+Hierarchy make_hierarchy(const TreeView& tree, const NodeName& given) {
+  const NodeName name = given ? given : [](std::size_t i) { return "node " + std::to_string(i); };
   const std::size_t n = tree.parent.size();
   if (n == 0) refuse("the tree has no nodes");
   if (n != tree.value.size())
     refuse(std::to_string(n) + " parents and " + std::to_string(tree.value.size()) + " values");
   if (n > std::numeric_limits<std::uint32_t>::max()) refuse("more than 2^32 - 1 nodes");
   Hierarchy h;
-  h.root = find_root(tree);
+  h.root = find_root(tree, name);
   h.kind.assign(n, TreeNode::leaf);
   h.value.assign(n, 0);
   list_children(tree, h.kind, h.child_offset, h.child);
   order_by_level(h);
-  if (h.order.size() != n) refuse_cycle(h, tree);
+  if (h.order.size() != n) refuse_cycle(h, tree, name);
   sum_values(h, tree);
-  check_range(h);
+  check_range(h, name);
   const std::vector<std::uint32_t> depth = h.depth;
   list_children(tree, h.kind, h.child_offset, h.child);
   order_by_level(h);

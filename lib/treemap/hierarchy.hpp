@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <powercell/treemap.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace powercell::treemap_detail {
@@ -27,7 +29,10 @@ struct Hierarchy {
   std::vector<std::uint32_t> child;
 };
 
+/// How messages call a node.
+using NodeName = std::function<std::string(std::size_t)>;
+
 /// \throw Error invalid_argument as treemap()
-Hierarchy make_hierarchy(const TreeView& tree);
+Hierarchy make_hierarchy(const TreeView& tree, const NodeName& name);
 
 }  // namespace powercell::treemap_detail

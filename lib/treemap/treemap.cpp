@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <string>
 #include <powercell/treemap.hpp>
+#include <string>
 
 #include "lib/seeds/seed_set.hpp"
 #include "lib/seeds/threads.hpp"
@@ -177,7 +177,7 @@ Treemap treemap(const TreeView& tree, const Ring& outline, const TreemapOptions&
   if (!(options.tolerance > 0) || options.rounds < 0)
     throw Error(ErrorCode::invalid_argument,
                 "treemap: the tolerance has to be above 0, the rounds at least 0");
-  Hierarchy hierarchy = make_hierarchy(tree);
+  Hierarchy hierarchy = make_hierarchy(tree, options.name);
   Treemap result;
   Layout(hierarchy, options, result).run(convex_outline(outline));
   result.kind = std::move(hierarchy.kind);

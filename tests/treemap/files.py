@@ -138,6 +138,7 @@ class Treemap(unittest.TestCase):
             "t.csv:3: a quote is opened and never closed": head + 'a,r,"a,1\n',
             "nothing to lay out": head + "a,r,a,0\n",
             "t.csv:3: the row has no id": head + ",r,a,1\n",
+            "the value of 'b' (t.csv:4) is 1e-20 of the sum": head + "a,r,a,1\nb,r,b,1e-20\n",
             "the header has no column value": "id,parent,name\nr,,root\n",
             "has no rows": "id,parent,name,value\n",
         }
@@ -149,6 +150,10 @@ class Treemap(unittest.TestCase):
                            "'a/b': its value \"3\" is not a number": '{"name":"a","children":[{"name":"b","value":"3"}]}',
                            "'a': its children are no list": '{"name":"a","children":{"name":"b"}}',
                            "element 2: is no object": '[{"id":1},3]',
+                           "the value of '3' (t.json: element 3) is 1e-20":
+                           '[{"id":1},{"id":2,"parent":1,"value":1},{"id":3,"parent":1,"value":1e-20}]',
+                           "the value of 'a/c' is 1e-20":
+                           '{"name":"a","children":[{"name":"b","value":1},{"name":"c","value":1e-20}]}',
                            "neither an object": "3"}.items():
             with self.subTest(says=says):
                 self.write("t.json", text)
