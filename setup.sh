@@ -22,7 +22,7 @@ test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev
   clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-meshio python3-shapely python3-vtk9"
 
 # What the benchmarks need besides those: their driver, and the plots.
-bench_packages="libbenchmark-dev python3-matplotlib"
+bench_packages="libbenchmark-dev python3-matplotlib python3-scipy"
 
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
 fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }

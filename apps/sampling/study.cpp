@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,9 @@
 
 namespace powercell::app {
 namespace {
+
+/// Of sqrt(n): what counts as low is not agreed upon, and the power rises steeply there.
+constexpr std::array<double, 5> cutoffs{0.3, 0.4, 0.44, 0.5, 0.6};
 
 double processor_seconds() {
   rusage usage{};
@@ -105,6 +109,9 @@ nlohmann::json as_json(const Study& study, bool with_power) {
         {"points", study.spectrum->points},   {"runs", study.spectrum->runs},
         {"highest", study.spectrum->highest}, {"radial_mean", radial.mean},
         {"anisotropy_db", decibels},          {"low_frequency", study.spectrum->low_frequency()}};
+    for (const double cutoff : cutoffs)
+      json["spectrum"]["low_frequencies"].push_back(
+          {{"cutoff", cutoff}, {"power", study.spectrum->low_frequency(cutoff)}});
     if (with_power) json["spectrum"]["power"] = study.spectrum->power;
   }
   return json;

@@ -28,7 +28,8 @@ Study run_study(const Device& device, const Source& source, std::size_t n, const
                 int runs);
 
 /// Keys: runs (a list), mean, spectrum (radial frequencies in waves a box; power, anisotropy in decibels,
-/// low_frequency). \param with_power  also all of the spectrum, row by row
+/// low_frequency up to half of sqrt(n), low_frequencies up to several parts of it). \param with_power  also
+/// all of the spectrum, row by row
 nlohmann::json as_json(const Study& study, bool with_power);
 
 /// "1,024 points, 22 iterations, ..."

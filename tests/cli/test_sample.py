@@ -20,6 +20,9 @@ class Sample(ToolTest):
         self.assertTrue(0.8 < report["mean"]["mean_distance"] < 0.95)
         self.assertTrue(0.55 < report["mean"]["hexatic"] < 0.68)
         self.assertLess(report["spectrum"]["low_frequency"], 0.01)
+        low = {one["cutoff"]: one["power"] for one in report["spectrum"]["low_frequencies"]}
+        self.assertEqual(low[0.5], report["spectrum"]["low_frequency"])
+        self.assertTrue(0 < low[0.3] < low[0.4] < low[0.44] < low[0.5] < low[0.6] < 0.02)
         analysis = json.loads((self.folder / "a.json").read_text())
         side = 2 * analysis["spectrum"]["highest"] + 1
         self.assertEqual(len(analysis["spectrum"]["power"]), side * side)
