@@ -1,5 +1,6 @@
 /* One work-item clips one (region, seed) pair by the neighbours of the seed's whole cell: no other seed has a
-   bisector that bounds it. For domains of many regions, where a cell is searched for once and not per piece. */
+   bisector that bounds it. For domains of many regions, where a cell is searched for once and not per piece. Cells
+   without neighbours here have not been clipped yet, and are searched for. */
 #include "neighbors/search.cl"
 #include "clip/arguments.cl"
 
@@ -39,7 +40,7 @@ static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint
   return PIECE_WHOLE;
 }
 
-/* The neighbours of rank i are neighbor[wall_offset[i]] and on. */
+/* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped. */
 __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
                                   __global const uint* wall_offset, __global const uint* neighbor) {
   const uint row = (uint)get_global_id(0);
@@ -53,7 +54,7 @@ __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
   if (result == PIECE_WHOLE)
-    result = walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)
+    result = walls == 0 || walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)
                                 : clip_by_walls(&cell, seeds, i, neighbor + first, walls);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

@@ -103,12 +103,35 @@ void Diagram::State::prepare(bool want_regions) {
   find_pairs(want_regions);
 }
 
+bool Diagram::State::cells_come_first(bool want_regions) const {
+  return !want_regions && has_inside(domain.mesh()) && neighbors == Neighbors::tree;
+}
+
+void Diagram::State::find_pairs_by_cells() {
+  Stopwatch watch;
+  const std::vector<std::uint32_t> ranks = finder->at_boundary(seeds, tree, not_whole);
+  const double boundary_seconds = watch.seconds(), built_before = device.build_seconds();
+  Stopwatch neighbor_watch;
+  auto cells_first = std::make_unique<CellCandidates>(scene, ranks);
+  timings.neighbors = neighbor_watch.seconds() - (device.build_seconds() - built_before);
+  Stopwatch pair_watch;
+  pairs = finder->of_cells(seeds, ranks, cells_first->walls(), options.progress);
+  timings.pairs = boundary_seconds + pair_watch.seconds();
+  candidates = std::move(cells_first);
+}
+
 void Diagram::State::find_pairs(bool want_regions) {
   Stopwatch pair_watch;
   ready = false;  // until pairs and candidates are both new: what throws in between must not leave them mixed
+  if (!finder) finder.emplace(domain.mesh(), thread_count(options.threads));
+  if (cells_come_first(want_regions)) {
+    find_pairs_by_cells();
+    paired = whole_cells = ready = true;
+    timings.pair_count = pairs.region.size();
+    return;
+  }
   // One region meets all seeds, whatever their weights.
   if (!paired || domain.mesh().region_count() != 1) {
-    if (!finder) finder.emplace(domain.mesh(), thread_count(options.threads));
     pairs = want_regions ? finder->all(seeds, tree, options.progress)
                          : finder->with_whole_cells(seeds, tree, not_whole, options.progress);
   }

@@ -4,8 +4,8 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <powercell/diagram.hpp>
+#include <span>
 #include <vector>
 
 #include "lib/clip/candidates.hpp"
@@ -53,6 +53,9 @@ struct Diagram::State {
   void prepare(bool want_regions);
   void find_pairs(bool want_regions);
   std::unique_ptr<Candidates> make_candidates() const;
+  /// Whether whole cells tell the pairs, and their walls the candidates.
+  bool cells_come_first(bool want_regions) const;
+  void find_pairs_by_cells();
   /// Clips all pairs once; again where cells turn out to need their regions.
   void pass(bool want_adjacency, bool want_cells);
   /// Takes the weights of ranks so far down that nothing is left of their cells.

@@ -1,77 +1,98 @@
 #include "lib/neighbors/cell_candidates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 
 #include "kernels/layout.h"
 #include "lib/clip/clipper.hpp"
-#include "lib/domain/region_mesh.hpp"
 
 namespace powercell {
 namespace {
 
 constexpr std::size_t chunk_cells = std::size_t{1} << 15;
-/// The box is larger than the domain, so that no cell of it is cut to a sliver where it just meets the
-/// domain.
-constexpr double margin = 1.0 / 16;
+/// Cells are proved with vertices this near to the true ones (SEARCH_MARGIN in kernels/base/decide.cl).
+constexpr double vertex_error_double = 0x1p-20, vertex_error_float = 0x1p-5;
 
-Domain box_around(const RegionMesh& mesh) {
-  std::vector<double> low, high;
-  double size = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k)
-    size = std::max(size, mesh.high[k] - mesh.low[k]);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
-    low.push_back(mesh.low[k] - margin * size);
-    high.push_back(mesh.high[k] + margin * size);
+/// The search in the tree of another source.
+class TreeOf : public Candidates {
+ public:
+  explicit TreeOf(TreeCandidates& tree) : tree_(tree) {}
+  std::string_view file() const override { return "clip/by_tree.cl"; }
+  std::string_view kernel() const override { return "clip_by_tree_kernel"; }
+  std::size_t most_pairs(int round) const override { return tree_.most_pairs(round); }
+  void prepare(std::span<const std::uint32_t>, int) override {}
+  void set_arguments(cl::Kernel& kernel, unsigned first) override {
+    tree_.TreeCandidates::set_arguments(kernel, first);
   }
-  return Domain::box(low, high);
-}
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
+    return std::make_unique<TreeCandidates>(scene);
+  }
 
-/// Neighbours by rank.
-struct Walls {
-  std::vector<std::uint32_t> offset, neighbor;
+ private:
+  TreeCandidates& tree_;
+};
+
+/// Whole cells as they come from the device.
+class WallCollection {
+ public:
+  explicit WallCollection(const Scene& scene) : unit_(scene.frame().unit(1)) {
+    walls.dimension = scene.mesh().dimension;
+    walls.vertex_error = scene.float32() ? vertex_error_float : vertex_error_double;
+  }
 
   void add(std::uint32_t rank, const PieceSet& pieces, std::size_t pair) {
-    while (offset.size() <= rank) offset.push_back(static_cast<std::uint32_t>(neighbor.size()));
+    fill_up_to(rank);
     if (pieces.status[pair] == PIECE_EMPTY) {
-      neighbor.push_back(rank);  // its own neighbour: no cell
+      walls.neighbor.push_back(rank);
       return;
     }
     const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
     const std::uint32_t row = pieces.row[pair];
     for (std::uint32_t f = batch.face_offset[row]; f < batch.face_offset[row + 1]; ++f)
-      if (batch.border[f] >= 0) neighbor.push_back(static_cast<std::uint32_t>(batch.border[f]));
-    if (neighbor.size() > std::numeric_limits<std::uint32_t>::max())
+      if (batch.border[f] >= 0) walls.neighbor.push_back(static_cast<std::uint32_t>(batch.border[f]));
+    if (walls.neighbor.size() > std::numeric_limits<std::uint32_t>::max())
       throw Error(ErrorCode::unsupported, "the cells have more than 2^32 walls");
+    const auto d = static_cast<std::size_t>(walls.dimension);
+    for (std::size_t k = batch.vertex_offset[row] * d; k < batch.vertex_offset[row + 1] * d; ++k)
+      walls.vertex.push_back(batch.vertex[k] * unit_);
   }
+
+  void fill_up_to(std::size_t rank) {
+    walls.offset.resize(rank + 1, static_cast<std::uint32_t>(walls.neighbor.size()));
+    walls.vertex_offset.resize(rank + 1, walls.vertex.size() / static_cast<std::size_t>(walls.dimension));
+  }
+
+  CellWalls walls;
+
+ private:
+  double unit_;
 };
 
-Walls clip_cells(const Scene& scene, std::span<const std::uint32_t> ranks) {
-  const Domain box = box_around(scene.mesh());
-  Scene around(scene.context(), box.mesh(), scene.float32());
-  around.set_seeds(scene.seeds(), scene.tree());
-  TreeCandidates tree(around);
-  Clipper clipper(around, tree, OUTPUT_MOMENTS | OUTPUT_WALLS);
-  const std::vector<std::uint32_t> regions(std::min(chunk_cells, ranks.size()), 0);
-  Walls walls;
+CellWalls clip_cells(const Scene& scene, TreeCandidates& candidates, std::span<const std::uint32_t> ranks) {
+  TreeOf tree(candidates);
+  Clipper clipper(scene, tree, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY);
+  const auto around = static_cast<std::uint32_t>(scene.mesh().region_count() - 1);
+  const std::vector<std::uint32_t> regions(std::min(chunk_cells, ranks.size()), around);
+  WallCollection cells(scene);
   for (std::size_t begin = 0; begin < ranks.size(); begin += chunk_cells) {
     const std::size_t count = std::min(chunk_cells, ranks.size() - begin);
     const PieceSet& pieces = clipper.clip(ranks.subspan(begin, count), std::span(regions).first(count));
-    for (std::size_t k = 0; k < count; ++k) walls.add(ranks[begin + k], pieces, k);
+    for (std::size_t k = 0; k < count; ++k) cells.add(ranks[begin + k], pieces, k);
   }
-  walls.offset.resize(scene.seeds().size() + 1, static_cast<std::uint32_t>(walls.neighbor.size()));
-  return walls;
+  cells.fill_up_to(scene.seeds().size());
+  return std::move(cells.walls);
 }
 
 }  // namespace
 
 CellCandidates::CellCandidates(const Scene& scene, std::span<const std::uint32_t> ranks)
-    : TreeCandidates(scene), wall_offset_(scene.context()), neighbor_(scene.context()) {
-  const Walls walls = clip_cells(scene, ranks);
-  wall_offset_.upload(walls.offset);
-  neighbor_.upload(walls.neighbor);
+    : TreeCandidates(scene),
+      walls_(clip_cells(scene, *this, ranks)),
+      wall_offset_(scene.context()),
+      neighbor_(scene.context()) {
+  wall_offset_.upload(walls_.offset);
+  neighbor_.upload(walls_.neighbor);
 }
 
 void CellCandidates::set_arguments(cl::Kernel& kernel, unsigned first) {

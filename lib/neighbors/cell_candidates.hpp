@@ -1,5 +1,5 @@
 /// \file
-/// Candidates from the cells of the whole space: each cell is clipped once in a box around the domain, and
+/// Candidates from the cells of the whole space: each cell is clipped once in a region around the domain, and
 /// its pieces by its neighbours alone (kernels/clip/by_cell.cl).
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/neighbors/cell_walls.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 
 namespace powercell {
@@ -15,15 +16,19 @@ namespace powercell {
 /// region is the region cut by the bisectors of i that bound its cell, and no others.
 class CellCandidates : public TreeCandidates {
  public:
-  /// Clips the cells of the given ranks, ascending; pairs of others must not be asked for. Waits for the
-  /// device. \throw Error as Clipper
+  /// Clips the cells of the given ranks, ascending, in the last region of the scene; those of others are
+  /// searched for in each region. Waits for the device. \pre the last region holds all others \throw Error as
+  /// Clipper
   CellCandidates(const Scene& scene, std::span<const std::uint32_t> ranks);
   std::string_view file() const override { return "clip/by_cell.cl"; }
   std::string_view kernel() const override { return "clip_by_cell_kernel"; }
   void set_arguments(cl::Kernel& kernel, unsigned first) override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
 
+  const CellWalls& walls() const { return walls_; }
+
  private:
+  CellWalls walls_;
   cl::Buffer<std::uint32_t> wall_offset_, neighbor_;
 };
 

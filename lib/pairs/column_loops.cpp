@@ -4,14 +4,7 @@
 #include <cmath>
 #include <limits>
 
-// Copies for wider vectors, one of which the loader picks. Contraction is off, so all give the same bits.
-// Sanitizers are not yet ready when the loader asks which.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define VECTOR_COPIES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define VECTOR_COPIES
-#endif
+#include "lib/pairs/vector_copies.hpp"
 
 namespace powercell::pairs::loops {
 namespace {
@@ -99,20 +92,22 @@ template <int D>
 
 }  // namespace
 
-VECTOR_COPIES void subtract(std::size_t count, const double* from, double by, double* __restrict to) {
+POWERCELL_VECTOR_COPIES void subtract(std::size_t count, const double* from, double by,
+                                      double* __restrict to) {
   for (std::size_t s = 0; s < count; ++s) to[s] = from[s] - by;
 }
 
-VECTOR_COPIES void powers(std::size_t count, int dimension, const double* const* column, const double* point,
-                          double square, double weight, double constant, double* to) {
+POWERCELL_VECTOR_COPIES void powers(std::size_t count, int dimension, const double* const* column,
+                                    const double* point, double square, double weight, double constant,
+                                    double* to) {
   if (dimension == 2)
     powers_in<2>(count, column, point, square, weight, constant, to);
   else
     powers_in<3>(count, column, point, square, weight, constant, to);
 }
 
-VECTOR_COPIES void raise_excess(std::size_t count, std::size_t corners, const double* const* lower,
-                                const double* upper, double* excess) {
+POWERCELL_VECTOR_COPIES void raise_excess(std::size_t count, std::size_t corners, const double* const* lower,
+                                          const double* upper, double* excess) {
   switch (corners) {
     case 2:
       return raise_corners<2>(count, lower, upper, excess);
@@ -131,23 +126,23 @@ VECTOR_COPIES void raise_excess(std::size_t count, std::size_t corners, const do
   }
 }
 
-VECTOR_COPIES void raise_box_excess(std::size_t count, int dimension, const double* const* column,
-                                    const double* size, const double* tester, double* excess) {
+POWERCELL_VECTOR_COPIES void raise_box_excess(std::size_t count, int dimension, const double* const* column,
+                                              const double* size, const double* tester, double* excess) {
   if (dimension == 2)
     raise_box<2>(count, column, size, tester, excess);
   else
     raise_box<3>(count, column, size, tester, excess);
 }
 
-VECTOR_COPIES void raise_node_excess(std::size_t count, int dimension, const double* const* column,
-                                     const double* size, const double* tester, double* excess) {
+POWERCELL_VECTOR_COPIES void raise_node_excess(std::size_t count, int dimension, const double* const* column,
+                                               const double* size, const double* tester, double* excess) {
   if (dimension == 2)
     raise_nodes<2>(count, column, size, tester, excess);
   else
     raise_nodes<3>(count, column, size, tester, excess);
 }
 
-VECTOR_COPIES std::size_t least(std::size_t count, const double* values) {
+POWERCELL_VECTOR_COPIES std::size_t least(std::size_t count, const double* values) {
   constexpr std::size_t lanes = 8;
   std::array<double, lanes> low;
   low.fill(std::numeric_limits<double>::infinity());

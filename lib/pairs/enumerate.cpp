@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "lib/domain/outline.hpp"
+#include "lib/pairs/cell_search.hpp"
+#include "lib/pairs/region_blocks.hpp"
 #include "lib/pairs/region_search.hpp"
 
 namespace powercell {
@@ -49,19 +51,35 @@ Pairs PairFinder::all(const SeedSet& seeds, const PackedTree& tree,
   return pairs;
 }
 
-Pairs PairFinder::with_whole_cells(const SeedSet& seeds, const PackedTree& tree,
-                                   std::span<const std::uint32_t> not_whole,
-                                   const std::function<bool(double)>& progress) {
-  if (!has_inside(mesh_)) return all(seeds, tree, progress);
+std::vector<std::uint32_t> PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                                                   std::span<const std::uint32_t> also) {
   if (!boundary_) {
     boundary_ = std::make_unique<RegionMesh>(boundary_of(mesh_));
     boundary_groups_ = std::make_unique<RegionGroups>(*boundary_, threads_);
   }
+  std::vector<bool> marked(seeds.size());
+  for (const std::uint32_t rank : also) marked[rank] = true;
+  const RegionLists found = search_regions({*boundary_, *boundary_groups_, seeds, tree, threads_, {}});
+  for (const RankList& list : found.list)
+    for (std::uint32_t k = 0; k < list.count; ++k) marked[list.first[k]] = true;
+  std::vector<std::uint32_t> ranks;
+  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
+    if (marked[rank]) ranks.push_back(rank);
+  return ranks;
+}
+
+Pairs PairFinder::of_cells(const SeedSet& seeds, std::span<const std::uint32_t> ranks, const CellWalls& walls,
+                           const std::function<bool(double)>& progress) {
+  if (!blocks_) blocks_ = std::make_unique<RegionBlocks>(mesh_, *groups_);
+  return search_cells({mesh_, *groups_, *blocks_, seeds, ranks, walls, threads_, progress});
+}
+
+Pairs PairFinder::with_whole_cells(const SeedSet& seeds, const PackedTree& tree,
+                                   std::span<const std::uint32_t> not_whole,
+                                   const std::function<bool(double)>& progress) {
+  if (!has_inside(mesh_)) return all(seeds, tree, progress);
   SeedMarks wanted(seeds.size()), whole(seeds.size());
-  for (const std::uint32_t rank : not_whole) wanted.set(rank);
-  const RegionLists at_boundary = search_regions({*boundary_, *boundary_groups_, seeds, tree, threads_, {}});
-  for (const RankList& list : at_boundary.list)
-    for (std::uint32_t k = 0; k < list.count; ++k) wanted.set(list.first[k]);
+  for (const std::uint32_t rank : at_boundary(seeds, tree, not_whole)) wanted.set(rank);
 
   const RegionLists found =
       search_regions({mesh_, *groups_, seeds, tree, threads_, progress}, &wanted, &whole);

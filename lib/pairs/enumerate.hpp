@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/domain/region_mesh.hpp"
+#include "lib/neighbors/cell_walls.hpp"
 #include "lib/neighbors/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
 
@@ -25,8 +26,9 @@ struct Pairs {
 };
 
 namespace pairs {
+struct RegionBlocks;
 struct RegionGroups;
-}
+}  // namespace pairs
 
 /// Finds pairs for one domain. What depends on the regions alone is kept.
 class PairFinder {
@@ -52,12 +54,24 @@ class PairFinder {
                          std::span<const std::uint32_t> not_whole,
                          const std::function<bool(double)>& progress = {});
 
+  /// Ascending, the ranks whose cells can meet the boundary of the domain, and those in `also`.
+  std::vector<std::uint32_t> at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                                         std::span<const std::uint32_t> also);
+
+  /// As with_whole_cells, where the cells of at_boundary() are known by their walls: a region is left out
+  /// only if one of these has it all on its other side. Much faster where most regions meet few of the cells
+  /// at the boundary, and pairs have no lists by region. \param ranks  of at_boundary(); others have one
+  /// pair, with the region behind the last
+  Pairs of_cells(const SeedSet& seeds, std::span<const std::uint32_t> ranks, const CellWalls& walls,
+                 const std::function<bool(double)>& progress = {});
+
   const pairs::RegionGroups& groups() const { return *groups_; }
 
  private:
   const RegionMesh& mesh_;
   int threads_;
   std::unique_ptr<pairs::RegionGroups> groups_, boundary_groups_;
+  std::unique_ptr<pairs::RegionBlocks> blocks_;
   std::unique_ptr<RegionMesh> boundary_;
 };
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "lib/clip/clipper.hpp"
+#include "lib/domain/outline.hpp"
 #include "lib/neighbors/cell_candidates.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
@@ -42,7 +43,8 @@ void check_same_pieces(const Domain& domain, const SeedArray& input, bool float3
   const Device& device = main_setups().front().device;
   const SeedSet seeds = make_seed_set(input.view(), domain.dimension(), 1);
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(device.context(), domain.mesh(), float32);
+  const RegionMesh mesh = with_container(domain.mesh());
+  Scene scene(device.context(), mesh, float32);
   scene.set_seeds(seeds, tree);
   std::vector<std::uint32_t> ranks(seeds.size()), pair_seed, pair_region;
   std::iota(ranks.begin(), ranks.end(), 0U);

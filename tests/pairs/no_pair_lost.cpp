@@ -33,24 +33,63 @@ std::vector<NamedMesh> meshes() {
   return all;
 }
 
+void check_rows(const Pairs& pairs, std::size_t seeds) {
+  REQUIRE(pairs.offset.size() == seeds + 1);
+  REQUIRE(pairs.offset.back() == pairs.region.size());
+  for (std::size_t i = 0; i < seeds; ++i)
+    for (std::uint64_t k = pairs.offset[i] + 1; k < pairs.offset[i + 1]; ++k)
+      REQUIRE(pairs.region[k - 1] < pairs.region[k]);
+}
+
+void check_none_lost(const PairSet& found, const PairSet& expected) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> lost;
+  std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(), std::back_inserter(lost));
+  CHECK_MESSAGE(lost.empty(), lost.size(), " pairs lost, the first: region ",
+                lost.empty() ? 0 : lost[0].first, ", rank ", lost.empty() ? 0 : lost[0].second);
+}
+
+/// With some of the other seeds for the walls of each cell, every `step`th: whatever they are, no true pair
+/// is missing.
+void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& expected, std::size_t step) {
+  CellWalls walls;
+  std::vector<std::uint32_t> ranks;
+  for (std::uint32_t i = 0; i < set.size(); ++i) {
+    ranks.push_back(i);
+    walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
+    for (std::uint32_t j = i % static_cast<std::uint32_t>(step); j < set.size();
+         j += static_cast<std::uint32_t>(step))
+      if (j != i) walls.neighbor.push_back(j);
+  }
+  walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
+  const Pairs pairs = PairFinder(mesh, 1).of_cells(set, ranks, walls);
+  check_rows(pairs, set.size());
+  check_none_lost(as_set(pairs), expected);
+  const Pairs again = PairFinder(mesh, 3).of_cells(set, ranks, walls);
+  CHECK(again.offset == pairs.offset);
+  CHECK(again.region == pairs.region);
+
+  // Of others than those asked for the cells are whole.
+  ranks.erase(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(ranks.size() / 2));
+  const Pairs half = PairFinder(mesh, 1).of_cells(set, ranks, walls);
+  check_rows(half, set.size());
+  for (std::size_t i = 0; i < set.size() / 2; ++i) {
+    REQUIRE(half.offset[i + 1] == half.offset[i] + 1);
+    CHECK(half.region[half.offset[i]] == mesh.region_count());
+  }
+  CHECK(half.region.size() - set.size() / 2 == pairs.region.size() - pairs.offset[set.size() / 2]);
+}
+
 /// No true pair is missing; rows ascend; the result is the same for any number of threads.
 /// Returns candidates per true pair.
 double check(const RegionMesh& mesh, const SeedArray& seeds) {
   const SeedSet set = make_seed_set(seeds.view(), mesh.dimension, 1);
   const PackedTree tree = build_packed_tree(set, 1);
   const Pairs pairs = enumerate_pairs(mesh, set, tree, 1);
-  REQUIRE(pairs.offset.size() == set.size() + 1);
-  REQUIRE(pairs.offset.back() == pairs.region.size());
-  for (std::size_t i = 0; i < set.size(); ++i)
-    for (std::uint64_t k = pairs.offset[i] + 1; k < pairs.offset[i + 1]; ++k)
-      REQUIRE(pairs.region[k - 1] < pairs.region[k]);
+  check_rows(pairs, set.size());
 
   const PairSet expected = true_pairs(mesh, set);
   const PairSet found = as_set(pairs);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> lost;
-  std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(), std::back_inserter(lost));
-  CHECK_MESSAGE(lost.empty(), lost.size(), " pairs lost, the first: region ",
-                lost.empty() ? 0 : lost[0].first, ", rank ", lost.empty() ? 0 : lost[0].second);
+  check_none_lost(found, expected);
   REQUIRE(!expected.empty());
 
   for (const int threads : {2, 5}) {
@@ -58,6 +97,7 @@ double check(const RegionMesh& mesh, const SeedArray& seeds) {
     CHECK(again.offset == pairs.offset);
     CHECK(again.region == pairs.region);
   }
+  for (const std::size_t step : {1, 7}) check_by_cells(mesh, set, expected, step);
   return static_cast<double>(found.size()) / static_cast<double>(expected.size());
 }
 

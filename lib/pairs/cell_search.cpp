@@ -1,0 +1,243 @@
+#include "lib/pairs/cell_search.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <powercell/error.hpp>
+
+#include "lib/seeds/threads.hpp"
+
+namespace powercell::pairs {
+namespace {
+
+constexpr std::size_t fan = RegionGroups::fan;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Of the terms of a scalar product with coordinates relative to the seed.
+constexpr double rounding = 0x1p-48;
+
+loops::Wall wall_of(const SeedSet& seeds, std::uint32_t i, std::uint32_t j) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  loops::Wall wall{};
+  double q2 = 0;
+  for (std::size_t k = 0; k < d; ++k) {
+    wall.q[k] = seeds.positions[j * d + k] - seeds.positions[i * d + k];
+    q2 += wall.q[k] * wall.q[k];
+  }
+  const double dw = seeds.weights[i] - seeds.weights[j];
+  wall.level = q2 + dw;
+  wall.terms = q2 + std::abs(dw);
+  return wall;
+}
+
+}  // namespace
+
+void CellSearch::set_walls(std::uint32_t rank) {
+  walls_.clear();
+  for (const std::uint32_t j : cells_.of(rank)) walls_.push_back(wall_of(seeds_, rank, j));
+}
+
+void CellSearch::set_vertices(std::uint32_t rank) {
+  const std::span<const double> vertices = cells_.vertices_of(rank);
+  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const std::size_t count = vertices.size() / d, columns = (count + fan - 1) / fan * fan;
+  low_.fill(-infinite);
+  high_.fill(infinite);
+  vertex_.resize(columns * d);
+  error_ = 0;
+  if (count == 0) return;
+  for (std::size_t k = 0; k < d; ++k) {
+    double low = infinite, high = -infinite;
+    for (std::size_t v = 0; v < columns; ++v) {
+      const double x = vertices[std::min(v, count - 1) * d + k];
+      vertex_[k * columns + v] = x;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    low_[k] = low;
+    high_[k] = high;
+    error_ += std::max(std::abs(low), std::abs(high));
+  }
+  error_ *= cells_.vertex_error;
+  for (std::size_t k = 0; k < d; ++k) {
+    low_[k] -= error_;
+    high_[k] += error_;
+  }
+}
+
+void CellSearch::find(std::uint32_t rank, std::vector<std::uint32_t>& regions) {
+  const std::span<const std::uint32_t> neighbors = cells_.of(rank);
+  if (neighbors.size() == 1 && neighbors.front() == rank) return;  // no cell
+  const std::size_t begin = regions.size();
+  found_ = &regions;
+  seed_ = &seeds_.positions[std::size_t{rank} * static_cast<std::size_t>(seeds_.dimension)];
+  set_walls(rank);
+  set_vertices(rank);
+  visit(groups_.level.size() - 1, 0, 0, walls_.size());
+  std::sort(regions.begin() + static_cast<std::ptrdiff_t>(begin), regions.end());
+}
+
+void CellSearch::add_all(std::size_t level, std::size_t group) {
+  const std::size_t width = std::size_t{1} << (3 * level), first = group * width;
+  for (std::size_t k = first; k < std::min(first + width, groups_.order.size()); ++k)
+    found_->push_back(groups_.order[k]);
+}
+
+bool CellSearch::parted_along(const double* direction, std::uint32_t region) const {
+  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  double farthest = -infinite, terms = 0, size = 0;
+  for (std::uint32_t slot = mesh_.region_offset[region]; slot < mesh_.region_offset[region + 1]; ++slot) {
+    const double* x = &mesh_.vertices[std::size_t{mesh_.region_vertex[slot]} * d];
+    double along = 0, sum = 0;
+    for (std::size_t k = 0; k < d; ++k) {
+      const double part = direction[k] * (x[k] - seed_[k]);
+      along += part;
+      sum += std::abs(part);
+    }
+    farthest = std::max(farthest, along);
+    terms = std::max(terms, sum);
+  }
+  for (std::size_t k = 0; k < d; ++k) size += std::abs(direction[k]);
+  const double nearest = loops::least_along(direction, seeds_.dimension, vertex_.data(), vertex_.size() / d);
+  // Rounding in the sums over the vertices of the cell is far below the error of those.
+  return nearest - farthest > size * error_ + rounding * terms;
+}
+
+bool CellSearch::beyond_a_facet(std::uint32_t region) const {
+  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const std::uint32_t first = mesh_.region_offset[region], corners = mesh_.region_offset[region + 1] - first;
+  const auto corner = [&](std::uint32_t k) {
+    return &mesh_.vertices[std::size_t{mesh_.region_vertex[first + k]} * d];
+  };
+  if (d == 2 && mesh_.shape == RegionShape::polygon) {
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const double *a = corner(k), *b = corner(k + 1 == corners ? 0 : k + 1);
+      const double outward[2] = {b[1] - a[1], a[0] - b[0]};
+      if (parted_along(outward, region)) return true;
+    }
+  }
+  if (mesh_.shape != RegionShape::tetrahedron) return false;
+  constexpr std::uint32_t facet_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  for (const auto& facet : facet_corner) {
+    const double *a = corner(facet[0]), *b = corner(facet[1]), *c = corner(facet[2]);
+    double s[3], t[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      s[k] = b[k] - a[k];
+      t[k] = c[k] - a[k];
+    }
+    const double outward[3] = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2],
+                               s[0] * t[1] - s[1] * t[0]};
+    if (parted_along(outward, region)) return true;
+  }
+  return false;
+}
+
+void CellSearch::visit_regions(std::size_t group, std::size_t members, std::size_t first, std::size_t last) {
+  const Lanes* const box = blocks_.boxes(0, group);
+  const std::uint64_t corner = blocks_.corner_offset[group];
+  const std::size_t corners =
+      (blocks_.corner_offset[group + 1] - corner) / static_cast<std::size_t>(seeds_.dimension);
+  Lanes gap, beyond;
+  loops::test_overlap(seeds_.dimension, box, seed_, low_.data(), high_.data(), gap);
+  if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
+  reach_.resize(std::max(reach_.size(), (last - first) * fan));
+  loops::test_corners(&walls_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner], corners,
+                      seed_, beyond, reach_.data());
+  for (std::size_t lane = 0; lane < members; ++lane) {
+    const std::uint32_t region = groups_.order[group * fan + lane];
+    if (gap[lane] > 0 || beyond[lane] > 0) continue;
+    if (vertex_.empty() || !beyond_a_facet(region)) found_->push_back(region);
+  }
+}
+
+void CellSearch::visit(std::size_t level, std::size_t group, std::size_t first, std::size_t last) {
+  const std::size_t count = last - first;
+  if (level == 0 || count == 0) return add_all(level, group);
+  const std::size_t below = groups_.level[level - 1].low.size() / static_cast<std::size_t>(seeds_.dimension);
+  const std::size_t members = std::min(fan, below - group * fan);
+  if (level == 1) return visit_regions(group, members, first, last);
+  Lanes gap, beyond;
+  const Lanes* const box = blocks_.boxes(level - 1, group);
+  loops::test_overlap(seeds_.dimension, box, seed_, low_.data(), high_.data(), gap);
+  if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
+  reach_.resize(std::max(reach_.size(), count * fan));
+  loops::test_boxes(&walls_[first], count, seeds_.dimension, box, seed_, beyond, reach_.data());
+  // Each member has its walls behind all others before it goes down, as reach_ is used again there.
+  std::array<std::size_t, fan + 1> end;
+  end[0] = walls_.size();
+  for (std::size_t lane = 0; lane < members; ++lane) {
+    beyond[lane] = std::max(beyond[lane], gap[lane]);
+    if (!(beyond[lane] > 0))
+      for (std::size_t w = 0; w < count; ++w)
+        if (!(reach_[w * fan + lane] < 0)) {
+          const loops::Wall wall = walls_[first + w];
+          walls_.push_back(wall);
+        }
+    end[lane + 1] = walls_.size();
+  }
+  for (std::size_t lane = 0; lane < members; ++lane)
+    if (!(beyond[lane] > 0)) visit(level - 1, group * fan + lane, end[lane], end[lane + 1]);
+  walls_.resize(end[0]);
+}
+
+namespace {
+
+constexpr std::size_t task_size = 64;
+
+struct Task {
+  std::vector<std::uint32_t> regions;  // cell after cell
+  std::vector<std::uint64_t> end;      // per cell
+};
+
+/// Pairs of all ranks in order: of those searched for what was found, of the others one with the last region.
+Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
+  const auto around = static_cast<std::uint32_t>(search.mesh.region_count());
+  std::uint64_t total = search.seeds.size() - search.ranks.size();
+  for (const Task& task : tasks) total += task.regions.size();
+  Pairs pairs;
+  pairs.offset.reserve(search.seeds.size() + 1);
+  pairs.region.reserve(total);
+  const auto whole_up_to = [&](std::size_t rank) {
+    for (; pairs.offset.size() < rank; pairs.region.push_back(around))
+      pairs.offset.push_back(pairs.region.size());
+  };
+  for (std::size_t at = 0; at < search.ranks.size(); ++at) {
+    whole_up_to(search.ranks[at]);
+    pairs.offset.push_back(pairs.region.size());
+    const Task& task = tasks[at / task_size];
+    const std::size_t row = at % task_size;
+    const auto first = task.regions.begin() + static_cast<std::ptrdiff_t>(row == 0 ? 0 : task.end[row - 1]);
+    pairs.region.insert(pairs.region.end(), first,
+                        task.regions.begin() + static_cast<std::ptrdiff_t>(task.end[row]));
+  }
+  whole_up_to(search.seeds.size());
+  pairs.offset.push_back(pairs.region.size());
+  return pairs;
+}
+
+}  // namespace
+
+Pairs search_cells(const CellsSearch& search) {
+  std::vector<Task> tasks((search.ranks.size() + task_size - 1) / task_size);
+  std::deque<CellSearch> workers;
+  for (int w = 0; w < search.threads; ++w)
+    workers.emplace_back(search.mesh, search.groups, search.blocks, search.seeds, search.walls);
+  std::atomic<std::size_t> done{0};
+  parallel_tasks(search.threads, tasks.size(), [&](int w, std::size_t t) {
+    Task& task = tasks[t];
+    for (const std::uint32_t rank :
+         search.ranks.subspan(t * task_size, std::min(task_size, search.ranks.size() - t * task_size))) {
+      workers[static_cast<std::size_t>(w)].find(rank, task.regions);
+      task.end.push_back(task.regions.size());
+    }
+    const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
+    // Only the calling thread, which is worker 0, calls back.
+    if (w == 0 && search.progress && !search.progress(share))
+      throw Error(ErrorCode::interrupted,
+                  "stopped by the progress callback while seeking which cells meet which regions");
+  });
+  return gather(search, tasks);
+}
+
+}  // namespace powercell::pairs

@@ -1,0 +1,70 @@
+/// \file
+/// The regions that a cell can meet, by the neighbours that bound it. Internal.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/region_blocks.hpp"
+#include "lib/pairs/wall_loops.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell::pairs {
+
+/// One worker's search with its scratch memory; not thread-safe. Goes down the groups of regions with the
+/// walls that come near them. A region is left out if it is beyond a wall (mathematics, 11), or all vertices
+/// of the cell are beyond one of its facets; what no wall comes near is inside the cell.
+class CellSearch {
+ public:
+  /// Keeps references.
+  CellSearch(const RegionMesh& mesh, const RegionGroups& groups, const RegionBlocks& blocks,
+             const SeedSet& seeds, const CellWalls& cells)
+      : mesh_(mesh), groups_(groups), blocks_(blocks), seeds_(seeds), cells_(cells) {}
+
+  /// Appends the regions that the cell of `rank` can meet, ascending.
+  void find(std::uint32_t rank, std::vector<std::uint32_t>& regions);
+
+ private:
+  void set_walls(std::uint32_t rank);
+  void set_vertices(std::uint32_t rank);
+  /// What the group has, cut by the walls [first, last) of walls_.
+  void visit(std::size_t level, std::size_t group, std::size_t first, std::size_t last);
+  void visit_regions(std::size_t group, std::size_t members, std::size_t first, std::size_t last);
+  void add_all(std::size_t level, std::size_t group);
+  bool beyond_a_facet(std::uint32_t region) const;
+  /// Whether the region lies on the side of this direction where no vertex of the cell is.
+  bool parted_along(const double* direction, std::uint32_t region) const;
+
+  const RegionMesh& mesh_;
+  const RegionGroups& groups_;
+  const RegionBlocks& blocks_;
+  const SeedSet& seeds_;
+  const CellWalls& cells_;
+  const double* seed_ = nullptr;
+  std::vector<loops::Wall> walls_;        // those of the cell, then those of each group on the way down
+  std::vector<double> vertex_;            // relative to the seed, coordinate after coordinate
+  std::array<double, 3> low_{}, high_{};  // the box of the cell
+  double error_ = 0;                      // of the vertices
+  std::vector<double> reach_;
+  std::vector<std::uint32_t>* found_ = nullptr;
+};
+
+/// What a search is about; references to what outlives it.
+struct CellsSearch {
+  const RegionMesh& mesh;
+  const RegionGroups& groups;
+  const RegionBlocks& blocks;
+  const SeedSet& seeds;
+  std::span<const std::uint32_t> ranks;
+  const CellWalls& walls;
+  int threads;
+  const std::function<bool(double)>& progress;
+};
+
+/// PairFinder::of_cells
+Pairs search_cells(const CellsSearch& search);
+
+}  // namespace powercell::pairs

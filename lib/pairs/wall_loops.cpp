@@ -1,0 +1,178 @@
+#include "lib/pairs/wall_loops.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "lib/pairs/vector_copies.hpp"
+
+namespace powercell::pairs::loops {
+namespace {
+
+constexpr std::size_t lanes = RegionGroups::fan;
+/// Of the absolute terms: coordinates relative to the seed, products and sums together round less than 16
+/// times.
+constexpr double rounding = 0x1p-48;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Where the terms are larger nothing is excluded.
+constexpr double largest = std::numeric_limits<double>::max();
+/// For the absolute errors of subnormal terms.
+constexpr double tiny = std::numeric_limits<double>::min();
+
+// Vectors of the compiler: it does not find them by itself in loops as short as these.
+typedef double Vector __attribute__((vector_size(lanes * sizeof(double))));
+
+[[gnu::always_inline]] inline void load(const void* from, Vector& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+[[gnu::always_inline]] inline void store(const Vector& from, void* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+/// What eight boxes are to a wall: the error of 2 q.y - level at any of their points, or infinity.
+template <int D>
+[[gnu::always_inline]] inline void find_error(const Wall& wall, const Vector (&extent)[D], Vector& error) {
+  error = Vector{} + wall.terms;
+  for (int k = 0; k < D; ++k) error += std::fabs(wall.q[k]) * extent[k];
+  error = error <= largest ? rounding * error + tiny : Vector{} + infinite;
+}
+
+/// Twice the largest distance of a point of the box from the seed, along each axis.
+template <int D>
+[[gnu::always_inline]] inline void find_extent(const Lanes* box, const double* seed, Vector (&extent)[D]) {
+  for (int k = 0; k < D; ++k) {
+    Vector a, b;
+    load(&box[k], a);
+    load(&box[D + k], b);
+    a = seed[k] - a;
+    b = b - seed[k];
+    extent[k] = 2 * (a > b ? a : b);
+  }
+}
+
+/// Enters one wall: 2 q.y - level is within [least, greatest] in each lane, but for its error.
+[[gnu::always_inline]] inline void enter(const Vector& least, const Vector& greatest, const Vector& error,
+                                         Vector& most, double* reach) {
+  const Vector none = Vector{} - infinite;
+  const Vector value = error <= largest ? least - error : none;
+  most = value > most ? value : most;
+  store(error <= largest ? greatest + error : -none, reach);
+}
+
+template <int D>
+[[gnu::always_inline]] inline void boxes_in(const Wall* wall, std::size_t walls, const Lanes* box,
+                                            const double* seed, Lanes& beyond, double* reach) {
+  Vector low[D], high[D], extent[D], most = Vector{} - infinite;
+  find_extent<D>(box, seed, extent);
+  for (int k = 0; k < D; ++k) {
+    load(&box[k], low[k]);
+    load(&box[D + k], high[k]);
+    low[k] = 2 * (low[k] - seed[k]);
+    high[k] = 2 * (high[k] - seed[k]);
+  }
+  for (std::size_t w = 0; w < walls; ++w) {
+    const Wall& by = wall[w];
+    Vector least = Vector{} - by.level, greatest = least, error;
+    for (int k = 0; k < D; ++k) {
+      const Vector a = by.q[k] * low[k], b = by.q[k] * high[k];
+      least += a < b ? a : b;
+      greatest += a < b ? b : a;
+    }
+    find_error<D>(by, extent, error);
+    enter(least, greatest, error, most, reach + w * lanes);
+  }
+  store(most, &beyond);
+}
+
+template <int D>
+[[gnu::always_inline]] inline void corners_in(const Wall* wall, std::size_t walls, const Lanes* box,
+                                              const Lanes* corner, std::size_t corners, const double* seed,
+                                              Lanes& beyond, double* reach) {
+  Vector extent[D], most = Vector{} - infinite;
+  find_extent<D>(box, seed, extent);
+  for (std::size_t w = 0; w < walls; ++w) {
+    const Wall& by = wall[w];
+    Vector least = Vector{} + infinite, greatest = -least, error;
+    for (std::size_t c = 0; c < corners; ++c) {
+      Vector side{}, x;
+      for (int k = 0; k < D; ++k) {
+        load(&corner[c * D + static_cast<std::size_t>(k)], x);
+        side += by.q[k] * (x - seed[k]);
+      }
+      least = side < least ? side : least;
+      greatest = side > greatest ? side : greatest;
+    }
+    find_error<D>(by, extent, error);
+    least = 2 * least - by.level;
+    greatest = 2 * greatest - by.level;
+    enter(least, greatest, error, most, reach + w * lanes);
+  }
+  store(most, &beyond);
+}
+
+template <int D>
+[[gnu::always_inline]] inline void overlap_in(const Lanes* box, const double* seed, const double* low,
+                                              const double* high, Lanes& gap) {
+  Vector most = Vector{} - infinite;
+  for (int k = 0; k < D; ++k) {
+    Vector a, b;
+    load(&box[k], a);
+    load(&box[D + k], b);
+    a = (a - seed[k]) - high[k];
+    b = low[k] - (b - seed[k]);
+    most = a > most ? a : most;
+    most = b > most ? b : most;
+  }
+  store(most, &gap);
+}
+
+template <int D>
+[[gnu::always_inline]] inline double least_in(const double* direction, const double* vertex,
+                                              std::size_t count) {
+  Vector least = Vector{} + infinite;
+  for (std::size_t v = 0; v < count; v += lanes) {
+    Vector sum{}, x;
+    for (int k = 0; k < D; ++k) {
+      load(&vertex[static_cast<std::size_t>(k) * count + v], x);
+      sum += direction[k] * x;
+    }
+    least = sum < least ? sum : least;
+  }
+  double all = infinite;
+  for (std::size_t l = 0; l < lanes; ++l) all = least[l] < all ? least[l] : all;
+  return all;
+}
+
+}  // namespace
+
+POWERCELL_VECTOR_COPIES void test_boxes(const Wall* wall, std::size_t walls, int dimension, const Lanes* box,
+                                        const double* seed, Lanes& beyond, double* reach) {
+  if (dimension == 2)
+    boxes_in<2>(wall, walls, box, seed, beyond, reach);
+  else
+    boxes_in<3>(wall, walls, box, seed, beyond, reach);
+}
+
+POWERCELL_VECTOR_COPIES void test_corners(const Wall* wall, std::size_t walls, int dimension,
+                                          const Lanes* box, const Lanes* corner, std::size_t corners,
+                                          const double* seed, Lanes& beyond, double* reach) {
+  if (dimension == 2)
+    corners_in<2>(wall, walls, box, corner, corners, seed, beyond, reach);
+  else
+    corners_in<3>(wall, walls, box, corner, corners, seed, beyond, reach);
+}
+
+POWERCELL_VECTOR_COPIES void test_overlap(int dimension, const Lanes* box, const double* seed,
+                                          const double* low, const double* high, Lanes& gap) {
+  if (dimension == 2)
+    overlap_in<2>(box, seed, low, high, gap);
+  else
+    overlap_in<3>(box, seed, low, high, gap);
+}
+
+POWERCELL_VECTOR_COPIES double least_along(const double* direction, int dimension, const double* vertex,
+                                           std::size_t count) {
+  return dimension == 2 ? least_in<2>(direction, vertex, count) : least_in<3>(direction, vertex, count);
+}
+
+}  // namespace powercell::pairs::loops
