@@ -47,7 +47,11 @@
 #define OUTPUT_GEOMETRY 4
 #define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 
-/* A border below 0 is facet slot ~border of the region, else the rank of the neighbour. */
+/* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it is a plane of
+   the boundary of the domain (kernels/clip/by_cell.cl). */
+#define BORDER_PLANE (1 << 30)
+/* Reals of such a plane: q (3), dw and error of 2 q.y = |q|^2 + dw. */
+#define PLANE_REALS 5
 
 /* The polyhedron a volume region starts as: a 3-regular graph. Seen from outside, the neighbours
    next[0..2][v] of vertex v go counter-clockwise, and face[k][v] lies between next[k][v] and

@@ -11,6 +11,7 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
                                 int border) {
   real p[DIMENSION];
   const seed_t seed = cell->at.seeds[cell->at.self];
+  if (old >= BORDER_PLANE) return old;
   if (old >= 0) {
     difference(cell->at.seeds[old], seed, p);
     return norm2(q) > norm2(p) ? border : old;
@@ -36,13 +37,12 @@ static inline real outside_gap(cell_t* cell, const real* q, real level, real sum
   return moved < 0 ? moved : gap - moved;
 }
 
-/* Cuts the cell by the bisector with `other`, whose rank is `border`. Of two seeds that share a region
-   within their bisector, as a triangle can lie, the one of lower rank has it. Returns a CUT code. */
-static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
-  real q[DIMENSION], sum = 0;
-  difference(other, seed, q);
+/* Cuts the cell by the plane 2 q.y = |q|^2 + dw. Of two seeds that share a region within their bisector, as a
+   triangle can lie, the one of lower rank has it. Returns a CUT code. */
+static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border) {
+  real sum = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
-  const real q2 = norm2(q), dw = weight_difference(seed, other);
+  const real q2 = norm2(q);
   cell->at.size2 = 4 * q2;
   const real tolerance = SIDE_TOLERANCE(cell, sum, q2, dw);
   const int cut = cell_cut(cell, q, q2 + dw, tolerance, border);
@@ -62,6 +62,13 @@ static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int borde
     if (cell_face_touches(cell, f, tolerance))
       cell->border[f] = border_behind(cell, cell->border[f], q, q2 + dw, tolerance, border);
   return CUT_NONE;
+}
+
+/* Cuts the cell by the bisector with `other`, whose rank is `border`. Returns a CUT code. */
+static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
+  real q[DIMENSION];
+  difference(other, seed, q);
+  return cut_by_plane(cell, q, weight_difference(seed, other), border);
 }
 
 /* The status of a piece after a cut that was not CUT_NONE or CUT_SHRUNK. */

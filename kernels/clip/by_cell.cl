@@ -40,9 +40,24 @@ static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint
   return PIECE_WHOLE;
 }
 
-/* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped. */
+/* Cuts by planes of the boundary of the domain: rows of q (3), dw, and how far the plane may be off (docs/mathematics.md,
+   "Cells at the boundary"). Returns a PIECE status. */
+static inline int clip_by_planes(cell_t* cell, __global const stored_real* plane, uint count) {
+  for (uint k = 0; k < count; ++k, plane += PLANE_REALS) {
+    real q[DIMENSION];
+    for (int c = 0; c < DIMENSION; ++c) q[c] = plane[c];
+    cell->at.blur = fmax(cell->at.blur, (real)plane[4]);
+    const int cut = cut_by_plane(cell, q, plane[3], BORDER_PLANE + (int)k);
+    if (cut > CUT_SHRUNK) return piece_status(cut);
+  }
+  return PIECE_WHOLE;
+}
+
+/* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped.
+   Likewise for planes: those pairs have the region around the domain. */
 __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
-                                  __global const uint* wall_offset, __global const uint* neighbor) {
+                                  __global const uint* wall_offset, __global const uint* neighbor,
+                                  __global const uint* plane_offset, __global const stored_real* plane) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair];
@@ -56,5 +71,8 @@ __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
   if (result == PIECE_WHOLE)
     result = walls == 0 || walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)
                                 : clip_by_walls(&cell, seeds, i, neighbor + first, walls);
+  const uint first_plane = plane_offset[i];
+  if (result == PIECE_WHOLE)
+    result = clip_by_planes(&cell, plane + (size_t)first_plane * PLANE_REALS, plane_offset[i + 1] - first_plane);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

@@ -339,7 +339,7 @@ static inline void cell_moments(cell_t* cell, real* moments) {
 static inline int cell_write_walls(cell_t* cell, __global int* border, __global stored_real* wall) {
   int count = 0;
   for (int f = 0; f < cell->faces; ++f) {
-    if (!(OUTPUTS & OUTPUT_GEOMETRY) && cell->border[f] < 0) continue;
+    if (!(OUTPUTS & OUTPUT_GEOMETRY) && (cell->border[f] < 0 || cell->border[f] >= BORDER_PLANE)) continue;
     border[count] = cell->border[f];
     wall[count++] = (stored_real)cell->at.side[f];
   }

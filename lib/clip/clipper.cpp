@@ -1,6 +1,7 @@
 #include "lib/clip/clipper.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "kernels/layout.h"
@@ -177,6 +178,31 @@ void Clipper::write_moments(const List& pairs, std::span<const double> moments) 
   }
 }
 
+int Clipper::clip_on_host(HostClipper& host, std::uint32_t pair, std::span<double> moments,
+                          PieceBatch& rows) const {
+  const std::vector<std::uint32_t> regions =
+      candidates_.regions_for_host(pair_seed_[pair], pair_region_[pair]);
+  if (regions.size() == 1) return host.clip(pair_seed_[pair], regions.front(), moments, rows);
+  if (rows.face_offset.empty()) rows.face_offset = rows.vertex_offset = {0};
+  const std::size_t row = rows.face_offset.size() - 1;
+  int status = PIECE_EMPTY;
+  std::fill(moments.begin(), moments.end(), 0.0);
+  std::vector<double> part(moments.size());
+  for (const std::uint32_t region : regions) {
+    const int of_part = host.clip(pair_seed_[pair], region, part, rows);
+    if (of_part == PIECE_EMPTY) continue;
+    if (status != PIECE_WHOLE) status = of_part;
+    std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
+  }
+  // Their rows become one, of walls alone: parts have no geometry in common.
+  rows.face_offset.resize(row + 1);
+  rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));
+  rows.vertex_offset.resize(row + 1);
+  rows.vertex_offset.push_back(
+      static_cast<std::uint32_t>(rows.vertex.size() / static_cast<std::size_t>(scene_.mesh().dimension)));
+  return status;
+}
+
 void Clipper::finish_on_host(const List& pairs) {
   if (pairs.empty()) return;
   if (!host_scene_) host_scene_ = make_host_scene(scene_);
@@ -196,8 +222,7 @@ void Clipper::finish_on_host(const List& pairs) {
     PieceBatch unwanted, &rows = wants_rows() ? pieces_.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t pair = pairs[k];
-      const int status = host->clip(pair_seed_[pair], pair_region_[pair],
-                                    std::span(moments).subspan(k * count, count), rows);
+      const int status = clip_on_host(*host, pair, std::span(moments).subspan(k * count, count), rows);
       pieces_.status[pair] = static_cast<std::uint32_t>(status);
       pieces_.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
       pieces_.row[pair] = static_cast<std::uint32_t>(k - begin);

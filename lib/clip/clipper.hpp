@@ -65,6 +65,8 @@ class Clipper {
   /// Takes in the pairs of a chunk; returns all of them as pending.
   List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
   /// Clips `pairs`, ascending, on the host.
+  /// Appends one row. Returns the status.
+  int clip_on_host(HostClipper& host, std::uint32_t pair, std::span<double> moments, PieceBatch& rows) const;
   void finish_on_host(const List& pairs);
   /// Rows of 2 + dimension moments, one for each of `pairs`, ascending.
   void write_moments(const List& pairs, std::span<const double> moments);

@@ -109,13 +109,18 @@ bool Diagram::State::cells_come_first(bool want_regions) const {
 
 void Diagram::State::find_pairs_by_cells() {
   Stopwatch watch;
-  const std::vector<std::uint32_t> ranks = finder->at_boundary(seeds, tree, not_whole);
+  const BoundaryRanks ranks = finder->at_boundary(seeds, tree, not_whole);
   const double boundary_seconds = watch.seconds(), built_before = device.build_seconds();
   Stopwatch neighbor_watch;
-  auto cells_first = std::make_unique<CellCandidates>(scene, ranks);
+  auto cells_first = std::make_unique<CellCandidates>(scene, ranks.ranks);
   timings.neighbors = neighbor_watch.seconds() - (device.build_seconds() - built_before);
   Stopwatch pair_watch;
-  pairs = finder->of_cells(seeds, ranks, cells_first->walls(), options.progress);
+  const bool planes = !scene.float32() && seeds.size() < BORDER_PLANE;
+  pairs = finder->of_cells(seeds, ranks, cells_first->walls(), planes, options.progress);
+  // The walls go where the candidates go, to which this function belongs.
+  cells_first->set_planes(pairs.planes, [this, walls = &cells_first->walls()](std::uint32_t rank) {
+    return finder->regions_of(seeds, rank, *walls);
+  });
   timings.pairs = boundary_seconds + pair_watch.seconds();
   candidates = std::move(cells_first);
 }

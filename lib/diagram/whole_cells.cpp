@@ -69,9 +69,13 @@ std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, const Pair
       const std::uint64_t pair = pairs.offset[rank];
       const std::size_t i = seeds.input[rank];
       if (pair == pairs.offset[rank + 1] || pairs.region[pair] < mesh.region_count()) continue;
+      const bool cut = std::binary_search(pairs.planes.rank.begin(), pairs.planes.rank.end(), rank);
+      if (cut) place[rank] = Place::unclear;
       if (!(measures.mass[i] > 0)) continue;
       place[rank] = places.of(&seeds.positions[rank * d], &measures.centroid[i * d], measures.mass[i],
                               measures.second_moment[i]);
+      // What planes of the boundary leave is next to it, inside, unless regions overlap.
+      if (cut && place[rank] == Place::outside) place[rank] = Place::unclear;
       if (place[rank] != Place::outside) continue;
       measures.mass[i] = measures.second_moment[i] = 0;
       std::fill_n(&measures.centroid[i * d], d, std::numeric_limits<double>::quiet_NaN());

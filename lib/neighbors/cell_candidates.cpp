@@ -1,6 +1,7 @@
 #include "lib/neighbors/cell_candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -88,16 +89,53 @@ CellWalls clip_cells(const Scene& scene, TreeCandidates& candidates, std::span<c
 
 CellCandidates::CellCandidates(const Scene& scene, std::span<const std::uint32_t> ranks)
     : TreeCandidates(scene),
+      scene_(scene),
       walls_(clip_cells(scene, *this, ranks)),
       wall_offset_(scene.context()),
-      neighbor_(scene.context()) {
+      neighbor_(scene.context()),
+      plane_offset_(scene.context()),
+      plane_(scene.context()) {
   wall_offset_.upload(walls_.offset);
   neighbor_.upload(walls_.neighbor);
+  set_planes({}, {});
+}
+
+void CellCandidates::set_planes(const CellPlanes& planes, Regions regions) {
+  cut_by_planes_ = planes.rank;
+  regions_ = std::move(regions);
+  std::vector<std::uint32_t> offset;
+  for (std::size_t at = 0; at < planes.rank.size(); ++at)
+    offset.resize(planes.rank[at] + std::size_t{1},
+                  static_cast<std::uint32_t>(at == 0 ? 0 : planes.end[at - 1]));
+  offset.resize(scene_.seeds().size() + 1, static_cast<std::uint32_t>(planes.plane.size()));
+  plane_offset_.upload(offset);
+  // 2 q.y = |q|^2 + dw, with q about as long as the plane is far, so that nothing cancels.
+  const double scale = scene_.frame().scale;
+  std::vector<double> rows;
+  for (const LocalPlane& plane : planes.plane) {
+    const double height = scale * plane.height, length = std::max(std::abs(height), 0x1p-20);
+    double q2 = 0;
+    for (const double n : plane.normal) {
+      rows.push_back(n * length);
+      q2 += rows.back() * rows.back();
+    }
+    rows.push_back(2 * height * length - q2);
+    rows.push_back(scale * plane.error);
+  }
+  plane_.reserve(rows.size() * sizeof(double));
+  if (!rows.empty()) plane_.write(rows.data(), rows.size() * sizeof(double));
+}
+
+std::vector<std::uint32_t> CellCandidates::regions_for_host(std::uint32_t rank, std::uint32_t region) const {
+  if (region + 1 < scene_.mesh().region_count() ||
+      !std::binary_search(cut_by_planes_.begin(), cut_by_planes_.end(), rank))
+    return {region};
+  return regions_(rank);
 }
 
 void CellCandidates::set_arguments(cl::Kernel& kernel, unsigned first) {
   TreeCandidates::set_arguments(kernel, first);
-  kernel.args_from(first + TreeBlocks::argument_count, wall_offset_, neighbor_);
+  kernel.args_from(first + TreeBlocks::argument_count, wall_offset_, neighbor_, plane_offset_, plane_);
 }
 
 std::unique_ptr<Candidates> CellCandidates::for_scene(const Scene& scene) const {

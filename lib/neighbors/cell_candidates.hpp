@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "lib/neighbors/cell_planes.hpp"
 #include "lib/neighbors/cell_walls.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 
@@ -27,9 +29,20 @@ class CellCandidates : public TreeCandidates {
 
   const CellWalls& walls() const { return walls_; }
 
+  /// The regions that the cell of a rank can meet.
+  using Regions = std::function<std::vector<std::uint32_t>(std::uint32_t rank)>;
+  /// From now on cuts the pieces that these cells have in the last region by their planes as well; where the
+  /// host has to clip them it does so in `regions`. \pre double precision, less than BORDER_PLANE seeds
+  void set_planes(const CellPlanes& planes, Regions regions);
+  std::vector<std::uint32_t> regions_for_host(std::uint32_t rank, std::uint32_t region) const override;
+
  private:
+  const Scene& scene_;
   CellWalls walls_;
-  cl::Buffer<std::uint32_t> wall_offset_, neighbor_;
+  std::vector<std::uint32_t> cut_by_planes_;  // ranks, ascending
+  Regions regions_;
+  cl::Buffer<std::uint32_t> wall_offset_, neighbor_, plane_offset_;
+  cl::RawBuffer plane_;
 };
 
 }  // namespace powercell

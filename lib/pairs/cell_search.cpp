@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <powercell/error.hpp>
 
 #include "lib/seeds/threads.hpp"
@@ -38,42 +39,14 @@ void CellSearch::set_walls(std::uint32_t rank) {
   for (const std::uint32_t j : cells_.of(rank)) walls_.push_back(wall_of(seeds_, rank, j));
 }
 
-void CellSearch::set_vertices(std::uint32_t rank) {
-  const std::span<const double> vertices = cells_.vertices_of(rank);
-  const auto d = static_cast<std::size_t>(seeds_.dimension);
-  const std::size_t count = vertices.size() / d, columns = (count + fan - 1) / fan * fan;
-  low_.fill(-infinite);
-  high_.fill(infinite);
-  vertex_.resize(columns * d);
-  error_ = 0;
-  if (count == 0) return;
-  for (std::size_t k = 0; k < d; ++k) {
-    double low = infinite, high = -infinite;
-    for (std::size_t v = 0; v < columns; ++v) {
-      const double x = vertices[std::min(v, count - 1) * d + k];
-      vertex_[k * columns + v] = x;
-      low = std::min(low, x);
-      high = std::max(high, x);
-    }
-    low_[k] = low;
-    high_[k] = high;
-    error_ += std::max(std::abs(low), std::abs(high));
-  }
-  error_ *= cells_.vertex_error;
-  for (std::size_t k = 0; k < d; ++k) {
-    low_[k] -= error_;
-    high_[k] += error_;
-  }
-}
-
-void CellSearch::find(std::uint32_t rank, std::vector<std::uint32_t>& regions) {
+void CellSearch::find(std::uint32_t rank, const CellHull& hull, std::vector<std::uint32_t>& regions) {
   const std::span<const std::uint32_t> neighbors = cells_.of(rank);
   if (neighbors.size() == 1 && neighbors.front() == rank) return;  // no cell
   const std::size_t begin = regions.size();
   found_ = &regions;
   seed_ = &seeds_.positions[std::size_t{rank} * static_cast<std::size_t>(seeds_.dimension)];
   set_walls(rank);
-  set_vertices(rank);
+  hull_ = &hull;
   visit(groups_.level.size() - 1, 0, 0, walls_.size());
   std::sort(regions.begin() + static_cast<std::ptrdiff_t>(begin), regions.end());
 }
@@ -99,9 +72,9 @@ bool CellSearch::parted_along(const double* direction, std::uint32_t region) con
     terms = std::max(terms, sum);
   }
   for (std::size_t k = 0; k < d; ++k) size += std::abs(direction[k]);
-  const double nearest = loops::least_along(direction, seeds_.dimension, vertex_.data(), vertex_.size() / d);
+  const double nearest = hull_->least_along(direction);
   // Rounding in the sums over the vertices of the cell is far below the error of those.
-  return nearest - farthest > size * error_ + rounding * terms;
+  return nearest - farthest > size * hull_->error + rounding * terms;
 }
 
 bool CellSearch::beyond_a_facet(std::uint32_t region) const {
@@ -139,7 +112,7 @@ void CellSearch::visit_regions(std::size_t group, std::size_t members, std::size
   const std::size_t corners =
       (blocks_.corner_offset[group + 1] - corner) / static_cast<std::size_t>(seeds_.dimension);
   Lanes gap, beyond;
-  loops::test_overlap(seeds_.dimension, box, seed_, low_.data(), high_.data(), gap);
+  loops::test_overlap(seeds_.dimension, box, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
   reach_.resize(std::max(reach_.size(), (last - first) * fan));
   loops::test_corners(&walls_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner], corners,
@@ -147,7 +120,7 @@ void CellSearch::visit_regions(std::size_t group, std::size_t members, std::size
   for (std::size_t lane = 0; lane < members; ++lane) {
     const std::uint32_t region = groups_.order[group * fan + lane];
     if (gap[lane] > 0 || beyond[lane] > 0) continue;
-    if (vertex_.empty() || !beyond_a_facet(region)) found_->push_back(region);
+    if (hull_->empty() || !beyond_a_facet(region)) found_->push_back(region);
   }
 }
 
@@ -159,7 +132,7 @@ void CellSearch::visit(std::size_t level, std::size_t group, std::size_t first, 
   if (level == 1) return visit_regions(group, members, first, last);
   Lanes gap, beyond;
   const Lanes* const box = blocks_.boxes(level - 1, group);
-  loops::test_overlap(seeds_.dimension, box, seed_, low_.data(), high_.data(), gap);
+  loops::test_overlap(seeds_.dimension, box, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
   reach_.resize(std::max(reach_.size(), count * fan));
   loops::test_boxes(&walls_[first], count, seeds_.dimension, box, seed_, beyond, reach_.data());
@@ -188,12 +161,56 @@ constexpr std::size_t task_size = 64;
 struct Task {
   std::vector<std::uint32_t> regions;  // cell after cell
   std::vector<std::uint64_t> end;      // per cell
+  std::vector<LocalPlane> planes;      // cell after cell
+  std::vector<std::uint64_t> plane_end;
 };
+
+class Worker {
+ public:
+  explicit Worker(const CellsSearch& search)
+      : s_(search), cells_(search.mesh, search.groups, search.blocks, search.seeds, search.walls) {
+    if (search.boundary != nullptr) planes_.emplace(*search.boundary);
+  }
+
+  void run(std::span<const std::uint32_t> ranks, Task& task) {
+    for (const std::uint32_t rank : ranks) {
+      hull_.set(s_.walls, rank);
+      if (!find_planes(rank, task)) cells_.find(rank, hull_, task.regions);
+      task.end.push_back(task.regions.size());
+      task.plane_end.push_back(task.planes.size());
+    }
+  }
+
+ private:
+  /// Whether the cell has one pair, with the region around the domain.
+  bool find_planes(std::uint32_t rank, Task& task) {
+    if (!planes_ || std::binary_search(s_.ranks.by_region.begin(), s_.ranks.by_region.end(), rank))
+      return false;
+    const double* seed =
+        &s_.seeds.positions[std::size_t{rank} * static_cast<std::size_t>(s_.seeds.dimension)];
+    if (planes_->find(seed, hull_, task.planes) == PlaneSearch::Found::unclear) return false;
+    task.regions.push_back(static_cast<std::uint32_t>(s_.mesh.region_count()));
+    return true;
+  }
+
+  const CellsSearch& s_;
+  CellSearch cells_;
+  std::optional<PlaneSearch> planes_;
+  CellHull hull_;
+};
+
+/// Row `row` of rows that end at these places.
+template <class Values>
+auto row_of(const Values& values, const std::vector<std::uint64_t>& end, std::size_t row) {
+  const std::uint64_t begin = row == 0 ? 0 : end[row - 1];
+  return std::span(values).subspan(begin, end[row] - begin);
+}
 
 /// Pairs of all ranks in order: of those searched for what was found, of the others one with the last region.
 Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
   const auto around = static_cast<std::uint32_t>(search.mesh.region_count());
-  std::uint64_t total = search.seeds.size() - search.ranks.size();
+  const std::vector<std::uint32_t>& ranks = search.ranks.ranks;
+  std::uint64_t total = search.seeds.size() - ranks.size();
   for (const Task& task : tasks) total += task.regions.size();
   Pairs pairs;
   pairs.offset.reserve(search.seeds.size() + 1);
@@ -202,14 +219,17 @@ Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
     for (; pairs.offset.size() < rank; pairs.region.push_back(around))
       pairs.offset.push_back(pairs.region.size());
   };
-  for (std::size_t at = 0; at < search.ranks.size(); ++at) {
-    whole_up_to(search.ranks[at]);
+  for (std::size_t at = 0; at < ranks.size(); ++at) {
+    whole_up_to(ranks[at]);
     pairs.offset.push_back(pairs.region.size());
     const Task& task = tasks[at / task_size];
-    const std::size_t row = at % task_size;
-    const auto first = task.regions.begin() + static_cast<std::ptrdiff_t>(row == 0 ? 0 : task.end[row - 1]);
-    pairs.region.insert(pairs.region.end(), first,
-                        task.regions.begin() + static_cast<std::ptrdiff_t>(task.end[row]));
+    const auto regions = row_of(task.regions, task.end, at % task_size);
+    pairs.region.insert(pairs.region.end(), regions.begin(), regions.end());
+    const auto planes = row_of(task.planes, task.plane_end, at % task_size);
+    if (planes.empty()) continue;
+    pairs.planes.rank.push_back(ranks[at]);
+    pairs.planes.plane.insert(pairs.planes.plane.end(), planes.begin(), planes.end());
+    pairs.planes.end.push_back(pairs.planes.plane.size());
   }
   whole_up_to(search.seeds.size());
   pairs.offset.push_back(pairs.region.size());
@@ -219,18 +239,15 @@ Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
 }  // namespace
 
 Pairs search_cells(const CellsSearch& search) {
-  std::vector<Task> tasks((search.ranks.size() + task_size - 1) / task_size);
-  std::deque<CellSearch> workers;
-  for (int w = 0; w < search.threads; ++w)
-    workers.emplace_back(search.mesh, search.groups, search.blocks, search.seeds, search.walls);
+  const std::span<const std::uint32_t> ranks = search.ranks.ranks;
+  std::vector<Task> tasks((ranks.size() + task_size - 1) / task_size);
+  std::deque<Worker> workers;
+  for (int w = 0; w < search.threads; ++w) workers.emplace_back(search);
   std::atomic<std::size_t> done{0};
   parallel_tasks(search.threads, tasks.size(), [&](int w, std::size_t t) {
-    Task& task = tasks[t];
-    for (const std::uint32_t rank :
-         search.ranks.subspan(t * task_size, std::min(task_size, search.ranks.size() - t * task_size))) {
-      workers[static_cast<std::size_t>(w)].find(rank, task.regions);
-      task.end.push_back(task.regions.size());
-    }
+    const std::size_t first = t * task_size;
+    workers[static_cast<std::size_t>(w)].run(ranks.subspan(first, std::min(task_size, ranks.size() - first)),
+                                             tasks[t]);
     const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
     // Only the calling thread, which is worker 0, calls back.
     if (w == 0 && search.progress && !search.progress(share))

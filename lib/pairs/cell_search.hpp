@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "lib/pairs/boundary_planes.hpp"
+#include "lib/pairs/cell_hull.hpp"
 #include "lib/pairs/enumerate.hpp"
 #include "lib/pairs/region_blocks.hpp"
 #include "lib/pairs/wall_loops.hpp"
@@ -24,12 +26,11 @@ class CellSearch {
              const SeedSet& seeds, const CellWalls& cells)
       : mesh_(mesh), groups_(groups), blocks_(blocks), seeds_(seeds), cells_(cells) {}
 
-  /// Appends the regions that the cell of `rank` can meet, ascending.
-  void find(std::uint32_t rank, std::vector<std::uint32_t>& regions);
+  /// Appends the regions that the cell of `rank` can meet, ascending. \param hull  of this cell
+  void find(std::uint32_t rank, const CellHull& hull, std::vector<std::uint32_t>& regions);
 
  private:
   void set_walls(std::uint32_t rank);
-  void set_vertices(std::uint32_t rank);
   /// What the group has, cut by the walls [first, last) of walls_.
   void visit(std::size_t level, std::size_t group, std::size_t first, std::size_t last);
   void visit_regions(std::size_t group, std::size_t members, std::size_t first, std::size_t last);
@@ -44,10 +45,8 @@ class CellSearch {
   const SeedSet& seeds_;
   const CellWalls& cells_;
   const double* seed_ = nullptr;
-  std::vector<loops::Wall> walls_;        // those of the cell, then those of each group on the way down
-  std::vector<double> vertex_;            // relative to the seed, coordinate after coordinate
-  std::array<double, 3> low_{}, high_{};  // the box of the cell
-  double error_ = 0;                      // of the vertices
+  std::vector<loops::Wall> walls_;  // those of the cell, then those of each group on the way down
+  const CellHull* hull_ = nullptr;
   std::vector<double> reach_;
   std::vector<std::uint32_t>* found_ = nullptr;
 };
@@ -57,8 +56,9 @@ struct CellsSearch {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const RegionBlocks& blocks;
+  const BoundaryPlanes* boundary;  ///< if cells may be cut by planes
   const SeedSet& seeds;
-  std::span<const std::uint32_t> ranks;
+  const BoundaryRanks& ranks;
   const CellWalls& walls;
   int threads;
   const std::function<bool(double)>& progress;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "lib/domain/outline.hpp"
+#include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_search.hpp"
 #include "lib/pairs/region_blocks.hpp"
 #include "lib/pairs/region_search.hpp"
@@ -51,27 +52,41 @@ Pairs PairFinder::all(const SeedSet& seeds, const PackedTree& tree,
   return pairs;
 }
 
-std::vector<std::uint32_t> PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tree,
-                                                   std::span<const std::uint32_t> also) {
+BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                                      std::span<const std::uint32_t> by_region) {
   if (!boundary_) {
     boundary_ = std::make_unique<RegionMesh>(boundary_of(mesh_));
     boundary_groups_ = std::make_unique<RegionGroups>(*boundary_, threads_);
   }
   std::vector<bool> marked(seeds.size());
-  for (const std::uint32_t rank : also) marked[rank] = true;
+  for (const std::uint32_t rank : by_region) marked[rank] = true;
   const RegionLists found = search_regions({*boundary_, *boundary_groups_, seeds, tree, threads_, {}});
   for (const RankList& list : found.list)
     for (std::uint32_t k = 0; k < list.count; ++k) marked[list.first[k]] = true;
-  std::vector<std::uint32_t> ranks;
+  BoundaryRanks all;
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
-    if (marked[rank]) ranks.push_back(rank);
-  return ranks;
+    if (marked[rank]) all.ranks.push_back(rank);
+  all.by_region.assign(by_region.begin(), by_region.end());
+  std::sort(all.by_region.begin(), all.by_region.end());
+  return all;
 }
 
-Pairs PairFinder::of_cells(const SeedSet& seeds, std::span<const std::uint32_t> ranks, const CellWalls& walls,
-                           const std::function<bool(double)>& progress) {
+Pairs PairFinder::of_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls,
+                           bool planes, const std::function<bool(double)>& progress) {
   if (!blocks_) blocks_ = std::make_unique<RegionBlocks>(mesh_, *groups_);
-  return search_cells({mesh_, *groups_, *blocks_, seeds, ranks, walls, threads_, progress});
+  planes = planes && boundary_ && mesh_.shape == RegionShape::tetrahedron;
+  if (planes && !planes_) planes_ = std::make_unique<BoundaryPlanes>(*boundary_, *boundary_groups_);
+  return search_cells(
+      {mesh_, *groups_, *blocks_, planes ? planes_.get() : nullptr, seeds, ranks, walls, threads_, progress});
+}
+
+std::vector<std::uint32_t> PairFinder::regions_of(const SeedSet& seeds, std::uint32_t rank,
+                                                  const CellWalls& walls) const {
+  CellHull hull;
+  hull.set(walls, rank);
+  std::vector<std::uint32_t> regions;
+  CellSearch(mesh_, *groups_, *blocks_, seeds, walls).find(rank, hull, regions);
+  return regions;
 }
 
 Pairs PairFinder::with_whole_cells(const SeedSet& seeds, const PackedTree& tree,
@@ -79,7 +94,7 @@ Pairs PairFinder::with_whole_cells(const SeedSet& seeds, const PackedTree& tree,
                                    const std::function<bool(double)>& progress) {
   if (!has_inside(mesh_)) return all(seeds, tree, progress);
   SeedMarks wanted(seeds.size()), whole(seeds.size());
-  for (const std::uint32_t rank : at_boundary(seeds, tree, not_whole)) wanted.set(rank);
+  for (const std::uint32_t rank : at_boundary(seeds, tree, not_whole).ranks) wanted.set(rank);
 
   const RegionLists found =
       search_regions({mesh_, *groups_, seeds, tree, threads_, progress}, &wanted, &whole);

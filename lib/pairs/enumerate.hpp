@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/domain/region_mesh.hpp"
+#include "lib/neighbors/cell_planes.hpp"
 #include "lib/neighbors/cell_walls.hpp"
 #include "lib/neighbors/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -23,9 +24,18 @@ struct Pairs {
   /// none. Empty if the domain has one region.
   std::vector<std::uint64_t> list_offset;  ///< regions + 1
   std::vector<std::uint32_t> list_seed;
+  /// Of the cells with a pair with the region around the domain, those that are to be cut by planes as well.
+  CellPlanes planes;
+};
+
+/// Cells that may meet the boundary of the domain.
+struct BoundaryRanks {
+  std::vector<std::uint32_t> ranks;      ///< ascending
+  std::vector<std::uint32_t> by_region;  ///< of those, ascending: pairs with regions only
 };
 
 namespace pairs {
+class BoundaryPlanes;
 struct RegionBlocks;
 struct RegionGroups;
 }  // namespace pairs
@@ -54,16 +64,22 @@ class PairFinder {
                          std::span<const std::uint32_t> not_whole,
                          const std::function<bool(double)>& progress = {});
 
-  /// Ascending, the ranks whose cells can meet the boundary of the domain, and those in `also`.
-  std::vector<std::uint32_t> at_boundary(const SeedSet& seeds, const PackedTree& tree,
-                                         std::span<const std::uint32_t> also);
+  /// The ranks whose cells can meet the boundary of the domain, and those in `by_region`, in any order.
+  BoundaryRanks at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                            std::span<const std::uint32_t> by_region);
 
-  /// As with_whole_cells, where the cells of at_boundary() are known by their walls: a region is left out
-  /// only if one of these has it all on its other side. Much faster where most regions meet few of the cells
-  /// at the boundary, and pairs have no lists by region. \param ranks  of at_boundary(); others have one
-  /// pair, with the region behind the last
-  Pairs of_cells(const SeedSet& seeds, std::span<const std::uint32_t> ranks, const CellWalls& walls,
+  /// As with_whole_cells, where the cells of at_boundary() are known by their walls and vertices: a region is
+  /// left out only if one of these walls or one of its own facets parts it from the cell. Pairs have no lists
+  /// by region. A cell that the domain is convex around has one pair, with the region behind the last, and
+  /// planes. \param ranks  of at_boundary(); others have one pair, with the region behind the last \param
+  /// planes whether cells may be cut by planes
+  Pairs of_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls, bool planes,
                  const std::function<bool(double)>& progress = {});
+
+  /// The regions that of_cells() finds for one cell without planes. Thread-safe. \pre of_cells() has been
+  /// called
+  std::vector<std::uint32_t> regions_of(const SeedSet& seeds, std::uint32_t rank,
+                                        const CellWalls& walls) const;
 
   const pairs::RegionGroups& groups() const { return *groups_; }
 
@@ -72,6 +88,7 @@ class PairFinder {
   int threads_;
   std::unique_ptr<pairs::RegionGroups> groups_, boundary_groups_;
   std::unique_ptr<pairs::RegionBlocks> blocks_;
+  std::unique_ptr<pairs::BoundaryPlanes> planes_;
   std::unique_ptr<RegionMesh> boundary_;
 };
 

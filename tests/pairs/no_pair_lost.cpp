@@ -52,7 +52,8 @@ void check_none_lost(const PairSet& found, const PairSet& expected) {
 /// is missing.
 void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& expected, std::size_t step) {
   CellWalls walls;
-  std::vector<std::uint32_t> ranks;
+  BoundaryRanks all;
+  std::vector<std::uint32_t>& ranks = all.ranks;
   for (std::uint32_t i = 0; i < set.size(); ++i) {
     ranks.push_back(i);
     walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
@@ -61,16 +62,16 @@ void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& e
       if (j != i) walls.neighbor.push_back(j);
   }
   walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
-  const Pairs pairs = PairFinder(mesh, 1).of_cells(set, ranks, walls);
+  const Pairs pairs = PairFinder(mesh, 1).of_cells(set, all, walls, false);
   check_rows(pairs, set.size());
   check_none_lost(as_set(pairs), expected);
-  const Pairs again = PairFinder(mesh, 3).of_cells(set, ranks, walls);
+  const Pairs again = PairFinder(mesh, 3).of_cells(set, all, walls, false);
   CHECK(again.offset == pairs.offset);
   CHECK(again.region == pairs.region);
 
   // Of others than those asked for the cells are whole.
   ranks.erase(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(ranks.size() / 2));
-  const Pairs half = PairFinder(mesh, 1).of_cells(set, ranks, walls);
+  const Pairs half = PairFinder(mesh, 1).of_cells(set, all, walls, false);
   check_rows(half, set.size());
   for (std::size_t i = 0; i < set.size() / 2; ++i) {
     REQUIRE(half.offset[i + 1] == half.offset[i] + 1);

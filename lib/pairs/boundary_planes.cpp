@@ -1,0 +1,256 @@
+#include "lib/pairs/boundary_planes.hpp"
+
+#include <map>
+#include <numeric>
+#include <span>
+
+#include "lib/collect/exact_orientation.hpp"
+
+namespace powercell::pairs {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// More would cost more than the regions.
+constexpr std::size_t most_planes = 24;
+/// Of the terms: more than the rounding of a determinant of differences of corners, or of a scalar product
+/// with a cross product.
+constexpr double rounding = 1e-14;
+
+Vector difference(const double* a, const double* b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double length(const Vector& a) {
+  return std::sqrt(dot(a, a));
+}
+
+/// The sign of the place of vertex x: above 0 outside the plane of a facet seen from outside as a, b, c.
+int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                  std::uint32_t x) {
+  const auto at = [&](std::uint32_t v) { return &vertices[std::size_t{v} * 3]; };
+  const Vector ab = difference(at(b), at(a)), ac = difference(at(c), at(a)), ax = difference(at(x), at(a));
+  const double value = dot(cross(ab, ac), ax);
+  if (std::abs(value) > rounding * length(ab) * length(ac) * length(ax)) return value > 0 ? 1 : -1;
+  const std::uint32_t corners[4] = {a, b, c, x};
+  return exact_orientation(vertices, corners);
+}
+
+std::vector<std::uint32_t> first_at_place(const RegionMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.region_vertex), first(mesh.vertices.size() / 3);
+  const auto place = [&](std::uint32_t v) {
+    return std::array{mesh.vertices[v * 3], mesh.vertices[v * 3 + 1], mesh.vertices[v * 3 + 2]};
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const auto pa = place(a), pb = place(b);
+    return pa != pb ? pa < pb : a < b;
+  });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    first[order[k]] = k > 0 && place(order[k]) == place(order[k - 1]) ? first[order[k - 1]] : order[k];
+  return first;
+}
+
+/// Whether some vertex is inside all planes, so that something is left of the cell.
+bool has_vertex_inside(const CellHull& cell, std::span<const LocalPlane> planes) {
+  const std::size_t count = cell.vertex.size() / 3;
+  for (std::size_t v = 0; v < count; ++v) {
+    const Vector y = {cell.vertex[v], cell.vertex[count + v], cell.vertex[2 * count + v]};
+    if (std::all_of(planes.begin(), planes.end(),
+                    [&](const LocalPlane& p) { return dot(p.normal, y) < p.height - 4 * cell.error; }))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& groups)
+    : mesh_(boundary),
+      groups_(groups),
+      blocks_(boundary, groups),
+      vertex_(first_at_place(boundary)),
+      plane_(boundary.region_count()) {
+  std::iota(plane_.begin(), plane_.end(), 0U);
+  const auto root = [&](std::uint32_t f) {
+    while (plane_[f] != f) f = plane_[f] = plane_[plane_[f]];
+    return f;
+  };
+  const auto corners = [&](std::uint32_t f) { return &mesh_.region_vertex[std::size_t{f} * 3]; };
+  const auto normal = [&](std::uint32_t f) {
+    const auto at = [&](std::size_t k) { return &mesh_.vertices[std::size_t{corners(f)[k]} * 3]; };
+    return cross(difference(at(1), at(0)), difference(at(2), at(0)));
+  };
+  struct Edge {
+    std::uint32_t facet;
+    std::size_t from;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;  // from, to
+  for (std::uint32_t f = 0; f < plane_.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      edges[{vertex_[corners(f)[k]], vertex_[corners(f)[(k + 1) % 3]]}] = {f, k};
+  for (const auto& [ends, edge] : edges) {
+    const auto other = edges.find({ends.second, ends.first});
+    if (other == edges.end() || ends.first > ends.second) continue;
+    const std::uint32_t f = edge.facet, g = other->second.facet;
+    const std::uint32_t *a = corners(f), x = corners(g)[(other->second.from + 2) % 3];
+    // Turned round against each other along the edge, two triangles in one plane face the same way unless
+    // folded.
+    if (side_of_plane(mesh_.vertices, a[0], a[1], a[2], x) == 0 && dot(normal(f), normal(g)) > 0)
+      plane_[std::max(root(f), root(g))] = std::min(root(f), root(g));
+  }
+  for (std::uint32_t f = 0; f < plane_.size(); ++f) plane_[f] = root(f);
+}
+
+const double* PlaneSearch::corner(std::uint32_t facet, std::size_t k) const {
+  return &b_.mesh_.vertices[std::size_t{b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]} * 3];
+}
+
+std::uint32_t PlaneSearch::vertex(std::uint32_t facet, std::size_t k) const {
+  return b_.vertex_[b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]];
+}
+
+/// Whether a facet meets the box of the cell: a direction among these thirteen parts two convex bodies, or
+/// none does.
+PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* seed,
+                                            const CellHull& cell) const {
+  Vector middle, half, x[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    middle[k] = (cell.low[k] + cell.high[k]) / 2;
+    half[k] = (cell.high[k] - cell.low[k]) / 2;
+    for (std::size_t c = 0; c < 3; ++c) x[c][k] = corner(facet, c)[k] - seed[k] - middle[k];
+  }
+  bool clear = true;
+  const auto parted = [&](const Vector& axis) {
+    double low = dot(axis, x[0]), high = low, radius = 0, terms = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      low = std::min(low, dot(axis, x[c]));
+      high = std::max(high, dot(axis, x[c]));
+      for (std::size_t k = 0; k < 3; ++k)
+        terms += std::abs(axis[k]) * (std::abs(x[c][k]) + std::abs(seed[k]) + std::abs(middle[k]));
+    }
+    for (std::size_t k = 0; k < 3; ++k) radius += std::abs(axis[k]) * half[k];
+    const double gap = std::max(low, -high) - radius, error = rounding * (terms + radius);
+    // A direction of 0, of an edge along an axis, parts nothing.
+    if (std::abs(gap) <= error && radius > 0) clear = false;
+    return gap > error;
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    Vector axis{};
+    axis[k] = 1;
+    if (parted(axis)) return Meeting::none;
+  }
+  const Vector edge[3] = {difference(x[1].data(), x[0].data()), difference(x[2].data(), x[1].data()),
+                          difference(x[0].data(), x[2].data())};
+  if (parted(cross(edge[0], edge[1]))) return Meeting::none;
+  for (const Vector& e : edge)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vector axis{};
+      axis[k] = 1;
+      if (parted(cross(axis, e))) return Meeting::none;
+    }
+  return clear ? Meeting::some : Meeting::unclear;
+}
+
+/// Returns whether all facets are clear.
+bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* seed, const CellHull& cell) {
+  if (level == 0) {
+    const std::uint32_t facet = b_.groups_.order[group];
+    const Meeting meeting = meets_box(facet, seed, cell);
+    if (meeting == Meeting::some) near_.push_back(facet);
+    return meeting != Meeting::unclear;
+  }
+  const std::size_t below = b_.groups_.level[level - 1].low.size() / 3;
+  const std::size_t members = std::min(RegionGroups::fan, below - group * RegionGroups::fan);
+  Lanes gap;
+  loops::test_overlap(3, b_.blocks_.boxes(level - 1, group), seed, cell.low.data(), cell.high.data(), gap);
+  for (std::size_t lane = 0; lane < members; ++lane)
+    // Boxes that touch to rounding are looked at.
+    if (!(gap[lane] > cell.error) && !gather(level - 1, group * RegionGroups::fan + lane, seed, cell))
+      return false;
+  return true;
+}
+
+bool PlaneSearch::in_plane(std::uint32_t plane, std::uint32_t v) const {
+  for (const std::uint32_t f : near_)
+    if (b_.plane_[f] == plane && (vertex(f, 0) == v || vertex(f, 1) == v || vertex(f, 2) == v)) return true;
+  return false;
+}
+
+int PlaneSearch::side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const {
+  if (in_plane(plane, vertex(facet, k))) return 0;
+  const std::uint32_t* a = &b_.mesh_.region_vertex[std::size_t{plane} * 3];
+  return side_of_plane(b_.mesh_.vertices, a[0], a[1], a[2],
+                       b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
+}
+
+/// Whether each facet is inside the planes of all others, and in none of them.
+bool PlaneSearch::convex_around() const {
+  if (plane_.size() < 2) return true;
+  for (const std::uint32_t plane : plane_)
+    for (const std::uint32_t facet : near_) {
+      if (b_.plane_[facet] == plane) continue;
+      bool within = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int s = side(plane, facet, k);
+        if (s > 0) return false;
+        within = within && s == 0;
+      }
+      if (within) return false;
+    }
+  return true;
+}
+
+LocalPlane PlaneSearch::plane_of(std::uint32_t facet, const double* seed, double reach) const {
+  const Vector a = difference(corner(facet, 1), corner(facet, 0)),
+               b = difference(corner(facet, 2), corner(facet, 0)), y = difference(corner(facet, 0), seed),
+               n = cross(a, b);
+  const double size = length(n);
+  LocalPlane plane;
+  for (std::size_t k = 0; k < 3; ++k) plane.normal[k] = n[k] / size;
+  plane.height = dot(plane.normal, y);
+  reach += std::abs(y[0]) + std::abs(y[1]) + std::abs(y[2]);
+  plane.error = 16 * std::numeric_limits<double>::epsilon() * reach * (length(a) * length(b) / size);
+  return plane;
+}
+
+PlaneSearch::Found PlaneSearch::find(const double* seed, const CellHull& cell,
+                                     std::vector<LocalPlane>& planes) {
+  if (cell.empty() || b_.plane_.empty()) return Found::unclear;
+  near_.clear();
+  plane_.clear();
+  if (!gather(b_.groups_.level.size() - 1, 0, seed, cell)) return Found::unclear;
+  for (const std::uint32_t facet : near_)
+    if (std::find(plane_.begin(), plane_.end(), b_.plane_[facet]) == plane_.end()) {
+      if (plane_.size() == most_planes) return Found::unclear;
+      plane_.push_back(b_.plane_[facet]);
+    }
+  if (plane_.empty()) return Found::nothing;
+  if (!convex_around()) return Found::unclear;
+  const std::size_t begin = planes.size();
+  double reach = 0;
+  for (std::size_t k = 0; k < 3; ++k) reach += std::max(std::abs(cell.low[k]), std::abs(cell.high[k]));
+  for (const std::uint32_t first : plane_) {
+    LocalPlane best{};
+    best.error = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t facet : near_) {
+      if (b_.plane_[facet] != first) continue;
+      const LocalPlane plane = plane_of(facet, seed, reach);
+      if (plane.error < best.error) best = plane;
+    }
+    if (!(best.error < cell.error)) {  // nearly degenerate facets
+      planes.resize(begin);
+      return Found::unclear;
+    }
+    planes.push_back(best);
+  }
+  if (has_vertex_inside(cell, std::span(planes).subspan(begin))) return Found::planes;
+  planes.resize(begin);
+  return Found::unclear;
+}
+
+}  // namespace powercell::pairs

@@ -1,0 +1,114 @@
+// Cells at the boundary of tetrahedral meshes: cut by planes of it where the domain is convex around them, by
+// the tetrahedra elsewhere.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <powercell/diagram.hpp>
+
+#include "tests/diagram/check.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/meshes.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// The elements of a mesh whose centroid is kept.
+Mesh part_of(Mesh mesh, const std::function<bool(const Point&)>& keep) {
+  std::vector<std::uint32_t> elements;
+  for (std::size_t e = 0; e < mesh.elements.size(); e += 4) {
+    Point centroid{};
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t k = 0; k < 3; ++k) centroid[k] += mesh.vertices[3 * mesh.elements[e + c] + k] / 4;
+    if (keep(centroid))
+      elements.insert(elements.end(), mesh.elements.begin() + static_cast<std::ptrdiff_t>(e),
+                      mesh.elements.begin() + static_cast<std::ptrdiff_t>(e + 4));
+  }
+  mesh.elements = std::move(elements);
+  return mesh;
+}
+
+void add(Mesh& to, const Mesh& from, const Point& by) {
+  const auto first = static_cast<std::uint32_t>(to.vertex_count());
+  for (std::size_t k = 0; k < from.vertices.size(); ++k) to.vertices.push_back(from.vertices[k] + by[k % 3]);
+  for (const std::uint32_t v : from.elements) to.elements.push_back(first + v);
+}
+
+/// The most pairs of a cell and a region that a diagram in double precision clips, or 0 if no setup has that.
+std::uint64_t pairs_of(const Domain& domain, const SeedArray& seeds) {
+  std::uint64_t most = 0;
+  for (const Setup& setup : main_setups()) {
+    Diagram diagram(setup.device, domain, setup.options);
+    if (diagram.precision() != Precision::float64 || diagram.neighbors() != Neighbors::tree) continue;
+    diagram.set_seeds(seeds.view());
+    diagram.measures();
+    most = std::max(most, diagram.timings().pair_count);
+  }
+  return most;
+}
+
+SeedArray white(std::size_t n, Random& random) {
+  return random_seeds(Distribution::white, WeightRange::W1, n, 3, random,
+                      Box{{-.1, -.1, -.1}, {1.1, 1.1, 1.1}});
+}
+
+}  // namespace
+
+TEST_CASE("cells at the boundary: convex domains, where no cell needs the tetrahedra") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const SeedArray seeds = white(120, random);
+  const Domain cube = volume_of(cube_tetrahedra(3, 0.2, random));
+  check_everywhere(cube, seeds, Position::general);
+  CHECK(pairs_of(cube, seeds) < 2 * seeds.size());
+  // Twelve hundred planes, of which a cell meets up to some dozens.
+  check_everywhere(volume_of(ball_tetrahedra(2)), white(60, random), Position::general);
+}
+
+TEST_CASE("cells at the boundary: where it is not convex") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const Mesh cube = cube_tetrahedra(4, 0, random);
+  const Mesh corner_off = part_of(cube, [](const Point& x) {
+    return std::max({x[0], x[1], x[2]}) < 0.5 || std::min({x[0], x[1], x[2]}) < 0.5;
+  });
+  const Mesh hollow = part_of(cube, [](const Point& x) {
+    return std::max({std::abs(x[0] - .5), std::abs(x[1] - .5), std::abs(x[2] - .5)}) > .25;
+  });
+  // Two slabs with a gap in which no seed is, and two sheets of a folded one.
+  const Mesh slabs = part_of(cube, [](const Point& x) { return x[0] < 0.25 || x[0] > 0.5; });
+  for (const Mesh& mesh : {corner_off, hollow, slabs}) {
+    const SeedArray seeds = white(60, random);
+    check_everywhere(volume_of(mesh), seeds, Position::general);
+    CHECK((pairs_of(volume_of(mesh), seeds) > 2 * seeds.size() || pairs_of(volume_of(mesh), seeds) == 0));
+  }
+}
+
+TEST_CASE("cells at the boundary: blocks that touch without sharing vertices") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  // The faces between them are boundary on both sides, in one plane, with their triangles across each other.
+  Mesh blocks = part_of(cube_tetrahedra(4, 0, random), [](const Point& x) { return x[0] < 0.5; });
+  Mesh other = part_of(cube_tetrahedra(6, 0, random), [](const Point& x) { return x[0] > 0.5; });
+  add(blocks, other, {0, 0, 0});
+  const SeedArray seeds = white(80, random);
+  const Domain domain = volume_of(blocks);
+  REQUIRE(std::abs(domain.measure() - 1) < 1e-12);
+  check_everywhere(domain, seeds, Position::general);
+}
+
+TEST_CASE("cells at the boundary: facets in planes of the seeds' walls") {
+  // A grid of seeds whose walls lie in the faces of the cube, and beyond: nothing is left to cut, to
+  // rounding.
+  Random random(1);
+  const Domain cube = volume_of(cube_tetrahedra(3, 0, random));
+  SeedArray seeds;
+  seeds.dimension = 3;
+  for (int k = 0; k < 5 * 5 * 5; ++k)
+    seeds.push({(k % 5) * 0.5 - 0.25, (k / 5 % 5) * 0.5 - 0.25, (k / 25) * 0.5 - 0.25}, 0);
+  check_everywhere(cube, seeds, Position::degenerate);
+}
