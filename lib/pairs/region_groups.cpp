@@ -44,7 +44,7 @@ RegionGroups::Boxes boxes_of_groups(const RegionGroups::Boxes& below, std::size_
 
 }  // namespace
 
-RegionGroups::RegionGroups(const RegionMesh& mesh, int threads) : order(region_order(mesh, threads)) {
+RegionGroups::RegionGroups(const RegionMesh& mesh, int threads) : order(region_order(mesh, fan, threads)) {
   const auto d = static_cast<std::size_t>(mesh.dimension);
   level.push_back(boxes_of_regions(mesh, order, threads));
   while (level.back().low.size() > d) level.push_back(boxes_of_groups(level.back(), d));

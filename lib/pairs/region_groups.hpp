@@ -1,5 +1,5 @@
 /// \file
-/// Regions along a curve, and boxes of groups of consecutive ones. Internal.
+/// Regions in a compact order, and boxes of groups of consecutive ones. Internal.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// \file
-/// Regions along a curve, so that consecutive ones share a search. Internal.
+/// Regions in an order in which groups are compact. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,9 @@
 
 namespace powercell::pairs {
 
-/// Region numbers in Hilbert order of their centroids.
-std::vector<std::uint32_t> region_order(const RegionMesh& mesh, int threads);
+/// Region numbers so that each `fan`^l consecutive ones, counted from the first, are near each other: ranges
+/// are halved across their longest axis, at multiples of the largest group that is smaller than they are.
+/// Does not depend on `threads`.
+std::vector<std::uint32_t> region_order(const RegionMesh& mesh, std::size_t fan, int threads);
 
 }  // namespace powercell::pairs

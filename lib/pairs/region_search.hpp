@@ -38,7 +38,7 @@ class SeedMarks {
 /// The candidates found; lists point into memory of the struct.
 struct RegionLists {
   struct Task {
-    std::vector<std::uint32_t> ranks;  ///< region after region along the curve
+    std::vector<std::uint32_t> ranks;  ///< region after region in the order of the groups
     std::vector<std::uint64_t> end;    ///< per region: end of its ranks
   };
   std::vector<Task> tasks;
