@@ -21,8 +21,8 @@ enum class Place : unsigned char { inside, outside, unclear };
 /// Tells where cells lie by a point near the centroid (docs/mathematics.md, "Cells inside the domain").
 class Places {
  public:
-  Places(const RegionMesh& mesh, const PairFinder& finder, bool float32)
-      : dimension_(mesh.dimension), locator_(mesh, finder.groups()) {
+  Places(const RegionMesh& mesh, PairFinder& finder, bool float32)
+      : dimension_(mesh.dimension), locator_(finder.locator()) {
     double extent = 0, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       extent = std::max(extent, mesh.high[k] - mesh.low[k]);
@@ -58,7 +58,7 @@ class Places {
 
 }  // namespace
 
-std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, const PairFinder& finder,
+std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, PairFinder& finder,
                                               const Pairs& pairs, const SeedSet& seeds, bool float32,
                                               int threads, Measures& measures) {
   const Places places(mesh, finder, float32);

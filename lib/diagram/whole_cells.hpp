@@ -15,7 +15,7 @@ namespace powercell {
 /// the boundary any point tells that it is inside, in one region.
 /// \param float32  the moments were computed in single precision
 /// \return the ranks of cells that cannot be told: too thin, or where regions overlap
-std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, const PairFinder& finder,
+std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, PairFinder& finder,
                                               const Pairs& pairs, const SeedSet& seeds, bool float32,
                                               int threads, Measures& measures);
 

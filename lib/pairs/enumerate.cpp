@@ -7,6 +7,7 @@
 #include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_search.hpp"
 #include "lib/pairs/region_blocks.hpp"
+#include "lib/pairs/region_locator.hpp"
 #include "lib/pairs/region_search.hpp"
 
 namespace powercell {
@@ -43,6 +44,15 @@ PairFinder::PairFinder(const RegionMesh& mesh, int threads)
 PairFinder::~PairFinder() = default;
 PairFinder::PairFinder(PairFinder&&) noexcept = default;
 
+const RegionBlocks& PairFinder::blocks() {
+  if (!blocks_) blocks_ = std::make_unique<RegionBlocks>(mesh_, *groups_);
+  return *blocks_;
+}
+
+RegionLocator PairFinder::locator() {
+  return {mesh_, *groups_, blocks()};
+}
+
 Pairs PairFinder::all(const SeedSet& seeds, const PackedTree& tree,
                       const std::function<bool(double)>& progress) const {
   if (mesh_.region_count() == 1) return all_with_one_region(seeds.size());
@@ -73,11 +83,10 @@ BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tr
 
 Pairs PairFinder::of_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls,
                            bool planes, const std::function<bool(double)>& progress) {
-  if (!blocks_) blocks_ = std::make_unique<RegionBlocks>(mesh_, *groups_);
   planes = planes && boundary_ && mesh_.shape == RegionShape::tetrahedron;
   if (planes && !planes_) planes_ = std::make_unique<BoundaryPlanes>(*boundary_, *boundary_groups_);
   return search_cells(
-      {mesh_, *groups_, *blocks_, planes ? planes_.get() : nullptr, seeds, ranks, walls, threads_, progress});
+      {mesh_, *groups_, blocks(), planes ? planes_.get() : nullptr, seeds, ranks, walls, threads_, progress});
 }
 
 std::vector<std::uint32_t> PairFinder::regions_of(const SeedSet& seeds, std::uint32_t rank,

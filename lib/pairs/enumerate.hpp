@@ -36,6 +36,7 @@ struct BoundaryRanks {
 
 namespace pairs {
 class BoundaryPlanes;
+class RegionLocator;
 struct RegionBlocks;
 struct RegionGroups;
 }  // namespace pairs
@@ -81,9 +82,12 @@ class PairFinder {
   std::vector<std::uint32_t> regions_of(const SeedSet& seeds, std::uint32_t rank,
                                         const CellWalls& walls) const;
 
-  const pairs::RegionGroups& groups() const { return *groups_; }
+  /// For what looks points up in the regions. \pre the finder stays where it is
+  pairs::RegionLocator locator();
 
  private:
+  const pairs::RegionBlocks& blocks();
+
   const RegionMesh& mesh_;
   int threads_;
   std::unique_ptr<pairs::RegionGroups> groups_, boundary_groups_;

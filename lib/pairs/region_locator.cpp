@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "lib/pairs/wall_loops.hpp"
 
 namespace powercell::pairs {
 namespace {
@@ -56,38 +57,27 @@ RegionLocator::Side RegionLocator::side_of(std::uint32_t region, const Vector& x
   return side;
 }
 
-bool RegionLocator::in_box(std::size_t level, std::size_t group, const Vector& x) const {
-  const auto d = static_cast<std::size_t>(mesh_.dimension);
-  const RegionGroups::Boxes& boxes = groups_.level[level];
-  for (std::size_t k = 0; k < d; ++k)
-    if (x[k] < boxes.low[group * d + k] || x[k] > boxes.high[group * d + k]) return false;
-  return true;
+bool RegionLocator::count_below(std::size_t level, std::size_t group, const Vector& x, int& found) const {
+  if (level == 0) {
+    const Side side = side_of(groups_.order[group], x);
+    found += side == Side::inside;
+    return side == Side::unclear;
+  }
+  const std::size_t below = groups_.level[level - 1].low.size() / static_cast<std::size_t>(mesh_.dimension);
+  const std::size_t first = group * RegionGroups::fan, members = std::min(RegionGroups::fan, below - first);
+  constexpr Vector here{};
+  Lanes gap;
+  loops::test_overlap(mesh_.dimension, blocks_.boxes(level - 1, group), x.data(), here.data(), here.data(),
+                      gap);
+  bool doubt = false;
+  for (std::size_t lane = 0; lane < members; ++lane)
+    if (!(gap[lane] > 0)) doubt |= count_below(level - 1, first + lane, x, found);
+  return doubt;
 }
 
 int RegionLocator::regions_at(const Vector& x) const {
-  struct Node {
-    std::size_t level, group;
-  };
-  std::vector<Node> stack{{groups_.level.size() - 1, 0}};
   int found = 0;
-  bool doubt = false;
-  while (!stack.empty()) {
-    const Node node = stack.back();
-    stack.pop_back();
-    if (!in_box(node.level, node.group, x)) continue;
-    if (node.level == 0) {
-      const Side side = side_of(groups_.order[node.group], x);
-      found += side == Side::inside;
-      doubt |= side == Side::unclear;
-      continue;
-    }
-    const std::size_t first = node.group * RegionGroups::fan;
-    const std::size_t below =
-        groups_.level[node.level - 1].low.size() / static_cast<std::size_t>(mesh_.dimension);
-    for (std::size_t k = first; k < std::min(first + RegionGroups::fan, below); ++k)
-      stack.push_back({node.level - 1, k});
-  }
-  return doubt ? unclear : found;
+  return count_below(groups_.level.size() - 1, 0, x, found) ? unclear : found;
 }
 
 }  // namespace powercell::pairs
