@@ -18,15 +18,19 @@ static inline bool region_has_list(region_lists_t lists, uint region) {
   return lists.offset[region] < lists.offset[region + 1];
 }
 
-/* Twice the largest distance of a point of the cell's box from `centre`. */
+/* Twice the largest distance of a vertex of the cell from `centre`. */
 static inline real cell_reach(const cell_t* cell, const real* centre) {
-  real low[DIMENSION], high[DIMENSION], r2 = 0;
-  find_box(&cell->at, low, high);
-  UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    const real t = fmax(high[k] - centre[k], centre[k] - low[k]);
-    r2 += t * t;
+  real8 most = ZERO8;
+  for (int b = 0; b < cell->at.blocks; ++b) {
+    const mask8 vertex = lanes_of((uint)(cell->at.used[b / 8] >> b % 8 * 8) & 255u);
+    real8 r2 = ZERO8;
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
+      const real8 t = load8(cell->at.x[k] + b * LANES) - all_lanes(centre[k]);
+      r2 = r2 + t * t;
+    }
+    most = most8(most, choose8(ZERO8, r2, vertex));
   }
-  return 2 * sqrt(r2) * (1 + SEARCH_MARGIN);
+  return 2 * sqrt(lane_most(most)) * (1 + SEARCH_MARGIN);
 }
 
 /* The point from which cuts are ordered: the seed, or the middle of the region where that is farther from
