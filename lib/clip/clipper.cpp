@@ -24,22 +24,33 @@ constexpr unsigned common_arguments = 17;
 
 }  // namespace
 
-Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs, ClipOptions options)
+ClipMemory::ClipMemory(const std::shared_ptr<cl::Context>& context)
+    : active(context),
+      seed(context),
+      region(context),
+      status(context),
+      faces(context),
+      vertices(context),
+      link(context),
+      border(context),
+      moments(context),
+      wall(context),
+      vertex(context) {}
+
+std::size_t ClipMemory::bytes() const {
+  std::size_t sum = border.size() * sizeof(std::int32_t) + moments.bytes() + wall.bytes() + vertex.bytes();
+  for (const cl::Buffer<std::uint32_t>* buffer : {&active, &seed, &region, &status, &faces, &vertices, &link})
+    sum += buffer->size() * sizeof(std::uint32_t);
+  return sum;
+}
+
+Clipper::Clipper(const Scene& scene, Candidates& candidates, int outputs, ClipOptions options,
+                 std::optional<ClipMemory> memory)
     : scene_(scene),
       candidates_(candidates),
       outputs_(outputs | candidates.outputs()),
       options_(options),
-      active_(scene.context()),
-      seed_(scene.context()),
-      region_(scene.context()),
-      status_(scene.context()),
-      faces_(scene.context()),
-      vertices_(scene.context()),
-      link_(scene.context()),
-      border_(scene.context()),
-      moments_(scene.context()),
-      wall_(scene.context()),
-      vertex_(scene.context()) {}
+      memory_(memory ? std::move(*memory) : ClipMemory(scene.context())) {}
 
 bool Clipper::wants_rows() const {
   return (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0;
@@ -82,26 +93,26 @@ void Clipper::reserve_rows(std::size_t rows, const Capacity& capacity) {
   const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
   const std::size_t faces = wants_rows() ? rows * static_cast<std::size_t>(capacity.faces) : 0;
   const std::size_t vertices = geometry ? rows * static_cast<std::size_t>(capacity.vertices) : 0;
-  faces_.resize(wants_rows() ? rows + 1 : 0);
-  border_.resize(faces);
-  wall_.reserve(faces * real);
-  vertices_.resize(geometry ? rows + 1 : 0);
-  vertex_.reserve(vertices * static_cast<std::size_t>(mesh.dimension) * real);
-  link_.resize(mesh.cell_dimension == 3 ? vertices * 6 : 0);
-  faces_.zero();
-  vertices_.zero();
+  memory_.faces.resize(wants_rows() ? rows + 1 : 0);
+  memory_.border.resize(faces);
+  memory_.wall.reserve(faces * real);
+  memory_.vertices.resize(geometry ? rows + 1 : 0);
+  memory_.vertex.reserve(vertices * static_cast<std::size_t>(mesh.dimension) * real);
+  memory_.link.resize(mesh.cell_dimension == 3 ? vertices * 6 : 0);
+  memory_.faces.zero();
+  memory_.vertices.zero();
 }
 
 void Clipper::read_rows(const Capacity& capacity, PieceBatch& batch) {
   if (!reader_) reader_.emplace(scene_.context());
-  reader_->begin(faces_, static_cast<std::size_t>(capacity.faces), batch.face_offset);
-  reader_->read(border_, 1, batch.border);
-  if (outputs_ & OUTPUT_WALLS) reader_->read_reals(wall_, scene_.float32(), 1, batch.wall);
+  reader_->begin(memory_.faces, static_cast<std::size_t>(capacity.faces), batch.face_offset);
+  reader_->read(memory_.border, 1, batch.border);
+  if (outputs_ & OUTPUT_WALLS) reader_->read_reals(memory_.wall, scene_.float32(), 1, batch.wall);
   if (!(outputs_ & OUTPUT_GEOMETRY)) return;
-  reader_->begin(vertices_, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset);
-  reader_->read_reals(vertex_, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),
+  reader_->begin(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset);
+  reader_->read_reals(memory_.vertex, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),
                       batch.vertex);
-  if (scene_.mesh().cell_dimension == 3) reader_->read(link_, 6, batch.link);
+  if (scene_.mesh().cell_dimension == 3) reader_->read(memory_.link, 6, batch.link);
 }
 
 void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, int round, Outcome& outcome) {
@@ -111,36 +122,37 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
   std::transform(active.begin(), active.end(), launch_ranks_.begin(),
                  [&](std::uint32_t pair) { return pair_seed_[pair]; });
   candidates_.prepare(launch_ranks_, round);
-  active_.upload(active);
-  status_.resize(rows);
+  memory_.active.upload(active);
+  memory_.status.resize(rows);
   reserve_rows(rows, capacity);
 
   cl::Kernel& call = kernel(rung);
-  call.args(static_cast<cl_uint>(rows), active_, seed_, region_, scene_.corners, scene_.region_offset,
-            scene_.region_vertex, scene_.behind, scene_.shape, status_, moments_, faces_, border_, wall_,
-            vertices_, vertex_, link_);
+  call.args(static_cast<cl_uint>(rows), memory_.active, memory_.seed, memory_.region, scene_.corners,
+            scene_.region_offset, scene_.region_vertex, scene_.behind, scene_.shape, memory_.status,
+            memory_.moments, memory_.faces, memory_.border, memory_.wall, memory_.vertices, memory_.vertex,
+            memory_.link);
   candidates_.set_arguments(call, common_arguments);
   call.launch(rows);
 
   launch_status_.resize(rows);
-  status_.download(std::span(launch_status_));
-  const auto batch = static_cast<std::uint32_t>(pieces_.used);
+  memory_.status.download(std::span(launch_status_));
+  const auto batch = static_cast<std::uint32_t>(memory_.pieces.used);
   std::uint32_t worst = PIECE_WHOLE;
   for (std::size_t row = 0; row < rows; ++row) {
-    pieces_.status[active[row]] = launch_status_[row];
-    pieces_.batch[active[row]] = batch;
-    pieces_.row[active[row]] = static_cast<std::uint32_t>(row);
+    memory_.pieces.status[active[row]] = launch_status_[row];
+    memory_.pieces.batch[active[row]] = batch;
+    memory_.pieces.row[active[row]] = static_cast<std::uint32_t>(row);
     worst = std::max(worst, launch_status_[row]);
   }
   if (worst > PIECE_FLAT)
     for (std::size_t row = 0; row < rows; ++row) {
       if (launch_status_[row] & PIECE_UNCERTAIN) outcome.uncertain.push_back(active[row]);
-      pieces_.status[active[row]] = launch_status_[row] &= ~std::uint32_t{PIECE_UNCERTAIN};
+      memory_.pieces.status[active[row]] = launch_status_[row] &= ~std::uint32_t{PIECE_UNCERTAIN};
       if (launch_status_[row] == PIECE_MORE) outcome.more.push_back(active[row]);
       if (launch_status_[row] == PIECE_FULL) outcome.full.push_back(active[row]);
       if (launch_status_[row] == PIECE_TANGLED) outcome.tangled.push_back(active[row]);
     }
-  PieceBatch& rows_of_launch = pieces_.add_batch();
+  PieceBatch& rows_of_launch = memory_.pieces.add_batch();
   if (wants_rows()) read_rows(capacity, rows_of_launch);
 }
 
@@ -163,11 +175,11 @@ void Clipper::write_moments(const List& pairs, std::span<const double> moments) 
   const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
   const auto patch = [&](auto& all) {
     using Real = typename std::remove_reference_t<decltype(all)>::value_type;
-    moments_.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+    memory_.moments.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
     for (std::size_t k = 0; k < pairs.size(); ++k)
       for (std::size_t m = 0; m < count; ++m)
         all[(pairs[k] - first) * count + m] = static_cast<Real>(moments[k * count + m]);
-    moments_.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+    memory_.moments.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
   };
   if (scene_.float32()) {
     std::vector<float> all(rows * count);
@@ -207,8 +219,9 @@ void Clipper::finish_on_host(const List& pairs) {
   if (pairs.empty()) return;
   if (!host_scene_) host_scene_ = make_host_scene(scene_);
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
-  const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task, first_batch = pieces_.used;
-  for (std::size_t task = 0; task < tasks; ++task) pieces_.add_batch().clear();
+  const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task,
+                    first_batch = memory_.pieces.used;
+  for (std::size_t task = 0; task < tasks; ++task) memory_.pieces.add_batch().clear();
   List ranks(pairs.size());
   std::transform(pairs.begin(), pairs.end(), ranks.begin(),
                  [&](std::uint32_t pair) { return pair_seed_[pair]; });
@@ -219,13 +232,13 @@ void Clipper::finish_on_host(const List& pairs) {
     std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
     if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0);
     const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
-    PieceBatch unwanted, &rows = wants_rows() ? pieces_.batches[first_batch + task] : unwanted;
+    PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t pair = pairs[k];
       const int status = clip_on_host(*host, pair, std::span(moments).subspan(k * count, count), rows);
-      pieces_.status[pair] = static_cast<std::uint32_t>(status);
-      pieces_.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
-      pieces_.row[pair] = static_cast<std::uint32_t>(k - begin);
+      memory_.pieces.status[pair] = static_cast<std::uint32_t>(status);
+      memory_.pieces.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
+      memory_.pieces.row[pair] = static_cast<std::uint32_t>(k - begin);
     }
   });
   write_moments(pairs, moments);
@@ -239,13 +252,13 @@ Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
   pair_region_ = pair_region;
   const std::size_t count = pair_seed.size();
   const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
-  seed_.upload(pair_seed);
-  region_.upload(pair_region);
-  moments_.reserve(count * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
-  pieces_.status.resize(count);
-  pieces_.batch.resize(count);
-  pieces_.row.resize(count);
-  pieces_.used = 0;
+  memory_.seed.upload(pair_seed);
+  memory_.region.upload(pair_region);
+  memory_.moments.reserve(count * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
+  memory_.pieces.status.resize(count);
+  memory_.pieces.batch.resize(count);
+  memory_.pieces.row.resize(count);
+  memory_.pieces.used = 0;
   List pending(count);
   std::iota(pending.begin(), pending.end(), 0U);
   return pending;
@@ -255,7 +268,7 @@ const PieceSet& Clipper::clip_with(std::size_t rung, std::span<const std::uint32
                                    std::span<const std::uint32_t> pair_region) {
   Outcome outcome;
   run_rung(rung, begin(pair_seed, pair_region), outcome);
-  return pieces_;
+  return memory_.pieces;
 }
 
 const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
@@ -283,7 +296,7 @@ const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
   last_resort.insert(last_resort.end(), pending.begin(), pending.end());
   std::sort(last_resort.begin(), last_resort.end());
   finish_on_host(last_resort);
-  return pieces_;
+  return memory_.pieces;
 }
 
 }  // namespace powercell

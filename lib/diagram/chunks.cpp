@@ -1,6 +1,7 @@
 #include "lib/diagram/chunks.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/layout.h"
 #include "lib/diagram/stopwatch.hpp"
@@ -20,6 +21,8 @@ constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Rows of vertices and faces within a chunk are numbered by 32 bits, at most some 750 to a pair.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
+/// Device memory for clipping that a diagram keeps.
+constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// Of a cell's largest wall, where decisions are fast: a one-sided wall below it is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
@@ -71,7 +74,8 @@ void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
 void ChunkRun::clip_all() {
   const std::uint64_t total = s_.pairs.region.size();
   const ClipOptions clip_options{s_.options.decisions == Decisions::exact, thread_count(s_.options.threads)};
-  clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_, clip_options);
+  clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_, clip_options,
+                                       std::exchange(s_.clip_memory, std::nullopt));
   const double neighbor_seconds = s_.candidates->host_seconds(), built_before = s_.device.build_seconds();
   Stopwatch watch;
   std::uint64_t chunk = chunk_pairs();
@@ -108,7 +112,12 @@ void ChunkRun::clip_all() {
 
 std::vector<std::uint32_t> ChunkRun::run() {
   if (s_.seeds.size() > 0) clip_all();
-  clipper_.reset();  // its buffers are not needed any more, and what follows needs memory
+  if (clipper_) {
+    ClipMemory memory = std::move(*clipper_).release();
+    clipper_.reset();
+    // What follows needs memory, and so may others until the next time.
+    if (memory.bytes() <= kept_bytes) s_.clip_memory = std::move(memory);
+  }
   Stopwatch watch;
   Measures measures = measures_.finish();
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());

@@ -172,22 +172,33 @@ void Diagram::State::silence(std::span<const std::uint32_t> ranks) {
   ready = false;
 }
 
+bool Diagram::State::pass_once(bool want_adjacency, bool want_cells) {
+  if (!seeds.input.empty()) prepare(want_cells);
+  ChunkRun chunks(*this, want_adjacency, want_cells);
+  const std::vector<std::uint32_t> unclear = chunks.run();
+  if (!chunks.flat_cells().empty()) {
+    silence(chunks.flat_cells());
+    write_log(LogLevel::info, [&] {
+      return std::to_string(chunks.flat_cells().size()) +
+             " seeds with flat cells take no part; once more without them";
+    });
+    return false;
+  }
+  if (unclear.empty()) return true;
+  not_whole.insert(not_whole.end(), unclear.begin(), unclear.end());
+  find_pairs(want_cells);
+  return false;
+}
+
 void Diagram::State::pass(bool want_adjacency, bool want_cells) {
-  for (;;) {
-    if (!seeds.input.empty()) prepare(want_cells);
-    ChunkRun chunks(*this, want_adjacency, want_cells);
-    const std::vector<std::uint32_t> unclear = chunks.run();
-    if (!chunks.flat_cells().empty()) {
-      silence(chunks.flat_cells());
-      write_log(LogLevel::info, [&] {
-        return std::to_string(chunks.flat_cells().size()) +
-               " seeds with flat cells take no part; once more without them";
-      });
-      continue;
+  for (bool done = false; !done;) {
+    try {
+      done = pass_once(want_adjacency, want_cells);
+    } catch (const Error& error) {
+      // What was kept may be what is missing.
+      if (error.code() != ErrorCode::out_of_device_memory || !clip_memory) throw;
+      clip_memory.reset();
     }
-    if (unclear.empty()) return;
-    not_whole.insert(not_whole.end(), unclear.begin(), unclear.end());
-    find_pairs(want_cells);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/clip/candidates.hpp"
+#include "lib/clip/clipper.hpp"
 #include "lib/clip/scene.hpp"
 #include "lib/pairs/enumerate.hpp"
 
@@ -39,6 +40,7 @@ struct Diagram::State {
   bool whole_cells = false;              // pairs take cells inside the domain as wholes
   std::vector<std::uint32_t> not_whole;  // ranks of cells that turned out to need their regions
   std::unique_ptr<Candidates> candidates;
+  std::optional<ClipMemory> clip_memory;  // of the last pass, if it is little
   Timings timings;
 
   std::optional<Measures> measures;
@@ -58,6 +60,8 @@ struct Diagram::State {
   void find_pairs_by_cells();
   /// Clips all pairs once; again where cells turn out to need their regions.
   void pass(bool want_adjacency, bool want_cells);
+  /// Returns whether that was all.
+  bool pass_once(bool want_adjacency, bool want_cells);
   /// Takes the weights of ranks so far down that nothing is left of their cells.
   void silence(std::span<const std::uint32_t> ranks);
   /// Throws unless the results keep their laws, and forgets them then.
