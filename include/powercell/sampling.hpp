@@ -27,8 +27,10 @@ enum class SamplingDescent {
 
 /// One move of all points.
 struct SamplingStep {
-  int iteration = 0;          ///< from 0, the points at the start
-  double energy = 0;          ///< E = max over weights of the dual: sum of the second moments
+  int iteration = 0;  ///< from 0, the points at the start
+  /// E = max over weights of the dual: sum of the second moments. Short of it by the order of
+  /// capacity_error².
+  double energy = 0;
   double gradient = 0;        ///< root mean square of |c_i - p_i|, length
   double hexatic = 0;         ///< Spacing::hexatic; NaN where it was not needed
   double capacity_error = 0;  ///< max |m_i / (M/n) - 1|

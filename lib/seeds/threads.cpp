@@ -13,7 +13,7 @@ namespace powercell {
 int thread_count(int requested) {
   constexpr int most = 4096;  // above it threads cost more than they could do
   if (requested > 0) return std::min(requested, most);
-  const unsigned machine = std::thread::hardware_concurrency();  // 0 where unknown
+  static const unsigned machine = std::thread::hardware_concurrency();  // reads a file; 0 where unknown
   return machine == 0 ? 1 : static_cast<int>(machine);
 }
 
