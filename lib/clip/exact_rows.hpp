@@ -78,15 +78,22 @@ inline auto factors_in_plane(const Row& a, const Row& b, const Row& p) {
   return std::array<Factor, 3>{minor(b, p), -minor(a, p), minor(a, b)};
 }
 
+template <std::size_t count>
+inline int sign_of_sum(const std::array<Unbounded, count>& a, const std::array<Unbounded, count>& b) {
+  Unbounded sum = 0;
+  for (std::size_t k = 0; k < count; ++k) sum += a[k] * b[k];
+  return sum.sign();
+}
+
 /// Sign of the determinant itself.
 template <class Row, class Factor>
 inline int determinant_sign(const Row& a, const Row& b, const Row& c, const Row& p,
                             const std::array<Factor, 4>& f) {
-  return -sign_of((a.level * f[0] + b.level * f[1]) + (c.level * f[2] + p.level * f[3]));
+  return -sign_of_sum(std::array{a.level, b.level, c.level, p.level}, f);
 }
 template <class Row, class Factor>
 inline int determinant_sign(const Row& a, const Row& b, const Row& p, const std::array<Factor, 3>& f) {
-  return -sign_of(a.level * f[0] + b.level * f[1] + p.level * f[2]);
+  return -sign_of_sum(std::array{a.level, b.level, p.level}, f);
 }
 
 /// x / y 2^exponent.

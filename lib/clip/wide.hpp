@@ -119,6 +119,39 @@ inline Wide<3> dot_of(const std::array<Wide<1>, 3>& a, const std::array<Wide<2>,
   return {{static_cast<std::uint64_t>(low), top.limb[0], top.limb[1]}};
 }
 
+/// Sign of the sum of products of a_k and b_k, up to 2^60 of them: columns of limbs are summed first, carried
+/// once.
+template <int n, int m, std::size_t count>
+inline int sign_of_sum(const std::array<Wide<n>, count>& a, const std::array<Wide<m>, count>& b) {
+  std::array<SignedLimbs2, n + m> column{};
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        const std::uint64_t x = a[k].limb[i], y = b[k].limb[j];
+        const bool signed_x = i + 1 == n, signed_y = j + 1 == m;  // the last limbs
+        if (!signed_x && !signed_y) {
+          const Limbs2 product = static_cast<Limbs2>(x) * y;
+          column[i + j] += static_cast<SignedLimbs2>(static_cast<std::uint64_t>(product));
+          column[i + j + 1] += static_cast<SignedLimbs2>(static_cast<std::uint64_t>(product >> 64));
+        } else {
+          const auto value = [](std::uint64_t limb, bool is_signed) {
+            return is_signed ? static_cast<SignedLimbs2>(static_cast<std::int64_t>(limb))
+                             : static_cast<SignedLimbs2>(limb);
+          };
+          const SignedLimbs2 product = value(x, signed_x) * value(y, signed_y);
+          column[i + j] += static_cast<SignedLimbs2>(static_cast<std::uint64_t>(product));
+          column[i + j + 1] += product >> 64;
+        }
+      }
+  std::uint64_t any = 0;
+  for (std::size_t k = 0; k + 1 < column.size(); ++k) {
+    any |= static_cast<std::uint64_t>(column[k]);
+    column[k + 1] += column[k] >> 64;
+  }
+  const SignedLimbs2 top = column.back();
+  return top < 0 ? -1 : top > 0 || any != 0;
+}
+
 /// x = fraction 2^exponent nearly, |fraction| in [2^63, 2^64] or 0.
 struct Scaled {
   long double fraction;
