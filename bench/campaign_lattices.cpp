@@ -67,13 +67,14 @@ bool run(const Device& device, const Lattice& lattice, const Place& place, Preci
 
 int main(int argc, char** argv) {
   std::size_t k = 16;
-  std::string only, where;
+  std::string only, where, real;
   bool without_dual = false;
   CLI::App app("Lattices, where every decision is a tie");
   app.add_option("--k", k, "Periods of the cubic lattice along an axis; the others get about as many seeds")
       ->capture_default_str();
   app.add_option("--only", only, "Only the lattice of this name");
   app.add_option("--place", where, "Only the place of this name");
+  app.add_option("--precision", real, "Only this precision")->check(CLI::IsMember({"double", "float"}));
   app.add_flag("--without-dual", without_dual, "Measures and adjacency alone");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -88,8 +89,10 @@ int main(int argc, char** argv) {
           std::lround(std::pow(seeds / static_cast<double>(lattice.basis.size()), 1.0 / lattice.dimension)));
       for (const Place& place : places) {
         if (!where.empty() && place.name != where) continue;
-        for (const Precision precision : {Precision::float64, Precision::float32})
+        for (const Precision precision : {Precision::float64, Precision::float32}) {
+          if (!real.empty() && (real == "float") != (precision == Precision::float32)) continue;
           good = run(device, lattice, place, precision, !without_dual) && good;
+        }
       }
     }
     return good ? 0 : 1;
