@@ -31,8 +31,8 @@ class Candidates {
   virtual void set_arguments(cl::Kernel& kernel, unsigned first) = 0;
   /// OUTPUT_... of kernels/layout.h that this source adds to those of the clipper.
   virtual int outputs() const { return 0; }
-  /// The regions whose pieces together are that of the pair, where the host clips them: it knows no more than regions
-  /// and seeds.
+  /// The regions whose pieces together are that of the pair, where the host clips them: it knows no more than
+  /// regions and seeds.
   virtual std::vector<std::uint32_t> regions_for_host(std::uint32_t /*rank*/, std::uint32_t region) const {
     return {region};
   }

@@ -58,9 +58,9 @@ class Places {
 
 }  // namespace
 
-std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, PairFinder& finder,
-                                              const Pairs& pairs, const SeedSet& seeds, bool float32,
-                                              int threads, Measures& measures) {
+std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, PairFinder& finder, const Pairs& pairs,
+                                              const SeedSet& seeds, bool float32, int threads,
+                                              Measures& measures) {
   const Places places(mesh, finder, float32);
   const auto d = static_cast<std::size_t>(mesh.dimension);
   std::vector<Place> place(seeds.size(), Place::inside);
