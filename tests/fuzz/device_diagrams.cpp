@@ -108,9 +108,7 @@ void run(Input& input, const Domain& domain, Precision precision) {
   }
   if (!whole || valid.weights.empty()) return;
   const SeedsView view{domain.dimension(), valid.positions, valid.weights};
-  const auto low = domain.low(), high = domain.high();
-  const double size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-  const double allowed = static_cast<double>(n) * plane_error(domain, view, precision) / size;
+  const double allowed = sum_doubt(domain, n, plane_error(domain, view, precision));
   const double least = precision == Precision::float32 ? 1e-5 : 1e-12;
   if (allowed < 0.01)
     require(std::fabs(total - domain.measure()) <= (least + 8 * allowed) * domain.measure(),

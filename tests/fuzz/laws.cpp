@@ -92,6 +92,11 @@ double plane_error(const Domain& domain, const SeedsView& seeds, Precision preci
   return static_cast<double>(worst);
 }
 
+double sum_doubt(const Domain& domain, std::size_t walls, double error) {
+  return static_cast<double>(walls) * error * std::pow(size_of(domain), domain.cell_dimension() - 1) /
+         domain.measure();
+}
+
 void check_measures(const Measures& measures, const Domain& domain, const SeedsView& seeds, double error) {
   const std::size_t n = seeds.size(), d = static_cast<std::size_t>(seeds.dimension);
   require(measures.mass.size() == n && measures.status.size() == n && measures.second_moment.size() == n &&
@@ -108,8 +113,7 @@ void check_measures(const Measures& measures, const Domain& domain, const SeedsV
       require(std::isnan(measures.centroid[i * d + k]) == !ok, seed + "centroid and status contradict");
   }
   if (n == 0) return;
-  // Every wall moved by the error, each as large as the domain allows.
-  const double allowed = static_cast<double>(n) * error / size_of(domain);
+  const double allowed = sum_doubt(domain, n, error);
   if (allowed < 0.01)
     require(measures.relative_error() <= 1e-12 + 8 * allowed, "the masses sum to the domain's but for " +
                                                                   std::to_string(measures.relative_error()) +
