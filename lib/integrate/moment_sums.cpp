@@ -42,7 +42,6 @@ MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_m
       threads_(threads),
       columns_(2 + static_cast<std::size_t>(scene.mesh().dimension)),
       row_bytes_(columns_ * (scene.float32() ? sizeof(float) : sizeof(double))),
-      gather_(gather_kernel(scene)),
       offset_(scene.context()),
       before_(scene.context()),
       device_sums_(scene.context()) {
@@ -55,6 +54,14 @@ MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_m
   measures_.second_moment.resize(n);
   measures_.status.resize(n, SeedStatus::hidden);
   for (const std::uint32_t i : seeds.duplicate) measures_.status[i] = SeedStatus::duplicate;
+}
+
+bool MomentSums::one_each(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                          std::uint64_t end, std::uint32_t first, std::uint32_t last) {
+  if (end - begin != std::uint64_t{last} - first + 1 || pair_offset[last + 1] != end) return false;
+  for (std::uint32_t rank = first; rank <= last; ++rank)
+    if (pair_offset[rank] != begin + (rank - first)) return false;
+  return true;
 }
 
 void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
@@ -70,9 +77,10 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
   before_.reserve(row_bytes_);
   if (goes_on) before_.write(open_.data(), row_bytes_);
   device_sums_.reserve(count * row_bytes_);
+  if (!gather_) gather_.emplace(gather_kernel(scene_));
   gather_
-      .args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
-            device_sums_)
+      ->args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
+             device_sums_)
       .launch(count);
   sums_.resize(count * row_bytes_);
   device_sums_.read(sums_.data(), sums_.size());
@@ -110,7 +118,12 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
-  sum_on_device(pair_offset, begin, end, first, last, moments);
+  if (one_each(pair_offset, begin, end, first, last)) {
+    sums_.resize((end - begin) * row_bytes_);
+    moments.read(sums_.data(), sums_.size());
+  } else {
+    sum_on_device(pair_offset, begin, end, first, last, moments);
+  }
   const bool open = pair_offset[last + 1] > end;
   set_measures(first, open ? last : last + 1);
   if (open) open_.assign(sums_.end() - static_cast<std::ptrdiff_t>(row_bytes_), sums_.end());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <powercell/results.hpp>
 #include <vector>
 
@@ -29,6 +30,9 @@ class MomentSums {
   Measures finish() { return std::move(measures_); }
 
  private:
+  /// One pair a rank, as where the domain is one region: sums are the moments as they are.
+  static bool one_each(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
+                       std::uint32_t first, std::uint32_t last);
   void sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
   void set_measures(std::uint32_t first, std::uint32_t last);
@@ -37,7 +41,7 @@ class MomentSums {
   const SeedSet& seeds_;
   int threads_;
   std::size_t columns_, row_bytes_;
-  cl::Kernel gather_;
+  std::optional<cl::Kernel> gather_;  // where ranks have several pairs
   cl::Buffer<std::uint32_t> offset_;
   cl::RawBuffer before_, device_sums_;
   std::vector<std::uint32_t> chunk_offset_;
