@@ -16,7 +16,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double sum_tolerance = 1e-9;  // of the masses' sum, relative
-/// What integrals may be off by, of what masses may: the value of the dual is off by about the square of the latter.
+/// What integrals may be off by, of what masses may: the value of the dual is off by about the square of the
+/// latter.
 constexpr double integral_share = 1e-4;
 
 std::string digits(double value) {
