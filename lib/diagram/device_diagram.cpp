@@ -113,10 +113,11 @@ void DeviceDiagram::State::add_rung(std::size_t rung) {
 
 void DeviceDiagram::State::upload_frame() {
   const Frame& frame = scene.frame();
-  if (frame.split &&
-      !(std::isnormal(static_cast<float>(frame.scale)) && std::isnormal(static_cast<float>(1 / frame.scale))))
+  const auto fits = [](double x) { return std::isnormal(static_cast<float>(x)); };
+  if (frame.split && !(fits(frame.scale) && fits(1 / frame.scale) && fits(domain.measure())))
     throw Error(ErrorCode::unsupported,
-                "the size of the domain is not in the range of single precision; choose Precision::float64");
+                "the size or measure of the domain is not in the range of single precision; choose "
+                "Precision::float64");
   std::array<double, FRAME_SIZE> numbers{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double high = frame.split ? static_cast<float>(frame.centre[k]) : frame.centre[k];

@@ -107,7 +107,8 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
                    if (!(mass > 0)) continue;
                    const std::size_t rank = first + t, i = seeds_.input[rank];
                    measures_.status[i] = SeedStatus::ok;
-                   measures_.mass[i] = mass * unit;
+                   measures_.mass[i] =
+                       std::max(mass * unit, std::numeric_limits<double>::min());  // not empty, however small
                    for (std::size_t c = 0; c < d; ++c)
                      measures_.centroid[i * d + c] =
                          seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
