@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/pairs/vector_copies.hpp"
+#include "lib/vector_copies.hpp"
 
 namespace powercell::pairs::loops {
 namespace {

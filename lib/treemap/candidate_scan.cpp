@@ -1,13 +1,6 @@
 #include "lib/treemap/candidate_scan.hpp"
 
-// Copies for wider vectors, one of which the loader picks. Contraction is off, so all give the same bits.
-// Sanitizers are not yet ready when the loader asks which.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define VECTOR_COPIES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define VECTOR_COPIES
-#endif
+#include "lib/vector_copies.hpp"
 
 namespace powercell::treemap_detail {
 
@@ -35,8 +28,9 @@ constexpr std::size_t lanes = 16;
 
 }  // namespace
 
-VECTOR_COPIES std::size_t scan_candidates(std::size_t count, const double* x, const double* y,
-                                          const double* weight, const ScanBox& box, std::uint32_t* found) {
+POWERCELL_VECTOR_COPIES std::size_t scan_candidates(std::size_t count, const double* x, const double* y,
+                                                    const double* weight, const ScanBox& box,
+                                                    std::uint32_t* found) {
   double excess[lanes];
   std::size_t kept = 0, first = 0;
   const auto keep = [&](std::size_t here) {
