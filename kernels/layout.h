@@ -68,6 +68,11 @@ typedef struct {
    by 9 bits (TAG_BITS in base/lanes.cl). */
 #define NEAR_MOST 64
 
+/* The part of a cell's radius by which decisions about it must be clear, and within which its vertices are
+   known: a power of one half (SEARCH_MARGIN in base/decide.cl). */
+#define MARGIN_BITS_DOUBLE 20
+#define MARGIN_BITS_FLOAT 5
+
 /* Behind a facet of a region lies nothing, or a region: then the corner of it that is not on the facet
    (surfaces), or any number from 0. */
 #define BEHIND_NOTHING (-1)

@@ -10,10 +10,10 @@
    than that are left to the host. QUICK_PROOF: whether the proof from the way is tried (clip/certain.cl); floats are not
    exact enough for it, and the host needs none. */
 #if REAL_BITS == 32
-#define SEARCH_MARGIN ((real)0.03125) /* 2^-5 */
+#define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
 #define LEAST_FILLING ((real)0.05)
 #else
-#define SEARCH_MARGIN ((real)9.5367431640625e-7) /* 2^-20 */
+#define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_DOUBLE))
 #define LEAST_FILLING 0
 #endif
 

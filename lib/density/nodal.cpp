@@ -26,10 +26,6 @@ class LinearSource : public PointSource {
   Point vertex(std::uint32_t v) const {
     return {mesh_.vertices[3 * v], mesh_.vertices[3 * v + 1], mesh_.vertices[3 * v + 2]};
   }
-  static Point cross(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-  static double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
   void set_region(std::uint32_t region) {
     const std::uint32_t* corner = &mesh_.region_vertex[mesh_.region_offset[region]];

@@ -19,13 +19,6 @@ struct Corner {
 template <int N>
 using Simplex = std::array<Corner, N + 1>;
 
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double measure(const Simplex<1>& s) {
   const Point e = minus(s[1].at, s[0].at);
   return std::sqrt(dot(e, e));

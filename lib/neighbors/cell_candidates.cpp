@@ -12,8 +12,9 @@ namespace powercell {
 namespace {
 
 constexpr std::size_t chunk_cells = std::size_t{1} << 15;
-/// Cells are proved with vertices this near to the true ones (SEARCH_MARGIN in kernels/base/decide.cl).
-constexpr double vertex_error_double = 0x1p-20, vertex_error_float = 0x1p-5;
+/// Cells are proved with vertices this near to the true ones.
+constexpr double vertex_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
+                 vertex_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
 
 /// The search in the tree of another source.
 class TreeOf : public Candidates {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "lib/collect/exact_orientation.hpp"
+#include "lib/domain/adjacency.hpp"
 
 namespace powercell::pairs {
 namespace {
@@ -41,20 +42,6 @@ int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uin
   return exact_orientation(vertices, corners);
 }
 
-std::vector<std::uint32_t> first_at_place(const RegionMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.region_vertex), first(mesh.vertices.size() / 3);
-  const auto place = [&](std::uint32_t v) {
-    return std::array{mesh.vertices[v * 3], mesh.vertices[v * 3 + 1], mesh.vertices[v * 3 + 2]};
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto pa = place(a), pb = place(b);
-    return pa != pb ? pa < pb : a < b;
-  });
-  for (std::size_t k = 0; k < order.size(); ++k)
-    first[order[k]] = k > 0 && place(order[k]) == place(order[k - 1]) ? first[order[k - 1]] : order[k];
-  return first;
-}
-
 /// Whether some vertex is inside all planes, so that something is left of the cell.
 bool has_vertex_inside(const CellHull& cell, std::span<const LocalPlane> planes) {
   const std::size_t count = cell.vertex.size() / 3;
@@ -73,7 +60,7 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
     : mesh_(boundary),
       groups_(groups),
       blocks_(boundary, groups),
-      vertex_(first_at_place(boundary)),
+      vertex_(weld(boundary.vertices, 3)),
       plane_(boundary.region_count()) {
   std::iota(plane_.begin(), plane_.end(), 0U);
   const auto root = [&](std::uint32_t f) {
