@@ -220,10 +220,11 @@ void read_faces(Values& values, const Element& element, std::uint64_t vertices, 
 
 // The bytes that each element takes at least: a bogus count must not allocate or loop.
 void check_size(Values& values, const Element& element) {
+  if (element.count == 0) return;  // it may have no properties either
   std::size_t least = 0;
   for (const Property& property : element.properties)
     least += size_of(property.list ? property.count_type : property.type);
-  if (least == 0 && element.count > 0) values.fail(fmt::format("element {} has no properties", element.name));
+  if (least == 0) values.fail(fmt::format("element {} has no properties", element.name));
   values.check_count(element.count, 2 * element.properties.size(), least, element.name.c_str());
 }
 

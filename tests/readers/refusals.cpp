@@ -81,6 +81,12 @@ TEST_CASE("PLY and STL") {
   CHECK(says(
       refused("ply\nformat ascii 1.0\nelement vertex 99999999\nproperty float x\nend_header\n1\n", ".ply"),
       "99999999 vertex are announced"));
+  // Of an element without properties there may be none, and no more.
+  const std::string corners = head.substr(0, head.find("element face"));
+  CHECK(says(refused(corners + "element face 0\nend_header\n0 0 0\n1 0 0\n0 1 0\n", ".ply"),
+             "neither tetrahedra nor faces"));
+  CHECK(says(refused(corners + "element face 1\nend_header\n0 0 0\n1 0 0\n0 1 0\n", ".ply"),
+             "element face has no properties"));
   CHECK(says(refused("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n", ".stl"),
              "f.stl:5: triangle 0: 'nan'"));
   CHECK(says(refused("solid a\nfacet normal 0 0 1\nouter lop\n", ".stl"),
