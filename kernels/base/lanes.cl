@@ -13,6 +13,7 @@ typedef double8 real8;
 typedef double4 real4;
 typedef double2 real2;
 typedef long8 mask8;
+typedef long4 mask4;
 typedef ulong8 index8;
 #define AS_INDEX8 as_ulong8
 #define AS_REAL8 as_double8
@@ -24,6 +25,7 @@ typedef float8 real8;
 typedef float4 real4;
 typedef float2 real2;
 typedef int8 mask8;
+typedef int4 mask4;
 typedef uint8 index8;
 #define AS_INDEX8 as_uint8
 #define AS_REAL8 as_float8
@@ -83,6 +85,10 @@ typedef struct __attribute__((packed, aligned(REAL_BITS / 8))) {
   real8 lanes;
 } loose8_t;
 static inline void store8(real8 a, real* at) { ((loose8_t*)at)->lanes = a; }
+typedef struct __attribute__((packed, aligned(REAL_BITS / 8))) {
+  real4 lanes;
+} loose4_t;
+static inline void store4(real4 a, real* at) { ((loose4_t*)at)->lanes = a; }
 
 /* Numbers that carry a small index in their lowest bits, so that the least of many tells whose it is. */
 #define TAG_BITS 9

@@ -33,9 +33,9 @@ ChunkRun::ChunkRun(Diagram::State& state, bool want_adjacency, bool want_cells)
       want_adjacency_(want_adjacency),
       want_cells_(want_cells),
       outputs_(OUTPUT_MOMENTS | (want_adjacency ? OUTPUT_WALLS : 0) | (want_cells ? OUTPUT_GEOMETRY : 0)),
-      measures_(state.scene, state.seeds, state.domain.measure(), thread_count(state.options.threads)),
-      walls_(want_adjacency ? state.seeds.size() : 0, thread_count(state.options.threads)),
-      geometry_(state.domain.mesh(), state.seeds, state.scene.frame()) {}
+      measures_(state.scene, state.contenders(), state.domain.measure(), thread_count(state.options.threads)),
+      walls_(want_adjacency ? state.contenders().size() : 0, thread_count(state.options.threads)),
+      geometry_(state.domain.mesh(), state.contenders(), state.scene.frame()) {}
 
 std::uint64_t ChunkRun::chunk_pairs() const {
   if (s_.options.chunk_pairs > 0) return std::min(s_.options.chunk_pairs, most_chunk_pairs);
@@ -111,7 +111,7 @@ void ChunkRun::clip_all() {
 }
 
 std::vector<std::uint32_t> ChunkRun::run() {
-  if (s_.seeds.size() > 0) clip_all();
+  if (s_.contenders().size() > 0) clip_all();
   if (clipper_) {
     ClipMemory memory = std::move(*clipper_).release();
     clipper_.reset();
@@ -121,17 +121,17 @@ std::vector<std::uint32_t> ChunkRun::run() {
   Stopwatch watch;
   Measures measures = measures_.finish();
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
-  std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[s_.seeds.input[rank]] > 0; });
+  std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[s_.contenders().input[rank]] > 0; });
   if (!flat_.empty()) return {};
-  if (s_.whole_cells && s_.seeds.size() > 0) {
+  if (s_.whole_cells && s_.contenders().size() > 0) {
     std::vector<std::uint32_t> unclear =
-        settle_whole_cells(s_.domain.mesh(), *s_.finder, s_.pairs, s_.seeds, s_.scene.float32(),
+        settle_whole_cells(s_.domain.mesh(), *s_.finder, s_.pairs, s_.contenders(), s_.scene.float32(),
                            thread_count(s_.options.threads), measures);
     if (!unclear.empty()) return unclear;
   }
   if (want_adjacency_)
     s_.adjacency =
-        walls_.finish(s_.seeds, measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
+        walls_.finish(s_.contenders(), measures.status, s_.scene.frame().unit(s_.domain.cell_dimension() - 1),
                       s_.options.decisions == Decisions::exact ? 0
                       : s_.scene.float32()                     ? negligible_float
                                                                : negligible_double);

@@ -25,7 +25,8 @@ void Diagram::set_seeds(const SeedsView& seeds) {
   require_in_range(seeds, s.scene.frame(), threads);
   GivenSeeds left_out = duplicates_of(ordered, seeds);
   s.forget_results();
-  s.ready = s.ordered = s.paired = false;
+  s.ready = s.ordered = s.paired = s.sifted = false;
+  s.rest.reset();
   s.seeds = std::move(ordered);
   s.duplicate_positions = std::move(left_out.positions);
   s.duplicate_weights = std::move(left_out.weights);
@@ -52,7 +53,7 @@ void Diagram::set_weights(std::span<const double> weights) {
   validate_weights(weights, threads);
   require_in_range(SeedsView{s.domain.dimension(), {}, weights}, s.scene.frame(), threads);
   s.forget_results();
-  s.ready = false;
+  s.ready = s.sifted = false;
   parallel_for(threads_for(s.seeds.size(), threads), s.seeds.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) s.seeds.weights[rank] = weights[s.seeds.input[rank]];
   });

@@ -9,6 +9,7 @@
 #include "lib/domain/outline.hpp"
 #include "lib/log.hpp"
 #include "lib/neighbors/cell_candidates.hpp"
+#include "lib/neighbors/hidden_seeds.hpp"
 #include "lib/neighbors/region_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #include "lib/verify/certificate.hpp"
@@ -76,12 +77,42 @@ std::unique_ptr<Candidates> Diagram::State::make_candidates() const {
 #endif
   if (domain.mesh().region_count() == 1) return std::make_unique<TreeCandidates>(scene);
   std::vector<std::uint32_t> ranks;
-  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
+  for (std::uint32_t rank = 0; rank < contenders().size(); ++rank)
     if (pairs.offset[rank + 1] > pairs.offset[rank]) ranks.push_back(rank);
   const bool full_dimension = domain.dimension() == domain.cell_dimension();
   if (full_dimension && !whole_cells && pairs.region.size() > pieces_that_pay * ranks.size())
     return std::make_unique<CellCandidates>(scene, ranks);
   return std::make_unique<RegionCandidates>(scene, pairs.list_offset, pairs.list_seed);
+}
+
+void Diagram::State::upload(int threads) {
+  if (ordered) {
+    refit_weights(tree, contenders(), threads);
+    scene.set_weights(contenders(), tree, threads);
+  } else {
+    tree = build_packed_tree(contenders(), threads);
+    scene.set_seeds(contenders(), tree, threads);
+    ordered = true;
+  }
+}
+
+void Diagram::State::sift(int threads) {
+  if (rest) ordered = paired = false;
+  rest.reset();
+  upload(threads);
+  const double built_before = device.build_seconds();
+  const std::vector<std::uint8_t> hidden = hidden_seeds_if_many(scene);
+  timings.prepare -= device.build_seconds() - built_before;
+  if (!hidden.empty()) {
+    rest = without_hidden(seeds, hidden, threads);
+    ordered = paired = false;
+    upload(threads);
+    write_log(LogLevel::info, [&] {
+      return std::to_string(seeds.size() - rest->size()) + " of " + std::to_string(seeds.size()) +
+             " seeds are hidden by their neighbours and set aside";
+    });
+  }
+  sifted = true;
 }
 
 void Diagram::State::prepare(bool want_regions) {
@@ -90,13 +121,10 @@ void Diagram::State::prepare(bool want_regions) {
   if (!ready) {
     Stopwatch tree_watch;
     not_whole.clear();
-    if (ordered) {
-      refit_weights(tree, seeds, threads);
-      scene.set_weights(seeds, tree, threads);
+    if (sifted) {
+      upload(threads);
     } else {
-      tree = build_packed_tree(seeds, threads);
-      scene.set_seeds(seeds, tree, threads);
-      ordered = true;
+      sift(threads);
     }
     timings.prepare += tree_watch.seconds();
   }
@@ -109,17 +137,17 @@ bool Diagram::State::cells_come_first(bool want_regions) const {
 
 void Diagram::State::find_pairs_by_cells() {
   Stopwatch watch;
-  const BoundaryRanks ranks = finder->at_boundary(seeds, tree, not_whole);
+  const BoundaryRanks ranks = finder->at_boundary(contenders(), tree, not_whole);
   const double boundary_seconds = watch.seconds(), built_before = device.build_seconds();
   Stopwatch neighbor_watch;
   auto cells_first = std::make_unique<CellCandidates>(scene, ranks.ranks);
   timings.neighbors = neighbor_watch.seconds() - (device.build_seconds() - built_before);
   Stopwatch pair_watch;
-  const bool planes = !scene.float32() && seeds.size() < BORDER_PLANE;
-  pairs = finder->of_cells(seeds, ranks, cells_first->walls(), planes, options.progress);
+  const bool planes = !scene.float32() && contenders().size() < BORDER_PLANE;
+  pairs = finder->of_cells(contenders(), ranks, cells_first->walls(), planes, options.progress);
   // The walls go where the candidates go, to which this function belongs.
   cells_first->set_planes(pairs.planes, [this, walls = &cells_first->walls()](std::uint32_t rank) {
-    return finder->regions_of(seeds, rank, *walls);
+    return finder->regions_of(contenders(), rank, *walls);
   });
   timings.pairs = boundary_seconds + pair_watch.seconds();
   candidates = std::move(cells_first);
@@ -137,8 +165,8 @@ void Diagram::State::find_pairs(bool want_regions) {
   }
   // One region meets all seeds, whatever their weights.
   if (!paired || domain.mesh().region_count() != 1) {
-    pairs = want_regions ? finder->all(seeds, tree, options.progress)
-                         : finder->with_whole_cells(seeds, tree, not_whole, options.progress);
+    pairs = want_regions ? finder->all(contenders(), tree, options.progress)
+                         : finder->with_whole_cells(contenders(), tree, not_whole, options.progress);
   }
   paired = true;
   whole_cells = !want_regions && has_inside(domain.mesh());
@@ -168,7 +196,8 @@ void Diagram::State::silence(std::span<const std::uint32_t> ranks) {
   // No point of the domain is nearer to it than to all others, by far. A power of two keeps exact numbers
   // short.
   const double down = -std::ldexp(1.0, std::ilogb(std::max(diagonal2, lowest)) + 4);
-  for (const std::uint32_t rank : ranks) seeds.weights[rank] = down;
+  SeedSet& weighed = rest ? *rest : seeds;
+  for (const std::uint32_t rank : ranks) weighed.weights[rank] = down;
   ready = false;
 }
 

@@ -28,9 +28,11 @@ struct Diagram::State {
   Scene scene;
 
   SeedSet seeds;
+  std::optional<SeedSet> rest;  // `seeds` without those known to be hidden, if these are many
   // Of the duplicates, which `seeds` has not, in their order.
   std::vector<double> duplicate_positions, duplicate_weights;
   bool given = false;    // set_seeds has been called
+  bool sifted = false;   // `rest` belongs to the weights
   bool ordered = false;  // the tree and its boxes on the device belong to the positions
   bool paired = false;   // the pairs belong to the positions, and to some weights
   bool ready = false;    // tree, pairs, candidates and device buffers belong to the positions and weights
@@ -50,6 +52,13 @@ struct Diagram::State {
 
   State(Device device, Domain domain, Options options);
   void forget_results();
+  /// The seeds that may have cells: the pipeline works on their ranks.
+  const SeedSet& contenders() const { return rest ? *rest : seeds; }
+  /// Sets aside the seeds that are known to be hidden, if there are many. Tree and seeds are on the device
+  /// afterwards.
+  void sift(int threads);
+  /// Tree and device buffers for the contenders.
+  void upload(int threads);
   /// Tree, pairs, device buffers and candidate source for the present seeds and weights.
   /// \param want_regions  every cell is to be cut along the regions
   void prepare(bool want_regions);

@@ -9,6 +9,10 @@ namespace {
 
 constexpr const char* file = "neighbors/build_blocks.cl";
 
+std::uint32_t leaf_count(const TreeBlocks::Tree& tree) {
+  return (tree.seed_count - 1) / PackedTree::fan + 1;
+}
+
 }  // namespace
 
 TreeBlocks::TreeBlocks(const std::shared_ptr<cl::Context>& context, const Variant& variant)
@@ -23,27 +27,35 @@ TreeBlocks::TreeBlocks(const std::shared_ptr<cl::Context>& context, const Varian
       near_(context),
       near_count_(context) {}
 
-void TreeBlocks::enqueue(const Tree& tree) {
-  const std::uint32_t leaves = (tree.seed_count - 1) / PackedTree::fan + 1;
-  const std::uint32_t above = tree.node_count - leaves;
+void TreeBlocks::pack(const Tree& tree) {
+  const std::uint32_t leaves = leaf_count(tree), above = tree.node_count - leaves;
   seed_block_.reserve(std::size_t{leaves} * (dimension_ + 1) * row_bytes_);
   node_block_.reserve(std::size_t{above} * (2 * dimension_ + 1) * row_bytes_);
-  near_bound_.reserve(std::size_t{leaves} * bound_bytes_);
-  near_.resize(std::size_t{leaves} * NEAR_MOST);
-  near_count_.resize(leaves);
   pack_
       .args(leaves, above, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
             cl_int{tree.levels}, seed_block_, node_block_)
       .submit(leaves);
+}
+
+void TreeBlocks::list(const Tree& tree) {
+  const std::uint32_t leaves = leaf_count(tree);
+  near_bound_.reserve(std::size_t{leaves} * bound_bytes_);
+  near_.resize(std::size_t{leaves} * NEAR_MOST);
+  near_count_.resize(leaves);
   list_
       .args(leaves, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
             cl_int{tree.levels}, seed_block_, node_block_, near_, near_count_, near_bound_)
       .submit(leaves);
 }
 
-void TreeBlocks::set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
+void TreeBlocks::set_pack_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
   kernel.args_from(first, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
-                   cl_int{tree.levels}, seed_block_, node_block_, near_, near_count_, near_bound_);
+                   cl_int{tree.levels}, seed_block_, node_block_);
+}
+
+void TreeBlocks::set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
+  set_pack_arguments(kernel, first, tree);
+  kernel.args_from(first + pack_argument_count, near_, near_count_, near_bound_);
 }
 
 }  // namespace powercell

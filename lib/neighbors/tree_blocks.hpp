@@ -24,12 +24,19 @@ class TreeBlocks {
     std::uint32_t seed_count, node_count;
     int levels;
   };
-  /// Enqueues without waiting.
-  void enqueue(const Tree& tree);
+  /// Both steps. Enqueues without waiting.
+  void enqueue(const Tree& tree) {
+    pack(tree);
+    list(tree);
+  }
+  void pack(const Tree& tree);  ///< the blocks
+  void list(const Tree& tree);  ///< the near leaves, from the blocks
 
-  static constexpr unsigned argument_count = 11;
+  static constexpr unsigned argument_count = 11, pack_argument_count = 8;
   /// Sets so many arguments of a clip kernel from `first` on: the tree, then what was made of it.
   void set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
+  /// The same without the near leaves.
+  void set_pack_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
 
  private:
   cl::Kernel pack_, list_;

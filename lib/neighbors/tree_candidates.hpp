@@ -10,6 +10,11 @@
 
 namespace powercell {
 
+/// The tree of the scene as it is on the device.
+TreeBlocks::Tree device_tree(const Scene& scene);
+/// The precision and dimensions of the scene, of programs without cells.
+Variant without_cells(const Scene& scene);
+
 class TreeCandidates : public Candidates {
  public:
   explicit TreeCandidates(const Scene& scene);
@@ -18,15 +23,13 @@ class TreeCandidates : public Candidates {
   std::size_t most_pairs(int) const override { return std::numeric_limits<std::uint32_t>::max(); }
   void prepare(std::span<const std::uint32_t>, int) override {}
   void set_arguments(cl::Kernel& kernel, unsigned first) override {
-    blocks_.set_arguments(kernel, first, device_tree());
+    blocks_.set_arguments(kernel, first, device_tree(scene_));
   }
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
     return std::make_unique<TreeCandidates>(scene);
   }
 
  private:
-  TreeBlocks::Tree device_tree() const;
-
   const Scene& scene_;
   TreeBlocks blocks_;
 };

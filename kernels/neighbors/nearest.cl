@@ -1,0 +1,81 @@
+/* The leaves nearest to a leaf in the lifted space, where heavy ones count as nearer. */
+#ifndef POWERCELL_NEIGHBORS_NEAREST
+#define POWERCELL_NEIGHBORS_NEAREST
+#include "neighbors/near.cl"
+
+#define NEAREST_MOST 12
+
+/* Up to `most`, nearest first. */
+typedef struct {
+  uint leaf[NEAREST_MOST];
+  real distance[NEAREST_MOST];
+  int count, most;
+} nearest_t;
+
+static inline nearest_t nothing_near(int most) {
+  nearest_t near;
+  near.count = 0;
+  near.most = most;
+  return near;
+}
+
+/* What is farther than this is not wanted. */
+static inline real nearest_reach(const nearest_t* near) {
+  return near->count < near->most ? REAL_MAX : near->distance[near->most - 1];
+}
+
+static inline void insert_nearest(nearest_t* near, uint leaf, real distance) {
+  int at = near->count < near->most ? near->count++ : near->most - 1;
+  for (; at > 0 && distance < near->distance[at - 1]; --at) {
+    near->distance[at] = near->distance[at - 1];
+    near->leaf[at] = near->leaf[at - 1];
+  }
+  near->distance[at] = distance;
+  near->leaf[at] = leaf;
+}
+
+/* Lifted distances of the children of a node from the home; returns a bit for each that is below `reach`. */
+static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level, real reach,
+                                   real* distance) {
+  real8 a[DIMENSION], b[DIMENSION], dw;
+  node_lanes(blocks, block_of_children(tree, node, level), &home->origin, a, b, &dw);
+  const real8 lifted = lifted_distance8(home, a, b, dw);
+  store8(lifted, distance);
+  const uint children = children_end(tree, node, level - 1) - node * TREE_FAN;
+  return lane_bits(lifted < all_lanes(reach)) & ((1u << children) - 1);
+}
+
+/* Takes in the leaves below a node that are near enough. */
+static inline void take_leaves(nearest_t* near, tree_t tree, blocks_t blocks, const home_t* home, uint node) {
+  real distance[LANES];
+  uint bits = children_within(tree, blocks, home, node, 1, nearest_reach(near), distance);
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = lowest_bit(bits);
+    if (distance[lane] < nearest_reach(near)) insert_nearest(near, node * TREE_FAN + (uint)lane, distance[lane]);
+  }
+}
+
+/* The leaves nearest to one of them. */
+static inline void find_nearest_leaves(nearest_t* near, tree_t tree, blocks_t blocks, uint leaf) {
+  const home_t home = home_of(tree, blocks, leaf);
+  stack_t stack;
+  take_leaves(near, tree, blocks, &home, leaf / TREE_FAN);
+  push_root(&stack, tree);
+  while (stack.depth > 0) {
+    const uint node = stack.node[--stack.depth];
+    const int level = stack.level[stack.depth], base = stack.depth;
+    if (!(stack.key[stack.depth] < nearest_reach(near))) continue;
+    if (level == 1) {
+      if (node != leaf / TREE_FAN) take_leaves(near, tree, blocks, &home, node);
+      continue;
+    }
+    real distance[LANES];
+    uint bits = children_within(tree, blocks, &home, node, level, nearest_reach(near), distance);
+    for (; bits != 0; bits &= bits - 1) {
+      const int lane = lowest_bit(bits);
+      push_sorted(&stack, base, node * TREE_FAN + (uint)lane, level - 1, distance[lane]);
+    }
+  }
+}
+
+#endif

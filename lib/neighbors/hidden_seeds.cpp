@@ -1,0 +1,108 @@
+#include "lib/neighbors/hidden_seeds.hpp"
+
+#include <algorithm>
+
+#include "lib/clip/variant.hpp"
+#include "lib/neighbors/tree_candidates.hpp"
+#include "lib/seeds/threads.hpp"
+
+namespace powercell {
+namespace {
+
+/// Fewer seeds are clipped before it is known which are hidden.
+constexpr std::size_t least_seeds = 2048;
+/// Leaves asked first, and the part of their seeds that must be hidden for the others to be asked.
+constexpr std::uint32_t sample_leaves = 256;
+constexpr double least_share = 0.15;
+
+bool all_alike(const std::vector<double>& weights) {
+  return std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights.front(); });
+}
+
+class HiddenSearch {
+ public:
+  explicit HiddenSearch(const Scene& scene)
+      : tree_(device_tree(scene)),
+        blocks_(scene.context(), without_cells(scene)),
+        kernel_(scene.context(),
+                scene.context()->program("neighbors/hidden.cl", without_cells(scene).defines()),
+                "find_hidden"),
+        box_(scene.context()),
+        hidden_(scene.context()) {
+    const RegionMesh& mesh = scene.mesh();
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    std::vector<double> corners(mesh.low.begin(), mesh.low.begin() + static_cast<std::ptrdiff_t>(d));
+    corners.insert(corners.end(), mesh.high.begin(), mesh.high.begin() + static_cast<std::ptrdiff_t>(d));
+    const std::vector<std::byte> packed = scene.frame().pack(mesh.dimension, corners, {});
+    box_.reserve(packed.size());
+    box_.write(packed.data(), packed.size());
+    blocks_.pack(tree_);
+  }
+
+  /// Of the seeds of every `stride`-th leaf.
+  std::vector<std::uint8_t> ask(std::uint32_t stride) {
+    const std::uint32_t leaves = (tree_.seed_count - 1) / PackedTree::fan + 1,
+                        count = (leaves - 1) / stride + 1;
+    hidden_.resize(std::size_t{count} * PackedTree::fan);
+    kernel_.args(count, stride, box_);
+    blocks_.set_pack_arguments(kernel_, 3, tree_);
+    kernel_.args_from(3 + TreeBlocks::pack_argument_count, hidden_);
+    kernel_.launch(count);
+    return hidden_.download();
+  }
+
+ private:
+  TreeBlocks::Tree tree_;
+  TreeBlocks blocks_;
+  cl::Kernel kernel_;
+  cl::RawBuffer box_;
+  cl::Buffer<std::uint8_t> hidden_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> hidden_seeds(const Scene& scene) {
+  std::vector<std::uint8_t> hidden = HiddenSearch(scene).ask(1);
+  hidden.resize(scene.seeds().size());
+  return hidden;
+}
+
+std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {
+  const SeedSet& seeds = scene.seeds();
+  if (seeds.size() < least_seeds || all_alike(seeds.weights)) return {};
+  HiddenSearch search(scene);
+  const std::size_t leaves = seeds.size() / PackedTree::fan;
+  const auto stride = static_cast<std::uint32_t>(std::max<std::size_t>(1, leaves / sample_leaves));
+  const std::vector<std::uint8_t> sample = search.ask(stride);
+  const auto found = static_cast<double>(std::count(sample.begin(), sample.end(), 1));
+  if (found < least_share * static_cast<double>(sample.size())) return {};
+  std::vector<std::uint8_t> hidden = search.ask(1);
+  hidden.resize(seeds.size());
+  return hidden;
+}
+
+SeedSet without_hidden(const SeedSet& seeds, const std::vector<std::uint8_t>& hidden, int threads) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  SeedSet rest;
+  rest.dimension = seeds.dimension;
+  rest.input_count = seeds.input_count;
+  rest.duplicate = seeds.duplicate;
+  std::vector<std::uint32_t> kept;
+  kept.reserve(static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), 0)));
+  for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
+    if (!hidden[rank]) kept.push_back(rank);
+  rest.positions.resize(kept.size() * d);
+  rest.weights.resize(kept.size());
+  rest.input.resize(kept.size());
+  parallel_for(threads_for(kept.size(), threads), kept.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t rank = kept[k];
+      std::copy_n(&seeds.positions[rank * d], d, &rest.positions[k * d]);
+      rest.weights[k] = seeds.weights[rank];
+      rest.input[k] = seeds.input[rank];
+    }
+  });
+  return rest;
+}
+
+}  // namespace powercell
