@@ -17,10 +17,12 @@ Vec surface_normal(const Surface& surface, std::uint32_t t) {
   return unit(normal_of(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)));
 }
 
-constexpr double worst = 2;  ///< cosine of no angle: a triangle that must not be
+using Cost = double (*)(Vec, Vec, Vec);  ///< of the corners of a triangle: largest_cosine or misshape
 
-/// Largest cosine of an angle of the triangles around v with v at `at`; `worst` where one turns over.
-double cosine_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
+constexpr double worst = std::numeric_limits<double>::infinity();  ///< of a triangle that must not be
+
+/// Largest cost of the triangles around v with v at `at`; `worst` where one turns over.
+double cost_around(const WorkMesh& mesh, std::uint32_t v, Vec at, Cost cost) {
   double most = -1;
   for (const std::uint32_t t : mesh.around(v)) {
     const Row& row = mesh.triangle(t);
@@ -29,14 +31,13 @@ double cosine_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
       if (row[k] == v) corner[k] = at;
     const Vec before = normal_of(old[0], old[1], old[2]), after = normal_of(corner[0], corner[1], corner[2]);
     if (dot(before, after) <= 0.5 * norm(before) * norm(after)) return worst;
-    most = std::max(most, largest_cosine(corner[0], corner[1], corner[2]));
+    most = std::max(most, cost(corner[0], corner[1], corner[2]));
   }
   return most;
 }
 
-/// How the two triangles of an edge would be after a flip: the larger of their largest cosines; `worst`
-/// where they would fold.
-double cosine_flipped(const WorkMesh& mesh, const WorkMesh::Edge& e) {
+/// The larger cost of the two triangles of an edge after a flip; `worst` where they would fold.
+double cost_flipped(const WorkMesh& mesh, const WorkMesh::Edge& e, Cost cost) {
   const Vec a = mesh.at(e.a), b = mesh.at(e.b), c = mesh.at(e.c), d = mesh.at(e.d);
   const Vec left = unit(normal_of(a, d, c)), right = unit(normal_of(d, b, c));
   const Vec old_left = unit(normal_of(a, b, c)), old_right = unit(normal_of(b, a, d));
@@ -44,12 +45,12 @@ double cosine_flipped(const WorkMesh& mesh, const WorkMesh::Edge& e) {
   if (dot(left, right) < least_bend) return worst;
   const Vec mean = unit(old_left + old_right);
   if (dot(left, mean) < 0.6 || dot(right, mean) < 0.6) return worst;
-  return std::max(largest_cosine(a, d, c), largest_cosine(d, b, c));
+  return std::max(cost(a, d, c), cost(d, b, c));
 }
 
-double cosine_of(const WorkMesh& mesh, const WorkMesh::Edge& e) {
+double cost_of(const WorkMesh& mesh, const WorkMesh::Edge& e, Cost cost) {
   const Vec a = mesh.at(e.a), b = mesh.at(e.b), c = mesh.at(e.c), d = mesh.at(e.d);
-  return std::max(largest_cosine(a, b, c), largest_cosine(b, a, d));
+  return std::max(cost(a, b, c), cost(b, a, d));
 }
 
 /// The degree that makes a vertex regular.
@@ -83,9 +84,9 @@ Vec centroid_around(const WorkMesh& mesh, std::uint32_t v) {
 }
 
 bool try_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v, Vec to,
-              double most) {
+              double most, Cost cost) {
   const Place place = project(surface, mesh.vertex(v).place, to);
-  if (cosine_around(mesh, v, place.at) >= most) return false;
+  if (cost_around(mesh, v, place.at, cost) >= most) return false;
   mesh.move(v, place, sizing.at(surface, place));
   return true;
 }
@@ -94,15 +95,16 @@ void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
   const double well = std::cos(40 * std::numbers::pi / 180);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
-    const double before = cosine_around(mesh, v, mesh.at(v));
-    try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, well));
+    const double before = cost_around(mesh, v, mesh.at(v), largest_cosine);
+    try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, well),
+             largest_cosine);
   }
 }
 
 /// Of eight points at `length` around vertex v in its tangent plane the one of least cost, if below `least`.
-template <class Cost>
+template <class CostAt>
 std::optional<Vec> best_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, double length,
-                               double least, const Cost& cost) {
+                               double least, const CostAt& cost) {
   const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
   const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
   std::optional<Vec> best;
@@ -117,13 +119,13 @@ std::optional<Vec> best_around(const WorkMesh& mesh, const Surface& surface, std
   return best;
 }
 
-/// Moves a vertex in its tangent plane where that makes the least angle around it larger.
+/// Moves a vertex in its tangent plane where that makes the worst triangle around it better.
 bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v) {
-  const double before = cosine_around(mesh, v, mesh.at(v));
-  const auto cosine = [&](const Vec& to) { return cosine_around(mesh, v, to); };
+  const double before = cost_around(mesh, v, mesh.at(v), misshape);
+  const auto cost = [&](const Vec& to) { return cost_around(mesh, v, to, misshape); };
   for (double step = 0.2; step > 0.01; step /= 2) {
-    const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before - 1e-3, cosine);
-    if (best && try_move(mesh, surface, sizing, v, *best, before - 1e-4)) return true;
+    const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before - 1e-3, cost);
+    if (best && try_move(mesh, surface, sizing, v, *best, before - 1e-4, misshape)) return true;
   }
   return false;
 }
@@ -158,14 +160,12 @@ void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, doubl
   }
 }
 
-/// Works on the vertices of the triangles with angles below `degrees`.
-void lift_least_angles(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, double degrees,
-                       int passes) {
-  const double bound = std::cos(degrees * std::numbers::pi / 180);
+/// Works on the vertices of the triangles whose misshape is above 1.
+void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes) {
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<std::uint32_t> bad;
     for (const Row& row : mesh.triangles())
-      if (row[0] != row[1] && largest_cosine(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])) > bound)
+      if (row[0] != row[1] && misshape(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])) > 1)
         bad.insert(bad.end(), row.begin(), row.end());
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
@@ -174,7 +174,7 @@ void lift_least_angles(WorkMesh& mesh, const Surface& surface, const Sizing& siz
       for (const std::uint32_t u : mesh.neighbors(v)) {
         const auto e = mesh.edge(v, u);
         if (!e || !mesh.can_flip(*e)) continue;
-        if (cosine_flipped(mesh, *e) >= cosine_of(mesh, *e) - 0.005) continue;
+        if (cost_flipped(mesh, *e, misshape) >= cost_of(mesh, *e, misshape) - 0.005) continue;
         mesh.flip(*e);
         any = true;
       }
@@ -195,7 +195,7 @@ std::size_t flip_edges(WorkMesh& mesh) {
       if (b < a) continue;
       const auto e = mesh.edge(a, b);
       if (!e || !mesh.can_flip(*e)) continue;
-      const double before = cosine_of(mesh, *e), after = cosine_flipped(mesh, *e);
+      const double before = cost_of(mesh, *e, largest_cosine), after = cost_flipped(mesh, *e, largest_cosine);
       const int gain = degree_gain(mesh, *e);
       const bool better = after < before - 0.01 && (gain >= 0 || before > well);
       if (!better && !(gain >= 2 && after < well)) continue;
@@ -216,7 +216,7 @@ void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rou
     else
       improve(mesh, surface, sizing, steps[static_cast<std::size_t>(round) % steps.size()]);
   }
-  if (rounds > 0) lift_least_angles(mesh, surface, sizing, 40, 30);
+  if (rounds > 0) mend_worst(mesh, surface, sizing, 30);
 }
 
 }  // namespace powercell::remeshing

@@ -15,7 +15,7 @@ std::size_t flip_edges(WorkMesh& mesh);
 void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count);
 
 /// `rounds` of flips and of moves to the centroids of the triangles around, weighted by h^-4; then moves
-/// and flips of what has the least angles alone, as long as they grow. Topology and curves stay.
+/// and flips of the worst shaped triangles alone, as long as they get better. Topology and curves stay.
 void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rounds);
 
 }  // namespace powercell::remeshing

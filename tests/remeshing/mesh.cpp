@@ -133,6 +133,13 @@ TEST_CASE("figures of single triangles") {
   // Right and isosceles: area 1/2, half perimeter 1 + sqrt(1/2), longest sqrt(2).
   CHECK(triangle_quality(a, b, d) == doctest::Approx(std::sqrt(3.0) / (std::sqrt(2.0) + 1)));
   CHECK(std::acos(largest_cosine(a, b, d)) == doctest::Approx(std::numbers::pi / 4));
+  CHECK(misshape(a, b, d) < 1);
+  const Vec needle{0.5, 2, 0}, blunt{0.5, 0.45, 0};  // one angle of 28 degrees; two of 42 and one of 96
+  CHECK(misshape(a, b, needle) ==
+        doctest::Approx(largest_cosine(a, b, needle) / std::cos(40 * std::numbers::pi / 180)));
+  CHECK(misshape(a, b, needle) > 1);
+  CHECK(largest_cosine(a, b, blunt) < std::cos(40 * std::numbers::pi / 180));
+  CHECK(misshape(a, b, blunt) > 1);
 }
 
 TEST_CASE("figures of meshes") {
