@@ -14,9 +14,31 @@ constexpr std::size_t least_seeds = 2048;
 /// Leaves asked first, and the part of their seeds that must be hidden for the others to be asked.
 constexpr std::uint32_t sample_leaves = 256;
 constexpr double least_share = 0.15;
+/// Seeds of the sample that costs no kernel, and how many ranks on either side each is compared with.
+constexpr std::size_t sample_seeds = 512, ranks_beside = 8;
 
-bool all_alike(const std::vector<double>& weights) {
-  return std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights.front(); });
+/// Whether the bisector of seeds a and b leaves a outside of its own side.
+bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  double distance2 = 0;
+  for (std::size_t k = 0; k < d; ++k) {
+    const double q = seeds.positions[b * d + k] - seeds.positions[a * d + k];
+    distance2 += q * q;
+  }
+  return distance2 < seeds.weights[b] - seeds.weights[a];
+}
+
+/// A guess from seeds next to each other on the curve. Of white noise that is beyond some bisector a quarter
+/// to a half is hidden.
+bool may_hide_many(const SeedSet& seeds) {
+  std::size_t asked = 0, beyond = 0;
+  for (std::size_t a = ranks_beside; a + ranks_beside < seeds.size(); a += seeds.size() / sample_seeds) {
+    bool any = false;
+    for (std::size_t b = a - ranks_beside; b <= a + ranks_beside; ++b) any = any || is_beyond(seeds, a, b);
+    ++asked;
+    beyond += any ? 1 : 0;
+  }
+  return static_cast<double>(beyond) > 2 * least_share * static_cast<double>(asked);
 }
 
 class HiddenSearch {
@@ -69,7 +91,7 @@ std::vector<std::uint8_t> hidden_seeds(const Scene& scene) {
 
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {
   const SeedSet& seeds = scene.seeds();
-  if (seeds.size() < least_seeds || all_alike(seeds.weights)) return {};
+  if (seeds.size() < least_seeds || !may_hide_many(seeds)) return {};
   HiddenSearch search(scene);
   const std::size_t leaves = seeds.size() / PackedTree::fan;
   const auto stride = static_cast<std::uint32_t>(std::max<std::size_t>(1, leaves / sample_leaves));
