@@ -100,6 +100,8 @@ void Diagram::State::sift(int threads) {
   if (rest) ordered = paired = false;
   rest.reset();
   upload(threads);
+  sifted = true;
+  if (neighbors != Neighbors::tree) return;  // lists are the paper's way, and an oracle for the tree's
   const double built_before = device.build_seconds();
   const std::vector<std::uint8_t> hidden = hidden_seeds_if_many(scene);
   timings.prepare -= device.build_seconds() - built_before;
@@ -112,7 +114,6 @@ void Diagram::State::sift(int threads) {
              " seeds are hidden by their neighbours and set aside";
     });
   }
-  sifted = true;
 }
 
 void Diagram::State::prepare(bool want_regions) {
