@@ -36,8 +36,8 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   cell->first = 0;
   cell->corners = count;
   cell->gone_count = 0;
+  set_corners(&cell->at, count);
   for (int v = 0; v < count; ++v) {
-    set_corner(&cell->at, v, regions.corner[regions.vertex[first + (uint)v]]);
     cell->border[v] = ~v;
     link_vertices(cell, v, v + 1 == count ? 0 : v + 1);
   }

@@ -26,8 +26,8 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   cell->faces = regions.shape->faces;
   cell->shape = regions.shape;
   start_vertices(&cell->at, regions, seeds, self, regions.vertex + first, regions.behind + region * (uint)cell->faces);
+  set_corners(&cell->at, regions.shape->vertices);
   for (int v = 0; v < regions.shape->vertices; ++v) {
-    set_corner(&cell->at, v, regions.corner[regions.vertex[first + (uint)v]]);
     UNROLL for (int k = 0; k < 3; ++k) {
       cell->next[k][v] = (index_t)regions.shape->next[k][v];
       cell->face[k][v] = (index_t)regions.shape->face[k][v];

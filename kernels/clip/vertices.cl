@@ -75,17 +75,23 @@ static inline int free_slot(vertices_t* p, int capacity) {
 
 static inline void use_slot(vertices_t* p, int v) { p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS; }
 
-/* A corner of the region as vertex v. */
-static inline void set_corner(vertices_t* p, int v, seed_t corner) {
-  real y[DIMENSION], sum = 0;
-  while (v >= p->blocks * LANES) add_block(p);
-  difference(corner, p->seeds[p->self], y);
-  UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    p->x[k][v] = y[k];
-    sum += fabs(y[k]);
+/* The corners of the region as vertices 0, 1, ... */
+static inline void set_corners(vertices_t* p, int count) {
+  const seed_t seed = p->seeds[p->self];
+  real reach = 0;
+  while (p->blocks * LANES < count) add_block(p);
+  for (int v = 0; v < count; ++v) {
+    real y[DIMENSION], sum = 0;
+    difference(p->corner[p->region[v]], seed, y);
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
+      p->x[k][v] = y[k];
+      sum += fabs(y[k]);
+    }
+    reach = most_of(sum, reach);
   }
-  p->radius = p->reach = fmax(p->reach, sum);
-  use_slot(p, v);
+  p->radius = p->reach = reach;
+  for (int w = 0; w * WORD_BITS < count; ++w)
+    p->used[w] = ~(ulong)0 >> (WORD_BITS - min(WORD_BITS, count - w * WORD_BITS));
 }
 
 /* Frees the slots of `outside`. */

@@ -15,10 +15,12 @@ typedef struct {
 
 /* True if the cell is no thicker than the rounding errors of its vertices. */
 static inline bool cell_is_flat(const cell_t* cell, real measure) {
-  real low[DIMENSION], high[DIMENSION], extent = 0;
-  find_box(&cell->at, low, high);
-  UNROLL for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
+  real low[DIMENSION], high[DIMENSION], extent = 2 * cell->at.radius;
   const real thickness = 32 * REAL_EPSILON * cell->at.reach;
+  if (measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent)) return false;
+  find_box(&cell->at, low, high);
+  extent = 0;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
   return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
 }
 

@@ -6,6 +6,7 @@
 #include "clip/bisector.cl"
 
 #define LISTED_SEEDS 96 /* most seeds of a list */
+#define FEW_LISTED 16   /* so many are cut by as they come: to order them would take longer than it saves */
 #define LISTED_LAST (REAL_MAX / 4) /* key of a seed that has been tried */
 
 typedef struct {
@@ -68,9 +69,20 @@ static inline int find_list_keys(region_lists_t lists, uint i, uint region, cons
   return rows * LANES;
 }
 
-/* Clips the cell of rank i, started as `region`, by the seeds in its list, the bisector nearest to the
-   centre first, or farthest beyond it. Returns a PIECE status. */
-static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uint region) {
+/* Clips the cell of rank i by all of `count` seeds, in their order. Returns a PIECE status. */
+static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __global const uint* listed, int count) {
+  const seed_t seed = lists.seeds[i];
+  for (int k = 0; k < count; ++k) {
+    const uint j = listed[k];
+    if (j == i) continue;
+    const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
+    if (cut > CUT_SHRUNK) return piece_status(cut);
+  }
+  return PIECE_WHOLE;
+}
+
+/* The same for longer lists, by the bisector nearest to the centre first, or farthest beyond it. */
+static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint region) {
   const seed_t seed = lists.seeds[i];
   real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
   const int keys = find_list_keys(lists, i, region, centre, key);
@@ -89,6 +101,14 @@ static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uin
     if (cut == CUT_SHRUNK) reach = cell_reach(cell, centre);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
+}
+
+/* Clips the cell of rank i, started as `region`, by the seeds in its list. Returns a PIECE status. */
+static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uint region) {
+  const ulong begin = lists.offset[region];
+  const int count = (int)(lists.offset[region + 1] - begin);
+  return count <= FEW_LISTED ? clip_by_all(cell, lists, i, lists.seed + begin, count)
+                             : clip_in_order(cell, lists, i, region);
 }
 
 #endif
