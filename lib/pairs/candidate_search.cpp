@@ -47,6 +47,8 @@ void CandidateSearch<D>::find(std::uint32_t region, const Narrowed<D>& from,
     for_parts(corners_, [&] { list_search_.search(root_.part); });
     return list_search_.take_marked(ranks);
   }
+  tree_.set_origin(origin_);
+  interior_.set(corners_, mesh_);
   found_.clear();
   for_parts(corners_, [&] { search(from.frontier); });
   // Parts share candidates, and a node may be settled from several parts.
@@ -101,8 +103,6 @@ void CandidateSearch<D>::set_region(std::uint32_t region) {
     reach_ = std::max(reach_, squared_distance<D>(corner, Point<D>{}));
   }
   reach_ = std::sqrt(reach_);
-  tree_.set_origin(origin_);
-  interior_.set(corners_, mesh_);
 }
 
 template <int D>

@@ -1,7 +1,9 @@
 #include "lib/pairs/column_loops.hpp"
 
-#include <array>
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "lib/vector_copies.hpp"
@@ -14,17 +16,27 @@ constexpr double unit_roundoff = 0x1p-53;
 
 template <int D>
 [[gnu::always_inline]] inline void powers_in(std::size_t count, const double* const* column,
-                                             const double* point, double square, double weight,
-                                             double constant, double* __restrict to) {
+                                             const double* origin, const double* point, double square,
+                                             double weight, double constant, double* __restrict to) {
   const double* __restrict x[D + 1];
   for (int k = 0; k <= D; ++k) x[k] = column[k];
   for (std::size_t s = 0; s < count; ++s) {
     double sum = 0;
-    for (int k = 0; k < D; ++k) sum += (x[k][s] - point[k]) * (x[k][s] - point[k]);
+    for (int k = 0; k < D; ++k) {
+      const double t = (x[k][s] - origin[k]) - point[k];
+      sum += t * t;
+    }
     const double w = x[D][s];
     const double power = sum * (1 - square) - (w + weight * std::fabs(w) + constant);
     to[s] = std::fabs(power) <= greatest ? power : -greatest;
   }
+}
+
+/// Ascending with x, for x that is not NaN: integers have a least one without an order of comparing, so that
+/// compilers find it eight at a time.
+[[gnu::always_inline]] inline std::int64_t ordered_bits(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(x);
+  return bits ^ (bits >> 63 & std::numeric_limits<std::int64_t>::max());
 }
 
 template <std::size_t C>
@@ -44,7 +56,8 @@ template <std::size_t C>
 
 template <int D>
 [[gnu::always_inline]] inline void raise_box(std::size_t count, const double* const* column,
-                                             const double* size, const double* t, double* __restrict excess) {
+                                             const double* origin, const double* size, const double* t,
+                                             double* __restrict excess) {
   const double* __restrict x[D + 1];
   for (int k = 0; k <= D; ++k) x[k] = column[k];
   double t2 = 0, reach2 = 0;
@@ -54,8 +67,8 @@ template <int D>
   for (std::size_t s = 0; s < count; ++s) {
     double s2 = 0, most = 0;
     for (int k = 0; k < D; ++k) {
-      s2 += x[k][s] * x[k][s];
-      const double along = x[k][s] - t[k];
+      const double at = x[k][s] - origin[k], along = at - t[k];
+      s2 += at * at;
       most += (along > 0 ? along : 0.0) * size[k];
     }
     // Every term, and every error of a coordinate times what it is multiplied by, is below a few roundings of
@@ -92,18 +105,13 @@ template <int D>
 
 }  // namespace
 
-POWERCELL_VECTOR_COPIES void subtract(std::size_t count, const double* from, double by,
-                                      double* __restrict to) {
-  for (std::size_t s = 0; s < count; ++s) to[s] = from[s] - by;
-}
-
 POWERCELL_VECTOR_COPIES void powers(std::size_t count, int dimension, const double* const* column,
-                                    const double* point, double square, double weight, double constant,
-                                    double* to) {
+                                    const double* origin, const double* point, double square, double weight,
+                                    double constant, double* to) {
   if (dimension == 2)
-    powers_in<2>(count, column, point, square, weight, constant, to);
+    powers_in<2>(count, column, origin, point, square, weight, constant, to);
   else
-    powers_in<3>(count, column, point, square, weight, constant, to);
+    powers_in<3>(count, column, origin, point, square, weight, constant, to);
 }
 
 POWERCELL_VECTOR_COPIES void raise_excess(std::size_t count, std::size_t corners, const double* const* lower,
@@ -127,11 +135,12 @@ POWERCELL_VECTOR_COPIES void raise_excess(std::size_t count, std::size_t corners
 }
 
 POWERCELL_VECTOR_COPIES void raise_box_excess(std::size_t count, int dimension, const double* const* column,
-                                              const double* size, const double* tester, double* excess) {
+                                              const double* origin, const double* size, const double* tester,
+                                              double* excess) {
   if (dimension == 2)
-    raise_box<2>(count, column, size, tester, excess);
+    raise_box<2>(count, column, origin, size, tester, excess);
   else
-    raise_box<3>(count, column, size, tester, excess);
+    raise_box<3>(count, column, origin, size, tester, excess);
 }
 
 POWERCELL_VECTOR_COPIES void raise_node_excess(std::size_t count, int dimension, const double* const* column,
@@ -143,18 +152,15 @@ POWERCELL_VECTOR_COPIES void raise_node_excess(std::size_t count, int dimension,
 }
 
 POWERCELL_VECTOR_COPIES std::size_t least(std::size_t count, const double* values) {
-  constexpr std::size_t lanes = 8;
-  std::array<double, lanes> low;
-  low.fill(std::numeric_limits<double>::infinity());
-  std::size_t s = 0;
-  for (; s + lanes <= count; s += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) low[k] = values[s + k] < low[k] ? values[s + k] : low[k];
-  double least = std::numeric_limits<double>::infinity();
-  for (; s < count; ++s) least = values[s] < least ? values[s] : least;
-  for (const double l : low) least = l < least ? l : least;
-  for (s = 0; s + 1 < count && values[s] != least; ++s) {
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t s = 0; s < count; ++s) least = std::min(least, ordered_bits(values[s]));
+  const auto none = static_cast<std::int64_t>(count);
+  std::int64_t first = none;
+  for (std::int64_t s = 0; s < none; ++s) {
+    const std::int64_t place = ordered_bits(values[s]) == least ? s : none;
+    first = place < first ? place : first;
   }
-  return s;
+  return static_cast<std::size_t>(first);
 }
 
 }  // namespace powercell::pairs::loops

@@ -51,9 +51,9 @@ class PowerBounds {
     return square * (1 - square_) - (weight + 4 * unit_roundoff * std::abs(weight) + constant_);
   }
   /// lower() of `count` seeds at `point`, for sums that may be infinite the least double.
-  void lower_column(std::size_t count, int dimension, const double* const* column, const double* point,
-                    double* to) const {
-    loops::powers(count, dimension, column, point, square_, 4 * unit_roundoff, constant_, to);
+  void lower_column(std::size_t count, int dimension, const double* const* column, const double* origin,
+                    const double* point, double* to) const {
+    loops::powers(count, dimension, column, origin, point, square_, 4 * unit_roundoff, constant_, to);
   }
   double upper(double square, double weight) const {
     return square * (1 + square_) - (weight - 4 * unit_roundoff * std::abs(weight) - constant_);

@@ -24,6 +24,18 @@ std::array<const double*, D + 1> pointers(const SeedColumns<D>& columns) {
   return to;
 }
 
+/// Fills `place` with those of 0 .. count-1 that have no excess, and returns how many.
+std::size_t without_excess(std::size_t count, const std::vector<double>& excess,
+                           std::vector<std::uint32_t>& place) {
+  place.resize(count);
+  std::size_t kept = 0;
+  for (std::size_t s = 0; s < count; ++s) {
+    place[kept] = static_cast<std::uint32_t>(s);
+    kept += excess[s] > 0 ? 0 : 1;
+  }
+  return kept;
+}
+
 template <int D>
 double radius(const Part<D>& part, const Point<D>& centroid) {
   double most = 0;
@@ -32,48 +44,46 @@ double radius(const Part<D>& part, const Point<D>& centroid) {
   return std::sqrt(most);
 }
 
-template <int D>
-void make_local(const SeedList<D>& seeds, const double* origin, SeedColumns<D>& local) {
-  for (std::size_t k = 0; k < D; ++k) {
-    local[k].resize(seeds.size());
-    loops::subtract(seeds.size(), seeds.column[k].data(), origin[k], local[k].data());
-  }
-  local[D] = seeds.column[D];
-}
-
 }  // namespace
 
 template <int D>
 void ListSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const SeedList<D>& from,
                            SeedList<D>& to) {
-  const std::size_t count = from.size();
   to.clear();
-  if (count == 0) return;
-  make_local<D>(from, low.data(), local_);
-  const auto column = pointers<D>(local_);
-  Point<D> size;
+  if (from.size() == 0) return;
+  Point<D> size, x;
   for (std::size_t k = 0; k < D; ++k) size[k] = high[k] - low[k];
-  power_.resize(count);
-  excess_.assign(count, 0.0);
-  tester_.clear();
-  const auto test_by_owner = [&](const Point<D>& x) {
-    loops::powers(count, D, column.data(), x.data(), 0, 0, 0, power_.data());
-    const auto owner = static_cast<std::uint32_t>(loops::least(count, power_.data()));
-    if (std::find(tester_.begin(), tester_.end(), owner) != tester_.end()) return;
-    tester_.push_back(owner);
-    std::array<double, D + 1> tester;
-    for (std::size_t k = 0; k <= D; ++k) tester[k] = column[k][owner];
-    loops::raise_box_excess(count, D, column.data(), size.data(), tester.data(), excess_.data());
-  };
-  Point<D> x;
   for (std::size_t k = 0; k < D; ++k) x[k] = size[k] / 2;
-  test_by_owner(x);
+  tester_.clear();
+  const auto test_by_owner = [&](const SeedList<D>& list) {
+    const auto column = pointers<D>(list.column);
+    const std::size_t owner = owner_of(x, {list.size(), column, low.data(), nullptr});
+    if (std::find(tester_.begin(), tester_.end(), list.rank[owner]) != tester_.end()) return;
+    tester_.push_back(list.rank[owner]);
+    std::array<double, D + 1> tester;
+    for (std::size_t k = 0; k < D; ++k) tester[k] = column[k][owner] - low[k];
+    tester[D] = column[D][owner];
+    loops::raise_box_excess(list.size(), D, column.data(), low.data(), size.data(), tester.data(),
+                            excess_.data());
+  };
+  // The owner of the middle excludes what is far away, so that the others need not look at it.
+  excess_.assign(from.size(), 0.0);
+  test_by_owner(from);
+  near_.pick(from, kept_.data(), without_excess(from.size(), excess_, kept_));
+  excess_.assign(near_.size(), 0.0);
   for (std::size_t v = 0; v < std::size_t{1} << D; ++v) {
     for (std::size_t k = 0; k < D; ++k) x[k] = (v >> k & 1) != 0 ? size[k] : 0.0;
-    test_by_owner(x);
+    test_by_owner(near_);
   }
-  for (std::size_t s = 0; s < count; ++s)
-    if (!(excess_[s] > 0)) to.add(from, s);
+  to.pick(near_, kept_.data(), without_excess(near_.size(), excess_, kept_));
+}
+
+/// The place of the seed of least power distance.
+template <int D>
+std::size_t ListSearch<D>::owner_of(const Point<D>& x, const Source& from) {
+  power_.resize(from.count);
+  loops::powers(from.count, D, from.column.data(), from.origin, x.data(), 0, 0, 0, power_.data());
+  return loops::least(from.count, power_.data());
 }
 
 template <int D>
@@ -81,10 +91,13 @@ void ListSearch<D>::begin(const SeedList<D>& seeds, const double* origin, double
   seeds_ = &seeds;
   reach_ = reach;
   marked_.assign(seeds.size(), 0);
-  make_local<D>(seeds, origin, all_.local);
-  all_.index.resize(seeds.size());
-  for (std::size_t s = 0; s < seeds.size(); ++s) all_.index[s] = static_cast<std::uint32_t>(s);
-  all_.part.corners = 0;
+  all_ = {seeds.size(), pointers<D>(seeds.column), origin, nullptr};
+}
+
+template <int D>
+typename ListSearch<D>::Source ListSearch<D>::source_of(const Level& level) {
+  static constexpr std::array<double, D> zero{};
+  return {level.count(), pointers<D>(level.local), zero.data(), &level};
 }
 
 template <int D>
@@ -108,75 +121,81 @@ void ListSearch<D>::visit(Level& level, std::size_t depth, int failures) {
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
   std::tie(halves.first.part, halves.second.part) = split(level.part);
-  narrow_to(level, {}, halves.first);
-  narrow_to(level, {}, halves.second);
+  narrow_to(source_of(level), {}, halves.first);
+  narrow_to(source_of(level), {}, halves.second);
   const bool paid = halves.first.count() + halves.second.count() < level.count() + level.count() / 5 * 4;
   visit(halves.first, depth + 1, paid ? 0 : failures + 1);
   visit(halves.second, depth + 1, paid ? 0 : failures + 1);
 }
 
 template <int D>
-void ListSearch<D>::add_tester(const Level& level, const Part<D>& part, std::size_t seed) {
+void ListSearch<D>::add_tester(const Source& from, const Part<D>& part, std::size_t seed) {
   CornerValues upper;
   for (std::size_t v = 0; v < part.corners; ++v) {
     double square = 0;
     for (std::size_t k = 0; k < D; ++k) {
-      const double t = level.local[k][seed] - part.corner[v][k];
+      const double t = (from.column[k][seed] - from.origin[k]) - part.corner[v][k];
       square += t * t;
     }
-    upper[v] = bounds_.upper(square, level.local[D][seed]);
+    upper[v] = bounds_.upper(square, from.column[D][seed]);
     if (!std::isfinite(upper[v])) return;
   }
-  loops::raise_excess(level.count(), part.corners, lower_.data(), upper.data(), excess_.data());
+  loops::raise_excess(from.count, part.corners, lower_.data(), upper.data(), excess_.data());
 }
 
-/// Excludes by the seeds of least power at the centroid and the corners.
+/// Excludes by the seed of least power at the centroid and, if that leaves many, at the corners.
 template <int D>
-void ListSearch<D>::narrow_to(const Level& level, std::span<const CornerValues> known, Level& half) {
-  const std::size_t count = level.count();
-  const auto column = pointers<D>(level.local);
-  for (std::size_t v = 0; v < half.part.corners; ++v) {
+void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> known, Level& half) {
+  find_bounds(from, half.part);
+  excess_.assign(from.count, 0.0);
+  tester_.assign(1, static_cast<std::uint32_t>(owner_of(half.part.centroid(), from)));
+  add_tester(from, half.part, tester_.front());
+  for (const CornerValues& upper : known)
+    loops::raise_excess(from.count, half.part.corners, lower_.data(), upper.data(), excess_.data());
+  std::size_t kept = without_excess(from.count, excess_, kept_);
+  if (kept > few_seeds) {
+    for (std::size_t v = 0; v < half.part.corners; ++v) {
+      const auto least = static_cast<std::uint32_t>(loops::least(from.count, lower_[v]));
+      if (std::find(tester_.begin(), tester_.end(), least) != tester_.end()) continue;
+      tester_.push_back(least);
+      add_tester(from, half.part, least);
+    }
+    kept = without_excess(from.count, excess_, kept_);
+  }
+  keep(from, kept, half);
+}
+
+/// Sets lower_ for the corners of the part, to what the source has where it has the corner.
+template <int D>
+void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
+  const std::size_t known = from.level != nullptr ? from.level->part.corners : 0;
+  for (std::size_t v = 0; v < part.corners; ++v) {
     std::size_t at = 0;
-    while (at < level.part.corners && level.part.corner[at] != half.part.corner[v]) ++at;
-    lower_[v] = level.lower[at % most_corners].data();
-    if (at < level.part.corners) continue;
-    fresh_[v].resize(count);
-    bounds_.lower_column(count, D, column.data(), half.part.corner[v].data(), fresh_[v].data());
+    while (at < known && from.level->part.corner[at] != part.corner[v]) ++at;
+    if (at < known) {
+      lower_[v] = from.level->lower[at].data();
+      continue;
+    }
+    fresh_[v].resize(from.count);
+    bounds_.lower_column(from.count, D, from.column.data(), from.origin, part.corner[v].data(),
+                         fresh_[v].data());
     lower_[v] = fresh_[v].data();
   }
-  excess_.assign(count, 0.0);
-  power_.resize(count);
-  tester_.clear();
-  const auto add_once = [&](std::size_t seed) {
-    if (std::find(tester_.begin(), tester_.end(), seed) != tester_.end()) return;
-    tester_.push_back(static_cast<std::uint32_t>(seed));
-    add_tester(level, half.part, seed);
-  };
-  const Point<D> centroid = half.part.centroid();
-  loops::powers(count, D, column.data(), centroid.data(), 0, 0, 0, power_.data());
-  add_once(loops::least(count, power_.data()));
-  for (std::size_t v = 0; v < half.part.corners; ++v) add_once(loops::least(count, lower_[v]));
-  for (const CornerValues& upper : known)
-    loops::raise_excess(count, half.part.corners, lower_.data(), upper.data(), excess_.data());
-  keep_unexcluded(level, half);
 }
 
+/// Fills `half` with the first `kept` of kept_.
 template <int D>
-void ListSearch<D>::keep_unexcluded(const Level& level, Level& half) {
-  const std::size_t count = level.count();
-  kept_.resize(count);
-  std::size_t kept = 0;
-  for (std::size_t s = 0; s < count; ++s) {
-    kept_[kept] = static_cast<std::uint32_t>(s);
-    kept += excess_[s] > 0 ? 0 : 1;
-  }
-  const auto pick = [&](const auto* from, auto& to) {
+void ListSearch<D>::keep(const Source& from, std::size_t kept, Level& half) {
+  half.index.resize(kept);
+  for (std::size_t s = 0; s < kept; ++s)
+    half.index[s] = from.level != nullptr ? from.level->index[kept_[s]] : kept_[s];
+  const auto pick = [&](const double* values, double origin, std::vector<double>& to) {
     to.resize(kept);
-    for (std::size_t s = 0; s < kept; ++s) to[s] = from[kept_[s]];
+    for (std::size_t s = 0; s < kept; ++s) to[s] = values[kept_[s]] - origin;
   };
-  pick(level.index.data(), half.index);
-  for (std::size_t k = 0; k <= D; ++k) pick(level.local[k].data(), half.local[k]);
-  for (std::size_t v = 0; v < half.part.corners; ++v) pick(lower_[v], half.lower[v]);
+  for (std::size_t k = 0; k < D; ++k) pick(from.column[k], from.origin[k], half.local[k]);
+  pick(from.column[D], 0, half.local[D]);
+  for (std::size_t v = 0; v < half.part.corners; ++v) pick(lower_[v], 0, half.lower[v]);
 }
 
 /// Marks what no other seed excludes. What an excluded seed excludes, the one that excludes it does as well.
@@ -187,7 +206,7 @@ void ListSearch<D>::finish(Level& level) {
   excess_.assign(count, 0.0);
   if (count <= most_seeds)
     for (std::size_t s = 0; s < count; ++s)
-      if (!(excess_[s] > 0)) add_tester(level, level.part, s);
+      if (!(excess_[s] > 0)) add_tester(source_of(level), level.part, s);
   for (std::size_t s = 0; s < count; ++s)
     if (!(excess_[s] > 0)) marked_[level.index[s]] = 1;
 }

@@ -41,17 +41,28 @@ class ListSearch {
     Level first, second;
   };
 
+  /// Seeds to be narrowed down: a whole list, or those of a level.
+  struct Source {
+    std::size_t count;
+    std::array<const double*, D + 1> column;
+    const double* origin;  // of the columns
+    const Level* level;    // or none
+  };
+  static Source source_of(const Level& level);
+
+  std::size_t owner_of(const Point<D>& x, const Source& from);
   void visit(Level& level, std::size_t depth, int failures);
-  /// Fills `half`, whose part is set, with what can meet it of the seeds of `level`.
-  void narrow_to(const Level& level, std::span<const CornerValues> known, Level& half);
-  void add_tester(const Level& level, const Part<D>& part, std::size_t seed);
-  void keep_unexcluded(const Level& level, Level& half);
+  /// Fills `half`, whose part is set, with what can meet it.
+  void narrow_to(const Source& from, std::span<const CornerValues> known, Level& half);
+  void find_bounds(const Source& from, const Part<D>& part);
+  void add_tester(const Source& from, const Part<D>& part, std::size_t seed);
+  void keep(const Source& from, std::size_t kept, Level& half);
   void finish(Level& level);
 
   const SeedList<D>* seeds_ = nullptr;
   std::vector<unsigned char> marked_;
-  SeedColumns<D> local_;
-  Level all_;
+  Source all_{};
+  SeedList<D> near_;
   PowerBounds bounds_;
   double reach_ = 0;
   std::deque<Halves> halves_;  // by depth; references stay valid as it grows

@@ -30,9 +30,14 @@ struct SeedList {
     for (std::size_t k = 0; k < D; ++k) column[k].push_back(seeds.positions[std::size_t{r} * D + k]);
     column[D].push_back(seeds.weights[r] - reference);
   }
-  void add(const SeedList& from, std::size_t s) {
-    rank.push_back(from.rank[s]);
-    for (std::size_t k = 0; k <= D; ++k) column[k].push_back(from.column[k][s]);
+  /// Becomes the seeds of `from` at `count` places.
+  void pick(const SeedList& from, const std::uint32_t* place, std::size_t count) {
+    rank.resize(count);
+    for (std::size_t s = 0; s < count; ++s) rank[s] = from.rank[place[s]];
+    for (std::size_t k = 0; k <= D; ++k) {
+      column[k].resize(count);
+      for (std::size_t s = 0; s < count; ++s) column[k][s] = from.column[k][place[s]];
+    }
   }
 };
 
