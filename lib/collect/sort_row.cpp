@@ -47,13 +47,17 @@ bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, 
   }
   std::size_t sum = 0;
   for (std::size_t k = 0; k < count; ++k) sum += static_cast<std::size_t>(place[k]);
-  if (2 * sum + count != count * count)  // two have the same place
-    return sort_long(key, value, count, sorted_key, sorted_value);
+  const bool equal = 2 * sum + count != count * count;  // two have the same place
+  for (std::size_t k = 1; equal && k < count; ++k) {
+    std::int32_t before = 0;
+    for (std::size_t m = 0; m < k; ++m) before += key[m] == key[k] ? 1 : 0;
+    place[k] += before;
+  }
   for (std::size_t k = 0; k < count; ++k) {
     sorted_key[place[k]] = key[k];
     sorted_value[place[k]] = value[k];
   }
-  return false;
+  return equal;
 }
 
 }  // namespace powercell
