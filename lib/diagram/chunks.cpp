@@ -53,11 +53,11 @@ std::uint32_t ChunkRun::rank_of(std::uint64_t pair) const {
 void ChunkRun::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   const Pairs& pairs = s_.pairs;
   const std::uint32_t first = rank_of(begin), last = rank_of(end - 1);
-  pair_seed_.clear();
+  pair_seed_.resize(end - begin);
   for (std::uint32_t rank = first; rank <= last; ++rank) {
     const std::uint64_t from = std::max(begin, pairs.offset[rank]),
                         to = std::min(end, pairs.offset[rank + 1]);
-    pair_seed_.insert(pair_seed_.end(), to > from ? to - from : 0, rank);
+    if (to > from) std::fill_n(&pair_seed_[from - begin], to - from, rank);
   }
   const std::span pair_region(pairs.region.data() + begin, end - begin);
   const PieceSet& pieces = clipper_->clip(pair_seed_, pair_region);

@@ -82,7 +82,7 @@ std::unique_ptr<Candidates> Diagram::State::make_candidates() const {
   const bool full_dimension = domain.dimension() == domain.cell_dimension();
   if (full_dimension && !whole_cells && pairs.region.size() > pieces_that_pay * ranks.size())
     return std::make_unique<CellCandidates>(scene, ranks);
-  return std::make_unique<RegionCandidates>(scene, pairs.list_offset, pairs.list_seed);
+  return std::make_unique<RegionCandidates>(scene, pairs.list_offset, pairs.list_seed, pairs.all_listed);
 }
 
 void Diagram::State::upload(int threads) {

@@ -56,8 +56,10 @@ class WallCollection {
     if (walls.neighbor.size() > std::numeric_limits<std::uint32_t>::max())
       throw Error(ErrorCode::unsupported, "the cells have more than 2^32 walls");
     const auto d = static_cast<std::size_t>(walls.dimension);
-    for (std::size_t k = batch.vertex_offset[row] * d; k < batch.vertex_offset[row + 1] * d; ++k)
-      walls.vertex.push_back(batch.vertex[k] * unit_);
+    const std::size_t first = batch.vertex_offset[row] * d, count = batch.vertices(row) * d,
+                      to = walls.vertex.size();
+    walls.vertex.resize(to + count);
+    for (std::size_t k = 0; k < count; ++k) walls.vertex[to + k] = batch.vertex[first + k] * unit_;
   }
 
   void fill_up_to(std::size_t rank) {

@@ -5,8 +5,8 @@
 namespace powercell {
 
 RegionCandidates::RegionCandidates(const Scene& scene, std::span<const std::uint64_t> list_offset,
-                                   std::span<const std::uint32_t> list_seed)
-    : TreeCandidates(scene), list_offset_(scene.context()), list_seed_(scene.context()) {
+                                   std::span<const std::uint32_t> list_seed, bool all_listed)
+    : TreeCandidates(scene, !all_listed), list_offset_(scene.context()), list_seed_(scene.context()) {
   std::vector<std::uint64_t> offset(list_offset.begin(), list_offset.end());
   offset.resize(scene.mesh().region_count() + 1, offset.back());
   list_offset_.upload(offset);
@@ -27,7 +27,7 @@ std::unique_ptr<Candidates> RegionCandidates::for_scene(const Scene& scene) cons
     std::iota(first, first + seeds, 0U);
     offset.push_back(offset.back() + seeds);
   }
-  return std::make_unique<RegionCandidates>(scene, offset, seed);
+  return std::make_unique<RegionCandidates>(scene, offset, seed, false);
 }
 
 }  // namespace powercell

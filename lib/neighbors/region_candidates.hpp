@@ -10,8 +10,9 @@ namespace powercell {
 class RegionCandidates : public TreeCandidates {
  public:
   /// Uploads the lists (Pairs::list_offset, list_seed); regions beyond them have none.
+  /// \param all_listed  whether every region with a pair has a list
   RegionCandidates(const Scene& scene, std::span<const std::uint64_t> list_offset,
-                   std::span<const std::uint32_t> list_seed);
+                   std::span<const std::uint32_t> list_seed, bool all_listed);
   std::string_view file() const override { return "clip/by_region.cl"; }
   std::string_view kernel() const override { return "clip_by_region_kernel"; }
   void set_arguments(cl::Kernel& kernel, unsigned first) override;

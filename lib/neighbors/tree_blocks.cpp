@@ -48,6 +48,12 @@ void TreeBlocks::list(const Tree& tree) {
       .submit(leaves);
 }
 
+void TreeBlocks::leave_empty() {
+  for (cl::RawBuffer* buffer : {&seed_block_, &node_block_, &near_bound_}) buffer->reserve(0);
+  near_.resize(0);
+  near_count_.resize(0);
+}
+
 void TreeBlocks::set_pack_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
   kernel.args_from(first, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
                    cl_int{tree.levels}, seed_block_, node_block_);

@@ -31,6 +31,8 @@ class TreeBlocks {
   }
   void pack(const Tree& tree);  ///< the blocks
   void list(const Tree& tree);  ///< the near leaves, from the blocks
+  /// For kernels that take the arguments and do not search.
+  void leave_empty();
 
   static constexpr unsigned argument_count = 11, pack_argument_count = 8;
   /// Sets so many arguments of a clip kernel from `first` on: the tree, then what was made of it.

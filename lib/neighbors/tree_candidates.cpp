@@ -8,9 +8,12 @@ Variant without_cells(const Scene& scene) {
   return {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}, 0};
 }
 
-TreeCandidates::TreeCandidates(const Scene& scene)
+TreeCandidates::TreeCandidates(const Scene& scene, bool searched)
     : scene_(scene), blocks_(scene.context(), without_cells(scene)) {
-  blocks_.enqueue(device_tree(scene));
+  if (searched)
+    blocks_.enqueue(device_tree(scene));
+  else
+    blocks_.leave_empty();
 }
 
 TreeBlocks::Tree device_tree(const Scene& scene) {

@@ -17,7 +17,8 @@ Variant without_cells(const Scene& scene);
 
 class TreeCandidates : public Candidates {
  public:
-  explicit TreeCandidates(const Scene& scene);
+  /// \param searched  whether any pair is to be searched for in the tree
+  explicit TreeCandidates(const Scene& scene, bool searched = true);
   std::string_view file() const override { return "clip/by_tree.cl"; }
   std::string_view kernel() const override { return "clip_by_tree_kernel"; }
   std::size_t most_pairs(int) const override { return std::numeric_limits<std::uint32_t>::max(); }

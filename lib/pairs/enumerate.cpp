@@ -59,6 +59,7 @@ Pairs PairFinder::all(const SeedSet& seeds, const PackedTree& tree,
   const RegionLists found = search_regions({mesh_, *groups_, seeds, tree, threads_, progress});
   Pairs pairs = transpose(found.list, seeds.size(), threads_);
   keep_short_lists(found.list, pairs);
+  pairs.all_listed = pairs.list_seed.size() == pairs.region.size();
   return pairs;
 }
 

@@ -24,6 +24,7 @@ struct Pairs {
   /// none. Empty if the domain has one region.
   std::vector<std::uint64_t> list_offset;  ///< regions + 1
   std::vector<std::uint32_t> list_seed;
+  bool all_listed = false;  ///< every pair has a region with a list
   /// Of the cells with a pair with the region around the domain, those that are to be cut by planes as well.
   CellPlanes planes;
 };

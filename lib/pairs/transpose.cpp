@@ -26,6 +26,7 @@ std::vector<std::size_t> balanced(const std::vector<RankList>& lists, std::uint6
 Pairs transpose(const std::vector<RankList>& lists, std::size_t seeds, int threads) {
   std::uint64_t total = 0;
   for (const RankList& list : lists) total += list.count;
+  threads = threads_for(total, threads);
   // A counting sort. Each part counts for itself: no more parts than keep the counters linear in the output.
   const std::size_t parts = static_cast<std::size_t>(
       std::clamp<std::uint64_t>(total / std::max<std::size_t>(seeds, 1), 1, static_cast<unsigned>(threads)));

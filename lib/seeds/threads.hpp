@@ -17,7 +17,7 @@ void run_workers(int workers, const std::function<void(int)>& worker);
 
 /// Threads that `count` items of a few operations each are worth: to start one costs as much as thousands do.
 inline int threads_for(std::size_t count, int threads) {
-  constexpr std::size_t share_count = 4096;
+  constexpr std::size_t share_count = 32768;
   return count < share_count ? 1 : threads;
 }
 
