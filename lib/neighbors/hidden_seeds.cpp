@@ -16,6 +16,8 @@ constexpr std::uint32_t sample_leaves = 256;
 constexpr double least_share = 0.15;
 /// Seeds of the sample that costs no kernel, and how many ranks on either side each is compared with.
 constexpr std::size_t sample_seeds = 512, ranks_beside = 8;
+/// With fewer, the search for the seeds that meet a region of a surface leaves the hidden ones out.
+constexpr std::size_t seeds_a_region = 8;
 
 /// Whether the bisector of seeds a and b leaves a outside of its own side.
 bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
@@ -91,6 +93,9 @@ std::vector<std::uint8_t> hidden_seeds(const Scene& scene) {
 
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {
   const SeedSet& seeds = scene.seeds();
+  const RegionMesh& mesh = scene.mesh();
+  const bool surface = mesh.cell_dimension < mesh.dimension;
+  if (surface && seeds.size() < seeds_a_region * mesh.region_count()) return {};
   if (seeds.size() < least_seeds || !may_hide_many(seeds)) return {};
   HiddenSearch search(scene);
   const std::size_t leaves = seeds.size() / PackedTree::fan;
