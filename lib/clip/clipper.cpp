@@ -207,6 +207,7 @@ int Clipper::clip_on_host(HostClipper& host, std::uint32_t pair, std::span<doubl
     std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
   }
   // Their rows become one, of walls alone: parts have no geometry in common.
+  rows.repeats = true;
   rows.face_offset.resize(row + 1);
   rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));
   rows.vertex_offset.resize(row + 1);

@@ -20,6 +20,7 @@ struct PieceBatch {
   std::vector<std::uint32_t> vertex_offset;  ///< rows + 1
   std::vector<double> vertex;                ///< dimension per vertex
   std::vector<std::uint32_t> link;           ///< 6 per vertex (polyhedra)
+  bool repeats = false;  ///< rows may have a seed more than once, as those that are made of several pieces
 
   /// No rows; the memory is kept.
   void clear() {
@@ -29,6 +30,7 @@ struct PieceBatch {
     vertex_offset.clear();
     vertex.clear();
     link.clear();
+    repeats = false;
   }
   std::uint32_t faces(std::size_t row) const { return face_offset[row + 1] - face_offset[row]; }
   std::uint32_t vertices(std::size_t row) const { return vertex_offset[row + 1] - vertex_offset[row]; }

@@ -6,11 +6,55 @@
 #include "lib/collect/sort_row.hpp"
 #include "lib/collect/walls.hpp"
 #include "lib/seeds/threads.hpp"
+#include "lib/vector_copies.hpp"
 
 namespace powercell {
 namespace {
 
 constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
+
+// Vectors of the compiler: it does not find them by itself in loops as short as these.
+typedef std::uint32_t Vector __attribute__((vector_size(WallRow::lanes * sizeof(std::uint32_t))));
+static_assert(WallRow::lanes == 8);
+
+/// Where a row has neighbour i, or its count. Without branches that cannot be foreseen, and in whole vectors,
+/// which may reach beyond the neighbours.
+[[gnu::always_inline]] inline std::size_t find(const WallRow& row, std::uint32_t i) {
+  const auto count = static_cast<std::uint32_t>(row.count());
+  Vector place = {}, here = {1, 2, 3, 4, 5, 6, 7, 8};  // counted from 1
+  for (std::uint32_t block = 0; block < count; block += WallRow::lanes, here += WallRow::lanes) {
+    Vector neighbor;
+    std::memcpy(&neighbor, row.neighbors() + block, sizeof neighbor);
+    place |= (neighbor == i) & (here <= count) ? here : Vector{};
+  }
+  std::uint32_t found = 0;
+  for (std::uint32_t lane = 0; lane < WallRow::lanes; ++lane) found |= place[lane];
+  return found == 0 ? count : found - 1;
+}
+
+/// Walls that both sides have get the mean, and the sign bit, which no measure has before. Each pair is met
+/// once, by its lower rank, so that threads write to different places, whatever rows those are in. Returns
+/// the largest difference.
+POWERCELL_VECTOR_COPIES
+double average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std::uint32_t first,
+                    std::uint32_t last) {
+  double worst = 0;
+  for (std::uint32_t i = first; i < last; ++i) {
+    if (!ok[i]) continue;
+    const WallRow row = rows.row(i);
+    for (std::size_t k = row.count(); k-- > 0 && row.neighbors()[k] > i;) {
+      const std::uint32_t j = row.neighbors()[k];
+      if (!ok[j]) continue;
+      const WallRow other = rows.row(j);
+      const std::size_t back = find(other, i);
+      if (back == other.count()) continue;
+      double &here = row.measures()[k], &there = other.measures()[back];
+      worst = std::max(worst, std::abs(here - there));
+      here = there = -((here + there) / 2);
+    }
+  }
+  return worst;
+}
 
 /// Brings the two sides of each wall together, with the seeds shared between threads.
 class WallMatcher {
@@ -23,11 +67,13 @@ class WallMatcher {
         negligible_(negligible),
         threads_(seeds.size() < share_count ? 1 : threads),
         ok_(seeds.size()),
+        largest_(negligible > 0 ? seeds.size() : 0),
         rank_(seeds.input_count, no_rank) {
     for_ranks([&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
         ok_[i] = status[seeds.input[i]] == SeedStatus::ok;
         if (ok_[i]) rank_[seeds.input[i]] = i;
+        if (negligible > 0) largest_[i] = largest(i);
       }
     });
   }
@@ -62,84 +108,70 @@ class WallMatcher {
     });
   }
 
-  /// Where a row has neighbour i, or its count.
-  static std::size_t find(const WallRow& row, std::uint32_t i) {
-    if (row.count == 0) return row.count;
-    // The last entry that is not above i, by steps without branches.
-    std::size_t at = 0;
-    for (std::size_t count = row.count; count > 1; count -= count / 2)
-      at += row.neighbor[at + count / 2] <= i ? count / 2 : 0;
-    return row.neighbor[at] == i ? at : row.count;
+  double largest(std::uint32_t rank) {
+    const WallRow row = rows_.row(rank);
+    return row.count() == 0 ? 0 : *std::max_element(row.measures(), row.measures() + row.count());
   }
 
-  /// Walls that both sides have get the mean, and the sign bit, which no measure has before. Each pair is met
-  /// once, by its lower rank, so that threads write to different places, whatever rows those are in.
   void average(std::uint32_t first, std::uint32_t last) {
-    double worst = 0;
+    const double worst = average_rows(rows_, ok_, first, last);
+    const std::lock_guard lock(mutex_);
+    asymmetry_ = std::max(asymmetry_, worst);
+  }
+
+  /// Brings rows into their final form where they are, but for the order: without what is dropped, by input
+  /// index. Sets how long they are, without what only the other side has.
+  void finish_rows(std::uint32_t first, std::uint32_t last) {
+    std::vector<OneSided> alone;
     for (std::uint32_t i = first; i < last; ++i) {
       if (!ok_[i]) continue;
       const WallRow row = rows_.row(i);
-      for (std::size_t k = row.count; k-- > 0 && row.neighbor[k] > i;) {
-        const std::uint32_t j = row.neighbor[k];
-        if (!ok_[j]) continue;
-        const WallRow other = rows_.row(j);
-        const std::size_t back = find(other, i);
-        if (back == other.count) continue;
-        const double here = row.measure(k), there = other.measure(back);
-        worst = std::max(worst, std::abs(here - there));
-        row.set_measure(k, -((here + there) / 2));
-        other.set_measure(back, -((here + there) / 2));
+      const auto both = std::count_if(row.measures(), row.measures() + row.count(),
+                                      [](double measure) { return measure < 0; });
+      if (static_cast<std::size_t>(both) < row.count()) drop_walls(i, alone);
+      for (std::size_t k = 0; k < row.count(); ++k) {
+        row.neighbors()[k] = seeds_.input[row.neighbors()[k]];
+        row.measures()[k] = std::abs(row.measures()[k]) * unit_;
       }
+      out_.offset[seeds_.input[i] + 1] = row.count();
     }
     const std::lock_guard lock(mutex_);
-    asymmetry_ = std::max(asymmetry_, worst);
+    one_sided_.insert(one_sided_.end(), alone.begin(), alone.end());
+    for (const OneSided& wall : alone) asymmetry_ = std::max(asymmetry_, wall.measure / unit_);
   }
 
-  /// Brings rows into their final form where they are: without what is dropped, by input index and in its
-  /// order. Sets how long they are, without what only the other side has.
-  void finish_rows(std::uint32_t first, std::uint32_t last) {
-    double worst = 0;
-    std::vector<OneSided> alone;
+  /// Leaves in a row what stays of it, and notes what only this side has.
+  void drop_walls(std::uint32_t i, std::vector<OneSided>& alone) {
+    const WallRow row = rows_.row(i);
     std::vector<std::uint32_t> neighbor;
-    std::vector<double> wall, sorted;
-    for (std::uint32_t i = first; i < last; ++i) {
-      if (!ok_[i]) continue;
-      WallRow row = rows_.row(i);
-      if (neighbor.size() < row.count) {
-        neighbor.resize(row.count);
-        wall.resize(row.count);
-        sorted.resize(row.count);
+    std::vector<double> measure;
+    for (std::size_t k = 0; k < row.count(); ++k) {
+      const std::uint32_t j = row.neighbors()[k];
+      const double here = row.measures()[k];
+      if (here == 0) continue;  // a tie without extent, on both sides
+      if (!std::signbit(here)) {
+        if (!ok_[j]) continue;
+        if (negligible_ > 0 && !(here > negligible_ * std::max(largest_[i], largest_[j]))) continue;
+        alone.push_back({j, i, here * unit_});
       }
-      std::size_t kept = 0;
-      for (std::size_t k = 0; k < row.count; ++k) {
-        const std::uint32_t j = row.neighbor[k];
-        const double measure = row.measure(k);
-        if (measure == 0) continue;  // a tie without extent, on both sides
-        if (!std::signbit(measure)) {
-          if (!ok_[j] || !(measure > negligible_ * std::max(rows_.largest[i], rows_.largest[j]))) continue;
-          worst = std::max(worst, measure);
-          alone.push_back({j, i, measure * unit_});
-        }
-        neighbor[kept] = seeds_.input[j];
-        wall[kept++] = std::abs(measure) * unit_;
-      }
-      sort_row(neighbor.data(), wall.data(), kept, row.neighbor, sorted.data());
-      if (kept > 0) std::memcpy(row.neighbor + kept, sorted.data(), kept * sizeof(double));
-      out_.offset[seeds_.input[i] + 1] = kept;
+      neighbor.push_back(j);
+      measure.push_back(here);
     }
-    const std::lock_guard lock(mutex_);
-    asymmetry_ = std::max(asymmetry_, worst);
-    one_sided_.insert(one_sided_.end(), alone.begin(), alone.end());
+    row.words[0] = static_cast<std::uint32_t>(neighbor.size());
+    std::copy(neighbor.begin(), neighbor.end(), row.neighbors());
+    std::copy(measure.begin(), measure.end(), row.measures());
   }
 
   /// Rows come from all over the memory: those of the seeds to come are asked for ahead.
   void fetch_ahead(std::size_t i, std::size_t last) {
-    constexpr std::size_t end_ahead = 24, row_ahead = 12, line = 16;
-    if (i + end_ahead < last && rank_[i + end_ahead] != no_rank) prefetch(&rows_.end[rank_[i + end_ahead]]);
+    constexpr std::size_t place_ahead = 24, row_ahead = 12, line = 64 / sizeof(std::uint32_t);
+    if (i + place_ahead < last && rank_[i + place_ahead] != no_rank)
+      rows_.prefetch_place(rank_[i + place_ahead]);
     if (i + row_ahead >= last || rank_[i + row_ahead] == no_rank) return;
     const WallRow row = rows_.row(rank_[i + row_ahead]);
-    for (std::size_t word = 0; word < row.count * WallRows::words_per_wall; word += line)
-      prefetch(row.neighbor + word);
+    const std::size_t words = WallRow::words_for(out_.offset[i + row_ahead + 1] - out_.offset[i + row_ahead]);
+    for (std::size_t word = 0; word < words; word += line) prefetch(row.words + word);
+    prefetch(row.words + words - 1);
   }
 
   /// Rows of the result for the input indices [first, last).
@@ -147,28 +179,26 @@ class WallMatcher {
     for (std::size_t i = first; i < last; ++i) {
       fetch_ahead(i, last);
       if (rank_[i] == no_rank) continue;
-      const auto extra = std::lower_bound(one_sided_.begin(), one_sided_.end(), OneSided{rank_[i], 0, 0});
-      auto extra_end = extra;
-      while (extra_end != one_sided_.end() && extra_end->to == rank_[i]) ++extra_end;
-      const auto extras = static_cast<std::size_t>(extra_end - extra);
-      const std::uint64_t begin = out_.offset[i], count = out_.offset[i + 1] - begin - extras;
-      const std::uint32_t* const row = rows_.row(rank_[i]).neighbor;
-      std::copy_n(row, count, out_.neighbor.data() + begin);
-      if (count > 0) std::memcpy(out_.wall.data() + begin, row + count, count * sizeof(double));
-      if (extras > 0) add_extras(begin, count, std::span(extra, extras));
+      const WallRow row = rows_.row(rank_[i]);
+      std::uint32_t* const neighbor = out_.neighbor.data() + out_.offset[i];
+      double* const wall = out_.wall.data() + out_.offset[i];
+      if (out_.offset[i + 1] - out_.offset[i] == row.count())
+        sort_row(row.neighbors(), row.measures(), row.count(), neighbor, wall);
+      else
+        write_with_one_sided(row, rank_[i], neighbor, wall);
     }
   }
 
-  /// Puts what only other cells have with this one into its row, which begins at `begin` of the result.
-  void add_extras(std::uint64_t begin, std::size_t count, std::span<const OneSided> extras) {
-    std::uint32_t* const neighbor = &out_.neighbor[begin];
-    double* const wall = &out_.wall[begin];
-    for (const OneSided& extra : extras) {
-      neighbor[count] = seeds_.input[extra.from];
-      wall[count++] = extra.measure;
+  /// A row with what only other cells have with this one.
+  void write_with_one_sided(const WallRow& row, std::uint32_t rank, std::uint32_t* neighbor, double* wall) {
+    std::vector<std::uint32_t> neighbors(row.neighbors(), row.neighbors() + row.count());
+    std::vector<double> measures(row.measures(), row.measures() + row.count());
+    for (auto extra = std::lower_bound(one_sided_.begin(), one_sided_.end(), OneSided{rank, 0, 0});
+         extra != one_sided_.end() && extra->to == rank; ++extra) {
+      neighbors.push_back(seeds_.input[extra->from]);
+      measures.push_back(extra->measure);
     }
-    sort_row(std::vector(neighbor, neighbor + count).data(), std::vector(wall, wall + count).data(), count,
-             neighbor, wall);
+    sort_row(neighbors.data(), measures.data(), neighbors.size(), neighbor, wall);
   }
 
   WallRows rows_;
@@ -176,6 +206,7 @@ class WallMatcher {
   double unit_, negligible_;
   int threads_;
   std::vector<std::uint8_t> ok_;  // by rank
+  std::vector<double> largest_;   // by rank: its largest wall, where it matters
   static constexpr std::uint32_t no_rank = ~std::uint32_t{0};
   std::vector<std::uint32_t> rank_;  // by input index, no_rank where the cell is empty
   std::mutex mutex_;                 // guards the two below while ranks are shared

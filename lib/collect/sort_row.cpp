@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "lib/vector_copies.hpp"
+
 namespace powercell {
 namespace {
 
@@ -29,20 +31,21 @@ bool sort_long(const std::uint32_t* key, const double* value, std::size_t count,
 
 }  // namespace
 
+POWERCELL_VECTOR_COPIES
 bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
               double* sorted_value) {
   if (count > short_row) return sort_long(key, value, count, sorted_key, sorted_value);
   // Each entry's place is the number of smaller ones: no branch that could be mispredicted, and the inner
-  // loops are whole vectors.
-  std::array<std::int32_t, short_row> from, place;
-  std::copy_n(key, count, from.begin());
-  const std::size_t padded = (count + lanes - 1) / lanes * lanes;
-  std::fill(from.begin() + count, from.begin() + padded, std::numeric_limits<std::int32_t>::max());
-  for (std::size_t block = 0; block < padded; block += lanes) {
+  // loops are whole vectors. Nothing is read as a vector that was just written in parts, which has to wait.
+  std::array<std::int32_t, short_row> place;
+  for (std::size_t block = 0; block < count; block += lanes) {
     std::array<std::int32_t, lanes> own, smaller{};
-    std::copy_n(from.begin() + block, lanes, own.begin());
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      own[lane] = block + lane < count ? static_cast<std::int32_t>(key[block + lane])
+                                       : std::numeric_limits<std::int32_t>::max();
     for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t lane = 0; lane < lanes; ++lane) smaller[lane] += from[k] < own[lane] ? 1 : 0;
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        smaller[lane] += static_cast<std::int32_t>(key[k]) < own[lane] ? 1 : 0;
     std::copy_n(smaller.begin(), lanes, place.begin() + block);
   }
   std::size_t sum = 0;

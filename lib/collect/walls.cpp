@@ -10,33 +10,50 @@ namespace powercell {
 namespace {
 
 constexpr std::size_t share_count = 2048;  // pairs; below, threads cost more than they save
+constexpr std::uint32_t no_rank = ~std::uint32_t{0};
 
-/// With sums side by side, which one maximum after the other does not allow.
-double largest_of(const double* values, std::size_t count) {
-  double most[4] = {0, 0, 0, 0};
-  std::size_t k = 0;
-  for (; k + 4 <= count; k += 4)
-    for (std::size_t lane = 0; lane < 4; ++lane) most[lane] = std::max(most[lane], values[k + lane]);
-  for (; k < count; ++k) most[0] = std::max(most[0], values[k]);
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+bool has_walls(const PieceSet& pieces, std::size_t pair) {
+  return pieces.status[pair] == PIECE_WHOLE || pieces.status[pair] == PIECE_FLAT;
+}
+
+std::size_t count_walls(const std::int32_t* border, std::size_t count) {
+  std::size_t walls = 0;
+  for (std::size_t f = 0; f < count; ++f) walls += border[f] >= 0 ? 1 : 0;
+  return walls;
 }
 
 }  // namespace
 
-WallCollector::WallCollector(std::size_t ranks, int threads) : threads_(threads) {
-  rows_.end.resize(ranks);
-  rows_.largest.resize(ranks);
+WallRows::WallRows(std::size_t ranks, std::size_t parts) : place_(ranks), memory_(parts) {
+  memory_.front().resize(2 + WallRow::lanes);
+  memory_.front().resize(2);
+  *memory_.front().data() = 0;
 }
 
+WallRow WallRows::add(std::size_t part, std::uint32_t rank, std::size_t count) {
+  GrowingArray<std::uint32_t>& words = memory_[part];
+  const std::size_t first = words.size();
+  // The rows so far tell about how many words there will be; where nothing is written no memory is taken.
+  const double ranks = static_cast<double>(place_.size()), so_far = static_cast<double>(rank) + 1;
+  words.resize(first + WallRow::words_for(count) + WallRow::lanes,
+               std::clamp(1.05 * ranks / so_far, 1.25, 4.0));
+  words.resize(first + WallRow::words_for(count));
+  place_[rank].part = part & 0xffff;
+  place_[rank].word = first & 0xffffffffffff;
+  words.data()[first] = static_cast<std::uint32_t>(count);
+  return {words.data() + first};
+}
+
+WallCollector::WallCollector(std::size_t ranks, int threads)
+    : rows_(ranks, static_cast<std::size_t>(std::max(threads, 1))), threads_(threads), open_rank_(no_rank) {}
+
 void WallCollector::reopen(std::uint32_t rank) {
-  open_rank_ = rank;
   open_neighbor_.clear();
   open_measure_.clear();
-  if (rank + 1 != next_) return;  // begins in this chunk
   const WallRow row = rows_.row(rank);
-  open_neighbor_.assign(row.neighbor, row.neighbor + row.count);
-  for (std::size_t k = 0; k < row.count; ++k) open_measure_.push_back(row.measure(k));
-  rows_.words.resize(rows_.begin(rank) * WallRows::words_per_wall);
+  open_neighbor_.assign(row.neighbors(), row.neighbors() + row.count());
+  open_measure_.assign(row.measures(), row.measures() + row.count());
+  open_rank_ = open_neighbor_.empty() ? no_rank : rank;
 }
 
 void WallCollector::share_out(std::span<const std::uint32_t> pair_seed) {
@@ -49,8 +66,6 @@ void WallCollector::share_out(std::span<const std::uint32_t> pair_seed) {
     part.begin = begin;
     part.end = std::max(begin, pairs * (p + 1) / wanted);
     while (part.end > 0 && part.end < pairs && pair_seed[part.end] == pair_seed[part.end - 1]) ++part.end;
-    part.first = begin < pairs ? pair_seed[begin] : pair_seed.back() + 1;
-    part.last = part.end < pairs ? pair_seed[part.end] : pair_seed.back() + 1;
     begin = part.end;
   }
 }
@@ -67,18 +82,38 @@ void WallCollector::OpenRow::add(const std::int32_t* border, const double* wall,
   }
 }
 
-void WallCollector::close_row(Part& part, std::uint32_t rank) {
-  const std::size_t open = part.open.size, begin = part.walls * WallRows::words_per_wall;
-  const std::size_t most = begin + open * WallRows::words_per_wall;
-  if (most > part.words.size()) part.words.resize(most);
-  if (part.sorted.size() < open) part.sorted.resize(open);
-  std::uint32_t* const neighbor = part.words.data() + begin;
-  std::vector<double>& measure = part.sorted;
-  std::size_t count = open;
-  if (sort_row(part.open.neighbor.data(), part.open.measure.data(), open, neighbor, measure.data())) {
+void WallCollector::add_row(std::size_t part, std::uint32_t rank, const PieceBatch& batch, std::size_t row) {
+  const std::int32_t* const border = batch.border.data() + batch.face_offset[row];
+  const double* const wall = batch.wall.data() + batch.face_offset[row];
+  const std::size_t faces = batch.faces(row), walls = count_walls(border, faces);
+  if (walls == 0) return;
+  const WallRow made = rows_.add(part, rank, walls);
+  std::size_t lower = 0, higher = walls;
+  for (std::size_t f = 0; f < faces; ++f) {
+    if (border[f] < 0) continue;
+    const auto neighbor = static_cast<std::uint32_t>(border[f]);
+    const bool is_lower = neighbor < rank;  // as likely as not
+    higher -= is_lower ? 0 : 1;
+    const std::size_t k = is_lower ? lower : higher;
+    lower += is_lower ? 1 : 0;
+    made.neighbors()[k] = neighbor;
+    made.measures()[k] = wall[f];
+  }
+}
+
+void WallCollector::close_row(std::size_t part, std::uint32_t rank) {
+  OpenRow& open = parts_[part].open;
+  std::vector<std::uint32_t>& neighbor = parts_[part].neighbor;
+  std::vector<double>& measure = parts_[part].measure;
+  if (neighbor.size() < open.size) {
+    neighbor.resize(open.size);
+    measure.resize(open.size);
+  }
+  std::size_t count = open.size;
+  if (sort_row(open.neighbor.data(), open.measure.data(), open.size, neighbor.data(), measure.data())) {
     // Sums run in the order of the pairs, so chunks do not change a bit of them.
     count = 1;
-    for (std::size_t k = 1; k < open; ++k) {
+    for (std::size_t k = 1; k < open.size; ++k) {
       if (neighbor[count - 1] == neighbor[k]) {
         measure[count - 1] += measure[k];
         continue;
@@ -87,61 +122,46 @@ void WallCollector::close_row(Part& part, std::uint32_t rank) {
       measure[count++] = measure[k];
     }
   }
-  if (count > 0) std::memcpy(neighbor + count, measure.data(), count * sizeof(double));
-  part.walls += count;
-  rows_.largest[rank] = largest_of(measure.data(), count);
-  rows_.end[rank] = part.walls;
+  if (count == 0) return;
+  const WallRow row = rows_.add(part, rank, count);
+  std::copy_n(neighbor.data(), count, row.neighbors());
+  std::copy_n(measure.data(), count, row.measures());
 }
 
-void WallCollector::fill(Part& part, std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
-  part.walls = 0;
-  std::size_t k = part.begin;
-  for (std::uint32_t rank = part.first; rank < part.last; ++rank) {
-    part.open.size = 0;
-    if (rank == open_rank_) part.open.add(open_neighbor_.data(), open_measure_.data(), open_neighbor_.size());
-    for (; k < part.end && pair_seed[k] == rank; ++k) {
-      if (pieces.status[k] != PIECE_WHOLE && pieces.status[k] != PIECE_FLAT) continue;
+void WallCollector::fill(std::size_t part, std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
+  OpenRow& open = parts_[part].open;
+  for (std::size_t k = parts_[part].begin, end = parts_[part].end; k < end;) {
+    const std::uint32_t rank = pair_seed[k];
+    std::size_t next = k + 1;
+    while (next < end && pair_seed[next] == rank) ++next;
+    if (next == k + 1 && rank != open_rank_ && !pieces.batches[pieces.batch[k]].repeats) {
+      if (has_walls(pieces, k)) add_row(part, rank, pieces.batches[pieces.batch[k]], pieces.row[k]);
+      ++k;
+      continue;
+    }
+    open.size = 0;
+    if (rank == open_rank_) open.add(open_neighbor_.data(), open_measure_.data(), open_neighbor_.size());
+    for (; k < next; ++k) {
+      if (!has_walls(pieces, k)) continue;
       const PieceBatch& batch = pieces.batches[pieces.batch[k]];
       const std::size_t row = pieces.row[k], first = batch.face_offset[row];
-      part.open.add(batch.border.data() + first, batch.wall.data() + first, batch.faces(row));
+      open.add(batch.border.data() + first, batch.wall.data() + first, batch.faces(row));
     }
     close_row(part, rank);
   }
 }
 
-void WallCollector::append_parts() {
-  std::uint64_t total = rows_.walls();
-  for (Part& part : parts_) {
-    part.target = total;
-    total += part.walls;
-  }
-  rows_.words.resize(total * WallRows::words_per_wall);
-  parallel_for(static_cast<int>(parts_.size()), parts_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const Part& part = parts_[p];
-      std::copy_n(part.words.data(), part.walls * WallRows::words_per_wall,
-                  rows_.words.data() + part.target * WallRows::words_per_wall);
-      for (std::uint32_t rank = part.first; rank < part.last; ++rank) rows_.end[rank] += part.target;
-    }
-  });
-}
-
 void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
   if (pair_seed.empty()) return;
-  const std::uint32_t first = pair_seed.front();
-  for (; next_ < first; ++next_) rows_.end[next_] = rows_.walls();  // ranks without a pair
-  reopen(first);
+  reopen(pair_seed.front());
   share_out(pair_seed);
   parallel_for(static_cast<int>(parts_.size()), parts_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) fill(parts_[p], pair_seed, pieces);
+    for (std::size_t p = begin; p < end; ++p) fill(p, pair_seed, pieces);
   });
-  append_parts();
-  next_ = pair_seed.back() + 1;
 }
 
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                                 double negligible) {
-  for (; next_ < rows_.end.size(); ++next_) rows_.end[next_] = rows_.walls();
   parts_.clear();
   return match_walls(std::move(rows_), seeds, status, unit, negligible, threads_);
 }

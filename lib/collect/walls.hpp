@@ -14,35 +14,42 @@
 
 namespace powercell {
 
-/// The walls of one cell; memory owned elsewhere. Measures stand behind the neighbours, so that a row is one
-/// piece of memory, and are at no multiple of their size.
+/// The walls of one cell; memory owned elsewhere. Their number comes first and measures stand behind the
+/// neighbours, so that a row is one piece of memory.
 struct WallRow {
-  std::uint32_t* neighbor;  ///< ascending, none twice
-  std::size_t count;
+  static constexpr std::uint32_t lanes =
+      8;  ///< so many neighbours can be read at a time, also beyond the last
+  std::uint32_t* words;
 
-  double measure(std::size_t k) const {
-    double value;
-    std::memcpy(&value, neighbor + count + 2 * k, sizeof value);
-    return value;
+  static constexpr std::size_t words_before_measures(std::size_t walls) { return (walls + 2) / 2 * 2; }
+  static constexpr std::size_t words_for(std::size_t walls) {
+    return words_before_measures(walls) + 2 * walls;
   }
-  void set_measure(std::size_t k, double value) const {
-    std::memcpy(neighbor + count + 2 * k, &value, sizeof value);
-  }
+  std::size_t count() const { return words[0]; }
+  std::uint32_t* neighbors() const {
+    return words + 1;
+  }  ///< ranks, none twice, lower ones than its own first
+  double* measures() const { return reinterpret_cast<double*>(words + words_before_measures(count())); }
 };
 
-/// What each cell says of its walls, by rank.
-struct WallRows {
-  static constexpr std::size_t words_per_wall = 3;
-  std::vector<std::uint64_t> end;     ///< per rank: walls to the end of its row
-  std::vector<double> largest;        ///< per rank: its largest wall, 0 if it has none
-  GrowingArray<std::uint32_t> words;  ///< row after row
-
-  std::uint64_t begin(std::uint32_t rank) const { return rank == 0 ? 0 : end[rank - 1]; }
+/// What each cell says of its walls, by rank. Rows stay where the thread that made them put them.
+class WallRows {
+ public:
+  WallRows(std::size_t ranks, std::size_t threads);
   WallRow row(std::uint32_t rank) {
-    const std::uint64_t first = begin(rank);
-    return {words.data() + words_per_wall * first, static_cast<std::size_t>(end[rank] - first)};
+    return {memory_[place_[rank].part].data() + static_cast<std::size_t>(place_[rank].word)};
   }
-  std::uint64_t walls() const { return words.size() / words_per_wall; }
+  void prefetch_place(std::uint32_t rank) const { prefetch(&place_[rank]); }
+  /// A row of `count` walls, not filled in, in the part of one thread. It replaces an earlier one of this
+  /// rank.
+  WallRow add(std::size_t part, std::uint32_t rank, std::size_t count);
+
+ private:
+  struct Place {
+    std::uint64_t part : 16, word : 48;
+  };
+  std::vector<Place> place_;  // at first all at a row without walls
+  std::vector<GrowingArray<std::uint32_t>> memory_;
 };
 
 class WallCollector {
@@ -59,7 +66,7 @@ class WallCollector {
                    double negligible);
 
  private:
-  /// A row in the making: walls in the order of the pairs.
+  /// The walls of several pieces, in the order of the pairs.
   struct OpenRow {
     std::vector<std::uint32_t> neighbor;
     std::vector<double> measure;
@@ -69,26 +76,23 @@ class WallCollector {
   /// The share of one thread: the ranks [first, last) with the pairs [begin, end) of the chunk.
   struct Part {
     std::size_t begin = 0, end = 0;
-    std::uint32_t first = 0, last = 0;
     OpenRow open;
-    std::vector<double> sorted;         // measures of a row
-    GrowingArray<std::uint32_t> words;  // rows, as in WallRows
-    std::uint64_t walls = 0;            // in those rows
-    std::uint64_t target = 0;           // walls before them in rows_
+    std::vector<std::uint32_t> neighbor;  // of a row, sorted
+    std::vector<double> measure;
   };
-  /// Takes the row that is not finished out of rows_.
+  /// The walls of a rank so far, for it may go on in this chunk.
   void reopen(std::uint32_t rank);
   void share_out(std::span<const std::uint32_t> pair_seed);
-  void fill(Part& part, std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
-  /// Sorts the open row and sums what is with the same neighbour.
-  void close_row(Part& part, std::uint32_t rank);
-  void append_parts();
+  void fill(std::size_t part, std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
+  /// The row of a rank with one piece, in which each neighbour is once.
+  void add_row(std::size_t part, std::uint32_t rank, const PieceBatch& batch, std::size_t row);
+  /// Sums what is with the same neighbour in the open row.
+  void close_row(std::size_t part, std::uint32_t rank);
 
-  int threads_;
   WallRows rows_;
-  std::uint32_t next_ = 0;  // the first rank without a row yet
+  int threads_;
   std::vector<Part> parts_;
-  std::uint32_t open_rank_ = 0;  // the rank that goes on from the last chunk, with its row so far
+  std::uint32_t open_rank_;  // the rank that goes on from the last chunk, with its row so far
   std::vector<std::int32_t> open_neighbor_;
   std::vector<double> open_measure_;
 };

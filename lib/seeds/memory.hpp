@@ -14,6 +14,7 @@ namespace powercell {
 inline void prefetch([[maybe_unused]] const void* place) {
 #if defined(__GNUC__)
   __builtin_prefetch(place);
+  asm volatile("");  // else a function that does nothing else passes for one without effect, and its calls go
 #endif
 }
 
@@ -37,9 +38,10 @@ class GrowingArray {
   }
   ~GrowingArray() { std::free(data_); }
 
-  /// Values beyond the old size are undefined. \throw std::bad_alloc
-  void resize(std::size_t size) {
-    if (size > capacity_) grow(size + size / 4);
+  /// Values beyond the old size are undefined. \param factor  of the size, room to make where there is none
+  /// \throw std::bad_alloc
+  void resize(std::size_t size, double factor = 1.25) {
+    if (size > capacity_) grow(static_cast<std::size_t>(static_cast<double>(size) * factor) + 1);
     size_ = size;
   }
   T* data() { return data_; }

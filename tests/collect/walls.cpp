@@ -56,14 +56,24 @@ Pieces random_pieces(std::uint32_t ranks, unsigned seed) {
   return p;
 }
 
+bool repeats_a_seed(const std::vector<std::pair<std::int32_t, double>>& faces) {
+  std::map<std::int32_t, int> times;
+  for (const auto& face : faces) ++times[face.first];
+  return std::any_of(times.begin(), times.end(), [](const auto& time) { return time.second > 1; });
+}
+
+/// Rows that have a seed twice are in a batch of their own, which says so.
 PieceSet piece_set(const Pieces& p, std::size_t begin, std::size_t end) {
   PieceSet set;
-  PieceBatch& batch = set.add_batch();
-  batch.face_offset = {0};
+  set.add_batch().face_offset = {0};
+  set.add_batch().face_offset = {0};
+  set.batches[1].repeats = true;
   for (std::size_t k = begin; k < end; ++k) {
+    const std::uint32_t which = repeats_a_seed(p.faces[k]) ? 1 : 0;
+    PieceBatch& batch = set.batches[which];
     set.status.push_back(k % 11 == 0 ? PIECE_FLAT : PIECE_WHOLE);
-    set.batch.push_back(0);
-    set.row.push_back(static_cast<std::uint32_t>(k - begin));
+    set.batch.push_back(which);
+    set.row.push_back(static_cast<std::uint32_t>(batch.face_offset.size() - 1));
     for (const auto& [border, wall] : p.faces[k]) {
       batch.border.push_back(border);
       batch.wall.push_back(wall);
