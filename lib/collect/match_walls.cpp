@@ -59,9 +59,9 @@ double average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std::ui
 /// Brings the two sides of each wall together, with the seeds shared between threads.
 class WallMatcher {
  public:
-  WallMatcher(WallRows rows, const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
+  WallMatcher(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
               double negligible, int threads)
-      : rows_(std::move(rows)),
+      : rows_(rows),
         seeds_(seeds),
         unit_(unit),
         negligible_(negligible),
@@ -80,13 +80,13 @@ class WallMatcher {
 
   Adjacency run() {
     for_ranks([this](std::uint32_t begin, std::uint32_t end) { average(begin, end); });
-    out_.offset.assign(seeds_.input_count + 1, 0);
+    resize_populated(out_.offset, seeds_.input_count + 1, threads_);
     for_ranks([this](std::uint32_t begin, std::uint32_t end) { finish_rows(begin, end); });
     std::sort(one_sided_.begin(), one_sided_.end());
     for (const OneSided& wall : one_sided_) ++out_.offset[seeds_.input[wall.to] + 1];
     std::partial_sum(out_.offset.begin(), out_.offset.end(), out_.offset.begin());
-    out_.neighbor.resize(out_.offset.back());
-    out_.wall.resize(out_.offset.back());
+    resize_populated(out_.neighbor, out_.offset.back(), threads_);
+    resize_populated(out_.wall, out_.offset.back(), threads_);
     parallel_for(threads_, seeds_.input_count,
                  [this](std::size_t begin, std::size_t end) { write(begin, end); });
     out_.asymmetry = asymmetry_ * unit_;
@@ -201,7 +201,7 @@ class WallMatcher {
     sort_row(neighbors.data(), measures.data(), neighbors.size(), neighbor, wall);
   }
 
-  WallRows rows_;
+  WallRows& rows_;
   const SeedSet& seeds_;
   double unit_, negligible_;
   int threads_;
@@ -217,9 +217,9 @@ class WallMatcher {
 
 }  // namespace
 
-Adjacency match_walls(WallRows rows, const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
-                      double negligible, int threads) {
-  return WallMatcher(std::move(rows), seeds, status, unit, negligible, threads).run();
+Adjacency match_walls(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status,
+                      double unit, double negligible, int threads) {
+  return WallMatcher(rows, seeds, status, unit, negligible, threads).run();
 }
 
 }  // namespace powercell

@@ -24,7 +24,10 @@ std::size_t count_walls(const std::int32_t* border, std::size_t count) {
 
 }  // namespace
 
-WallRows::WallRows(std::size_t ranks, std::size_t parts) : place_(ranks), memory_(parts) {
+WallRows::WallRows(std::size_t ranks, std::size_t parts, Memory memory)
+    : place_(ranks), memory_(std::move(memory)) {
+  memory_.resize(parts);
+  for (GrowingArray<std::uint32_t>& words : memory_) words.resize(0);
   memory_.front().resize(2 + WallRow::lanes);
   memory_.front().resize(2);
   *memory_.front().data() = 0;
@@ -44,8 +47,10 @@ WallRow WallRows::add(std::size_t part, std::uint32_t rank, std::size_t count) {
   return {words.data() + first};
 }
 
-WallCollector::WallCollector(std::size_t ranks, int threads)
-    : rows_(ranks, static_cast<std::size_t>(std::max(threads, 1))), threads_(threads), open_rank_(no_rank) {}
+WallCollector::WallCollector(std::size_t ranks, int threads, WallRows::Memory memory)
+    : rows_(ranks, static_cast<std::size_t>(std::max(threads, 1)), std::move(memory)),
+      threads_(threads),
+      open_rank_(no_rank) {}
 
 void WallCollector::reopen(std::uint32_t rank) {
   open_neighbor_.clear();
@@ -163,7 +168,7 @@ void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                                 double negligible) {
   parts_.clear();
-  return match_walls(std::move(rows_), seeds, status, unit, negligible, threads_);
+  return match_walls(rows_, seeds, status, unit, negligible, threads_);
 }
 
 }  // namespace powercell

@@ -35,7 +35,10 @@ struct WallRow {
 /// What each cell says of its walls, by rank. Rows stay where the thread that made them put them.
 class WallRows {
  public:
-  WallRows(std::size_t ranks, std::size_t threads);
+  using Memory = std::vector<GrowingArray<std::uint32_t>>;
+  /// \param memory  of earlier ones
+  WallRows(std::size_t ranks, std::size_t parts, Memory memory);
+  Memory release() && { return std::move(memory_); }
   WallRow row(std::uint32_t rank) {
     return {memory_[place_[rank].part].data() + static_cast<std::size_t>(place_[rank].word)};
   }
@@ -49,12 +52,12 @@ class WallRows {
     std::uint64_t part : 16, word : 48;
   };
   std::vector<Place> place_;  // at first all at a row without walls
-  std::vector<GrowingArray<std::uint32_t>> memory_;
+  Memory memory_;
 };
 
 class WallCollector {
  public:
-  WallCollector(std::size_t ranks, int threads);
+  WallCollector(std::size_t ranks, int threads, WallRows::Memory memory = {});
 
   /// Adds the pieces of a chunk; ranks ascend over the chunks, and one rank may go on in the next chunk.
   void add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
@@ -64,6 +67,9 @@ class WallCollector {
   /// largest wall of its cell, and left out; above, it is kept and shows in Adjacency::asymmetry.
   Adjacency finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                    double negligible);
+
+  /// Its memory, for the next one. Nothing may be asked of this one any more.
+  WallRows::Memory release() && { return std::move(rows_).release(); }
 
  private:
   /// The walls of several pieces, in the order of the pairs.
@@ -98,7 +104,7 @@ class WallCollector {
 };
 
 /// The second half of WallCollector::finish. `rows` are used up.
-Adjacency match_walls(WallRows rows, const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
-                      double negligible, int threads);
+Adjacency match_walls(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status,
+                      double unit, double negligible, int threads);
 
 }  // namespace powercell

@@ -21,7 +21,7 @@ constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Rows of vertices and faces within a chunk are numbered by 32 bits, at most some 750 to a pair.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
-/// Device memory for clipping that a diagram keeps.
+/// Device memory for clipping, and memory for rows of walls, that a diagram keeps.
 constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// Of a cell's largest wall, where decisions are fast: a one-sided wall below it is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
@@ -34,7 +34,8 @@ ChunkRun::ChunkRun(Diagram::State& state, bool want_adjacency, bool want_cells)
       want_cells_(want_cells),
       outputs_(OUTPUT_MOMENTS | (want_adjacency ? OUTPUT_WALLS : 0) | (want_cells ? OUTPUT_GEOMETRY : 0)),
       measures_(state.scene, state.contenders(), state.domain.measure(), thread_count(state.options.threads)),
-      walls_(want_adjacency ? state.contenders().size() : 0, thread_count(state.options.threads)),
+      walls_(want_adjacency ? state.contenders().size() : 0, thread_count(state.options.threads),
+             std::exchange(state.wall_memory, {})),
       geometry_(state.domain.mesh(), state.contenders(), state.scene.frame()) {}
 
 std::uint64_t ChunkRun::chunk_pairs() const {
@@ -79,6 +80,8 @@ void ChunkRun::clip_all() {
   const double neighbor_seconds = s_.candidates->host_seconds(), built_before = s_.device.build_seconds();
   Stopwatch watch;
   std::uint64_t chunk = chunk_pairs();
+  // No last chunk of a few pairs, which the cores could not share well.
+  if (s_.options.chunk_pairs == 0) chunk = (total - 1) / ((total - 1) / chunk + 1) + 1;
   for (std::uint64_t begin = 0; begin < total;) {
     const std::uint64_t end = std::min(total, begin + chunk);
     try {
@@ -110,6 +113,13 @@ void ChunkRun::clip_all() {
   s_.timings.rounds = clipper_->statistics().rounds;
 }
 
+void ChunkRun::keep_wall_memory() {
+  WallRows::Memory memory = std::move(walls_).release();
+  std::size_t bytes = 0;
+  for (const auto& words : memory) bytes += words.bytes();
+  if (bytes <= kept_bytes) s_.wall_memory = std::move(memory);
+}
+
 std::vector<std::uint32_t> ChunkRun::run() {
   if (s_.contenders().size() > 0) clip_all();
   if (clipper_) {
@@ -135,6 +145,7 @@ std::vector<std::uint32_t> ChunkRun::run() {
                       s_.options.decisions == Decisions::exact ? 0
                       : s_.scene.float32()                     ? negligible_float
                                                                : negligible_double);
+  keep_wall_memory();
   if (want_cells_) s_.cells = geometry_.finish(measures.status);
   // Those of whole cells stay when the geometry of their pieces is asked for.
   if (!s_.measures) s_.measures = std::move(measures);

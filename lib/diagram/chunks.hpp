@@ -17,12 +17,13 @@ class ChunkRun {
   /// state's results stay as they were, and so they do where ranks come back: their cells need the regions of
   /// the domain.
   std::vector<std::uint32_t> run();
-  /// After run(): ranks of exactly flat cells, whose walls lie between those on either side of them. Where there are
-  /// any, the results of the state stayed as they were.
+  /// After run(): ranks of exactly flat cells, whose walls lie between those on either side of them. Where
+  /// there are any, the results of the state stayed as they were.
   const std::vector<std::uint32_t>& flat_cells() const { return flat_; }
 
  private:
   void clip_all();
+  void keep_wall_memory();
   /// Clips and collects the pairs [begin, end).
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
   std::uint32_t rank_of(std::uint64_t pair) const;

@@ -11,6 +11,7 @@
 #include "lib/clip/candidates.hpp"
 #include "lib/clip/clipper.hpp"
 #include "lib/clip/scene.hpp"
+#include "lib/collect/walls.hpp"
 #include "lib/pairs/enumerate.hpp"
 
 namespace powercell {
@@ -43,6 +44,7 @@ struct Diagram::State {
   std::vector<std::uint32_t> not_whole;  // ranks of cells that turned out to need their regions
   std::unique_ptr<Candidates> candidates;
   std::optional<ClipMemory> clip_memory;  // of the last pass, if it is little
+  WallRows::Memory wall_memory;           // the same
   Timings timings;
 
   std::optional<Measures> measures;

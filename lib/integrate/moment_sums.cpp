@@ -48,11 +48,11 @@ MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_m
   const std::size_t n = seeds.input_count;
   measures_.dimension = scene.mesh().dimension;
   measures_.domain_measure = domain_measure;
-  measures_.mass.resize(n);
-  measures_.centroid.resize(n * static_cast<std::size_t>(measures_.dimension),
-                            std::numeric_limits<double>::quiet_NaN());
-  measures_.second_moment.resize(n);
-  measures_.status.resize(n, SeedStatus::hidden);
+  resize_populated(measures_.mass, n, threads);
+  resize_populated(measures_.centroid, n * static_cast<std::size_t>(measures_.dimension), threads,
+                   std::numeric_limits<double>::quiet_NaN());
+  resize_populated(measures_.second_moment, n, threads);
+  resize_populated(measures_.status, n, threads, SeedStatus::hidden);
   for (const std::uint32_t i : seeds.duplicate) measures_.status[i] = SeedStatus::duplicate;
 }
 

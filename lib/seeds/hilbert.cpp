@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "lib/seeds/hilbert_curve.hpp"
+#include "lib/seeds/memory.hpp"
 #include "lib/seeds/radix_sort.hpp"
 #include "lib/seeds/threads.hpp"
 
@@ -51,8 +52,10 @@ struct Grid {
 template <int D>
 class Orderer {
  public:
-  Orderer(std::span<const double> points, int threads)
-      : points_(points), threads_(threads), records_(points.size() / D), scratch_(records_.size()) {}
+  Orderer(std::span<const double> points, int threads) : points_(points), threads_(threads) {
+    resize_populated(records_, points.size() / D, threads);
+    resize_populated(scratch_, records_.size(), threads);
+  }
 
   std::vector<std::uint32_t> order() {
     for_ranges(records_.size(), [&](std::size_t begin, std::size_t end) {

@@ -7,6 +7,7 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace powercell {
 
@@ -16,6 +17,19 @@ inline void prefetch([[maybe_unused]] const void* place) {
   __builtin_prefetch(place);
   asm volatile("");  // else a function that does nothing else passes for one without effect, and its calls go
 #endif
+}
+
+/// Asks the system for the pages of memory that will be written, by all threads at once: else the one that
+/// fills it first waits for each. Where that cannot be asked nothing happens.
+void populate(void* begin, std::size_t bytes, int threads);
+
+/// Resizes an array that may become large, populated by all threads.
+template <class T>
+void resize_populated(std::vector<T>& values, std::size_t count, int threads, const T& value = {}) {
+  values.reserve(count);
+  if (count > values.size())
+    populate(values.data() + values.size(), (count - values.size()) * sizeof(T), threads);
+  values.resize(count, value);
 }
 
 /// An array that grows without touching what is new, and without a second copy of itself where the system can
@@ -47,6 +61,7 @@ class GrowingArray {
   T* data() { return data_; }
   const T* data() const { return data_; }
   std::size_t size() const { return size_; }
+  std::size_t bytes() const { return capacity_ * sizeof(T); }
 
  private:
   void grow(std::size_t capacity) {

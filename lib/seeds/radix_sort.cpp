@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned digit_bits = 11;
 constexpr std::size_t buckets = std::size_t{1} << digit_bits;
 constexpr std::size_t small_count = 1024;   // below, comparing beats clearing the buckets
-constexpr std::size_t share_count = 65536;  // below, threads cost more than they save
+constexpr std::size_t share_count = 32768;  // below, threads cost more than they save
 
 using Histogram = std::array<std::size_t, buckets>;
 

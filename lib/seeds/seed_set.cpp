@@ -4,6 +4,7 @@
 
 #include "lib/seeds/duplicates.hpp"
 #include "lib/seeds/hilbert.hpp"
+#include "lib/seeds/memory.hpp"
 #include "lib/seeds/threads.hpp"
 #include "lib/seeds/validate.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 /// Positions and weights in the order of `set.input`.
 void gather(const SeedsView& seeds, int threads, SeedSet& set) {
   const auto d = static_cast<std::size_t>(set.dimension);
-  set.positions.resize(set.size() * d);
-  set.weights.resize(set.size());
+  resize_populated(set.positions, set.size() * d, threads);
+  resize_populated(set.weights, set.size(), threads);
   parallel_for(threads_for(set.size(), threads), set.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {
       const std::size_t i = set.input[rank];
