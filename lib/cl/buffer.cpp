@@ -104,6 +104,33 @@ void RawBuffer::fill(std::size_t bytes, const std::function<void(std::byte*)>& w
   check(unmap(), what);
 }
 
+Mapping::Mapping(const RawBuffer& buffer, std::size_t bytes)
+    : context_(buffer.context()), memory_(buffer.handle()) {
+  require_inside(0, bytes, buffer.bytes(), "mapping");
+  if (bytes == 0) return;
+  cl_int status = CL_SUCCESS;
+  data_ = static_cast<std::byte*>(clEnqueueMapBuffer(context_->queue(), memory_, CL_TRUE, CL_MAP_READ, 0,
+                                                     bytes, 0, nullptr, nullptr, &status));
+  check_allocation(status,
+                   "reading " + std::to_string(bytes) + " bytes in place from " + context_->info().name);
+}
+
+Mapping::Mapping(Mapping&& other) noexcept
+    : context_(std::move(other.context_)),
+      memory_(other.memory_),
+      data_(std::exchange(other.data_, nullptr)) {}
+
+Mapping::~Mapping() {
+  if (data_) clEnqueueUnmapMemObject(context_->queue(), memory_, data_, 0, nullptr, nullptr);
+}
+
+void Mapping::end() {
+  if (!data_) return;
+  check(
+      clEnqueueUnmapMemObject(context_->queue(), memory_, std::exchange(data_, nullptr), 0, nullptr, nullptr),
+      "giving memory back to " + context_->info().name);
+}
+
 void RawBuffer::fill_zero(std::size_t bytes) {
   require_inside(0, bytes, bytes_, "clearing");
   if (bytes == 0) return;

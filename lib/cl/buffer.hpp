@@ -37,6 +37,26 @@ class RawBuffer {
   std::size_t bytes_ = 0;
 };
 
+/// The first bytes of a buffer as host memory, to be read: in place where host and device share memory. No
+/// kernel may write to the buffer meanwhile.
+class Mapping {
+ public:
+  /// \throw Error opencl, out_of_device_memory
+  Mapping(const RawBuffer& buffer, std::size_t bytes);
+  Mapping(Mapping&& other) noexcept;
+  Mapping& operator=(Mapping&&) = delete;
+  ~Mapping();
+
+  const std::byte* data() const { return data_; }
+  /// Ends it; nothing may be read any more. \throw Error opencl
+  void end();
+
+ private:
+  std::shared_ptr<Context> context_;
+  cl_mem memory_;
+  std::byte* data_ = nullptr;
+};
+
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);

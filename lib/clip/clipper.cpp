@@ -105,14 +105,28 @@ void Clipper::reserve_rows(std::size_t rows, const Capacity& capacity) {
 
 void Clipper::read_rows(const Capacity& capacity, PieceBatch& batch) {
   if (!reader_) reader_.emplace(scene_.context());
-  reader_->begin(memory_.faces, static_cast<std::size_t>(capacity.faces), batch.face_offset);
+  const auto room = static_cast<std::size_t>(capacity.faces);
+  const bool walls_alone = (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) == OUTPUT_WALLS;
+  reader_->begin(memory_.faces, room, batch.face_offset, walls_alone && !scene_.float32());
+  if (reader_->lends()) {
+    batch.lent_border = reader_->lend<std::int32_t>(memory_.border.raw());
+    batch.lent_wall = reader_->lend<double>(memory_.wall);
+    batch.room = room;
+    return;
+  }
   reader_->read(memory_.border, 1, batch.border);
   if (outputs_ & OUTPUT_WALLS) reader_->read_reals(memory_.wall, scene_.float32(), 1, batch.wall);
   if (!(outputs_ & OUTPUT_GEOMETRY)) return;
-  reader_->begin(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset);
+  reader_->begin(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset, false);
   reader_->read_reals(memory_.vertex, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),
                       batch.vertex);
   if (scene_.mesh().cell_dimension == 3) reader_->read(memory_.link, 6, batch.link);
+}
+
+void Clipper::take_back_rows() {
+  if (!reader_) return;
+  for (std::size_t k = 0; k < memory_.pieces.used; ++k) memory_.pieces.batches[k].keep();
+  reader_->take_back();
 }
 
 void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, int round, Outcome& outcome) {
@@ -122,6 +136,7 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
   std::transform(active.begin(), active.end(), launch_ranks_.begin(),
                  [&](std::uint32_t pair) { return pair_seed_[pair]; });
   candidates_.prepare(launch_ranks_, round);
+  take_back_rows();
   memory_.active.upload(active);
   memory_.status.resize(rows);
   reserve_rows(rows, capacity);
@@ -153,6 +168,8 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
       if (launch_status_[row] == PIECE_TANGLED) outcome.tangled.push_back(active[row]);
     }
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
+  rows_of_launch.lent_border = nullptr;
+  rows_of_launch.repeats = false;
   if (wants_rows()) read_rows(capacity, rows_of_launch);
 }
 
@@ -168,6 +185,12 @@ void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {
     statistics_.rounds = std::max(statistics_.rounds, round + 1);
     pending = outcome.more;
   }
+}
+
+ClipMemory Clipper::release() && {
+  memory_.pieces.used = 0;
+  take_back_rows();
+  return std::move(memory_);
 }
 
 void Clipper::write_moments(const List& pairs, std::span<const double> moments) {
@@ -249,6 +272,8 @@ void Clipper::finish_on_host(const List& pairs) {
 
 Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
                              std::span<const std::uint32_t> pair_region) {
+  memory_.pieces.used = 0;  // nobody needs those of the last chunk
+  take_back_rows();
   pair_seed_ = pair_seed;
   pair_region_ = pair_region;
   const std::size_t count = pair_seed.size();
@@ -259,7 +284,6 @@ Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
   memory_.pieces.status.resize(count);
   memory_.pieces.batch.resize(count);
   memory_.pieces.row.resize(count);
-  memory_.pieces.used = 0;
   List pending(count);
   std::iota(pending.begin(), pending.end(), 0U);
   return pending;

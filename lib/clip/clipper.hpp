@@ -48,7 +48,7 @@ class Clipper {
           std::optional<ClipMemory> memory = {});
 
   /// Its memory, for the next one. Nothing may be asked of this one any more.
-  ClipMemory release() && { return std::move(memory_); }
+  ClipMemory release() &&;
 
   /// Clips pair k = (pair_seed[k], pair_region[k]), ranks ascending. Afterwards every pair has a final
   /// status; moments() holds its moments in device memory, and the result, good until the next call, its rows
@@ -77,6 +77,8 @@ class Clipper {
   /// Room for what the pairs of one launch leave.
   void reserve_rows(std::size_t rows, const Capacity& capacity);
   void read_rows(const Capacity& capacity, PieceBatch& batch);
+  /// Before the next launch writes to where rows were taken from; those of this chunk are copied.
+  void take_back_rows();
   /// Clips `active` with one rung until no pair asks for more candidates.
   void run_rung(std::size_t rung, const List& active, Outcome& outcome);
   /// Takes in the pairs of a chunk; returns all of them as pending.

@@ -10,16 +10,19 @@
 
 namespace powercell {
 
-/// Rows of one launch (kernels/clip/write.cl), one after the other; device units, coordinates relative to the
-/// seed. Row r has the faces [face_offset[r], face_offset[r+1]): all of them where geometry was asked for,
-/// else the walls alone.
+/// Rows of one launch (kernels/clip/write.cl), one after the other or where the device left them; device
+/// units, coordinates relative to the seed. Row r has the faces [face_offset[r], face_offset[r+1]): all of
+/// them where geometry was asked for, else the walls alone.
 struct PieceBatch {
-  std::vector<std::uint32_t> face_offset;    ///< rows + 1
-  std::vector<std::int32_t> border;          ///< per face: rank, or ~facet slot of the region
-  std::vector<double> wall;                  ///< per face: its measure
-  std::vector<std::uint32_t> vertex_offset;  ///< rows + 1
-  std::vector<double> vertex;                ///< dimension per vertex
-  std::vector<std::uint32_t> link;           ///< 6 per vertex (polyhedra)
+  std::vector<std::uint32_t> face_offset;     ///< rows + 1
+  std::vector<std::int32_t> border;           ///< per face: rank, or ~facet slot of the region
+  std::vector<double> wall;                   ///< per face: its measure
+  std::vector<std::uint32_t> vertex_offset;   ///< rows + 1
+  std::vector<double> vertex;                 ///< dimension per vertex
+  std::vector<std::uint32_t> link;            ///< 6 per vertex (polyhedra)
+  const std::int32_t* lent_border = nullptr;  ///< if not null, borders are here, rows `room` entries apart
+  const double* lent_wall = nullptr;
+  std::size_t room = 0;
   bool repeats = false;  ///< rows may have a seed more than once, as those that are made of several pieces
 
   /// No rows; the memory is kept.
@@ -30,7 +33,17 @@ struct PieceBatch {
     vertex_offset.clear();
     vertex.clear();
     link.clear();
+    lent_border = nullptr;
+    lent_wall = nullptr;
     repeats = false;
+  }
+  /// Copies what is lent.
+  void keep();
+  const std::int32_t* borders(std::size_t row) const {
+    return lent_border ? lent_border + row * room : border.data() + face_offset[row];
+  }
+  const double* walls(std::size_t row) const {
+    return lent_border ? lent_wall + row * room : wall.data() + face_offset[row];
   }
   std::uint32_t faces(std::size_t row) const { return face_offset[row + 1] - face_offset[row]; }
   std::uint32_t vertices(std::size_t row) const { return vertex_offset[row + 1] - vertex_offset[row]; }

@@ -18,12 +18,13 @@ RowReader::Packer::Packer(const std::shared_ptr<cl::Context>& context)
       packed(context) {}
 
 void RowReader::begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
-                      std::vector<std::uint32_t>& offset) {
+                      std::vector<std::uint32_t>& offset, bool may_lend) {
   rows_ = counts.size() - 1;
   capacity_ = capacity;
   few_ = rows_ * capacity_ <= few_entries;
+  lends_ = may_lend && !few_ && context_->info().type == DeviceInfo::Type::cpu;
   offset.resize(counts.size());
-  if (few_) {
+  if (few_ || lends_) {
     counts.download(std::span(offset));
     std::exclusive_scan(offset.begin(), offset.end(), offset.begin(), std::uint32_t{0});
   } else {
@@ -34,6 +35,11 @@ void RowReader::begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
   device_offset_ = counts.handle();
   offset_ = &offset;
   total_ = offset.back();
+}
+
+void RowReader::take_back() {
+  for (cl::Mapping& lent : lent_) lent.end();
+  lent_.clear();
 }
 
 template <class T>

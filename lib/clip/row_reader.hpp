@@ -13,7 +13,8 @@ namespace powercell {
 
 /// Count → scan → write: a kernel leaves rows with room for a fixed number of entries and says how many are
 /// in each; they are put one after the other in device memory, and only then read. A few rows are read as
-/// they are and put together on the host: that is less than what eight launches cost.
+/// they are and put together on the host: that is less than what eight launches cost. Of a CPU, which has
+/// them in the host's memory, many rows can be taken where they are.
 class RowReader {
  public:
   explicit RowReader(const std::shared_ptr<cl::Context>& context) : context_(context) {}
@@ -22,7 +23,18 @@ class RowReader {
   /// \param counts   per row, then a 0; undefined afterwards, to be kept for the reads
   /// \param offset   written: where the rows begin when put together, rows + 1
   /// \throw Error build_failed, opencl
-  void begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity, std::vector<std::uint32_t>& offset);
+  /// \param may_lend  whether rows may be taken where they are
+  void begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity, std::vector<std::uint32_t>& offset,
+             bool may_lend);
+
+  /// Whether these rows are to be taken where they are, by lend(), not by the reads.
+  bool lends() const { return lends_; }
+  /// Rows `capacity` entries apart, until take_back(). Kernels must not write to them before.
+  template <class T>
+  const T* lend(const cl::RawBuffer& rows) {
+    return reinterpret_cast<const T*>(lent_.emplace_back(rows, rows_ * capacity_ * sizeof(T)).data());
+  }
+  void take_back();
 
   /// Reads rows of entries of `width` values each.
   void read(const cl::Buffer<std::int32_t>& rows, std::size_t width, std::vector<std::int32_t>& to);
@@ -49,9 +61,10 @@ class RowReader {
   std::optional<Packer> packer_;  // of many rows
   std::vector<std::byte> raw_;
   std::vector<float> narrow_;
+  std::vector<cl::Mapping> lent_;
   cl_mem device_offset_ = nullptr;
   const std::vector<std::uint32_t>* offset_ = nullptr;
-  bool few_ = false;
+  bool few_ = false, lends_ = false;
   std::size_t rows_ = 0, capacity_ = 0, total_ = 0;
 };
 

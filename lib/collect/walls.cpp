@@ -88,8 +88,8 @@ void WallCollector::OpenRow::add(const std::int32_t* border, const double* wall,
 }
 
 void WallCollector::add_row(std::size_t part, std::uint32_t rank, const PieceBatch& batch, std::size_t row) {
-  const std::int32_t* const border = batch.border.data() + batch.face_offset[row];
-  const double* const wall = batch.wall.data() + batch.face_offset[row];
+  const std::int32_t* const border = batch.borders(row);
+  const double* const wall = batch.walls(row);
   const std::size_t faces = batch.faces(row), walls = count_walls(border, faces);
   if (walls == 0) return;
   const WallRow made = rows_.add(part, rank, walls);
@@ -149,8 +149,8 @@ void WallCollector::fill(std::size_t part, std::span<const std::uint32_t> pair_s
     for (; k < next; ++k) {
       if (!has_walls(pieces, k)) continue;
       const PieceBatch& batch = pieces.batches[pieces.batch[k]];
-      const std::size_t row = pieces.row[k], first = batch.face_offset[row];
-      open.add(batch.border.data() + first, batch.wall.data() + first, batch.faces(row));
+      const std::size_t row = pieces.row[k];
+      open.add(batch.borders(row), batch.walls(row), batch.faces(row));
     }
     close_row(part, rank);
   }

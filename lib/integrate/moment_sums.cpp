@@ -82,11 +82,9 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
       ->args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
              device_sums_)
       .launch(count);
-  sums_.resize(count * row_bytes_);
-  device_sums_.read(sums_.data(), sums_.size());
 }
 
-void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
+void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
   const bool float32 = scene_.float32();
   constexpr std::size_t ahead = 16;
@@ -102,7 +100,7 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
                      prefetch(&measures_.centroid[next * d]);
                      prefetch(&measures_.second_moment[next]);
                    }
-                   const std::byte* const row = &sums_[t * row_bytes_];
+                   const std::byte* const row = sums + t * row_bytes_;
                    const double mass = real_at(row, 0, float32);
                    if (!(mass > 0)) continue;
                    const std::size_t rank = first + t, i = seeds_.input[rank];
@@ -119,15 +117,14 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last) {
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
-  if (one_each(pair_offset, begin, end, first, last)) {
-    sums_.resize((end - begin) * row_bytes_);
-    moments.read(sums_.data(), sums_.size());
-  } else {
-    sum_on_device(pair_offset, begin, end, first, last, moments);
-  }
+  const bool summed = one_each(pair_offset, begin, end, first, last);
+  if (!summed) sum_on_device(pair_offset, begin, end, first, last, moments);
+  const std::size_t ranks = std::size_t{last} - first + 1;
+  cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);
   const bool open = pair_offset[last + 1] > end;
-  set_measures(first, open ? last : last + 1);
-  if (open) open_.assign(sums_.end() - static_cast<std::ptrdiff_t>(row_bytes_), sums_.end());
+  set_measures(first, open ? last : last + 1, sums.data());
+  if (open) open_.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
+  sums.end();
 }
 
 }  // namespace powercell

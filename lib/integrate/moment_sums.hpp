@@ -35,7 +35,8 @@ class MomentSums {
                        std::uint32_t first, std::uint32_t last);
   void sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
-  void set_measures(std::uint32_t first, std::uint32_t last);
+  /// \param sums  rows of the ranks from `first` on
+  void set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums);
 
   const Scene& scene_;
   const SeedSet& seeds_;
@@ -45,8 +46,7 @@ class MomentSums {
   cl::Buffer<std::uint32_t> offset_;
   cl::RawBuffer before_, device_sums_;
   std::vector<std::uint32_t> chunk_offset_;
-  std::vector<std::byte> sums_,
-      open_;  // rows in the device's precision; open_: that of the rank that goes on
+  std::vector<std::byte> open_;  // the row of the rank that goes on, in the device's precision
   Measures measures_;
 };
 
