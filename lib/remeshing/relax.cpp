@@ -1,11 +1,10 @@
 #include "lib/remeshing/relax.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
+#include "lib/remeshing/star.hpp"
 #include "lib/remeshing/triangle.hpp"
 
 namespace powercell::remeshing {
@@ -13,27 +12,11 @@ namespace {
 
 using Row = WorkMesh::Row;
 
-Vec surface_normal(const Surface& surface, std::uint32_t t) {
-  return unit(normal_of(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)));
-}
+using Cost = double (*)(Vec, Vec, Vec);  ///< of the corners of a triangle
 
-using Cost = double (*)(Vec, Vec, Vec);  ///< of the corners of a triangle: largest_cosine or misshape
-
-constexpr double worst = std::numeric_limits<double>::infinity();  ///< of a triangle that must not be
-
-/// Largest cost of the triangles around v with v at `at`; `worst` where one turns over.
-double cost_around(const WorkMesh& mesh, std::uint32_t v, Vec at, Cost cost) {
-  double most = -1;
-  for (const std::uint32_t t : mesh.around(v)) {
-    const Row& row = mesh.triangle(t);
-    std::array<Vec, 3> old{mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])}, corner = old;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (row[k] == v) corner[k] = at;
-    const Vec before = normal_of(old[0], old[1], old[2]), after = normal_of(corner[0], corner[1], corner[2]);
-    if (dot(before, after) <= 0.5 * norm(before) * norm(after)) return worst;
-    most = std::max(most, cost(corner[0], corner[1], corner[2]));
-  }
-  return most;
+/// Above 1 where the last steps work on a triangle.
+double shape_cost(Vec a, Vec b, Vec c) {
+  return misshape(a, b, c, 0.7);
 }
 
 /// The larger cost of the two triangles of an edge after a flip; `worst` where they would fold.
@@ -101,31 +84,13 @@ void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
   }
 }
 
-/// Of eight points at `length` around vertex v in its tangent plane the one of least cost, if below `least`.
-template <class CostAt>
-std::optional<Vec> best_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, double length,
-                               double least, const CostAt& cost) {
-  const Vec n = surface_normal(surface, mesh.vertex(v).place.triangle), at = mesh.at(v);
-  const Vec u = unit(std::fabs(n.x) < 0.7 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), w = cross(n, u);
-  std::optional<Vec> best;
-  for (int k = 0; k < 8; ++k) {
-    const double angle = k * std::numbers::pi / 4;
-    const Vec to = at + u * (length * std::cos(angle)) + w * (length * std::sin(angle));
-    const double here = cost(to);
-    if (here >= least) continue;
-    least = here;
-    best = to;
-  }
-  return best;
-}
-
 /// Moves a vertex in its tangent plane where that makes the worst triangle around it better.
 bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v) {
-  const double before = cost_around(mesh, v, mesh.at(v), misshape);
-  const auto cost = [&](const Vec& to) { return cost_around(mesh, v, to, misshape); };
+  const double before = cost_around(mesh, v, mesh.at(v), shape_cost);
+  const auto cost = [&](const Vec& to) { return cost_around(mesh, v, to, shape_cost); };
   for (double step = 0.2; step > 0.01; step /= 2) {
     const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before - 1e-3, cost);
-    if (best && try_move(mesh, surface, sizing, v, *best, before - 1e-4, misshape)) return true;
+    if (best && try_move(mesh, surface, sizing, v, *best, before - 1e-4, shape_cost)) return true;
   }
   return false;
 }
@@ -160,12 +125,12 @@ void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, doubl
   }
 }
 
-/// Works on the vertices of the triangles whose misshape is above 1.
+/// Works on the vertices of the triangles whose shape cost is above 1.
 void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes) {
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<std::uint32_t> bad;
     for (const Row& row : mesh.triangles())
-      if (row[0] != row[1] && misshape(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])) > 1)
+      if (row[0] != row[1] && shape_cost(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])) > 1)
         bad.insert(bad.end(), row.begin(), row.end());
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
@@ -174,7 +139,7 @@ void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, in
       for (const std::uint32_t u : mesh.neighbors(v)) {
         const auto e = mesh.edge(v, u);
         if (!e || !mesh.can_flip(*e)) continue;
-        if (cost_flipped(mesh, *e, misshape) >= cost_of(mesh, *e, misshape) - 0.005) continue;
+        if (cost_flipped(mesh, *e, shape_cost) >= cost_of(mesh, *e, shape_cost) - 0.005) continue;
         mesh.flip(*e);
         any = true;
       }

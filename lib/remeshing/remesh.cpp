@@ -10,12 +10,16 @@
 #include "lib/remeshing/dual.hpp"
 #include "lib/remeshing/even_mass.hpp"
 #include "lib/remeshing/farthest.hpp"
+#include "lib/remeshing/fit.hpp"
 #include "lib/remeshing/frame.hpp"
 #include "lib/remeshing/relax.hpp"
 #include "lib/remeshing/work_mesh.hpp"
 
 namespace powercell {
 namespace {
+
+/// More of them come nearer still and cost shape (docs/applications.md).
+constexpr int fit_passes = 2;
 
 using namespace remeshing;
 
@@ -102,6 +106,7 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
 
   reach_count(mesh, surface, sizing, options.count);
   relax(mesh, surface, sizing, options.relaxations);
+  if (options.relaxations > 0) fit(mesh, surface, sizing, fit_passes);
   store(mesh, frame, result);
   result.seconds_relax = watch.lap();
   return result;

@@ -39,8 +39,8 @@ double largest_cosine(Vec a, Vec b, Vec c) {
   return product > 0 ? (u + v + w - 2 * s) / (2 * std::sqrt(product)) : 1;
 }
 
-double misshape(Vec a, Vec b, Vec c) {
-  constexpr double cosine_40 = 0.76604444311897804, good = 0.70;
+double misshape(Vec a, Vec b, Vec c, double good) {
+  constexpr double cosine_40 = 0.76604444311897804;
   return std::max(largest_cosine(a, b, c) / cosine_40, (1 - triangle_quality(a, b, c)) / (1 - good));
 }
 

@@ -12,7 +12,7 @@ Vec nearest_in_triangle(Vec x, Vec a, Vec b, Vec c);
 double triangle_quality(Vec a, Vec b, Vec c);
 /// The cosine of the least angle.
 double largest_cosine(Vec a, Vec b, Vec c);
-/// At most 1 where no angle is below 40 degrees and the quality is .7 at least, the more the worse.
-double misshape(Vec a, Vec b, Vec c);
+/// At most 1 where no angle is below 40 degrees and the quality is `good` at least, the more the worse.
+double misshape(Vec a, Vec b, Vec c, double good);
 
 }  // namespace powercell::remeshing

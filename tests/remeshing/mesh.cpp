@@ -8,6 +8,7 @@
 
 #include "lib/remeshing/cell_parts.hpp"
 #include "lib/remeshing/farthest.hpp"
+#include "lib/remeshing/fit.hpp"
 #include "lib/remeshing/mesh_check.hpp"
 #include "lib/remeshing/nearest.hpp"
 #include "lib/remeshing/relax.hpp"
@@ -126,6 +127,52 @@ TEST_CASE("a point is projected to the nearest one near by") {
   }
 }
 
+TEST_CASE("fitting brings the farthest triangles nearer and spoils none") {
+  std::size_t nearer = 0;
+  for (const NamedMesh& shape : smooth_meshes()) {
+    CAPTURE(shape.name);
+    const Surface surface = surface_from(shape.mesh);
+    const Sizing sizing = scaled_sizing(surface, std::vector<double>(surface.vertex.size(), 1.0), 0.3, 300);
+    Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
+    sampling.place_on_curves(300);
+    fill_farthest(sampling, 300);
+    WorkMesh mesh(sampling, mend(sampling, 600));
+    relax(mesh, surface, sizing, 10);
+    std::vector<std::array<Vec, 3>> input;
+    for (std::uint32_t t = 0; t < surface.size(); ++t)
+      input.push_back({surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)});
+    const NearestPoint nearest(input);
+    const auto figures = [&] {
+      double farthest = 0, shape_cost = 0;
+      for (const auto& row : mesh.triangles()) {
+        if (row[0] == row[1]) continue;
+        const Vec a = mesh.at(row[0]), b = mesh.at(row[1]), c = mesh.at(row[2]);
+        for (const Vec x : {(a + b + c) * (1.0 / 3), (a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5})
+          farthest = std::max(farthest, nearest.distance2(x));
+        shape_cost = std::max(shape_cost, misshape(a, b, c, 0.74));
+      }
+      return std::pair(farthest, shape_cost);
+    };
+    const auto [far_before, shape_before] = figures();
+    const std::vector<WorkMesh::Row> rows_before = mesh.triangles();
+    fit(mesh, surface, sizing, 3);
+    const auto [far_after, shape_after] = figures();
+    CHECK(far_after <= far_before);
+    CHECK(shape_after <= std::max(1.0, shape_before));
+    nearer += far_after < 0.9 * far_before ? 1 : 0;
+    Rows rows;
+    for (const auto& row : mesh.triangles())
+      if (row[0] != row[1]) rows.push_back(row);
+    const MeshCheck check = check_mesh(rows, mesh.vertex_count());
+    CHECK(check.not_manifold.empty());
+    CHECK(check.euler == surface.euler_characteristic());
+    CHECK(rows.size() ==
+          static_cast<std::size_t>(std::count_if(rows_before.begin(), rows_before.end(),
+                                                 [](const auto& row) { return row[0] != row[1]; })));
+  }
+  CHECK(nearer >= 3);
+}
+
 TEST_CASE("figures of single triangles") {
   const Vec a{0, 0, 0}, b{1, 0, 0}, c{0.5, std::sqrt(0.75), 0}, d{0, 1, 0};
   CHECK(triangle_quality(a, b, c) == doctest::Approx(1));
@@ -133,13 +180,13 @@ TEST_CASE("figures of single triangles") {
   // Right and isosceles: area 1/2, half perimeter 1 + sqrt(1/2), longest sqrt(2).
   CHECK(triangle_quality(a, b, d) == doctest::Approx(std::sqrt(3.0) / (std::sqrt(2.0) + 1)));
   CHECK(std::acos(largest_cosine(a, b, d)) == doctest::Approx(std::numbers::pi / 4));
-  CHECK(misshape(a, b, d) < 1);
+  CHECK(misshape(a, b, d, 0.7) < 1);
   const Vec needle{0.5, 2, 0}, blunt{0.5, 0.45, 0};  // one angle of 28 degrees; two of 42 and one of 96
-  CHECK(misshape(a, b, needle) ==
+  CHECK(misshape(a, b, needle, 0.7) ==
         doctest::Approx(largest_cosine(a, b, needle) / std::cos(40 * std::numbers::pi / 180)));
-  CHECK(misshape(a, b, needle) > 1);
+  CHECK(misshape(a, b, needle, 0.7) > 1);
   CHECK(largest_cosine(a, b, blunt) < std::cos(40 * std::numbers::pi / 180));
-  CHECK(misshape(a, b, blunt) > 1);
+  CHECK(misshape(a, b, blunt, 0.7) > 1);
 }
 
 TEST_CASE("figures of meshes") {

@@ -86,7 +86,7 @@ TEST_CASE("farthest-point optimisation reaches the quality that it promises") {
     CAPTURE(shape.name);
     RemeshOptions options;
     options.count = 600;
-    options.rounds = 3;
+    options.rounds = 10;
     const RemeshResult result = remesh(shape.mesh.vertices, shape.mesh.triangles, options);
     const MeshQuality quality = mesh_quality(result.mesh.vertices, result.mesh.triangles);
     CHECK(quality.q_min > 0.6);
