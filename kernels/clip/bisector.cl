@@ -25,10 +25,15 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
   return s > tolerance || (s >= -tolerance && (uint)border < cell->at.self) ? border : old;
 }
 
+/* The gap of a cell that a bisector touches. What is behind a face may be another seed from then on, whose bisector is not
+   the plane that the face was made in: the shape cannot be proved from its planes. */
+#define TOUCHED_GAP ((real)-1)
+
 /* For a cell that is empty since all of it is beyond the plane: how far, at least, or below 0 if that is not certain.
    The cell is no longer usable. */
 static inline real outside_gap(cell_t* cell, const real* q, real level, real sum, real error) {
   real normal[DIMENSION];
+  if (cell->at.gap <= TOUCHED_GAP) return -1;
   UNROLL for (int k = 0; k < DIMENSION; ++k) normal[k] = -q[k];
   find_sides(&cell->at, normal, -level); /* free slots hold 0, which may be on the other side */
   const real gap = (-most_of_used(&cell->at) - error) / (2 * sum);
@@ -55,7 +60,7 @@ static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border)
   }
   if (cut == CUT_EMPTY)
     cell->at.gap = quickly_certain(&cell->at) ? (real)1 : OUTSIDE_GAP(cell, q, q2 + dw, sum, error);
-  if (cut == CUT_TOUCH || cut == CUT_WITHIN) cell->at.gap = -1;
+  if (cut == CUT_TOUCH || cut == CUT_WITHIN) cell->at.gap = TOUCHED_GAP;
   if (cut == CUT_WITHIN) return cell->at.self < (uint)border ? CUT_NONE : CUT_EMPTY;
   if (cut != CUT_TOUCH) return cut;
   for (int f = 0; f < cell_faces(cell); ++f)

@@ -27,6 +27,7 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
 /* Whether a piece that nothing can cut any more is what it would be without rounding: its own shape is certain, and
    no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better afterwards. */
 static inline bool whole_is_certain(cell_t* cell) {
+  if (!(cell->at.gap > 0)) return false; /* before vertices move: a face that was touched has no plane to put them in */
   const real moved = cell_certain(cell);
   return moved >= 0 && moved + cell->at.drift < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius;
 }

@@ -293,6 +293,27 @@ TEST_CASE("few pairs are found that meet in nothing") {
   }
 }
 
+TEST_CASE("facets that lie in a bisector, after cells that left other planes in private memory") {
+  Caller caller;
+  const Ring outer{{-1, -1}, {2, -1}, {2, 2}, {-1, 2}}, hole{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  const Domain domain = Domain::polygon(std::vector<PolygonPart>{{outer, {hole}}});
+  const SeedArray mirrored{2, {-3.5, 0.5, 0.5, -3.5}, {0, 0}};  // of one another in the diagonal
+  Random random(test_seed());
+  for (const Precision precision : caller.fp64() ? std::vector{Precision::float64, Precision::float32}
+                                                 : std::vector{Precision::float32}) {
+    Options options;
+    options.precision = precision;
+    DeviceDiagram diagram(caller.device(), domain, options);
+    for (int round = 0; round < 20; ++round) {
+      SeedArray others{2, {}, {}};
+      for (int k = 0; k < 17; ++k) others.push({random.uniform(-4, 4), random.uniform(-4, 4)}, 0);
+      run(caller, diagram, others.view());
+      const Output found = run(caller, diagram, mirrored.view());
+      for (const double mass : found.mass) CHECK(mass == doctest::Approx(4.375).epsilon(1e-5));
+    }
+  }
+}
+
 TEST_CASE("results do not depend on the size of launches") {
   Caller caller;
   Random random(test_seed());

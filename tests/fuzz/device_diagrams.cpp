@@ -110,9 +110,13 @@ void run(Input& input, const Domain& domain, Precision precision) {
   const SeedsView view{domain.dimension(), valid.positions, valid.weights};
   const double allowed = sum_doubt(domain, n, plane_error(domain, view, precision));
   const double least = precision == Precision::float32 ? 1e-5 : 1e-12;
-  if (allowed < 0.01)
-    require(std::fabs(total - domain.measure()) <= (least + 8 * allowed) * domain.measure(),
-            "the masses sum to " + std::to_string(total) + " of " + std::to_string(domain.measure()));
+  if (allowed >= 0.01 || std::fabs(total - domain.measure()) <= (least + 8 * allowed) * domain.measure())
+    return;
+  std::string what = "the masses do not sum to the domain's; parts of it, with statuses:";
+  for (std::size_t i = 0; i < n; ++i)
+    what +=
+        " " + std::to_string(rows[i * (2 + d)] / domain.measure()) + " (" + std::to_string(status[i]) + ")";
+  throw Finding(what);
 }
 
 }  // namespace
