@@ -162,23 +162,28 @@ bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* see
   return true;
 }
 
-bool PlaneSearch::in_plane(std::uint32_t plane, std::uint32_t v) const {
+/// Sets in_plane_ to the vertices of the near facets in the plane.
+void PlaneSearch::gather_vertices(std::uint32_t plane) {
+  in_plane_.clear();
   for (const std::uint32_t f : near_)
-    if (b_.plane_[f] == plane && (vertex(f, 0) == v || vertex(f, 1) == v || vertex(f, 2) == v)) return true;
-  return false;
+    if (b_.plane_[f] == plane)
+      for (std::size_t k = 0; k < 3; ++k) in_plane_.push_back(vertex(f, k));
+  std::sort(in_plane_.begin(), in_plane_.end());
 }
 
+/// Where a corner is, after gather_vertices(plane).
 int PlaneSearch::side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const {
-  if (in_plane(plane, vertex(facet, k))) return 0;
+  if (std::binary_search(in_plane_.begin(), in_plane_.end(), vertex(facet, k))) return 0;
   const std::uint32_t* a = &b_.mesh_.region_vertex[std::size_t{plane} * 3];
   return side_of_plane(b_.mesh_.vertices, a[0], a[1], a[2],
                        b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
 }
 
 /// Whether each facet is inside the planes of all others, and in none of them.
-bool PlaneSearch::convex_around() const {
+bool PlaneSearch::convex_around() {
   if (plane_.size() < 2) return true;
-  for (const std::uint32_t plane : plane_)
+  for (const std::uint32_t plane : plane_) {
+    gather_vertices(plane);
     for (const std::uint32_t facet : near_) {
       if (b_.plane_[facet] == plane) continue;
       bool within = true;
@@ -189,6 +194,7 @@ bool PlaneSearch::convex_around() const {
       }
       if (within) return false;
     }
+  }
   return true;
 }
 

@@ -48,14 +48,15 @@ class PlaneSearch {
   std::uint32_t vertex(std::uint32_t facet, std::size_t k) const;
   bool gather(std::size_t level, std::size_t group, const double* seed, const CellHull& cell);
   Meeting meets_box(std::uint32_t facet, const double* seed, const CellHull& cell) const;
-  bool convex_around() const;
+  bool convex_around();
+  void gather_vertices(std::uint32_t plane);
   int side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const;
-  bool in_plane(std::uint32_t plane, std::uint32_t vertex) const;
   LocalPlane plane_of(std::uint32_t facet, const double* seed, double reach) const;
 
   const BoundaryPlanes& b_;
-  std::vector<std::uint32_t> near_;   // facets that meet the box of the cell
-  std::vector<std::uint32_t> plane_;  // planes of those
+  std::vector<std::uint32_t> near_;      // facets that meet the box of the cell
+  std::vector<std::uint32_t> plane_;     // planes of those
+  std::vector<std::uint32_t> in_plane_;  // ascending: vertices of those in the plane that is looked at
 };
 
 }  // namespace powercell::pairs
