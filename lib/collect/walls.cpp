@@ -28,8 +28,7 @@ WallRows::WallRows(std::size_t ranks, std::size_t parts, Memory memory)
     : place_(ranks), memory_(std::move(memory)) {
   memory_.resize(parts);
   for (GrowingArray<std::uint32_t>& words : memory_) words.resize(0);
-  memory_.front().resize(2 + WallRow::lanes);
-  memory_.front().resize(2);
+  memory_.front().resize(WallRow::words_for(0));
   *memory_.front().data() = 0;
 }
 
@@ -38,9 +37,7 @@ WallRow WallRows::add(std::size_t part, std::uint32_t rank, std::size_t count) {
   const std::size_t first = words.size();
   // The rows so far tell about how many words there will be; where nothing is written no memory is taken.
   const double ranks = static_cast<double>(place_.size()), so_far = static_cast<double>(rank) + 1;
-  words.resize(first + WallRow::words_for(count) + WallRow::lanes,
-               std::clamp(1.05 * ranks / so_far, 1.25, 4.0));
-  words.resize(first + WallRow::words_for(count));
+  words.resize(first + WallRow::words_for(count), std::clamp(1.05 * ranks / so_far, 1.25, 4.0));
   place_[rank].part = part & 0xffff;
   place_[rank].word = first & 0xffffffffffff;
   words.data()[first] = static_cast<std::uint32_t>(count);

@@ -17,11 +17,12 @@ namespace powercell {
 /// The walls of one cell; memory owned elsewhere. Their number comes first and measures stand behind the
 /// neighbours, so that a row is one piece of memory.
 struct WallRow {
-  static constexpr std::uint32_t lanes =
-      8;  ///< so many neighbours can be read at a time, also beyond the last
+  static constexpr std::uint32_t lanes = 8;  ///< there is room for whole vectors of so many neighbours
   std::uint32_t* words;
 
-  static constexpr std::size_t words_before_measures(std::size_t walls) { return (walls + 2) / 2 * 2; }
+  static constexpr std::size_t words_before_measures(std::size_t walls) {
+    return 2 + (walls + lanes - 1) / lanes * lanes;
+  }
   static constexpr std::size_t words_for(std::size_t walls) {
     return words_before_measures(walls) + 2 * walls;
   }
