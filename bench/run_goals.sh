@@ -28,6 +28,7 @@ fi
 large=1000000 largest2=10000000 largest3=3000000
 [ $quick = no ] || { large="" largest2=100000 largest3=100000; }
 some=${large:-100000}
+rounds="--seconds 5 --rounds 60 --least-rounds 2"
 # run PART FILE ARGUMENT...: times works.
 run() { part=$1 file=$2; shift 2; "$matrix" time --part "$part" --out "$out/$file.json" "$@"; }
 for part in $parts; do
@@ -35,12 +36,12 @@ for part in $parts; do
     ratios)
       # A peer far behind the best one at fewer seeds cannot be the best; it is not waited for.
       # shellcheck disable=SC2086 # no 1e6 when quick
-      # Two rounds, since the first may compile a larger variant of a kernel.
+      # At least two rounds, since the first may compile a larger variant of a kernel; many of what takes milliseconds.
       for domain in box3 box2; do
-        run ratios "$domain" --domain $domain --ours adjacency:tree --drop 1.4 --seconds 5 --least-rounds 2 --n 100000 $large
+        run ratios "$domain" --domain $domain --ours adjacency:tree --drop 1.4 $rounds --n 100000 $large
       done
       for domain in surface tets; do
-        run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree --least-rounds 2 --n 5000 100000
+        run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree $rounds --n 5000 100000
       done ;;
     growth)
       # The first of two runs pays for new memory, which weighs most where n is largest.
