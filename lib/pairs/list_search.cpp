@@ -24,16 +24,15 @@ std::array<const double*, D + 1> pointers(const SeedColumns<D>& columns) {
   return to;
 }
 
-/// Fills `place` with those of 0 .. count-1 that have no excess, and returns how many.
-std::size_t without_excess(std::size_t count, const std::vector<double>& excess,
-                           std::vector<std::uint32_t>& place) {
+/// `place` becomes those of 0 .. count-1 that have no excess.
+void without_excess(std::size_t count, const std::vector<double>& excess, std::vector<std::uint32_t>& place) {
   place.resize(count);
   std::size_t kept = 0;
   for (std::size_t s = 0; s < count; ++s) {
     place[kept] = static_cast<std::uint32_t>(s);
     kept += excess[s] > 0 ? 0 : 1;
   }
-  return kept;
+  place.resize(kept);
 }
 
 template <int D>
@@ -69,13 +68,15 @@ void ListSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Seed
   // The owner of the middle excludes what is far away, so that the others need not look at it.
   excess_.assign(from.size(), 0.0);
   test_by_owner(from);
-  near_.pick(from, kept_.data(), without_excess(from.size(), excess_, kept_));
+  without_excess(from.size(), excess_, kept_);
+  near_.pick(from, kept_);
   excess_.assign(near_.size(), 0.0);
   for (std::size_t v = 0; v < std::size_t{1} << D; ++v) {
     for (std::size_t k = 0; k < D; ++k) x[k] = (v >> k & 1) != 0 ? size[k] : 0.0;
     test_by_owner(near_);
   }
-  to.pick(near_, kept_.data(), without_excess(near_.size(), excess_, kept_));
+  without_excess(near_.size(), excess_, kept_);
+  to.pick(near_, kept_);
 }
 
 /// The place of the seed of least power distance.
@@ -152,17 +153,17 @@ void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> 
   add_tester(from, half.part, tester_.front());
   for (const CornerValues& upper : known)
     loops::raise_excess(from.count, half.part.corners, lower_.data(), upper.data(), excess_.data());
-  std::size_t kept = without_excess(from.count, excess_, kept_);
-  if (kept > few_seeds) {
+  without_excess(from.count, excess_, kept_);
+  if (kept_.size() > few_seeds) {
     for (std::size_t v = 0; v < half.part.corners; ++v) {
       const auto least = static_cast<std::uint32_t>(loops::least(from.count, lower_[v]));
       if (std::find(tester_.begin(), tester_.end(), least) != tester_.end()) continue;
       tester_.push_back(least);
       add_tester(from, half.part, least);
     }
-    kept = without_excess(from.count, excess_, kept_);
+    without_excess(from.count, excess_, kept_);
   }
-  keep(from, kept, half);
+  keep(from, half);
 }
 
 /// Sets lower_ for the corners of the part, to what the source has where it has the corner.
@@ -183,9 +184,10 @@ void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
   }
 }
 
-/// Fills `half` with the first `kept` of kept_.
+/// Fills `half` with those at kept_.
 template <int D>
-void ListSearch<D>::keep(const Source& from, std::size_t kept, Level& half) {
+void ListSearch<D>::keep(const Source& from, Level& half) {
+  const std::size_t kept = kept_.size();
   half.index.resize(kept);
   for (std::size_t s = 0; s < kept; ++s)
     half.index[s] = from.level != nullptr ? from.level->index[kept_[s]] : kept_[s];

@@ -56,7 +56,7 @@ class ListSearch {
   void narrow_to(const Source& from, std::span<const CornerValues> known, Level& half);
   void find_bounds(const Source& from, const Part<D>& part);
   void add_tester(const Source& from, const Part<D>& part, std::size_t seed);
-  void keep(const Source& from, std::size_t kept, Level& half);
+  void keep(const Source& from, Level& half);
   void finish(Level& level);
 
   const SeedList<D>* seeds_ = nullptr;

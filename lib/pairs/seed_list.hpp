@@ -30,8 +30,9 @@ struct SeedList {
     for (std::size_t k = 0; k < D; ++k) column[k].push_back(seeds.positions[std::size_t{r} * D + k]);
     column[D].push_back(seeds.weights[r] - reference);
   }
-  /// Becomes the seeds of `from` at `count` places.
-  void pick(const SeedList& from, const std::uint32_t* place, std::size_t count) {
+  /// Becomes the seeds of `from` at these places.
+  void pick(const SeedList& from, const std::vector<std::uint32_t>& place) {
+    const std::size_t count = place.size();
     rank.resize(count);
     for (std::size_t s = 0; s < count; ++s) rank[s] = from.rank[place[s]];
     for (std::size_t k = 0; k <= D; ++k) {
