@@ -22,6 +22,14 @@ namespace {
 using namespace remeshing;
 using Rows = std::vector<std::array<std::uint32_t, 3>>;
 
+/// By farthest points, as the dual has it.
+WorkMesh mesh_of_300(const Surface& surface, const Sizing& sizing) {
+  Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
+  sampling.place_on_curves(300);
+  fill_farthest(sampling, 300);
+  return WorkMesh(sampling, mend(sampling, 600));
+}
+
 }  // namespace
 
 TEST_CASE("lists of triangles that are no manifold are told from those that are") {
@@ -69,10 +77,7 @@ TEST_CASE("flips, collapses and splits leave a manifold of the same topology") {
     CAPTURE(shape.name);
     const Surface surface = surface_from(shape.mesh);
     const Sizing sizing = scaled_sizing(surface, std::vector<double>(surface.vertex.size(), 1.0), 0.3, 300);
-    Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
-    sampling.place_on_curves(300);
-    fill_farthest(sampling, 300);
-    WorkMesh mesh(sampling, mend(sampling, 600));
+    WorkMesh mesh = mesh_of_300(surface, sizing);
     const std::size_t start = mesh.alive();
     int flips = 0, collapses = 0, splits = 0;
     for (int step = 0; step < 3000; ++step) {
@@ -133,10 +138,7 @@ TEST_CASE("fitting brings the farthest triangles nearer and spoils none") {
     CAPTURE(shape.name);
     const Surface surface = surface_from(shape.mesh);
     const Sizing sizing = scaled_sizing(surface, std::vector<double>(surface.vertex.size(), 1.0), 0.3, 300);
-    Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
-    sampling.place_on_curves(300);
-    fill_farthest(sampling, 300);
-    WorkMesh mesh(sampling, mend(sampling, 600));
+    WorkMesh mesh = mesh_of_300(surface, sizing);
     relax(mesh, surface, sizing, 10);
     std::vector<std::array<Vec, 3>> input;
     for (std::uint32_t t = 0; t < surface.size(); ++t)
