@@ -109,7 +109,7 @@ static inline void start_basis(basis_t* basis, const room_t* room, real size) {
   basis->dual[DIMENSION] = START_RADIUS * 2 * size * size;
 }
 
-/* The rival that is violated most at the present point; its value there less t in `excess`, below 0 if it is. */
+/* The rival whose value level - q.(2y) is least at the present point; below 0 that point is the rival's. */
 static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real* value) {
   real8 worst = all_lanes(REAL_MAX / 4);
   for (int k = 0; k < rivals->leaves; ++k) {
@@ -134,7 +134,7 @@ static inline int leaving_column(const real* multiple, real4 column, real4 inver
   return ratio[leaving] < REAL_MAX ? leaving : -1;
 }
 
-/* Puts `rival`, violated by `excess`, into the basis; returns whether there was room for it. */
+/* Puts `rival` into the basis, `excess` being its value less t; returns whether there was room for it. */
 static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival, real excess) {
   real q[DIMENSION], u[4];
   real4 column = vload4(0, basis->inverse[DIMENSION]);
@@ -159,7 +159,7 @@ static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival
 }
 
 /* Whether the basis proves that nothing of the box is i's: a sum of its inequalities with multiples that are not
-   negative holds nowhere in it, with all errors (docs/mathematics.md (10d)). */
+   negative holds nowhere in it, with all errors (docs/mathematics.md (10c)). */
 static inline bool basis_proves(const basis_t* basis, const room_t* room) {
   real sum = 0, error = 0, q[DIMENSION];
   UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = 0;

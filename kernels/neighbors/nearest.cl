@@ -3,37 +3,6 @@
 #define POWERCELL_NEIGHBORS_NEAREST
 #include "neighbors/near.cl"
 
-#define NEAREST_MOST 12
-
-/* Up to `most`, nearest first. */
-typedef struct {
-  uint leaf[NEAREST_MOST];
-  real distance[NEAREST_MOST];
-  int count, most;
-} nearest_t;
-
-static inline nearest_t nothing_near(int most) {
-  nearest_t near;
-  near.count = 0;
-  near.most = most;
-  return near;
-}
-
-/* What is farther than this is not wanted. */
-static inline real nearest_reach(const nearest_t* near) {
-  return near->count < near->most ? REAL_MAX : near->distance[near->most - 1];
-}
-
-static inline void insert_nearest(nearest_t* near, uint leaf, real distance) {
-  int at = near->count < near->most ? near->count++ : near->most - 1;
-  for (; at > 0 && distance < near->distance[at - 1]; --at) {
-    near->distance[at] = near->distance[at - 1];
-    near->leaf[at] = near->leaf[at - 1];
-  }
-  near->distance[at] = distance;
-  near->leaf[at] = leaf;
-}
-
 /* Lifted distances of the children of a node from the home; returns a bit for each that is below `reach`. */
 static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level, real reach,
                                    real* distance) {

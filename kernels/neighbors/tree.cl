@@ -7,8 +7,8 @@
 #define TREE_LEVELS 12 /* 8^11 leaves hold more seeds than a rank can number */
 #define TREE_STACK (7 * TREE_LEVELS + 8)
 #define NEAR_LEAVES (CELL_DIMENSION == 3 ? 8 : 4) /* leaves whose seeds are tried first */
-#define NEAR_LEAVES_MOST 8
-#define NEAR_SEEDS 64 /* NEAR_LEAVES_MOST * TREE_FAN */
+#define NEAR_SEEDS 64 /* most in them */
+#define NEAREST_MOST 12
 
 typedef struct {
   __global const seed_t* seeds;       /* by rank */
@@ -73,34 +73,55 @@ static inline real bisector_distance(seed_t seed, seed_t other) {
   return (q2 + weight_difference(seed, other)) / sqrt(q2);
 }
 
-/* The NEAR_LEAVES leaves nearest to the seed, nearest first; returns how many there are. */
-static inline int find_near_leaves(tree_t tree, seed_t seed, stack_t* stack, uint* leaf) {
-  real best[NEAR_LEAVES_MOST];
-  int found = 0;
+/* Up to `most` leaves, nearest first. */
+typedef struct {
+  uint leaf[NEAREST_MOST];
+  real distance[NEAREST_MOST];
+  int count, most;
+} nearest_t;
+
+static inline nearest_t nothing_near(int most) {
+  nearest_t near;
+  near.count = 0;
+  near.most = most;
+  return near;
+}
+
+/* What is farther than this is not wanted. */
+static inline real nearest_reach(const nearest_t* near) {
+  return near->count < near->most ? REAL_MAX : near->distance[near->most - 1];
+}
+
+static inline void insert_nearest(nearest_t* near, uint leaf, real distance) {
+  int at = near->count < near->most ? near->count++ : near->most - 1;
+  for (; at > 0 && distance < near->distance[at - 1]; --at) {
+    near->distance[at] = near->distance[at - 1];
+    near->leaf[at] = near->leaf[at - 1];
+  }
+  near->distance[at] = distance;
+  near->leaf[at] = leaf;
+}
+
+/* The NEAR_LEAVES leaves nearest to the seed. */
+static inline nearest_t find_near_leaves(tree_t tree, seed_t seed, stack_t* stack) {
+  nearest_t near = nothing_near(NEAR_LEAVES);
   push_root(stack, tree);
   while (stack->depth > 0) {
     const uint node = stack->node[--stack->depth];
-    const int level = stack->level[stack->depth];
+    const int level = stack->level[stack->depth], base = stack->depth;
     const real d = stack->key[stack->depth];
-    if (found == NEAR_LEAVES && d >= best[found - 1]) continue;
-    if (level > 0) {
-      const int base = stack->depth;
-      const uint end = children_end(tree, node, level - 1);
-      for (uint child = node * TREE_FAN; child < end; ++child) {
-        const real k = node_distance(tree, tree.level_offset[level - 1] + child, seed);
-        if (found < NEAR_LEAVES || k < best[found - 1]) push_sorted(stack, base, child, level - 1, k);
-      }
+    if (!(d < nearest_reach(&near))) continue;
+    if (level == 0) {
+      insert_nearest(&near, node, d);
       continue;
     }
-    int at = found < NEAR_LEAVES ? found++ : found - 1;
-    for (; at > 0 && best[at - 1] > d; --at) {
-      best[at] = best[at - 1];
-      leaf[at] = leaf[at - 1];
+    const uint end = children_end(tree, node, level - 1);
+    for (uint child = node * TREE_FAN; child < end; ++child) {
+      const real k = node_distance(tree, tree.level_offset[level - 1] + child, seed);
+      if (k < nearest_reach(&near)) push_sorted(stack, base, child, level - 1, k);
     }
-    best[at] = d;
-    leaf[at] = node;
   }
-  return found;
+  return near;
 }
 
 #endif

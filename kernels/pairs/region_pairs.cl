@@ -43,13 +43,12 @@ static inline void add_tester(testers_t* testers, seed_t seed, seed_t other) {
 }
 
 static inline void find_testers(tree_t tree, uint i, stack_t* stack, testers_t* testers) {
-  uint leaf[NEAR_LEAVES_MOST];
   const seed_t seed = tree.seeds[i];
-  const int leaves = find_near_leaves(tree, seed, stack, leaf);
+  const nearest_t near = find_near_leaves(tree, seed, stack);
   testers->count = 0;
-  for (int k = 0; k < leaves; ++k) {
-    const uint end = min((leaf[k] + 1) * TREE_FAN, tree.count);
-    for (uint j = leaf[k] * TREE_FAN; j < end; ++j)
+  for (int k = 0; k < near.count; ++k) {
+    const uint end = min((near.leaf[k] + 1) * TREE_FAN, tree.count);
+    for (uint j = near.leaf[k] * TREE_FAN; j < end; ++j)
       if (j != i) add_tester(testers, seed, tree.seeds[j]);
   }
 }

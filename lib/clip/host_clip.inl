@@ -255,12 +255,11 @@ void settle_small_walls(const cell_t& cell, Row& row) {
 /// with a small cell. Returns a CUT code.
 int cut_by_nearest(cell_t* cell, tree_t tree, std::uint32_t rank) {
   stack_t stack;
-  uint leaf[NEAR_LEAVES_MOST];
   std::array<std::pair<real, uint>, NEAR_SEEDS> order;
   std::size_t count = 0;
-  const int leaves = find_near_leaves(tree, tree.seeds[rank], &stack, leaf);
-  for (int k = 0; k < leaves; ++k)
-    for (uint j = leaf[k] * TREE_FAN; j < min(leaf[k] * TREE_FAN + TREE_FAN, tree.count); ++j)
+  const nearest_t near = find_near_leaves(tree, tree.seeds[rank], &stack);
+  for (int k = 0; k < near.count; ++k)
+    for (uint j = near.leaf[k] * TREE_FAN; j < min((near.leaf[k] + 1) * TREE_FAN, tree.count); ++j)
       if (j != rank) order[count++] = {bisector_distance(tree.seeds[rank], tree.seeds[j]), j};
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t k = 0; k < count && order[k].first <= 2 * cell->at.radius; ++k) {

@@ -27,9 +27,8 @@ struct WallRow {
     return words_before_measures(walls) + 2 * walls;
   }
   std::size_t count() const { return words[0]; }
-  std::uint32_t* neighbors() const {
-    return words + 1;
-  }  ///< ranks, none twice, lower ones than its own first
+  /// Ranks, none twice, those below the row's own first.
+  std::uint32_t* neighbors() const { return words + 1; }
   double* measures() const { return reinterpret_cast<double*>(words + words_before_measures(count())); }
 };
 
@@ -80,7 +79,7 @@ class WallCollector {
     std::size_t size = 0;  // the vectors may be longer
     void add(const std::int32_t* border, const double* wall, std::size_t count);
   };
-  /// The share of one thread: the ranks [first, last) with the pairs [begin, end) of the chunk.
+  /// The share of one thread: the pairs [begin, end) of the chunk, with all of each of their ranks.
   struct Part {
     std::size_t begin = 0, end = 0;
     OpenRow open;
