@@ -111,15 +111,18 @@ static inline real4 raw_plane(certain_plane_t unit) {
 }
 
 /* The point of three planes, and at least its error in w; below 0 if the planes are nearly dependent, or not
-   oriented as at a vertex of a cell. */
-static inline real4 meeting_point(const vertices_t* p, certain_plane_t a, certain_plane_t b, certain_plane_t c) {
+   oriented as at a vertex of a cell. The nearer to it `from` is (w: 0), the nearer it comes to each plane: of planes nearly
+   dependent a point off by its error along their common line still bounds the right measure. */
+static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane_t a, certain_plane_t b,
+                                  certain_plane_t c) {
   const real4 bc = cross(b.plane, c.plane), ca = cross(c.plane, a.plane), ab = cross(a.plane, b.plane);
   const real d = dot(a.plane, bc); /* bc.w is 0 */
   if (!(d > 256 * REAL_EPSILON)) return make_real4(0, 0, 0, -1);
   const real scale = 1 / d;
   const real sum = fabs(a.plane.w) + fabs(b.plane.w) + fabs(c.plane.w);
-  real4 y = (bc * a.plane.w + ca * b.plane.w + ab * c.plane.w) * scale;
-  y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + p->radius));
+  const real ra = a.plane.w - dot(a.plane, from), rb = b.plane.w - dot(b.plane, from), rc = c.plane.w - dot(c.plane, from);
+  real4 y = from + (bc * ra + ca * rb + ab * rc) * scale;
+  y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + 3 * p->radius));
   return y;
 }
 

@@ -154,7 +154,8 @@ static inline real place_vertex(cell_t* cell, int v, certain_plane_t ground) {
     return cell->at.side[v];
   }
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
-  const real4 y = meeting_point(&cell->at, ground, in, out);
+  const real4 from = make_real4(cell->at.x[0][v], cell->at.x[1][v], DIMENSION == 3 ? cell->at.x[DIMENSION - 1][v] : 0, 0);
+  const real4 y = meeting_point(&cell->at, from, ground, in, out);
   const real x[3] = {y.x, y.y, y.z};
   real moved = y.w;
   if (y.w < 0) return -1;

@@ -218,7 +218,8 @@ static inline real place_vertices(cell_t* cell) {
       }
       const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
                             pc = {cell->normal[c], cell->doubt[c]};
-      const real4 y = meeting_point(&cell->at, pa, pb, pc);
+      const real4 from = make_real4(cell->at.x[0][v], cell->at.x[1][v], cell->at.x[DIMENSION - 1][v], 0);
+      const real4 y = meeting_point(&cell->at, from, pa, pb, pc);
       if (y.w < 0) return -1;
       const real moved = fabs(y.x - cell->at.x[0][v]) + fabs(y.y - cell->at.x[1][v]) +
                          fabs(y.z - cell->at.x[DIMENSION - 1][v]);

@@ -42,12 +42,12 @@ const certain_plane_t& known_plane(Cell* cell, int f) {
 }
 
 template <class Cell>
-real4 placed_by_planes(Cell* cell, int v) {
+real4 placed_by_planes(Cell* cell, int v, real4 from) {
   if constexpr (requires { cell->previous; }) {
-    return meeting_point(&cell->at, cell->ground, known_plane(cell, static_cast<int>(cell->previous[v])),
+    return meeting_point(&cell->at, from, cell->ground, known_plane(cell, static_cast<int>(cell->previous[v])),
                          known_plane(cell, v));
   } else {
-    return meeting_point(&cell->at, known_plane(cell, static_cast<int>(cell->face[0][v])),
+    return meeting_point(&cell->at, from, known_plane(cell, static_cast<int>(cell->face[0][v])),
                          known_plane(cell, static_cast<int>(cell->face[1][v])),
                          known_plane(cell, static_cast<int>(cell->face[2][v])));
   }
@@ -60,7 +60,8 @@ void host_place(Cell* cell, int v, real good_error) {
   if (is_corner(planes)) {
     cell->error[v] = corner_error(&cell->at);
   } else {
-    real4 y = placed_by_planes(cell, v);
+    real4 y = placed_by_planes(cell, v, make_real4(0, 0, 0, 0));
+    if (y.w >= 0) y = placed_by_planes(cell, v, make_real4(y.x, y.y, y.z, 0));
     if (!(y.w >= 0 && y.w <= good_error * cell->at.radius)) {
       const std::array<double, 3> exact = cell->exact->place(planes);
       y = {exact[0], exact[1], exact[2],
