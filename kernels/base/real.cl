@@ -34,6 +34,7 @@ typedef struct {
 } seed_t;
 #define REAL_EPSILON 2.2204460492503131e-16
 #define REAL_MAX 1.0e300
+#define REAL_LEAST 1.0e-290 /* products below it are far from relative rounding */
 /* Cells on the host grow: arrays are pointers, capacities are members. */
 #define STORAGE(type, name, count) type* name
 #define STORAGE_ROWS(type, name, rows, count) type* name[rows]
@@ -79,6 +80,7 @@ typedef double real;
 typedef double4 seed_t; /* x y z weight */
 #define REAL_EPSILON 2.2204460492503131e-16
 #define REAL_MAX 1.0e300
+#define REAL_LEAST 1.0e-290 /* products below it are far from relative rounding */
 #else
 typedef float real;
 typedef struct {
@@ -87,6 +89,7 @@ typedef struct {
 } seed_t; /* x y z weight, each as the sum of two floats */
 #define REAL_EPSILON 1.1920929e-7f
 #define REAL_MAX 1.0e38f
+#define REAL_LEAST 1.0e-30f
 #endif
 typedef real stored_real;
 
@@ -116,16 +119,31 @@ static inline void difference(seed_t a, seed_t b, real* d) {
 }
 #endif
 
+/* By how much the differences of a seed from anything may be off beyond relative rounding: what two floats leave out of
+   coordinates and weights, and products that underflow. */
+typedef struct {
+  real position, weight;
+} blur_t;
+
 #if !defined(__cplusplus) && REAL_BITS == 32
-/* What two floats leave out of a coordinate, and of a weight: for the differences of p with anything. */
-static inline real position_blur(seed_t p) {
-  return (fabs(p.high.x) + fabs(p.high.y) + fabs(p.high.z) + 1) * (REAL_EPSILON * REAL_EPSILON);
+static inline blur_t blur_of(seed_t p) {
+  const real square = REAL_EPSILON * REAL_EPSILON;
+  const blur_t blur = {(fabs(p.high.x) + fabs(p.high.y) + fabs(p.high.z) + 1) * square,
+                       fabs(p.high.w) * square + REAL_LEAST};
+  return blur;
 }
-static inline real weight_blur(seed_t p) { return fabs(p.high.w) * (REAL_EPSILON * REAL_EPSILON); }
 #else
-static inline real position_blur(seed_t p) { return 0 * p.x; }
-static inline real weight_blur(seed_t p) { return 0 * p.w; }
+static inline blur_t blur_of(seed_t p) {
+  const blur_t blur = {0, REAL_LEAST};
+  (void)p;
+  return blur;
+}
 #endif
+
+/* What that makes of 2 q.y - |q|^2 - dw, of a plane with |q_1| + |q_2| + ... = sum and points no farther than `reach`. */
+static inline real plane_blur(blur_t blur, real reach, real sum) {
+  return 8 * blur.position * (reach + sum) + 2 * blur.weight;
+}
 
 static inline real norm2(const real* d) {
   real s = d[0] * d[0];

@@ -16,11 +16,11 @@ static inline uint walls_that_cut(const cell_t* cell, __global const seed_t* see
     const seed_t other = seeds[neighbor[min(lane, count - 1)]];
     difference(other, seed, d);
     UNROLL for (int k = 0; k < DIMENSION; ++k) row[k][lane] = d[k];
-    row[DIMENSION][lane] = weight_difference(seed, other);
+    row[DIMENSION][lane] = weight_difference(seed, other) - 4 * cell->at.blur.weight;
   }
   UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = load8(row[k]);
   find_box(&cell->at, low, high);
-  const uint bits = lane_bits(seeds_may_cut(q, load8(row[DIMENSION]), low, high));
+  const uint bits = lane_bits(seeds_may_cut(q, load8(row[DIMENSION]), resolution_of(&cell->at), low, high));
   return count < LANES ? bits & ((1u << count) - 1) : bits;
 }
 
@@ -46,7 +46,7 @@ static inline int clip_by_planes(cell_t* cell, __global const stored_real* plane
   for (uint k = 0; k < count; ++k, plane += PLANE_REALS) {
     real q[DIMENSION];
     for (int c = 0; c < DIMENSION; ++c) q[c] = plane[c];
-    cell->at.blur = fmax(cell->at.blur, (real)plane[4]);
+    cell->at.blur.position = fmax(cell->at.blur.position, (real)plane[4]);
     const int cut = cut_by_plane(cell, q, plane[3], BORDER_PLANE + (int)k);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }

@@ -12,13 +12,12 @@ typedef struct {
 } certain_plane_t;
 
 /* Error of a corner of the region. */
-static inline real corner_error(const vertices_t* p) { return 2 * (REAL_EPSILON * p->reach + p->blur); }
+static inline real corner_error(const vertices_t* p) { return 2 * (REAL_EPSILON * p->reach + p->blur.position); }
 
 /* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw the
    difference of the weights. */
 static inline real plane_error(const vertices_t* p, real sum, real q2, real dw) {
-  return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + 8 * p->blur * (p->radius + sum) +
-         2 * p->weight_blur;
+  return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + plane_blur(p->blur, p->radius, sum);
 }
 
 /* Largest of side[] of a vertex. */
@@ -76,7 +75,7 @@ static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   const real h = raw.w * scale * (real)0.5;
   unit.plane = make_real4(raw.x * scale, raw.y * scale, raw.z * scale, h);
   unit.doubt = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h)) +
-               (4 * p->blur * (p->radius + size) + p->weight_blur) * scale;
+               plane_blur(p->blur, p->radius, size) * (scale / 2);
   return unit;
 }
 
@@ -101,7 +100,7 @@ static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a,
   const real size = sqrt(dot(n, n)), scale = 1 / size;
   unit.plane = n * scale;
   unit.plane.w = dot(unit.plane, y);
-  unit.doubt = (16 * REAL_EPSILON * p->reach + 8 * p->blur) * (sqrt(dot(a, a) * dot(b, b)) * scale);
+  unit.doubt = (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot(a, a) * dot(b, b)) * scale);
   return unit;
 }
 

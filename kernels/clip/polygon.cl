@@ -85,7 +85,7 @@ static inline void note_gone_edges(cell_t* cell) {
       const certain_plane_t line = facet_line(cell, ~cell->gone[k], ground_plane(cell).plane);
       note_gone(&cell->at, raw_plane(line), line.doubt);
     } else {
-      note_gone(&cell->at, raw_bisector(&cell->at, cell->gone[k]), cell->at.blur);
+      note_gone(&cell->at, raw_bisector(&cell->at, cell->gone[k]), cell->at.blur.position);
     }
   }
 }

@@ -63,7 +63,7 @@ static inline void forget_face(cell_t* cell, int f) {
     const certain_plane_t facet = region_plane(cell, ~cell->border[f]);
     note_gone(&cell->at, raw_plane(facet), facet.doubt);
   } else {
-    note_gone(&cell->at, cell->normal[f], cell->at.blur);
+    note_gone(&cell->at, cell->normal[f], cell->at.blur.position);
   }
 }
 

@@ -24,7 +24,7 @@ typedef struct {
   real rounding;                  /* no vertex is farther from a plane through it, but for what each cut adds */
   real steep, size2;              /* least squared sine of a bisector with an edge it cut; 4 |q|^2 of the last one */
   real drift;                     /* what cuts add: roundings of their new vertices */
-  real blur, weight_blur;         /* of the data, beyond relative rounding (base/real.cl) */
+  blur_t blur;                    /* of the data (base/real.cl) */
   uint self;                      /* rank of the seed */
   __global const seed_t* seeds;   /* all seeds, by rank */
   __global const seed_t* corner;  /* vertices of the domain */
@@ -43,8 +43,7 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
   p->steep = 1;
   p->rounding = 0;
   p->drift = 0;
-  p->blur = position_blur(seeds[self]);
-  p->weight_blur = weight_blur(seeds[self]);
+  p->blur = blur_of(seeds[self]);
   p->region = region;
   p->self = self;
   p->seeds = seeds;

@@ -55,6 +55,7 @@ static inline real8 block_row(__global const stored_real* block, int row, const 
   return (load8_stored(block + row * BLOCK_ROW) - o->high[k]) +
          (load8_stored(block + row * BLOCK_ROW + 8) - o->low[k]);
 }
+#define LOWEST_PART low
 static inline void store_part(__global stored_real* block, int row, int lane, real high, real low) {
   block[row * BLOCK_ROW + lane] = high;
   block[row * BLOCK_ROW + 8 + lane] = low;
@@ -75,11 +76,19 @@ static inline origin_t origin_with_weight(seed_t p, seed_t heavy) {
 static inline real8 block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
   return load8_stored(block + row * BLOCK_ROW) - all_lanes(o->high[k]);
 }
+#define LOWEST_PART high
 static inline void store_part(__global stored_real* block, int row, int lane, real high, real low) {
   block[row * BLOCK_ROW + lane] = (stored_real)high;
   (void)low;
 }
 #endif
+
+/* At a seed with its weight less what it may be off: so no search leaves out what the true one would cut. */
+static inline origin_t search_origin(seed_t p) {
+  origin_t o = origin_of(p);
+  o.LOWEST_PART[DIMENSION] -= 4 * blur_of(p).weight;
+  return o;
+}
 
 /* Coordinates of p into the rows first .. first+DIMENSION-1 of a block. */
 static inline void store_point(__global stored_real* block, int first, int lane, seed_t p) {

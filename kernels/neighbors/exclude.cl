@@ -4,21 +4,30 @@
 #define POWERCELL_NEIGHBORS_EXCLUDE
 #include "clip/bisector.cl"
 
+/* Seeds nearer than this are hardly told apart from the cell's own: searches keep them, for decisions about them not to
+   be certain (docs/mathematics.md (82a)). */
+static inline real resolution_of(const vertices_t* p) {
+  return 32 / SEARCH_MARGIN * p->blur.position + sqrt(REAL_LEAST);
+}
+
 /* Of the eight seeds at q, over the corner of the box [low, high] that is worst (docs/mathematics.md (10)). Those
-   with the box just in their bisector count; a rounding margin is taken off. */
-static inline mask8 seeds_may_cut(const real8* q, real8 dw, const real* low, const real* high) {
-  real8 reach = ZERO8, q2 = ZERO8, size = size8(dw);
+   with the box just in their bisector count; the margin that is left is the same along all sides of the box. */
+static inline mask8 seeds_may_cut(const real8* q, real8 dw, real resolution, const real* low, const real* high) {
+  real8 reach = ZERO8, q2 = ZERO8, sum = all_lanes(resolution);
+  real extent = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     reach = reach + most8(q[k] * all_lanes(low[k]), q[k] * all_lanes(high[k]));
-    size = size + size8(q[k]) * all_lanes(2 * most_of(fabs(low[k]), fabs(high[k])));
     q2 = q2 + q[k] * q[k];
+    sum = sum + size8(q[k]);
+    extent = most_of(extent, most_of(fabs(low[k]), fabs(high[k])));
   }
-  return reach + reach + (size + q2) * all_lanes(SEARCH_MARGIN) > q2 + dw;
+  const real8 size = sum * all_lanes(2 * extent) + q2 + size8(dw);
+  return reach + reach + size * all_lanes(SEARCH_MARGIN / 8) > q2 + dw;
 }
 
 /* The same over the vertices: (3) does not hold for some vertex. */
 static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
-  real8 reach = all_lanes(-REAL_MAX), q2 = ZERO8, sum = ZERO8;
+  real8 reach = all_lanes(-REAL_MAX), q2 = ZERO8, sum = all_lanes(resolution_of(p));
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     q2 = q2 + q[k] * q[k];
     sum = sum + size8(q[k]);
@@ -31,7 +40,7 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
       reach = most8(reach, s);
     }
   const real8 size = sum * all_lanes(2 * p->reach) + q2 + size8(dw);
-  return reach + reach + size * all_lanes(SEARCH_MARGIN) > q2 + dw;
+  return reach + reach + size * all_lanes(SEARCH_MARGIN / 8) > q2 + dw;
 }
 
 /* Of the eight nodes with boxes [a, b]: the least value of |y-p_j|^2 - w_j - |y|^2 + w_i over the cell's box and

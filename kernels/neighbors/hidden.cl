@@ -36,7 +36,7 @@ typedef struct {
 typedef struct {
   real low[DIMENSION], high[DIMENSION];
   real size; /* largest sum of coordinates */
-  real blur, weight_blur;
+  blur_t blur;
 } room_t;
 
 static inline room_t room_of(seed_t seed, __global const seed_t* box) {
@@ -45,8 +45,7 @@ static inline room_t room_of(seed_t seed, __global const seed_t* box) {
   difference(box[1], seed, room.high);
   room.size = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) room.size += most_of(fabs(room.low[k]), fabs(room.high[k]));
-  room.blur = position_blur(seed);
-  room.weight_blur = weight_blur(seed);
+  room.blur = blur_of(seed);
   return room;
 }
 
@@ -55,7 +54,7 @@ static inline real rival_error(const room_t* room, const real* q, real level) {
   real sum = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
   return REAL_EPSILON * (8 * sum * room->size + 8 * norm2(q) + 4 * fabs(level)) +
-         8 * room->blur * (room->size + sum) + 2 * room->weight_blur;
+         plane_blur(room->blur, room->size, sum);
 }
 
 /* Reads the seeds of the leaves; returns whether p_i itself is beyond the bisector of any. */

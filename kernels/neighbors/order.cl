@@ -17,20 +17,22 @@ typedef struct {
   __global const uint* leaf;
 } order_t;
 
-/* The key of eight seeds at q with weights less than that of the seed by dw. */
-static inline real8 bisector_keys(const real8* q, real8 dw) {
+/* The key of eight seeds at q with weights less than that of the seed by dw, rather too low than too high: where weights
+   and distances cancel, and of seeds nearer than the resolution. */
+static inline real8 bisector_keys(const real8* q, real8 dw, real resolution) {
   const real8 taken = all_lanes(TAKEN);
   real8 q2 = ZERO8;
   UNROLL for (int c = 0; c < DIMENSION; ++c) q2 = q2 + q[c] * q[c];
-  const real8 level = q2 + dw;
-  return most8(least8(level * (size8(level) / q2), taken), -taken);
+  const real8 level = q2 * all_lanes(1 - 16 * REAL_EPSILON) + dw;
+  return most8(least8(level * (size8(level) / most8(q2, all_lanes(resolution * resolution))), taken), -taken);
 }
 
 /* Keys of the seeds near i except itself. Where the region is no larger than what is near, seeds that its box
    excludes are left out. */
 static inline void find_keys(order_t* order, cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   const uint home = i / TREE_FAN;
-  const origin_t origin = origin_of(tree.seeds[i]);
+  const origin_t origin = search_origin(tree.seeds[i]);
+  const real resolution = resolution_of(&cell->at);
   real low[DIMENSION], high[DIMENSION];
   find_box(&cell->at, low, high);
   const bool small = find_radius2(&cell->at) < 4 * blocks.near_bound[home];
@@ -40,8 +42,8 @@ static inline void find_keys(order_t* order, cell_t* cell, tree_t tree, blocks_t
     const uint leaf = order->leaf[k];
     real8 q[DIMENSION], dw;
     seed_lanes(blocks, leaf, &origin, q, &dw);
-    real8 key = bisector_keys(q, dw);
-    if (small) key = choose8(all_lanes(TAKEN), key, seeds_may_cut(q, dw, low, high));
+    real8 key = bisector_keys(q, dw, resolution);
+    if (small) key = choose8(all_lanes(TAKEN), key, seeds_may_cut(q, dw, resolution, low, high));
     if (leaf == home) key = with_lane(key, i % TREE_FAN, TAKEN);
     key = tag8(key, k * LANES);
     store8(key, order->key + k * LANES);
@@ -67,11 +69,12 @@ static inline real take_least(order_t* order) {
 static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i, uint leaf, uint left,
                               bool close, real* low, real* high) {
   const seed_t seed = tree.seeds[i];
-  const origin_t origin = origin_of(seed);
+  const origin_t origin = search_origin(seed);
+  const real resolution = resolution_of(&cell->at);
   real8 q[DIMENSION], dw;
   seed_lanes(blocks, leaf, &origin, q, &dw);
   for (;;) {
-    left &= lane_bits(close ? seeds_cut(&cell->at, q, dw) : seeds_may_cut(q, dw, low, high));
+    left &= lane_bits(close ? seeds_cut(&cell->at, q, dw) : seeds_may_cut(q, dw, resolution, low, high));
     int cut = CUT_NONE;
     while (left != 0 && cut != CUT_SHRUNK) {
       const uint j = leaf * TREE_FAN + (uint)lowest_bit(left);

@@ -3,7 +3,7 @@
 #ifndef POWERCELL_NEIGHBORS_REGION
 #define POWERCELL_NEIGHBORS_REGION
 #include "base/lanes.cl"
-#include "clip/bisector.cl"
+#include "neighbors/exclude.cl"
 
 #define LISTED_SEEDS 96 /* most seeds of a list */
 #define FEW_LISTED 16   /* so many are cut by as they come: to order them would take longer than it saves */
@@ -50,19 +50,24 @@ static inline real cell_centre(const cell_t* cell, real* centre) {
 }
 
 /* Keys of the listed seeds, tagged with their places: how far the bisector is from the centre, less the farther
-   beyond it. Returns the number of keys, a multiple of the lanes. */
-static inline int find_list_keys(region_lists_t lists, uint i, uint region, const real* centre, real* key) {
+   beyond it, rather too low than too high. Returns the number of keys, a multiple of the lanes. */
+static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint i, uint region, const real* centre,
+                                 real* key) {
   const ulong begin = lists.offset[region];
   const int count = (int)(lists.offset[region + 1] - begin), rows = (count + LANES - 1) / LANES;
   const seed_t seed = lists.seeds[i];
+  const real resolution = resolution_of(&cell->at);
   for (int k = 0; k < rows * LANES; ++k) {
     const uint j = lists.seed[begin + (ulong)min(k, count - 1)];
-    real q[DIMENSION], along = 0;
+    real q[DIMENSION], along = 0, sum = 0;
     difference(lists.seeds[j], seed, q);
-    UNROLL for (int c = 0; c < DIMENSION; ++c) along += q[c] * centre[c];
-    const real q2 = norm2(q);
-    key[k] = k >= count || j == i ? LISTED_LAST
-                                  : (q2 + weight_difference(seed, lists.seeds[j]) - 2 * along) / sqrt(q2);
+    UNROLL for (int c = 0; c < DIMENSION; ++c) {
+      along += q[c] * centre[c];
+      sum += fabs(q[c]);
+    }
+    const real q2 = norm2(q), dw = weight_difference(seed, lists.seeds[j]);
+    const real level = q2 + dw - 2 * along - plane_error(&cell->at, sum, q2, dw);
+    key[k] = k >= count || j == i ? LISTED_LAST : level / most_of(sqrt(q2), resolution);
   }
   for (int row = 0; row < rows; ++row)
     store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)), key + row * LANES);
@@ -85,7 +90,7 @@ static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __glob
 static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint region) {
   const seed_t seed = lists.seeds[i];
   real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
-  const int keys = find_list_keys(lists, i, region, centre, key);
+  const int keys = find_list_keys(cell, lists, i, region, centre, key);
   for (;;) {
     real8 best = load8(key);
     for (int k = LANES; k < keys; k += LANES) best = least8(best, load8(key + k));

@@ -8,6 +8,15 @@
 /* Nodes visited, after which the next are tested by the vertices of the cell. White noise visits some 20. */
 #define VISITS_MOST 48
 
+/* At least the rounding of distances of the leaf's box, which are taken relative to its first seed. */
+static inline real box_rounding(tree_t tree, uint leaf) {
+  real low[DIMENSION], high[DIMENSION], extent = 0;
+  difference(tree.node_low[leaf], tree.seeds[leaf * TREE_FAN], low);
+  difference(tree.node_high[leaf], tree.seeds[leaf * TREE_FAN], high);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) extent += most_of(fabs(low[k]), fabs(high[k]));
+  return 4 * REAL_EPSILON * extent;
+}
+
 /* True if no seed outside the near leaves can cut the cell: their distance from the home
    box against the radius of the cell (docs/mathematics.md (10b)). */
 static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
@@ -17,7 +26,11 @@ static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, ui
   if (tree.levels == 1 || bound <= -REAL_MAX / 2) return bound > 0;
   const real heaviest = weight_difference(tree.node_low[tree.level_offset[tree.levels] - 1], first);
   const real lifted2 = bound + heaviest, own = bound + weight_difference(seed, first);
-  return lifted2 > 0 && own * (1 - SEARCH_MARGIN) > 2 * sqrt(find_radius2(&cell->at) * lifted2);
+  if (!(lifted2 > 0 && own > 0)) return false;
+  find_radius2(&cell->at);
+  const real off = box_rounding(tree, home) + 4 * cell->at.blur.position;
+  const real weights_off = 4 * (REAL_EPSILON * lifted2 + cell->at.blur.weight + blur_of(first).weight);
+  return own * (1 - SEARCH_MARGIN) - weights_off > 2 * sqrt(lifted2) * (cell->at.radius + off);
 }
 
 /* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the vertices
@@ -53,7 +66,7 @@ static inline void push_children(stack_t* stack, tree_t tree, blocks_t blocks, u
 static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   stack_t stack;
   real low[DIMENSION], high[DIMENSION];
-  const origin_t origin = origin_of(tree.seeds[i]);
+  const origin_t origin = search_origin(tree.seeds[i]);
   const home_t home = home_of(tree, blocks, i / TREE_FAN);
   const real bound = blocks.near_bound[i / TREE_FAN];
   find_box(&cell->at, low, high);

@@ -70,7 +70,7 @@ static inline real bisector_distance(seed_t seed, seed_t other) {
   real q[DIMENSION];
   difference(other, seed, q);
   const real q2 = norm2(q);
-  return (q2 + weight_difference(seed, other)) / sqrt(q2);
+  return (q2 + weight_difference(seed, other)) / sqrt(most_of(q2, REAL_LEAST));
 }
 
 /* Up to `most` leaves, nearest first. */

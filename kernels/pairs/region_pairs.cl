@@ -7,11 +7,12 @@
 #define TESTERS 16
 #define NO_SEED 0xffffffffu
 
-/* 2 q.y <= level with y relative to the seed; `scale` is the size of the terms of level. */
+/* 2 q.y <= level with y relative to the seed; `scale` is the size of the terms of level, `sum` that of q. */
 typedef struct {
   real q[DIMENSION];
   real level;
-  real scale;
+  real scale, sum;
+  blur_t blur; /* of the seed */
 } half_space_t;
 
 typedef struct {
@@ -26,7 +27,15 @@ static inline half_space_t half_space_of(seed_t seed, seed_t other) {
   const real q2 = norm2(h.q), dw = weight_difference(seed, other);
   h.level = q2 + dw;
   h.scale = q2 + fabs(dw);
+  h.sum = 0;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) h.sum += fabs(h.q[k]);
+  h.blur = blur_of(seed);
   return h;
+}
+
+/* At least the error of 2 q.y - level where no |y_k| is above `reach`. */
+static inline real half_space_error(const half_space_t* h, real reach) {
+  return 32 * REAL_EPSILON * (h->scale + 2 * h->sum * reach) + plane_blur(h->blur, DIMENSION * reach, h->sum);
 }
 
 /* Keeps the half-spaces nearest to the seed, nearest first. */
@@ -55,12 +64,12 @@ static inline void find_testers(tree_t tree, uint i, stack_t* stack, testers_t* 
 
 /* True if the box [a, b] lies outside the half-space, with a margin for rounding. */
 static inline bool box_is_outside(const half_space_t* h, const real* a, const real* b) {
-  real value = -h->level, size = h->scale;
+  real value = -h->level, reach = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     value += 2 * fmin(h->q[k] * a[k], h->q[k] * b[k]);
-    size += 2 * fabs(h->q[k]) * fmax(fabs(a[k]), fabs(b[k]));
+    reach = fmax(reach, fmax(fabs(a[k]), fabs(b[k])));
   }
-  return value > 32 * REAL_EPSILON * size;
+  return value > half_space_error(h, reach);
 }
 
 /* True if one half-space has all of the box outside. */
@@ -82,13 +91,13 @@ typedef struct {
 
 static inline bool region_is_outside(const half_space_t* h, region_corners_t regions, uint region, seed_t seed) {
   for (uint slot = regions.offset[region]; slot < regions.offset[region + 1]; ++slot) {
-    real y[DIMENSION], value = -h->level, size = h->scale;
+    real y[DIMENSION], value = -h->level, reach = 0;
     difference(regions.corners[regions.vertex[slot]], seed, y);
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       value += 2 * h->q[k] * y[k];
-      size += 2 * fabs(h->q[k] * y[k]);
+      reach = fmax(reach, fabs(y[k]));
     }
-    if (!(value > 32 * REAL_EPSILON * size)) return false;
+    if (!(value > half_space_error(h, reach))) return false;
   }
   return true;
 }

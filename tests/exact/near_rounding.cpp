@@ -1,0 +1,164 @@
+// Seeds so near each other, so far off or so alike in weight that numbers on the device hardly tell them
+// apart. Nothing of that may pass for certain: both precisions must give the masses that brute force gives.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <powercell/diagram.hpp>
+#include <powercell/shapes.hpp>
+#include <string>
+
+#include "tests/support/brute_force.hpp"
+#include "tests/support/domains.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+double ten_to_minus(std::size_t power) {
+  return std::pow(10.0, -static_cast<double>(power));
+}
+
+/// n points of the box [-1, 1]^d, times `scale`, about `middle`.
+void add_seeds(SeedArray& seeds, std::size_t n, double scale, double middle, Random& random) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int k = 0; k < seeds.dimension; ++k)
+      seeds.positions.push_back(middle + scale * random.uniform(-1, 1));
+    seeds.weights.push_back(0);
+  }
+}
+
+/// Lattice points moved by a few of the last places of a double, in the box [0, 1]^d.
+SeedArray last_places(int d, std::size_t n, Random& random) {
+  SeedArray seeds{d, {}, {}};
+  const std::size_t cells_a_side = 2 + random.index(7);
+  const double step = 1.0 / static_cast<double>(cells_a_side),
+               last_place = std::ldexp(0x1p-40, -static_cast<int>(random.index(13)));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int k = 0; k < d; ++k)
+      seeds.positions.push_back(step * static_cast<double>(random.index(cells_a_side + 1)) +
+                                last_place * static_cast<double>(random.index(3)));
+    const double little = random.index(4) == 0 ? std::ldexp(1.0, -static_cast<int>(random.index(60))) : 0;
+    seeds.weights.push_back(step * step * static_cast<double>(random.index(9)) / 4 *
+                                static_cast<double>(random.index(2)) +
+                            little);
+  }
+  return seeds;
+}
+
+/// Clusters about the origin of sizes down to 1e-299, with weights of the same scale.
+SeedArray nested_clusters(int d, std::size_t n, Random& random) {
+  SeedArray seeds{d, {}, {}};
+  const std::size_t scales = 1 + random.index(300);
+  while (seeds.size() < n) {
+    const double scale = ten_to_minus(random.index(scales));
+    add_seeds(seeds, 1, scale, 0, random);
+    if (random.index(2) == 0) seeds.weights.back() = scale * scale * random.uniform(0, 1);
+  }
+  return seeds;
+}
+
+/// Seeds up to 1e4 times as far off as the domain is wide, with weights that bring their cells back.
+SeedArray far_and_heavy(int d, std::size_t n, Random& random) {
+  SeedArray seeds{d, {}, {}};
+  while (seeds.size() < n) {
+    add_seeds(seeds, 1, random.index(2) == 0 ? 1 : std::pow(10.0, static_cast<double>(random.index(5))), 0,
+              random);
+    if (random.index(3) == 0) continue;
+    double& weight = seeds.weights.back();
+    for (int k = 0; k < d; ++k) weight += std::pow(seeds.coordinate(seeds.size() - 1, k), 2);
+    weight += static_cast<double>(random.index(2)) * random.uniform(0, 1);
+  }
+  return seeds;
+}
+
+/// A row of seeds, very close, whose cells are as long as the domain and as wide as they are close.
+SeedArray long_thin_cells(int d, std::size_t n, Random& random) {
+  SeedArray seeds{d, {}, {}};
+  const double step = ten_to_minus(random.index(14)), off = step * ten_to_minus(random.index(17));
+  const double weight = random.index(2) == 0 ? 0 : std::pow(10.0, static_cast<double>(random.index(6)));
+  for (std::size_t i = 0; i < n; ++i) {
+    seeds.positions.push_back(step * static_cast<double>(i));
+    for (int k = 1; k < d; ++k) seeds.positions.push_back(0.1 + off * static_cast<double>(random.index(4)));
+    seeds.weights.push_back(weight +
+                            static_cast<double>(random.index(2)) * step * step * random.uniform(0, 1));
+  }
+  return seeds;
+}
+
+/// A small cluster with weights up to 1e7 that differ by as little as cells of its size need.
+SeedArray heavy_and_alike(int d, std::size_t n, Random& random) {
+  SeedArray seeds{d, {}, {}};
+  const double weight = std::pow(10.0, static_cast<double>(random.index(8))),
+               small = ten_to_minus(random.index(9));
+  while (seeds.size() < n) {
+    const double scale = random.index(3) == 0 ? 1 : small;
+    add_seeds(seeds, 1, scale / 4, 0.3, random);
+    seeds.weights.back() = weight + scale * scale * ten_to_minus(random.index(6)) * random.uniform(0, 1);
+  }
+  return seeds;
+}
+
+struct Family {
+  std::string name;
+  SeedArray (*make)(int d, std::size_t n, Random& random);
+  double single_error;  ///< of a mass in single precision, in units of the domain
+};
+
+const std::vector<Family> families = {{"last places", last_places, 1e-5},
+                                      {"nested clusters", nested_clusters, 1e-5},
+                                      {"far and heavy", far_and_heavy, 1e-2},
+                                      {"long thin cells", long_thin_cells, 1e-5},
+                                      {"heavy and alike", heavy_and_alike, 1e-5}};
+
+/// Cells below this part of the domain have no measure in single precision.
+constexpr double least_single = 1e-36;
+
+void check_sets(const Domain& domain, const Family& family, std::size_t sets, std::size_t most,
+                Random& random) {
+  Options single;
+  single.precision = Precision::float32;
+  const Device device = Device::choose();
+  Diagram exact(device, domain), rough(device, domain, single);
+  const double size = domain.measure();
+  for (std::size_t set = 0; set < sets; ++set) {
+    const SeedArray seeds = family.make(domain.dimension(), 2 + random.index(most), random);
+    exact.set_seeds(seeds.view());
+    rough.set_seeds(seeds.view());
+    const ReferenceDiagram reference = brute_force(domain.mesh(), seeds.view());
+    const Measures &a = exact.measures(), &b = rough.measures();
+    CAPTURE(set);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      CAPTURE(i);
+      REQUIRE(std::abs(a.mass[i] - static_cast<double>(reference.mass[i])) <= 1e-9 * size);
+      REQUIRE(std::abs(b.mass[i] - a.mass[i]) <= family.single_error * size);
+      if (std::max(a.mass[i], b.mass[i]) > least_single * size) REQUIRE(a.status[i] == b.status[i]);
+    }
+    REQUIRE(a.relative_error() <= 1e-9);
+    REQUIRE(b.relative_error() <= family.single_error);
+  }
+}
+
+void check_families(std::size_t sets, std::size_t most) {
+  for (const Family& family : families) {
+    CAPTURE(family.name);
+    Random random(test_seed());
+    INFO(replay_hint());
+    const std::vector<double> low2(2, -1), low3(3, -1), high2(2, 1), high3(3, 1);
+    check_sets(Domain::box(low2, high2), family, sets, most, random);
+    check_sets(Domain::box(low3, high3), family, sets, most, random);
+    check_sets(Domain::surface(torus(6).vertices, torus(6).triangles), family, sets, most, random);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("seeds near rounding: both precisions find their cells") {
+  check_families(12, 40);
+}
+
+TEST_CASE("campaign: seeds near rounding" * doctest::skip()) {
+  check_families(400, 60);
+  check_families(4, 900);
+}
