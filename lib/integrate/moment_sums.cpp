@@ -88,31 +88,36 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
   const auto d = static_cast<std::size_t>(measures_.dimension);
   const bool float32 = scene_.float32();
   constexpr std::size_t ahead = 16;
-  const double scale = scene_.frame().scale, unit = scene_.frame().unit(scene_.mesh().cell_dimension),
-               unit2 = scene_.frame().unit(scene_.mesh().cell_dimension + 2);
-  parallel_for(last - first < share_count ? 1 : threads_, last - first,
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t t = begin; t < end; ++t) {
-                   if (t + ahead < end) {
-                     const std::size_t next = seeds_.input[first + t + ahead];
-                     prefetch(&measures_.status[next]);
-                     prefetch(&measures_.mass[next]);
-                     prefetch(&measures_.centroid[next * d]);
-                     prefetch(&measures_.second_moment[next]);
-                   }
-                   const std::byte* const row = sums + t * row_bytes_;
-                   const double mass = real_at(row, 0, float32);
-                   if (!(mass > 0)) continue;
-                   const std::size_t rank = first + t, i = seeds_.input[rank];
-                   measures_.status[i] = SeedStatus::ok;
-                   measures_.mass[i] =
-                       std::max(mass * unit, std::numeric_limits<double>::min());  // not empty, however small
-                   for (std::size_t c = 0; c < d; ++c)
-                     measures_.centroid[i * d + c] =
-                         seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
-                   measures_.second_moment[i] = real_at(row, 1 + d, float32) * unit2;
-                 }
-               });
+  const double scale = scene_.frame().scale, unit = scene_.frame().unit(1);
+  // Step by step: the power of a long domain's size may be out of range where its measure is not.
+  const auto unscaled = [&](double integral, int power) {
+    for (; power > 0; --power) integral *= unit;
+    return integral;
+  };
+  const int power = scene_.mesh().cell_dimension;
+  parallel_for(
+      last - first < share_count ? 1 : threads_, last - first, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+          if (t + ahead < end) {
+            const std::size_t next = seeds_.input[first + t + ahead];
+            prefetch(&measures_.status[next]);
+            prefetch(&measures_.mass[next]);
+            prefetch(&measures_.centroid[next * d]);
+            prefetch(&measures_.second_moment[next]);
+          }
+          const std::byte* const row = sums + t * row_bytes_;
+          const double mass = real_at(row, 0, float32);
+          if (!(mass > 0)) continue;
+          const std::size_t rank = first + t, i = seeds_.input[rank];
+          measures_.status[i] = SeedStatus::ok;
+          measures_.mass[i] = std::max(unscaled(mass, power),
+                                       std::numeric_limits<double>::min());  // not empty, however small
+          for (std::size_t c = 0; c < d; ++c)
+            measures_.centroid[i * d + c] =
+                seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
+          measures_.second_moment[i] = unscaled(real_at(row, 1 + d, float32), power + 2);
+        }
+      });
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
