@@ -53,14 +53,16 @@ class Owners {
   Owners(const RegionMesh& mesh, const Cells& cells, const Rounding& rounding)
       : mesh_(mesh), cells_(cells), rounding_(rounding), count_(cells.cell_count()) {}
 
-  /// By trying all of them.
+  /// By trying all of them. At one place the heavier, also where its weight is lost beside the distance.
   std::size_t least_power(const Vector& x) const {
     std::size_t best = 0;
     long double least = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       const Vector y = x - rounding_.position(i);
       const long double power = dot(y, y) - rounding_.weight(i);
-      if (i == 0 || power < least) {
+      const bool heavier = rounding_.weight(i) > rounding_.weight(best);
+      if (i == 0 || power < least ||
+          (power == least && heavier && rounding_.position(i) == rounding_.position(best))) {
         least = power;
         best = i;
       }
