@@ -1,6 +1,7 @@
 // A diagram used in any order of calls, with any numbers; where the library accepts them, the laws hold.
 #include <powercell/diagram.hpp>
 #include <powercell/verify.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/fuzz/laws.hpp"
@@ -42,6 +43,15 @@ class Session {
     }
   }
 
+  /// One of `steps`, which tells of the input when it finds something.
+  void tell_of(void (Session::*steps)()) {
+    try {
+      (this->*steps)();
+    } catch (const Finding& finding) {
+      throw Finding(finding.what() + description());
+    }
+  }
+
   void set_seeds() {
     SeedInput next = any_seeds(input_, diagram_.domain(), input_.below(20));
     diagram_.set_seeds({diagram_.domain().dimension(), next.positions, next.weights});
@@ -50,6 +60,24 @@ class Session {
 
  private:
   SeedsView view() const { return {diagram_.domain().dimension(), seeds_.positions, seeds_.weights}; }
+  /// Domain and seeds, with digits that give them back.
+  std::string description() const {
+    std::ostringstream text;
+    text.precision(17);
+    const Domain& domain = diagram_.domain();
+    text << "\n  " << domain.region_count() << " regions in the box";
+    for (const double x : domain.low()) text << ' ' << x;
+    text << " to";
+    for (const double x : domain.high()) text << ' ' << x;
+    text << (diagram_.precision() == Precision::float32 ? ", single precision" : ", double precision");
+    const auto d = static_cast<std::size_t>(view().dimension);
+    for (std::size_t i = 0; i < view().size(); ++i) {
+      text << "\n  seed " << i << ':';
+      for (std::size_t k = 0; k < d; ++k) text << ' ' << seeds_.positions[i * d + k];
+      text << " weight " << (seeds_.weights.empty() ? 0 : seeds_.weights[i]);
+    }
+    return text.str();
+  }
   double error() const { return plane_error(diagram_.domain(), view(), diagram_.precision()); }
 
   void set_weights() {
@@ -115,7 +143,8 @@ void diagrams(Bytes bytes) {
     const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
     Session session(input, domain, options);
     accepted([&] { session.set_seeds(); });
-    for (int steps = 0; steps < 8 && !input.at_end(); ++steps) accepted([&] { session.step(); });
+    for (int steps = 0; steps < 8 && !input.at_end(); ++steps)
+      accepted([&] { session.tell_of(&Session::step); });
   });
 }
 

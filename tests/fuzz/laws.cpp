@@ -65,6 +65,11 @@ void check_offsets(const std::vector<Offset>& offset, std::size_t rows, std::siz
           std::string("offsets of ") + what + " do not fit");
 }
 
+/// A number that is not negative, and finite unless the bound of it is beyond the range of doubles.
+void require_in_range(double x, Real bound, const std::string& what) {
+  require(x >= 0 && (std::isfinite(x) || bound > 1e290L), what + " is " + std::to_string(x));
+}
+
 }  // namespace
 
 const Device& shared_device() {
@@ -105,8 +110,10 @@ void check_measures(const Measures& measures, const Domain& domain, const SeedsV
   for (std::size_t i = 0; i < n; ++i) {
     const std::string seed = "seed " + std::to_string(i) + ": ";
     const bool ok = measures.status[i] == SeedStatus::ok;
-    require(std::isfinite(measures.mass[i]) && std::isfinite(measures.second_moment[i]),
-            seed + "a measure is not finite");
+    const Real mass_at_most = std::pow(size_of(domain), static_cast<Real>(domain.cell_dimension()));
+    const Real far = reach(domain, seeds, i);
+    require_in_range(measures.mass[i], mass_at_most, seed + "the mass");
+    require_in_range(measures.second_moment[i], mass_at_most * far * far, seed + "the second moment");
     require(ok ? measures.mass[i] > 0 : measures.mass[i] == 0,
             seed + "mass and status contradict each other");
     for (std::size_t k = 0; k < d; ++k)
