@@ -16,7 +16,8 @@ TEST_CASE("the embedded kernels are the files, byte by byte") {
     files += entry.path().extension() == ".cl" || entry.path().extension() == ".h";
   CHECK(cl::embedded_kernels().size() == files);
   for (const auto& [path, text] : cl::embedded_kernels()) {
-    CAPTURE(std::string(path));
+    const std::string name(path);
+    CAPTURE(name);
     std::ifstream file(folder / path, std::ios::binary);
     const std::string on_disk{std::istreambuf_iterator<char>(file), {}};
     CHECK_FALSE(on_disk.empty());

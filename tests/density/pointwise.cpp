@@ -126,8 +126,9 @@ TEST_CASE("values at vertices are integrated exactly on meshes") {
   };
   const Meshed meshed[] = {{"torus", torus(16, 9), false},
                            {"cube_tetrahedra", cube_tetrahedra(2, 0.15, shape), true}};
-  for (const auto& [name, mesh, solid] : meshed) {
-    INFO(name);
+  for (const Meshed& one_mesh : meshed) {
+    const auto& [name, mesh, solid] = one_mesh;
+    INFO(one_mesh.name);
     const Domain domain = solid ? volume_of(mesh) : surface_of(mesh);
     DensityCase one{name, domain, seeds_for(domain, Distribution::white, WeightRange::W1, 50, random)};
     std::vector<double> affine, any;

@@ -109,11 +109,13 @@ TEST_CASE("chunks and threads of the host change no bit") {
     for (const Setup& setup : all_setups()) {
       INFO(c.domain.name << ", " << setup.name);
       const Results expected = results(setup.device, c.domain.domain, c.seeds, setup.options);
-      for (const auto& [chunk, threads] :
+      for (const auto& [pairs, threads] :
            {std::pair<std::uint64_t, int>{40, 1}, {333, 2}, {1000, 5}, {0, 16}, {0, 1}}) {
-        INFO("chunks of " << chunk << ", " << threads << " threads");
+        const std::string way =
+            "chunks of " + std::to_string(pairs) + ", " + std::to_string(threads) + " threads";
+        INFO(way);
         Options options = setup.options;
-        options.chunk_pairs = chunk;
+        options.chunk_pairs = pairs;
         options.threads = threads;
         CHECK(bit_differences(results(setup.device, c.domain.domain, c.seeds, options), expected) == "");
       }

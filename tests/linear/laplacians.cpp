@@ -91,6 +91,7 @@ TEST_CASE("every solver finds a known solution, of mean 0 where the system is si
   for (const auto& [k, d] : {std::pair<std::uint32_t, int>{1, 2}, {2, 2}, {7, 2}, {40, 2}, {6, 3}, {13, 3}})
     for (const bool shifted : {false, true}) {
       const Graph graph = grid_graph(k, d, 1000);
+      const std::string points = std::to_string(k) + '^' + std::to_string(d);
       const std::vector<double> shift(graph.size(), 0.01);
       const Laplacian system = shifted ? system_of(graph, shift) : system_of(graph);
       Vector expected = random_vector(graph.size(), random);
@@ -99,7 +100,7 @@ TEST_CASE("every solver finds a known solution, of mean 0 where the system is si
       if (!shifted) right.array() += 0.5;  // a mean is taken off
       for (const LinearSolver solver :
            {LinearSolver::dense, LinearSolver::direct, LinearSolver::multilevel}) {
-        INFO(k << '^' << d << ", " << name(solver) << (shifted ? " shifted" : ""));
+        INFO(points << ", " << name(solver) << (shifted ? " shifted" : ""));
         const LinearResult found = solve_laplacian(system, right, solver, 1e-12, d);
         CHECK(found.solver == solver);
         CHECK((found.solution - expected).norm() <= 1e-8 * (1 + expected.norm()));
