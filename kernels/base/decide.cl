@@ -5,8 +5,8 @@
 #define POWERCELL_BASE_DECIDE
 #include "base/real.cl"
 
-/* SEARCH_MARGIN: planes that clear every vertex by this part of the cell's radius need not be noted one by one; searches
-   keep this margin when they leave out seeds. LEAST_FILLING: of the cube or square of the radius; whole cells smaller
+/* SEARCH_MARGIN: planes that clear every vertex by a 16th of this part of the cell's radius need not be noted one by one;
+   searches keep such a margin when they leave out seeds. LEAST_FILLING: of the cube or square of the radius; whole cells smaller
    than that are left to the host. QUICK_PROOF: whether the proof from the way is tried (clip/certain.cl); floats are not
    exact enough for it, and the host needs none. */
 #if REAL_BITS == 32

@@ -28,10 +28,8 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
    no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better afterwards. */
 static inline bool whole_is_certain(cell_t* cell) {
   if (!(cell->at.gap > 0)) return false; /* before vertices move: a face that was touched has no plane to put them in */
-  real moved = cell_certain(cell);
-  if (moved < 0) return false;
-  moved += cell->at.drift;
-  return moved < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius;
+  const real moved = cell_certain(cell);
+  return moved >= 0 && moved + cell->at.drift < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius;
 }
 
 /* In single precision a whole cell that is small beside its distance from the seed has a measure of too few digits. */

@@ -1,5 +1,6 @@
 /* Which of eight seeds or nodes may cut a cell, by its box, or closer and dearer by its vertices: for the long
-   thin cells that seeds on a surface have, whose boxes meet almost everything. */
+   thin cells that seeds on a surface have, whose boxes meet almost everything. What is left out clears the cell
+   by SEARCH_MARGIN / 16 of its radius (docs/mathematics.md, "Certain decisions"). */
 #ifndef POWERCELL_NEIGHBORS_EXCLUDE
 #define POWERCELL_NEIGHBORS_EXCLUDE
 #include "clip/bisector.cl"
@@ -11,7 +12,7 @@ static inline real resolution_of(const vertices_t* p) {
 }
 
 /* Of the eight seeds at q, over the corner of the box [low, high] that is worst (docs/mathematics.md (10)). Those
-   with the box just in their bisector count; the margin that is left is the same along all sides of the box. */
+   with the box just in their bisector count. */
 static inline mask8 seeds_may_cut(const real8* q, real8 dw, real resolution, const real* low, const real* high) {
   real8 reach = ZERO8, q2 = ZERO8, sum = all_lanes(resolution);
   real extent = 0;
@@ -44,7 +45,7 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
 }
 
 /* Of the eight nodes with boxes [a, b]: the least value of |y-p_j|^2 - w_j - |y|^2 + w_i over the cell's box and
-   the seeds j of the node is below 0 (docs/mathematics.md (9)). A rounding margin is taken off. */
+   the seeds j of the node is below 0 (docs/mathematics.md (9)). */
 static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, const real* low, const real* high) {
   real8 value = dw, size = size8(dw);
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
@@ -55,7 +56,7 @@ static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, cons
     const real8 s = size8(a[k]) + size8(b[k]) + size8(l) + size8(h);
     size = size + s * s;
   }
-  return value < size * all_lanes(SEARCH_MARGIN);
+  return value < size * all_lanes(SEARCH_MARGIN / 4);
 }
 
 /* The same over the vertices (docs/mathematics.md (9a)). */
@@ -76,7 +77,7 @@ static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* 
       }
       most = most8(most, s);
     }
-  return dw < most + size * all_lanes(SEARCH_MARGIN);
+  return dw < most + size * all_lanes(SEARCH_MARGIN / 32);
 }
 
 #endif

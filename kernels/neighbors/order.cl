@@ -89,7 +89,7 @@ static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i
 
 /* Cuts by what is left of the order, leaf by leaf. */
 static inline int cut_by_left(cell_t* cell, const order_t* order, tree_t tree, blocks_t blocks, uint i) {
-  const real reach = 4 * (1 + SEARCH_MARGIN) * find_radius2(&cell->at);
+  const real reach = 4 * (1 + SEARCH_MARGIN / 4) * find_radius2(&cell->at);
   real none[DIMENSION];
   for (uint k = 0; k < order->count; ++k) {
     if (!(order->first[k] < reach)) continue;
@@ -114,7 +114,7 @@ static inline int cut_by_near(cell_t* cell, tree_t tree, blocks_t blocks, uint i
     const uint at = tag_of(least), j = order.leaf[at / LANES] * TREE_FAN + at % LANES;
     const int cut = cut_by_seed(cell, seed, tree.seeds[j], (int)j);
     if (cut > CUT_SHRUNK) return cut;
-    if (cut == CUT_NONE && shrunk) reach = 4 * (1 + SEARCH_MARGIN) * find_radius2(&cell->at);
+    if (cut == CUT_NONE && shrunk) reach = 4 * (1 + SEARCH_MARGIN / 4) * find_radius2(&cell->at);
     shrunk = cut == CUT_SHRUNK;
     misses += cut == CUT_NONE;
   }

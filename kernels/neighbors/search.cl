@@ -30,7 +30,7 @@ static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, ui
   find_radius2(&cell->at);
   const real off = box_rounding(tree, home) + 4 * cell->at.blur.position;
   const real weights_off = 4 * (REAL_EPSILON * lifted2 + cell->at.blur.weight + blur_of(first).weight);
-  return own * (1 - SEARCH_MARGIN) - weights_off > 2 * sqrt(lifted2) * (cell->at.radius + off);
+  return own * (1 - SEARCH_MARGIN / 8) - weights_off > 2 * sqrt(lifted2) * (cell->at.radius + off);
 }
 
 /* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the vertices
