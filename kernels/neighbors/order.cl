@@ -31,13 +31,14 @@ static inline real8 bisector_keys(const real8* q, real8 dw, real resolution) {
    excludes are left out. */
 static inline void find_keys(order_t* order, cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   const uint home = i / TREE_FAN;
+  order->count = blocks.near_count[home];
+  if (order->count == 0) return;
+  order->leaf = blocks.near + (size_t)home * NEAR_MOST;
   const origin_t origin = search_origin(tree.seeds[i]);
   const real resolution = resolution_of(&cell->at);
   real low[DIMENSION], high[DIMENSION];
   find_box(&cell->at, low, high);
   const bool small = find_radius2(&cell->at) < 4 * blocks.near_bound[home];
-  order->count = blocks.near_count[home];
-  order->leaf = blocks.near + (size_t)home * NEAR_MOST;
   for (uint k = 0; k < order->count; ++k) {
     const uint leaf = order->leaf[k];
     real8 q[DIMENSION], dw;

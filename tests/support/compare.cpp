@@ -83,7 +83,7 @@ Tolerances::Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView&
 
 double Tolerances::wall(std::size_t i, std::size_t j) const {
   if (may_vanish_[i] || may_vanish_[j]) return std::numeric_limits<double>::infinity();
-  const auto pair = std::minmax(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+  const auto pair = std::minmax({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
   const auto found = rim_.find(pair);
   return std::max(shift_[i], shift_[j]) *
          std::max(found == rim_.end() ? 0 : found->second, unseen_rim * extent_);
