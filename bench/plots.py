@@ -68,7 +68,7 @@ def plot_growth(results, path):
             axis.plot(*zip(*points), marker="o", markersize=4, linestyle="--" if dashed else "-",
                       color=COLORS.get(provider), label=label)
         axis.set_xscale("log")
-        axis.set_ylim(bottom=0)
+        axis.set_ylim(0, 1.3 * axis.get_ylim()[1])  # room for the legend
         axis.set_xlabel("seeds")
         axis.set_ylabel("microseconds a cell")
         axis.set_title(f"{NAMES[domain]}, white, W1", fontsize=10)

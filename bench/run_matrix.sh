@@ -41,7 +41,7 @@ measure() {
     for domain in box2 box3 surface tets; do
       case $domain in box*) n="1000 10000 100000" ;; *) n="5000 100000" ;; esac
       "$matrix" time --part ratios --out "$out/$domain.json" --domain $domain $works --n ${sizes:-$n} \
-        --ours adjacency:tree measures:tree adjacency:flann --drop 4
+        --ours adjacency:tree measures:tree adjacency:flann --drop 4 --seconds 3 --least-rounds 3
     done
     white="--distribution white --weights W1"
     # The best peer by far at 1e5 is asked at 1e7; the others would take minutes.
