@@ -74,7 +74,9 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const powercell::Error& error) {
-    if (error.code() == powercell::ErrorCode::interrupted) return report(was_interrupted, "interrupted");
+    // Also where that made something else fail: a driver's compiler removes its files when a signal comes.
+    if (error.code() == powercell::ErrorCode::interrupted || powercell::app::interrupted())
+      return report(was_interrupted, "interrupted");
     return report(failed, error.what());
   } catch (const std::bad_alloc&) {
     return report(failed, "out of memory; fewer seeds or a smaller domain may fit");
