@@ -104,6 +104,11 @@ static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a,
   return unit;
 }
 
+/* Vertex v; .w is 0. */
+static inline real4 vertex_point(const vertices_t* p, int v) {
+  return make_real4(p->x[0][v], p->x[1][v], DIMENSION == 3 ? p->x[DIMENSION - 1][v] : 0, 0);
+}
+
 /* As a raw plane. */
 static inline real4 raw_plane(certain_plane_t unit) {
   return make_real4(unit.plane.x, unit.plane.y, unit.plane.z, 2 * unit.plane.w);

@@ -154,8 +154,7 @@ static inline real place_vertex(cell_t* cell, int v, certain_plane_t ground) {
     return cell->at.side[v];
   }
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
-  const real4 from = make_real4(cell->at.x[0][v], cell->at.x[1][v], DIMENSION == 3 ? cell->at.x[DIMENSION - 1][v] : 0, 0);
-  const real4 y = meeting_point(&cell->at, from, ground, in, out);
+  const real4 y = meeting_point(&cell->at, vertex_point(&cell->at, v), ground, in, out);
   const real x[3] = {y.x, y.y, y.z};
   real moved = y.w;
   if (y.w < 0) return -1;
@@ -190,8 +189,7 @@ static inline real cell_certain(cell_t* cell) {
   do { /* each edge goes inwards from the line before it */
     const int u = cell->previous[v], w = cell->next[v];
     const certain_plane_t before = {cell->line[u], cell->doubt[u]};
-    const real4 y = make_real4(cell->at.x[0][w], cell->at.x[1][w], DIMENSION == 3 ? cell->at.x[DIMENSION - 1][w] : 0, 0);
-    if (!is_inside(&cell->at, y, cell->at.side[w], before)) return -1;
+    if (!is_inside(&cell->at, vertex_point(&cell->at, w), cell->at.side[w], before)) return -1;
     v = w;
   } while (v != cell->first);
   return worst;

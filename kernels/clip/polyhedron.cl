@@ -218,8 +218,7 @@ static inline real place_vertices(cell_t* cell) {
       }
       const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
                             pc = {cell->normal[c], cell->doubt[c]};
-      const real4 from = make_real4(cell->at.x[0][v], cell->at.x[1][v], cell->at.x[DIMENSION - 1][v], 0);
-      const real4 y = meeting_point(&cell->at, from, pa, pb, pc);
+      const real4 y = meeting_point(&cell->at, vertex_point(&cell->at, v), pa, pb, pc);
       if (y.w < 0) return -1;
       const real moved = fabs(y.x - cell->at.x[0][v]) + fabs(y.y - cell->at.x[1][v]) +
                          fabs(y.z - cell->at.x[DIMENSION - 1][v]);
@@ -242,8 +241,7 @@ static inline bool edges_are_certain(const cell_t* cell) {
         const int u = cell->next[k][v], f = cell->face[k == 2 ? 0 : k + 1][v];
         if (u < v) continue;
         const certain_plane_t plane = {cell->normal[f], cell->doubt[f]};
-        const real4 y = make_real4(cell->at.x[0][u], cell->at.x[1][u], cell->at.x[DIMENSION - 1][u], 0);
-        if (!is_inside(&cell->at, y, cell->at.side[u], plane)) return false;
+        if (!is_inside(&cell->at, vertex_point(&cell->at, u), cell->at.side[u], plane)) return false;
       }
     }
   return true;
