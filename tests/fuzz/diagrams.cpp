@@ -15,7 +15,23 @@ class Session {
   Session(Input& input, const Domain& domain, const Options& options)
       : input_(input), diagram_(shared_device(), domain, options) {}
 
+  /// Calls something, and tells of the input when that finds something.
   void step() {
+    try {
+      any_step();
+    } catch (const Finding& finding) {
+      throw Finding(finding.what() + description());
+    }
+  }
+
+  void set_seeds() {
+    SeedInput next = any_seeds(input_, diagram_.domain(), input_.below(20));
+    diagram_.set_seeds({diagram_.domain().dimension(), next.positions, next.weights});
+    seeds_ = std::move(next);  // only if accepted: a diagram that refuses keeps what it has
+  }
+
+ private:
+  void any_step() {
     switch (input_.below(8)) {
       case 0:
         set_seeds();
@@ -43,22 +59,6 @@ class Session {
     }
   }
 
-  /// One of `steps`, which tells of the input when it finds something.
-  void tell_of(void (Session::*steps)()) {
-    try {
-      (this->*steps)();
-    } catch (const Finding& finding) {
-      throw Finding(finding.what() + description());
-    }
-  }
-
-  void set_seeds() {
-    SeedInput next = any_seeds(input_, diagram_.domain(), input_.below(20));
-    diagram_.set_seeds({diagram_.domain().dimension(), next.positions, next.weights});
-    seeds_ = std::move(next);  // only if accepted: a diagram that refuses keeps what it has
-  }
-
- private:
   SeedsView view() const { return {diagram_.domain().dimension(), seeds_.positions, seeds_.weights}; }
   /// Domain and seeds, with digits that give them back.
   std::string description() const {
@@ -143,8 +143,7 @@ void diagrams(Bytes bytes) {
     const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
     Session session(input, domain, options);
     accepted([&] { session.set_seeds(); });
-    for (int steps = 0; steps < 8 && !input.at_end(); ++steps)
-      accepted([&] { session.tell_of(&Session::step); });
+    for (int steps = 0; steps < 8 && !input.at_end(); ++steps) accepted([&] { session.step(); });
   });
 }
 
