@@ -7,7 +7,7 @@
 #
 # --n: numbers of seeds of the ratios, for all domains; default 1000 10000 100000 (surface and tets: 5000 100000).
 # --quick: white seeds and W1 only, and growth and memory up to 1e5; else up to 1e7 (square) and 3e6 (cube).
-# --report: only makes table and plots again. The default takes half an hour on two cores.
+# --report: only makes table and plots again. The default takes a quarter of an hour on two cores.
 set -eu
 quick=no sizes="" report=no
 while [ $# -gt 0 ]; do
