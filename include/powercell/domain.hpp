@@ -25,7 +25,8 @@ struct PolygonPart {
 
 enum class DomainKind { polygon, surface, volume };
 
-/// An immutable, validated domain; copies share one state. Safe to share between threads.
+/// An immutable, validated domain; copies share one state. Safe to share between threads. Its largest coordinate
+/// is within 10^-100 .. 10^100, or it is refused (invalid_domain): beyond, measures leave the range of double.
 class POWERCELL_API Domain {
  public:
   /// The union of parts with disjoint interiors. Rings and parts may touch in points, and parts along

@@ -2,11 +2,21 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 namespace powercell {
 
+void check_magnitude(double largest) {
+  if (largest <= 1e100 && largest >= 1e-100) return;
+  std::ostringstream text;
+  text << "the coordinates of the domain are of size " << largest
+       << ": outside 1e-100 .. 1e100 measures leave the range of double, scale them";
+  throw Error(ErrorCode::invalid_domain, text.str());
+}
+
 void finish(RegionMesh& mesh, const CompensatedSum& measure) {
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
+  double largest = 0;
   for (std::size_t k = 0; k < dimension; ++k) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::uint32_t v : mesh.region_vertex) {
@@ -15,7 +25,9 @@ void finish(RegionMesh& mesh, const CompensatedSum& measure) {
     }
     mesh.low[k] = low;
     mesh.high[k] = high;
+    largest = std::max({largest, std::abs(low), std::abs(high)});
   }
+  check_magnitude(largest);
   mesh.measure = measure.value();
   if (!std::isfinite(mesh.measure) || mesh.measure <= 0) {
     throw Error(ErrorCode::invalid_domain,

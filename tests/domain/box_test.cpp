@@ -53,7 +53,10 @@ TEST_CASE("what is not a box is refused") {
   CHECK_SAYS(refusal([] { box({0, 0}, {1, std::nan("")}); }), "axis y: a corner is not finite");
   CHECK_SAYS(refusal([] { box({0, 0, 3}, {1, 1, 3}); }), "axis z: low");
   CHECK_SAYS(refusal([] { box({0, 2}, {1, 1}); }), "axis y: low");
-  CHECK_SAYS(refusal([] { box({0, 0, 0}, {1e200, 1e200, 1}); }), "volume of the domain is inf");
+  CHECK_SAYS(refusal([] { box({0, 0, 0}, {1e200, 1e200, 1}); }), "of size 1e+200");
+  CHECK_SAYS(refusal([] { box({-1e101, 0, 0}, {1, 1, 1}); }), "of size 1e+101");
+  CHECK_SAYS(refusal([] { box({0, 0}, {1e-101, 1e-101}); }), "of size 1e-101");
+  CHECK_SAYS(refusal([] { box({0, 0, 0}, {1, 1e-300, 1e-300}); }), "volume of the domain is 0");
 }
 
 }  // namespace
