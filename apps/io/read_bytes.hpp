@@ -16,6 +16,41 @@
 
 namespace powercell::io {
 
+/// The types of numbers in binary files.
+enum class NumberType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+
+/// What `take` gives for a zero of the C++ type that `type` is.
+template <class Take>
+auto with_number_type(NumberType type, Take take) {
+  switch (type) {
+    case NumberType::i8:
+      return take(std::int8_t{});
+    case NumberType::u8:
+      return take(std::uint8_t{});
+    case NumberType::i16:
+      return take(std::int16_t{});
+    case NumberType::u16:
+      return take(std::uint16_t{});
+    case NumberType::i32:
+      return take(std::int32_t{});
+    case NumberType::u32:
+      return take(std::uint32_t{});
+    case NumberType::i64:
+      return take(std::int64_t{});
+    case NumberType::u64:
+      return take(std::uint64_t{});
+    case NumberType::f32:
+      return take(float{});
+    case NumberType::f64:
+      break;
+  }
+  return take(double{});
+}
+
+inline std::size_t size_of(NumberType type) {
+  return with_number_type(type, [](auto number) { return sizeof(number); });
+}
+
 /// The number at `bytes` (not aligned), whose order is `swapped` from the machine's.
 template <class Number>
 Number load_number(const char* bytes, bool swapped) {
@@ -25,6 +60,13 @@ Number load_number(const char* bytes, bool swapped) {
   Number value;
   std::memcpy(&value, own, sizeof(Number));
   return value;
+}
+
+/// The same for a type that the file names, rounded to a double.
+inline double load_number(const char* bytes, NumberType type, bool swapped) {
+  return with_number_type(type, [&](auto number) {
+    return static_cast<double>(load_number<decltype(number)>(bytes, swapped));
+  });
 }
 
 inline bool swapped_from(std::endian order) {
@@ -43,6 +85,11 @@ class ByteScanner {
     const Number value = load_number<Number>(bytes_.data() + at_, swapped_);
     at_ += sizeof(Number);
     return value;
+  }
+
+  double next(NumberType type, const char* what) {
+    return with_number_type(type,
+                            [&](auto number) { return static_cast<double>(next<decltype(number)>(what)); });
   }
 
   /// Refuses unless `count` things of `size` bytes are left.

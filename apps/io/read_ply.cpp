@@ -14,7 +14,7 @@
 namespace powercell::io {
 namespace {
 
-enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
+using Type = NumberType;
 
 struct Property {
   std::string name;
@@ -45,21 +45,6 @@ Type type_of(TextScanner& scanner, std::string_view word) {
     if (word == name) return type;
   }
   scanner.fail(fmt::format("'{}' is not a PLY type", std::string(word.substr(0, 40))));
-}
-
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::i8:
-    case Type::u8:
-      return 1;
-    case Type::i16:
-    case Type::u16:
-      return 2;
-    case Type::f64:
-      return 8;
-    default:
-      return 4;
-  }
 }
 
 void read_format(TextScanner& scanner, Header& header) {
@@ -119,25 +104,7 @@ class Values {
       : text_(text), ascii_(header.ascii), bytes_(text.text(), name, header.order, text.offset()) {}
 
   double next(Type type, Item item) {
-    if (ascii_) return text_.number(item);
-    switch (type) {
-      case Type::i8:
-        return bytes_.next<std::int8_t>(item.thing);
-      case Type::u8:
-        return bytes_.next<std::uint8_t>(item.thing);
-      case Type::i16:
-        return bytes_.next<std::int16_t>(item.thing);
-      case Type::u16:
-        return bytes_.next<std::uint16_t>(item.thing);
-      case Type::i32:
-        return bytes_.next<std::int32_t>(item.thing);
-      case Type::u32:
-        return bytes_.next<std::uint32_t>(item.thing);
-      case Type::f32:
-        return bytes_.next<float>(item.thing);
-      default:
-        return bytes_.next<double>(item.thing);
-    }
+    return ascii_ ? text_.number(item) : bytes_.next(type, item.thing);
   }
   void check_count(std::uint64_t count, std::size_t least_text, std::size_t least_bytes,
                    const char* things) const {

@@ -15,24 +15,7 @@
 namespace powercell::io {
 namespace {
 
-enum class Type { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
-
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::i8:
-    case Type::u8:
-      return 1;
-    case Type::i16:
-    case Type::u16:
-      return 2;
-    case Type::i32:
-    case Type::u32:
-    case Type::f32:
-      return 4;
-    default:
-      return 8;
-  }
-}
+using Type = NumberType;
 
 class LegacyReader {
  public:
@@ -94,40 +77,7 @@ void LegacyReader::values(std::uint64_t count, Type type, Item item, Take take) 
   text_.rest_of_line();
   bytes_.seek(text_.offset());
   bytes_.need(count, size_of(type), item.thing);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    switch (type) {
-      case Type::i8:
-        take(bytes_.next<std::int8_t>(item.thing));
-        break;
-      case Type::u8:
-        take(bytes_.next<std::uint8_t>(item.thing));
-        break;
-      case Type::i16:
-        take(bytes_.next<std::int16_t>(item.thing));
-        break;
-      case Type::u16:
-        take(bytes_.next<std::uint16_t>(item.thing));
-        break;
-      case Type::i32:
-        take(bytes_.next<std::int32_t>(item.thing));
-        break;
-      case Type::u32:
-        take(bytes_.next<std::uint32_t>(item.thing));
-        break;
-      case Type::i64:
-        take(static_cast<double>(bytes_.next<std::int64_t>(item.thing)));
-        break;
-      case Type::u64:
-        take(static_cast<double>(bytes_.next<std::uint64_t>(item.thing)));
-        break;
-      case Type::f32:
-        take(bytes_.next<float>(item.thing));
-        break;
-      case Type::f64:
-        take(bytes_.next<double>(item.thing));
-        break;
-    }
-  }
+  for (std::uint64_t k = 0; k < count; ++k) take(bytes_.next(type, item.thing));
   text_.seek(bytes_.offset());
 }
 

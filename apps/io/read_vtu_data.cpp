@@ -167,33 +167,35 @@ std::vector<Out> convert(std::string_view bytes, bool swapped, const std::string
   return values;
 }
 
-template <class Out>
-std::vector<Out> convert_integers(std::string_view bytes, const std::string& type, bool swapped,
-                                  const std::string& name) {
-  if (type == "Int8") return convert<Out, std::int8_t>(bytes, swapped, name);
-  if (type == "UInt8") return convert<Out, std::uint8_t>(bytes, swapped, name);
-  if (type == "Int16") return convert<Out, std::int16_t>(bytes, swapped, name);
-  if (type == "UInt16") return convert<Out, std::uint16_t>(bytes, swapped, name);
-  if (type == "Int32") return convert<Out, std::int32_t>(bytes, swapped, name);
-  if (type == "UInt32") return convert<Out, std::uint32_t>(bytes, swapped, name);
-  if (type == "Int64") return convert<Out, std::int64_t>(bytes, swapped, name);
-  if (type == "UInt64") return convert<Out, std::uint64_t>(bytes, swapped, name);
-  fail_file(name, fmt::format("an array of type '{}' is not read here", type.substr(0, 40)));
+NumberType type_of(const std::string& word, const std::string& name) {
+  constexpr std::pair<std::string_view, NumberType> known[] = {
+      {"Int8", NumberType::i8},     {"UInt8", NumberType::u8},   {"Int16", NumberType::i16},
+      {"UInt16", NumberType::u16},  {"Int32", NumberType::i32},  {"UInt32", NumberType::u32},
+      {"Int64", NumberType::i64},   {"UInt64", NumberType::u64}, {"Float32", NumberType::f32},
+      {"Float64", NumberType::f64}};
+  for (const auto& [type_word, type] : known) {
+    if (word == type_word) return type;
+  }
+  fail_file(name, fmt::format("an array of type '{}' is not read here", word.substr(0, 40)));
 }
 
 }  // namespace
 
 std::vector<double> vtu_doubles(std::string_view bytes, const std::string& type, const VtuStorage& storage,
                                 const std::string& name) {
-  const bool swapped = swapped_from(storage.order);
-  if (type == "Float32") return convert<double, float>(bytes, swapped, name);
-  if (type == "Float64") return convert<double, double>(bytes, swapped, name);
-  return convert_integers<double>(bytes, type, swapped, name);
+  return with_number_type(type_of(type, name), [&](auto number) {
+    return convert<double, decltype(number)>(bytes, swapped_from(storage.order), name);
+  });
 }
 
 std::vector<std::int64_t> vtu_integers(std::string_view bytes, const std::string& type,
                                        const VtuStorage& storage, const std::string& name) {
-  return convert_integers<std::int64_t>(bytes, type, swapped_from(storage.order), name);
+  const NumberType known = type_of(type, name);
+  if (known == NumberType::f32 || known == NumberType::f64)
+    fail_file(name, fmt::format("an array of type '{}' is not read here", type));
+  return with_number_type(known, [&](auto number) {
+    return convert<std::int64_t, decltype(number)>(bytes, swapped_from(storage.order), name);
+  });
 }
 
 }  // namespace powercell::io

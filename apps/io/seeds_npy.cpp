@@ -12,8 +12,7 @@ namespace powercell::io {
 namespace {
 
 struct Array {
-  char kind = 'f';  // f, i or u
-  std::size_t size = 8;
+  NumberType type = NumberType::f64;
   bool swapped = false;
   bool fortran = false;
   std::uint64_t rows = 0, columns = 0;
@@ -39,13 +38,17 @@ void read_type(std::string_view header, Array& array, const std::string& name) {
         (descr[0] == '>') != (std::endian::native == std::endian::big) && descr[0] != '|' && descr[0] != '=';
     descr.remove_prefix(1);
   }
-  const bool known = descr == "f4" || descr == "f8" || descr == "i1" || descr == "i2" || descr == "i4" ||
-                     descr == "i8" || descr == "u1" || descr == "u2" || descr == "u4" || descr == "u8";
-  if (!known)
-    fail_file(name, fmt::format("numbers of type '{}' are not read; convert with .astype(float)",
-                                shown.substr(0, 40)));
-  array.kind = descr[0];
-  array.size = static_cast<std::size_t>(descr[1] - '0');
+  constexpr std::pair<std::string_view, NumberType> known[] = {
+      {"f4", NumberType::f32}, {"f8", NumberType::f64}, {"i1", NumberType::i8},  {"i2", NumberType::i16},
+      {"i4", NumberType::i32}, {"i8", NumberType::i64}, {"u1", NumberType::u8},  {"u2", NumberType::u16},
+      {"u4", NumberType::u32}, {"u8", NumberType::u64}};
+  for (const auto& [word, type] : known) {
+    if (descr != word) continue;
+    array.type = type;
+    return;
+  }
+  fail_file(name, fmt::format("numbers of type '{}' are not read; convert with .astype(float)",
+                              shown.substr(0, 40)));
 }
 
 void read_shape(std::string_view header, Array& array, const std::string& name) {
@@ -86,32 +89,6 @@ Array read_header(std::string_view bytes, ByteScanner& scanner, const std::strin
   return array;
 }
 
-double number(const char* at, const Array& array) {
-  const bool swapped = array.swapped;
-  switch (array.kind << 4 | static_cast<int>(array.size)) {
-    case 'f' << 4 | 4:
-      return load_number<float>(at, swapped);
-    case 'f' << 4 | 8:
-      return load_number<double>(at, swapped);
-    case 'i' << 4 | 1:
-      return load_number<std::int8_t>(at, swapped);
-    case 'i' << 4 | 2:
-      return load_number<std::int16_t>(at, swapped);
-    case 'i' << 4 | 4:
-      return load_number<std::int32_t>(at, swapped);
-    case 'i' << 4 | 8:
-      return static_cast<double>(load_number<std::int64_t>(at, swapped));
-    case 'u' << 4 | 1:
-      return load_number<std::uint8_t>(at, swapped);
-    case 'u' << 4 | 2:
-      return load_number<std::uint16_t>(at, swapped);
-    case 'u' << 4 | 4:
-      return load_number<std::uint32_t>(at, swapped);
-    default:
-      return static_cast<double>(load_number<std::uint64_t>(at, swapped));
-  }
-}
-
 }  // namespace
 
 SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::string& name) {
@@ -123,7 +100,8 @@ SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::stri
               fmt::format("has {} columns; seeds of this domain have {} coordinates and may have a weight",
                           array.columns, d));
   }
-  scanner.need(array.rows, array.columns * array.size, "the array");
+  const std::size_t size = size_of(array.type);
+  scanner.need(array.rows, array.columns * size, "the array");
   const char* begin = bytes.data() + scanner.offset();
   SeedTable table;
   table.dimension = dimension;
@@ -132,7 +110,7 @@ SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::stri
   for (std::size_t row = 0; row < array.rows; ++row) {
     for (std::size_t column = 0; column < array.columns; ++column) {
       const std::size_t at = array.fortran ? column * array.rows + row : row * array.columns + column;
-      const double value = number(begin + at * array.size, array);
+      const double value = load_number(begin + at * size, array.type, array.swapped);
       if (!std::isfinite(value)) {
         throw Error(ErrorCode::invalid_seed,
                     fmt::format("{}: seed {} (row from 0), column {}: {} is not finite; take the seed "
