@@ -40,31 +40,42 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
       UNROLL for (int k = 1; k < DIMENSION; ++k) s = s + q[k] * all_lanes(p->x[k][v]);
       reach = most8(reach, s);
     }
-  const real8 size = sum * all_lanes(2 * p->reach) + q2 + size8(dw);
+  const real8 size = sum * all_lanes(2 * p->radius) + q2 + size8(dw);
   return reach + reach + size * all_lanes(SEARCH_MARGIN / 8) > q2 + dw;
+}
+
+/* At least what keeps a node with seeds at |q|_1 <= far clear of a cell of radius `radius`, if the lengths per axis have
+   squares that add up to `squares`: the margin of a seed, and the rounding of the squares. */
+static inline real8 node_margin(real8 far, real radius, real8 squares) {
+  return far * all_lanes(SEARCH_MARGIN / 4 * radius) + squares * all_lanes(16 * REAL_EPSILON);
 }
 
 /* Of the eight nodes with boxes [a, b]: the least value of |y-p_j|^2 - w_j - |y|^2 + w_i over the cell's box and
    the seeds j of the node is below 0 (docs/mathematics.md (9)). */
-static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, const real* low, const real* high) {
-  real8 value = dw, size = size8(dw);
+static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, real resolution, const real* low,
+                                  const real* high) {
+  real8 value = dw, squares = size8(dw), far = all_lanes(resolution);
+  real radius = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     const real8 l = all_lanes(low[k]), h = all_lanes(high[k]);
     const real8 dl = most8(most8(a[k] - l, l - b[k]), ZERO8);
     const real8 dh = most8(most8(a[k] - h, h - b[k]), ZERO8);
     value = value + least8(dl * dl - l * l, dh * dh - h * h);
     const real8 s = size8(a[k]) + size8(b[k]) + size8(l) + size8(h);
-    size = size + s * s;
+    squares = squares + s * s;
+    far = far + most8(size8(a[k]), size8(b[k]));
+    radius += most_of(fabs(low[k]), fabs(high[k]));
   }
-  return value < size * all_lanes(SEARCH_MARGIN / 4);
+  return value < node_margin(far, radius, squares);
 }
 
 /* The same over the vertices (docs/mathematics.md (9a)). */
 static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* b, real8 dw) {
-  real8 most = all_lanes(-REAL_MAX), size = size8(dw);
+  real8 most = all_lanes(-REAL_MAX), squares = size8(dw), far = all_lanes(resolution_of(p));
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    const real8 s = size8(a[k]) + size8(b[k]) + all_lanes(2 * p->reach);
-    size = size + s * s;
+    const real8 s = size8(a[k]) + size8(b[k]) + all_lanes(2 * p->radius);
+    squares = squares + s * s;
+    far = far + most8(size8(a[k]), size8(b[k]));
   }
   for (int w = 0; w < words_of(p); ++w)
     for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
@@ -77,7 +88,7 @@ static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* 
       }
       most = most8(most, s);
     }
-  return dw < most + size * all_lanes(SEARCH_MARGIN / 32);
+  return dw < most + node_margin(far, p->radius, squares);
 }
 
 #endif

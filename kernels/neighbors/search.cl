@@ -33,16 +33,16 @@ static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, ui
   return own * (1 - SEARCH_MARGIN / 8) - weights_off > 2 * sqrt(lifted2) * (cell->at.radius + off);
 }
 
-/* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the vertices
-   `close` if they are given. */
+/* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the box of
+   the cell, and if `close` by its vertices. */
 static inline void push_children(stack_t* stack, tree_t tree, blocks_t blocks, uint node, int level,
                                  const home_t* home, real bound, const origin_t* origin, const real* low,
-                                 const real* high, const vertices_t* close) {
+                                 const real* high, const vertices_t* at, bool close) {
   real8 a[DIMENSION], b[DIMENSION], dw;
   const uint block = block_of_children(tree, node, level);
   node_lanes(blocks, block, origin, a, b, &dw);
-  uint bits = lane_bits(nodes_may_cut(a, b, dw, low, high));
-  if (close && bits != 0) bits &= lane_bits(nodes_cut(close, a, b, dw));
+  uint bits = lane_bits(nodes_may_cut(a, b, dw, resolution_of(at), low, high));
+  if (close && bits != 0) bits &= lane_bits(nodes_cut(at, a, b, dw));
   if (bits == 0) return;
   real8 distance = dw;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
@@ -76,7 +76,7 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
     if (level > 0) {
-      push_children(&stack, tree, blocks, node, level, &home, bound, &origin, low, high, close ? &cell->at : 0);
+      push_children(&stack, tree, blocks, node, level, &home, bound, &origin, low, high, &cell->at, close);
       continue;
     }
     uint left = (1u << min(TREE_FAN, tree.count - node * TREE_FAN)) - 1;
