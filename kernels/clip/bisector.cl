@@ -52,7 +52,7 @@ static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border)
   const real tolerance = SIDE_TOLERANCE(cell, sum, q2, dw);
   const int cut = cell_cut(cell, q, q2 + dw, tolerance, border);
   const real error = plane_error(&cell->at, sum, q2, dw);
-  if (cut == CUT_NONE) note_gap(&cell->at, sum, q2 + dw, error);
+  if (cut == CUT_NONE) note_gap(&cell->at, sum, q2 + dw, error, border);
   if (QUICK_PROOF && (cut == CUT_SHRUNK || cut == CUT_EMPTY)) note_cut(&cell->at, sum, error);
   if (cut == CUT_SHRUNK) {
     note_drift(&cell->at);

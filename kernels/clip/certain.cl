@@ -29,8 +29,11 @@ static inline real most_of_used(const vertices_t* p) {
   return most;
 }
 
-/* After a cut: its vertices lie between those before it but for rounding. */
-static inline void note_drift(vertices_t* p) { p->drift += 2 * REAL_EPSILON * p->radius; }
+/* After a cut: its vertices lie between those before it but for rounding. The proof from the end asks for that only
+   since there has been a gap. */
+static inline void note_drift(vertices_t* p) {
+  if (QUICK_PROOF || least_of(p->gap, p->closest_gap) < REAL_MAX / 8) p->drift += 2 * REAL_EPSILON * p->radius;
+}
 
 /* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after count_sides. */
 static inline void note_cut(vertices_t* p, real sum, real error) {
@@ -44,19 +47,23 @@ static inline void note_cut(vertices_t* p, real sum, real error) {
    way (docs/mathematics.md (84)). */
 static inline bool quickly_certain(const vertices_t* p) {
   const real rounding = p->rounding + corner_error(p) + p->drift;
-  const real gap = fmin(p->gap, p->clear);
+  const real gap = fmin(fmin(p->gap, p->closest_gap), p->clear);
   const real steep = DIMENSION == 2 ? sqrt(p->steep) : p->steep;
   return QUICK_PROOF && 16 * rounding < steep * fmin(gap, SEARCH_MARGIN / 16 * p->radius);
 }
 
-/* Notes how near a plane 2 q.y = level that cuts nothing comes to the vertices, after find_sides. */
-static inline void note_gap(vertices_t* p, real sum, real level, real error) {
+/* Notes how near the plane 2 q.y = level of `border`, which cuts nothing, comes to the vertices, after find_sides. */
+static inline void note_gap(vertices_t* p, real sum, real level, real error, int border) {
   const real clear = -(level < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -level */
-  p->gap = least_of(clear / (2 * sum), p->gap);
+  const real gap = clear / (2 * sum);
+  const bool closest = gap < p->closest_gap && border >= 0 && border < BORDER_PLANE;
+  p->gap = least_of(closest ? p->closest_gap : gap, p->gap);
+  p->closest_gap = closest ? gap : p->closest_gap;
+  p->closest = closest ? border : p->closest;
 }
 
 /* The same for the plane of a face that has gone, whatever it is the plane of: 2 q.y = level. */
-static inline void note_gone(vertices_t* p, real4 q, real doubt) {
+static inline void note_gone(vertices_t* p, real4 q, real doubt, int border) {
   const real sum = fabs(q.x) + fabs(q.y) + fabs(q.z);
   const real error = REAL_EPSILON * (8 * sum * p->radius + 4 * fabs(q.w)) + 2 * sum * doubt;
   real normal[DIMENSION];
@@ -65,7 +72,7 @@ static inline void note_gone(vertices_t* p, real4 q, real doubt) {
   normal[1] = q.y;
   if (DIMENSION == 3) normal[DIMENSION - 1] = q.z;
   find_sides(p, normal, q.w);
-  note_gap(p, sum, q.w, error);
+  note_gap(p, sum, q.w, error, border);
 }
 
 /* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. */
@@ -134,6 +141,17 @@ static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane
 static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_plane_t plane) {
   const real s = plane.plane.x * y.x + plane.plane.y * y.y + plane.plane.z * y.z - plane.plane.w;
   return s < -(error + plane.doubt + 4 * REAL_EPSILON * (p->radius + fabs(plane.plane.w)));
+}
+
+/* Whether each vertex is inside the bisector of `closest`, by its own error (side[]) and not the worst of all. */
+static inline bool closest_is_clear(const vertices_t* p) {
+  const certain_plane_t plane = unit_plane(p, raw_bisector(p, p->closest));
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
+      const int v = w * WORD_BITS + lowest_bit(bits);
+      if (!is_inside(p, vertex_point(p, v), p->side[v], plane)) return false;
+    }
+  return true;
 }
 
 #endif

@@ -83,9 +83,9 @@ static inline void note_gone_edges(cell_t* cell) {
   for (int k = 0; k < min(cell->gone_count, GONE_MOST); ++k) {
     if (cell->gone[k] < 0) {
       const certain_plane_t line = facet_line(cell, ~cell->gone[k], ground_plane(cell).plane);
-      note_gone(&cell->at, raw_plane(line), line.doubt);
+      note_gone(&cell->at, raw_plane(line), line.doubt, cell->gone[k]);
     } else {
-      note_gone(&cell->at, raw_bisector(&cell->at, cell->gone[k]), cell->at.blur.position);
+      note_gone(&cell->at, raw_bisector(&cell->at, cell->gone[k]), cell->at.blur.position, cell->gone[k]);
     }
   }
 }

@@ -61,9 +61,9 @@ static inline certain_plane_t face_plane(const cell_t* cell, int f) {
 static inline void forget_face(cell_t* cell, int f) {
   if (cell->border[f] < 0) {
     const certain_plane_t facet = region_plane(cell, ~cell->border[f]);
-    note_gone(&cell->at, raw_plane(facet), facet.doubt);
+    note_gone(&cell->at, raw_plane(facet), facet.doubt, cell->border[f]);
   } else {
-    note_gone(&cell->at, cell->normal[f], cell->at.blur.position);
+    note_gone(&cell->at, cell->normal[f], cell->at.blur.position, cell->border[f]);
   }
 }
 

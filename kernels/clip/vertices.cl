@@ -18,7 +18,9 @@ typedef struct {
   real reach;                     /* largest coordinate sum of the region's corners: the scale of rounding errors */
   real radius; /* no vertex is farther from the seed */
   real most;   /* largest of side[] */
-  real gap;    /* no bisector that cut nothing is nearer to a vertex, rounding taken off; below 0: one may cut */
+  real gap;    /* no bisector that cut nothing, but `closest`, is nearer to a vertex, rounding taken off; below 0: one may cut */
+  real closest_gap;               /* the same of seed `closest`, whose bisector came nearest */
+  int closest;
   real clear;  /* the same of those that cut */
   real nearest;                   /* no vertex, nor the seed, has a smaller |side| (count_sides) */
   real rounding;                  /* no vertex is farther from a plane through it, but for what each cut adds */
@@ -39,7 +41,8 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
   p->blocks = 0;
   p->used[0] = p->outside[0] = 0;
   p->reach = p->radius = 0;
-  p->gap = p->clear = REAL_MAX / 4;
+  p->gap = p->closest_gap = p->clear = REAL_MAX / 4;
+  p->closest = 0;
   p->steep = 1;
   p->rounding = 0;
   p->drift = 0;

@@ -28,8 +28,9 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
    no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better afterwards. */
 static inline bool whole_is_certain(cell_t* cell) {
   if (!(cell->at.gap > 0)) return false; /* before vertices move: a face that was touched has no plane to put them in */
-  const real moved = cell_certain(cell);
-  return moved >= 0 && moved + cell->at.drift < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius;
+  const real moved = cell_certain(cell), off = moved + cell->at.drift;
+  if (!(moved >= 0 && off < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius)) return false;
+  return off < cell->at.closest_gap || closest_is_clear(&cell->at);
 }
 
 /* In single precision a whole cell that is small beside its distance from the seed has a measure of too few digits. */
