@@ -87,6 +87,7 @@ class ByteScanner {
     return value;
   }
 
+  /// A number of a type that the file names, rounded to a double. `what` it is of, for messages.
   double next(NumberType type, const char* what) {
     return with_number_type(type,
                             [&](auto number) { return static_cast<double>(next<decltype(number)>(what)); });

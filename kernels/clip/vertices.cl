@@ -18,9 +18,9 @@ typedef struct {
   real reach;                     /* largest coordinate sum of the region's corners: the scale of rounding errors */
   real radius; /* no vertex is farther from the seed */
   real most;   /* largest of side[] */
-  real gap;    /* no bisector that cut nothing, but `closest`, is nearer to a vertex, rounding taken off; below 0: one may cut */
-  real closest_gap;               /* the same of seed `closest`, whose bisector came nearest */
-  int closest;
+  real gap;    /* no plane that cut nothing, but that of `closest`, is nearer to a vertex; below 0: one may cut */
+  real closest_gap;               /* how near that of `closest` came; of both, rounding is taken off */
+  int closest;                    /* the seed, by rank, whose bisector came nearest of those that cut nothing */
   real clear;  /* the same of those that cut */
   real nearest;                   /* no vertex, nor the seed, has a smaller |side| (count_sides) */
   real rounding;                  /* no vertex is farther from a plane through it, but for what each cut adds */
