@@ -39,7 +39,7 @@ struct Options {
   /// rule. 0 means 16 for polygons and surfaces, 32 for volumes (the paper's Fig. 4).
   int initial_neighbors = 0;
   /// FLANN only: the height eta of the lift h_i = sqrt(eta - w_i) (paper, Fig. 3).
-  /// NaN means the largest weight, the least eta allowed.
+  /// NaN means the largest weight, the least eta allowed; the largest is the largest weight allowed.
   double lift_eta = std::numeric_limits<double>::quiet_NaN();
   /// FLANN only: query with the twin (p_i, -h_i) instead of the lifted seed (paper, Fig. 6).
   bool twin_queries = true;

@@ -24,6 +24,10 @@ struct Frame {
   double to_device(double x, int axis) const { return scale * (x - centre[static_cast<std::size_t>(axis)]); }
   double weight_to_device(double w) const { return scale * scale * w; }
 
+  /// The largest coordinates and weights, in device units, of which squares and their sums are finite.
+  double most_coordinate() const { return split ? 1e17 : 1e140; }
+  double most_weight() const { return split ? 1e34 : 1e280; }
+
   /// Factor from device units to the caller's for a quantity of unit length^power.
   double unit(int power) const { return std::pow(1 / scale, power); }
 

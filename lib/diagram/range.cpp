@@ -21,13 +21,13 @@ namespace {
 }  // namespace
 
 void require_in_range(const SeedsView& seeds, const Frame& frame, int threads) {
-  const double most_coordinate = frame.split ? 1e17 : 1e140, most_weight = frame.split ? 1e34 : 1e280;
   const auto d = static_cast<std::size_t>(seeds.dimension);
   const auto bad_position = [&](std::size_t at) {
-    return !(std::abs(frame.to_device(seeds.positions[at], static_cast<int>(at % d))) <= most_coordinate);
+    return !(std::abs(frame.to_device(seeds.positions[at], static_cast<int>(at % d))) <=
+             frame.most_coordinate());
   };
   const auto bad_weight = [&](std::size_t i) {
-    return !(std::abs(frame.weight_to_device(seeds.weights[i])) <= most_weight);
+    return !(std::abs(frame.weight_to_device(seeds.weights[i])) <= frame.most_weight());
   };
   const std::size_t position = first_of(seeds.positions.size(), threads, bad_position);
   if (position < seeds.positions.size())

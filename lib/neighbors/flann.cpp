@@ -12,7 +12,7 @@ struct FlannIndex::Tree {
   std::unique_ptr<flann::KDTreeSingleIndex<flann::L2_Simple<double>>> index;
 };
 
-FlannIndex::FlannIndex(const SeedSet& seeds, std::span<const double> heights)
+FlannIndex::FlannIndex(const SeedSet& seeds, double scale, std::span<const double> heights)
     : tree_(std::make_unique<Tree>()) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   Tree& tree = *tree_;
@@ -20,7 +20,7 @@ FlannIndex::FlannIndex(const SeedSet& seeds, std::span<const double> heights)
   tree.seeds = seeds.size();
   tree.points.resize(tree.seeds * tree.dimension);
   for (std::size_t i = 0; i < tree.seeds; ++i) {
-    for (std::size_t k = 0; k < d; ++k) tree.points[i * (d + 1) + k] = seeds.positions[i * d + k];
+    for (std::size_t k = 0; k < d; ++k) tree.points[i * (d + 1) + k] = scale * seeds.positions[i * d + k];
     tree.points[i * (d + 1) + d] = heights[i];
   }
   const flann::Matrix<double> matrix(tree.points.data(), tree.seeds, tree.dimension);

@@ -13,8 +13,10 @@ namespace powercell {
 
 class FlannIndex {
  public:
-  /// \param heights the lift h_i by rank, the same length as the seeds
-  FlannIndex(const SeedSet& seeds, std::span<const double> heights);
+  /// \param scale   positions are multiplied by it, a power of two: squares of lengths must be neither 0 nor
+  /// infinite \param heights the lift h_i by rank, the same length as the seeds, in the unit that `scale`
+  /// makes
+  FlannIndex(const SeedSet& seeds, double scale, std::span<const double> heights);
   ~FlannIndex();
 
   /// For each rank the `count` nearest other seeds by lifted distance from its query point (the twin

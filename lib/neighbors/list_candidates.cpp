@@ -21,17 +21,18 @@ std::size_t initial_neighbors(const Options& options, int cell_dimension) {
 }  // namespace
 
 ListCandidates::ListCandidates(const Scene& scene, const Options& options)
+    : ListCandidates(scene, options, lift_heights(scene.seeds(), options.lift_eta, scene.frame())) {}
+
+ListCandidates::ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights)
     : scene_(scene),
       initial_(initial_neighbors(options, scene.mesh().cell_dimension)),
       twins_(options.twin_queries),
       threads_(thread_count(options.threads)),
-      index_(scene.seeds(), lift_heights(scene.seeds(), options.lift_eta)),
+      index_(scene.seeds(), scene.frame().scale, heights),
       lift_(scene.context()),
       neighbor_(scene.context()),
       active_list_(scene.context()),
       list_use_(scene.context()) {
-  std::vector<double> heights = lift_heights(scene.seeds(), options.lift_eta);
-  for (double& h : heights) h *= scene.frame().scale;
   if (scene.float32()) {
     const std::vector<float> narrow(heights.begin(), heights.end());
     lift_.reserve(narrow.size() * sizeof(float));

@@ -39,6 +39,9 @@ class ListCandidates : public Candidates {
   const ListUse& use();
 
  private:
+  /// \param heights the lift by rank, in units of the scene's frame
+  ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights);
+
   std::size_t neighbors(int round) const;  ///< length of a list in this round
   void take_in_use();                      ///< adds what the last launch wrote
 

@@ -2,22 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <powercell/error.hpp>
+#include <sstream>
+#include <string>
 
 namespace powercell {
+namespace {
 
-std::vector<double> lift_heights(const SeedSet& seeds, double eta) {
+[[noreturn]] void refuse(double eta, const std::string& why) {
+  std::ostringstream text;
+  text << "the height of the lift, " << eta << ", is " << why << "; leave it unset to use the largest weight";
+  throw Error(ErrorCode::invalid_argument, text.str());
+}
+
+}  // namespace
+
+std::vector<double> lift_heights(const SeedSet& seeds, double eta, const Frame& frame) {
   std::vector<double> heights(seeds.size());
   if (heights.empty()) return heights;
   const double largest = *std::max_element(seeds.weights.begin(), seeds.weights.end());
   if (std::isnan(eta)) eta = largest;
-  if (!(eta >= largest))
-    throw Error(ErrorCode::invalid_argument, "the height of the lift, " + std::to_string(eta) +
-                                                 ", is below the largest weight, " + std::to_string(largest) +
-                                                 "; leave it unset to use the largest weight");
+  if (!(eta >= largest)) {
+    std::ostringstream why;
+    why << "below the largest weight, " << largest;
+    refuse(eta, why.str());
+  }
+  const double top = frame.weight_to_device(eta);
+  // Beyond, distances between lifted seeds are infinite, and lists of the nearest are of any.
+  if (!(top <= frame.most_weight()))
+    refuse(eta, "too large beside the domain, where its square would not be finite");
   std::transform(seeds.weights.begin(), seeds.weights.end(), heights.begin(),
-                 [eta](double w) { return std::sqrt(eta - w); });
+                 [&](double w) { return std::sqrt(top - frame.weight_to_device(w)); });
   return heights;
 }
 

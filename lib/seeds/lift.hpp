@@ -4,12 +4,13 @@
 
 #include <vector>
 
+#include "lib/clip/frame.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 
-/// h_i = sqrt(eta - w_i) by rank; eta = NaN means the largest weight.
-/// \throw Error invalid_argument if eta is below the largest weight
-std::vector<double> lift_heights(const SeedSet& seeds, double eta);
+/// h_i = sqrt(eta - w_i) by rank, in units of the frame; eta = NaN means the largest weight.
+/// \throw Error invalid_argument if eta is below the largest weight, or beyond what a weight may be
+std::vector<double> lift_heights(const SeedSet& seeds, double eta, const Frame& frame);
 
 }  // namespace powercell

@@ -171,5 +171,15 @@ TEST_CASE("options out of range") {
   SeedArray seeds = grid(5, 2);
   seeds.weights[7] = 1;
   refusal(ErrorCode::invalid_argument, [&] { measure(device, unit_box(2), seeds.view(), options); });
+  for (const Precision precision : {Precision::automatic, Precision::float32})
+    for (const double beyond :
+         {precision == Precision::float32 ? 1e35 : 1e281, std::numeric_limits<double>::max(),
+          std::numeric_limits<double>::infinity()}) {  // all distances would be infinite
+      options.precision = precision;
+      options.lift_eta = beyond;
+      const std::string message =
+          refusal(ErrorCode::invalid_argument, [&] { measure(device, unit_box(2), seeds.view(), options); });
+      CHECK_MESSAGE(mentions(message, "height of the lift"), message);
+    }
 #endif
 }

@@ -78,4 +78,30 @@ TEST_CASE("lists: the cells do not depend on the lift, the twin or the first len
       }
     }
 }
+
+TEST_CASE("lists: squares of lengths in the caller's unit may be beyond the range of doubles") {
+  INFO(replay_hint());
+  if (!main_setups().front().device.info().fp64) return;  // single precision refuses such seeds
+  for (const double unit : {0x1p-330, 1.0, 0x1p330})
+    for (const double extent : {1e-35, 1.0, 1e65}) {  // of the seeds; the domain is [-1, 1]^2
+      CAPTURE(unit);
+      CAPTURE(extent);
+      const std::vector<double> low(2, -unit), high(2, unit);
+      const Domain domain = Domain::box(low, high);
+      Random random(test_seed());
+      SeedArray seeds{2, {}, std::vector<double>(200)};
+      for (int k = 0; k < 400; ++k) seeds.positions.push_back(unit * extent * random.uniform(-1, 1));
+      Options options;
+      options.decisions = Decisions::fast;  // or cells with useless lists would be mended on the host
+      Diagram tree(main_setups().front().device, domain, options);
+      options.neighbors = Neighbors::flann;
+      options.initial_neighbors = 4;
+      Diagram lists(main_setups().front().device, domain, options);
+      tree.set_seeds(seeds.view());
+      lists.set_seeds(seeds.view());
+      CHECK(lists.measures().status == tree.measures().status);
+      CHECK(lists.measures().total() == doctest::Approx(tree.measures().total()).epsilon(1e-12));
+      CHECK(lists.timings().uncertain <= tree.timings().uncertain + 4);
+    }
+}
 #endif
