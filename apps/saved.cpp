@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "apps/io/read_file.hpp"
 
 namespace powercell::app {
 namespace {
@@ -13,7 +14,8 @@ using nlohmann::json;
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
   throw Error(
       ErrorCode::invalid_file,
-      fmt::format("{}: {}; a saved diagram is what 'powercell diagram -o FILE.json' writes", path, what));
+      fmt::format("{}: {}; a saved diagram is what 'powercell diagram -o FILE.json' writes", path,
+                  io::readable(what)));
 }
 
 // A number that may be missing (null) reads as not a number.
@@ -84,14 +86,12 @@ SavedCell cell_of(const json& from, const SavedDiagram& diagram, std::size_t cel
 
 }  // namespace
 
-SavedDiagram read_saved(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) refuse(path, "cannot be read");
+SavedDiagram parse_saved(std::string_view bytes, const std::string& name) {
   SavedDiagram diagram;
   std::size_t reading = 0;
   bool in_cells = false;
   try {
-    const json whole = json::parse(file);
+    const json whole = json::parse(bytes);
     diagram.kind = kind_of(whole.at("domain").at("kind").get<std::string>());
     diagram.dimension = diagram.kind == DomainKind::polygon ? 2 : 3;
     diagram.domain_measure = whole.at("domain").at("measure").get<double>();
@@ -100,11 +100,15 @@ SavedDiagram read_saved(const std::string& path) {
     for (; reading < cells.size(); ++reading)
       diagram.cells.push_back(cell_of(cells[reading], diagram, cells.size()));
   } catch (const json::parse_error& error) {
-    refuse(path, fmt::format("not JSON at byte {}", error.byte));
+    refuse(name, fmt::format("not JSON at byte {}", error.byte));
   } catch (const std::exception& error) {
-    refuse(path, in_cells ? fmt::format("cell {}: {}", reading, error.what()) : std::string(error.what()));
+    refuse(name, in_cells ? fmt::format("cell {}: {}", reading, error.what()) : std::string(error.what()));
   }
   return diagram;
+}
+
+SavedDiagram read_saved(const std::string& path) {
+  return parse_saved(io::read_file(path), path);
 }
 
 }  // namespace powercell::app

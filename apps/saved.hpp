@@ -7,6 +7,7 @@
 #include <optional>
 #include <powercell/powercell.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace powercell::app {
@@ -34,6 +35,8 @@ struct SavedDiagram {
 
 /// \throw Error invalid_file (what, and which cell)
 SavedDiagram read_saved(const std::string& path);
+/// The same from memory. \param name  for messages
+SavedDiagram parse_saved(std::string_view bytes, const std::string& name);
 
 /// The laws that a file can show: partition; each cell's measure from its own vertices; walls the same
 /// from both sides; every vertex on the bisectors it borders; no seed nearer to a vertex than its cell's.

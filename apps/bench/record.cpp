@@ -166,16 +166,16 @@ const EarlierRow* EarlierRecord::find(const std::string& device, const std::stri
   return found;
 }
 
-EarlierRecord read_record(const std::string& path) {
+EarlierRecord parse_record(std::string_view bytes, const std::string& name) {
   EarlierRecord record;
-  record.path = path;
+  record.path = name;
   std::string reading = "the file";
   try {
-    const json whole = json::parse(io::read_file(path));
+    const json whole = json::parse(bytes);
     if (!whole.is_object() || whole.value("format", json()) != format_name)
-      refuse(path, fmt::format("is JSON, but its 'format' is not '{}'", format_name));
+      refuse(name, fmt::format("is JSON, but its 'format' is not '{}'", format_name));
     if (const json& found = whole.at("format_version"); found != format_version)
-      refuse(path,
+      refuse(name,
              fmt::format("is of format version {}, this powercell reads {}", found.dump(), format_version));
     record.version = whole.at("version").get<std::string>();
     if (!whole.at("revision").is_null()) record.revision = whole.at("revision").get<std::string>();
@@ -189,13 +189,17 @@ EarlierRecord read_record(const std::string& path) {
                              seeds_of(row), rate_of(row, "measures"), rate_of(row, "adjacency")});
     }
   } catch (const json::parse_error& error) {
-    refuse(path, fmt::format("is not JSON at byte {}", error.byte));
+    refuse(name, fmt::format("is not JSON at byte {}", error.byte));
   } catch (const json::exception& error) {
-    refuse(path, fmt::format("{}: {}", reading, reason(error)));
+    refuse(name, fmt::format("{}: {}", reading, reason(error)));
   } catch (const std::invalid_argument& error) {
-    refuse(path, fmt::format("{}: {}", reading, error.what()));
+    refuse(name, fmt::format("{}: {}", reading, error.what()));
   }
   return record;
+}
+
+EarlierRecord read_record(const std::string& path) {
+  return parse_record(io::read_file(path), path);
 }
 
 }  // namespace powercell::app

@@ -7,6 +7,7 @@
 #include <powercell/peaks.hpp>
 #include <powercell/powercell.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/bench/work.hpp"
@@ -80,5 +81,7 @@ struct EarlierRecord {
 
 /// Reads what `as_json` gave. \throw Error invalid_file (the file and what is wrong with it)
 EarlierRecord read_record(const std::string& path);
+/// The same from memory. \param name  for messages
+EarlierRecord parse_record(std::string_view bytes, const std::string& name);
 
 }  // namespace powercell::app

@@ -14,6 +14,8 @@ namespace powercell::io {
 namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+/// Of a byte of a PNG: eight of one bit each, from each of the 1032 bytes that deflate makes of one at most.
+constexpr std::uint64_t most_pixels_a_byte = 8 * 1032;
 
 struct Freed {
   void operator()(png_image* image) const { png_image_free(image); }
@@ -73,6 +75,9 @@ GrayImage parse_png(std::string_view bytes, const std::string& name) {
   if (std::uint64_t{image.width} * image.height > most_pixels)
     fail_file(name,
               std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels are too many");
+  if (std::uint64_t{image.width} * image.height > most_pixels_a_byte * bytes.size())
+    fail_file(name, "damaged PNG: " + std::to_string(bytes.size()) + " bytes cannot hold " +
+                        std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
   GrayImage result{image.width, image.height, std::vector<double>(std::size_t{image.width} * image.height)};
   if (image.format & PNG_FORMAT_FLAG_LINEAR)
     read_deep(image, name, result.values);

@@ -53,5 +53,7 @@ struct EarlierLayout {
 };
 /// \throw Error invalid_file if it is no layout that `write_treemap` wrote (which element)
 EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree);
+/// The same from memory. \param name  for messages
+EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree, const std::string& name);
 
 }  // namespace powercell::io

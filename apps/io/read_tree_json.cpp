@@ -19,6 +19,8 @@ json parse(std::string_view text, const std::string& name) {
   } catch (const json::parse_error& error) {
     fail_line(name, line_of(text, error.byte > 0 ? error.byte - 1 : 0),
               fmt::format("is not JSON from here on: {}", error.what()));
+  } catch (const json::out_of_range& error) {  // a number beyond doubles
+    fail_file(name, fmt::format("holds a number beyond the range of doubles: {}", error.what()));
   }
 }
 
@@ -69,7 +71,10 @@ NamedTree read_list(const json& list, const std::string& name) {
   return link_rows(std::move(rows), name, false);
 }
 
-// Ids are the names from the root on, joined by slashes; of equal names the second is "name#2".
+// Ids are the names from the root on, joined by slashes; of equal names the second is "name#2". They grow
+// with the square of the depth.
+constexpr std::size_t most_id_bytes = std::size_t{1} << 28;
+
 class Nested {
  public:
   explicit Nested(const std::string& file) : file_(file) {}
@@ -103,6 +108,12 @@ class Nested {
     if (name.empty()) name = parent < 0 ? "root" : fmt::format("child {}", node);
     const int times = ++used_[above + name];
     tree_.id.push_back(times == 1 ? above + name : fmt::format("{}{}#{}", above, name, times));
+    id_bytes_ += tree_.id.back().size();
+    if (id_bytes_ > most_id_bytes)
+      fail_file(
+          file_,
+          "is nested so deeply that the paths of its nodes fill 256 MiB; give a list of rows {id, parent, "
+          "name, value}");
     tree_.name.push_back(std::move(name));
     tree_.parent.push_back(parent);
     tree_.value.push_back(
@@ -113,6 +124,7 @@ class Nested {
   const std::string& file_;
   NamedTree tree_;
   std::unordered_map<std::string, int> used_;
+  std::size_t id_bytes_ = 0;
 };
 
 void add_polygon(const json& element, EarlierLayout& layout, std::size_t place, const std::string& name) {
@@ -141,10 +153,9 @@ NamedTree parse_tree_json(std::string_view text, const std::string& name) {
             "is neither an object {name, children, value} nor a list of rows {id, parent, name, value}");
 }
 
-EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree) {
-  const std::string text = read_file(path);
-  const json document = parse(text, path);
-  if (!document.is_array()) fail_file(path, "is no list of nodes with polygons");
+EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree, const std::string& name) {
+  const json document = parse(bytes, name);
+  if (!document.is_array()) fail_file(name, "is no list of nodes with polygons");
   std::unordered_map<std::string, std::size_t> at;
   const auto id_of = [&](const json& element, const char* key) {
     const json* id = element.is_object() ? member(element, {key}) : nullptr;
@@ -159,7 +170,7 @@ EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree
     const auto found = at.find(tree.id[i]);
     if (found != at.end()) {
       const json& element = document[found->second];
-      add_polygon(element, layout, found->second + 1, path);
+      add_polygon(element, layout, found->second + 1, name);
       ++layout.known;
       if (parent >= 0 && id_of(element, "parent") != tree.id[static_cast<std::size_t>(parent)]) parent = -1;
       const json* seed = member(element, {"seed"});
@@ -172,6 +183,10 @@ EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree
     layout.vertex_offset.push_back(layout.vertices.size() / 2);
   }
   return layout;
+}
+
+EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree) {
+  return parse_earlier_layout(read_file(path), tree, path);
 }
 
 }  // namespace powercell::io

@@ -77,15 +77,18 @@ struct Treemap {
 /// so the areas are exact to `tolerance` for any values. Same input, same bits.
 /// \param outline  convex, in either orientation
 /// \throw Error invalid_argument (sizes; a parent out of range; no root or two; a cycle; a value that is not
-///   finite: which node; nothing left to lay out), invalid_domain (an outline that is not convex: where),
+///   finite: which node; nothing left to lay out), invalid_domain (an outline that is not convex: where; one so
+///   thin or far off that rounding moves its area by a millionth),
 ///   interrupted; as Diagram, with a large group
 POWERCELL_API Treemap treemap(const TreeView& tree, const Ring& outline, const TreemapOptions& options = {});
 
 /// Where each node lies in its parent, in a form that a later, changed layout can start from: its seed, from
 /// the centroid of the parent, in units of the square root of the parent's area. An unchanged tree gets the
-/// same layout. \param seeds  as in Treemap; the centroid stands in where there are none (NaN) \param
-/// vertex_offset, vertices  polygons of nodes as in Treemap; an empty one for a node without \return n x 2;
-/// NaN where a node or its parent has no polygon
+/// same layout.
+/// \param seeds  as in Treemap; the centroid stands in where there are none (NaN)
+/// \param vertex_offset, vertices  polygons of nodes as in Treemap; an empty one for a node without
+/// \return n x 2; NaN where a node or its parent has no polygon
+/// \throw Error invalid_argument for sizes that do not match, offsets that do not ascend
 POWERCELL_API std::vector<double> relative_positions(std::span<const std::int64_t> parent,
                                                      std::span<const double> seeds,
                                                      std::span<const std::uint64_t> vertex_offset,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -10,6 +11,12 @@ namespace {
 
 // An angle whose sine is below this is straight: corners of outlines are read from decimals.
 constexpr double straight = 1e-12;
+
+// Moments are fourth powers of lengths.
+constexpr double largest_coordinate = 1e60, least_area = 1e-120;
+
+// Rounding its corners may move the area of an outline by this part of it.
+constexpr double area_in_doubt = 1e-6;
 
 double cross(double ax, double ay, double bx, double by) {
   return ax * by - ay * bx;
@@ -24,6 +31,9 @@ std::vector<double> without_repeated(const Ring& ring) {
   for (const auto& p : ring) {
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]))
       throw Error(ErrorCode::invalid_domain, "the outline has a corner that is not finite");
+    if (std::max(std::fabs(p[0]), std::fabs(p[1])) > largest_coordinate)
+      throw Error(ErrorCode::invalid_domain,
+                  "the outline has a corner farther than 1e60 from the origin; scale it");
     const std::size_t n = points.size();
     if (n > 0 && points[n - 2] == p[0] && points[n - 1] == p[1]) continue;
     points.insert(points.end(), p.begin(), p.end());
@@ -41,6 +51,24 @@ double turn(const std::vector<double>& p, std::size_t k) {
   const double sine = cross(ax, ay, bx, by) / (std::hypot(ax, ay) * std::hypot(bx, by));
   if (std::fabs(sine) <= straight && ax * bx + ay * by < 0) return -2;  // back on itself
   return sine;
+}
+
+void require_sure_area(const std::vector<double>& corners) {
+  const std::size_t n = corners.size() / 2;
+  double round = 0, largest = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = (k + 1) % n;
+    round += std::hypot(corners[2 * next] - corners[2 * k], corners[2 * next + 1] - corners[2 * k + 1]);
+    largest = std::max({largest, std::fabs(corners[2 * k]), std::fabs(corners[2 * k + 1])});
+  }
+  const double area = moments(corners).area;
+  if (!(area >= least_area))
+    throw Error(ErrorCode::invalid_domain, "the outline has an area below 1e-120; scale it");
+  if (!(std::numeric_limits<double>::epsilon() * largest * round <= area_in_doubt * area))
+    throw Error(
+        ErrorCode::invalid_domain,
+        "the outline is so thin, or so far from the origin, that rounding its corners moves its area by more "
+        "than a millionth; move it to the origin, or take another shape");
 }
 
 std::uint64_t mixed(std::uint64_t x) {  // splitmix64
@@ -119,6 +147,7 @@ std::vector<double> convex_outline(const Ring& ring) {
     throw Error(ErrorCode::invalid_domain, "the outline has no area");
   if (round > 3 * std::numbers::pi)
     throw Error(ErrorCode::invalid_domain, "the outline crosses itself: it goes around more than once");
+  require_sure_area(corners);
   return corners;
 }
 
@@ -164,7 +193,13 @@ Columns spread_points(const Columns& polygon, std::size_t n, std::uint64_t rando
   constexpr double step[2] = {0.7548776662466927, 0.5698402909980532};
   double u = unit(mixed(random_seed)), v = unit(mixed(random_seed ^ 0x5851f42d4c957f2du));
   Columns points;
-  while (points.size() < n) {
+  for (std::size_t tries = 0; points.size() < n; ++tries) {
+    if (tries > 100 * (n + 10)) {  // a sliver whose width is rounding: nothing is surely inside of it
+      const double t = unit(mixed(random_seed + tries));
+      points.x.push_back(c * (low[0] + t * (high[0] - low[0])) - s * (low[1] + high[1]) / 2);
+      points.y.push_back(s * (low[0] + t * (high[0] - low[0])) + c * (low[1] + high[1]) / 2);
+      continue;
+    }
     u += step[0];
     v += step[1];
     u -= std::floor(u);

@@ -1,6 +1,10 @@
 #include "lib/treemap/group.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
 
 #include "lib/treemap/convex_polygon.hpp"
 #include "lib/treemap/laplacian.hpp"
@@ -49,6 +53,23 @@ struct HostSolver {
   }
 };
 
+// Of seeds at one place all but one go to their fresh places: together they would have one cell.
+void part_equal(Columns& seeds, const Columns& fresh) {
+  std::vector<std::size_t> order(seeds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t i) { return std::tuple(seeds.x[i], seeds.y[i], i); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  double x = std::numeric_limits<double>::quiet_NaN(), y = x;
+  for (const std::size_t i : order) {
+    const bool taken = seeds.x[i] == x && seeds.y[i] == y;
+    x = seeds.x[i];
+    y = seeds.y[i];
+    if (!taken) continue;
+    seeds.x[i] = fresh.x[i];
+    seeds.y[i] = fresh.y[i];
+  }
+}
+
 }  // namespace
 
 Columns starting_seeds(const Group& group) {
@@ -61,12 +82,17 @@ Columns starting_seeds(const Group& group) {
       seeds.x[i] = fresh.x[i];
       seeds.y[i] = fresh.y[i];
     }
-    // The parent's polygon has another shape now; its centroid, 0, is inside.
-    for (double t = 1; !contains(group.outline, seeds.x[i], seeds.y[i]); t *= 0.9) {
+    // The parent's polygon has another shape now; its centroid, 0, is inside (unless it is a sliver).
+    for (double t = 1; t > 1e-3 && !contains(group.outline, seeds.x[i], seeds.y[i]); t *= 0.9) {
       seeds.x[i] *= t;
       seeds.y[i] *= t;
     }
+    if (!contains(group.outline, seeds.x[i], seeds.y[i])) {
+      seeds.x[i] = fresh.x[i];
+      seeds.y[i] = fresh.y[i];
+    }
   }
+  part_equal(seeds, fresh);
   return seeds;
 }
 

@@ -191,8 +191,11 @@ std::vector<double> relative_positions(std::span<const std::int64_t> parent, std
                                        std::span<const std::uint64_t> vertex_offset,
                                        std::span<const double> vertices) {
   const std::size_t n = parent.size();
-  if (seeds.size() != 2 * n || vertex_offset.size() != n + 1 || vertices.size() != 2 * vertex_offset[n])
+  if (seeds.size() != 2 * n || vertex_offset.size() != n + 1 || vertices.size() % 2 != 0 ||
+      vertices.size() / 2 != vertex_offset[n])
     throw Error(ErrorCode::invalid_argument, "relative_positions: the sizes do not match");
+  if (!std::is_sorted(vertex_offset.begin(), vertex_offset.end()))
+    throw Error(ErrorCode::invalid_argument, "relative_positions: vertex_offset does not ascend");
   std::vector<PolygonMoments> of(n);
   for (std::size_t i = 0; i < n; ++i)
     of[i] = moments(vertices.subspan(2 * vertex_offset[i], 2 * (vertex_offset[i + 1] - vertex_offset[i])));

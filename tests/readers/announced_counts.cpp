@@ -1,9 +1,12 @@
 // Files that announce far more than they hold: refused by name, and before memory for it is asked for.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
+#include <zlib.h>
 
 #include "apps/io/read_domain.hpp"
+#include "apps/io/read_image.hpp"
 #include "apps/io/read_seeds.hpp"
+#include "apps/io/read_tree.hpp"
 #include "tests/readers/fixtures.hpp"
 
 using namespace powercell;
@@ -158,4 +161,38 @@ TEST_CASE("tables of seeds that announce more than they hold") {
     }
   }
   CHECK(most_memory_kib() - before < 64 * 1024);
+}
+
+TEST_CASE("pictures of more pixels than deflate could have packed") {
+  const auto big_endian = [](unsigned value) {
+    return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16 & 255),
+                       static_cast<char>(value >> 8 & 255), static_cast<char>(value & 255)};
+  };
+  const auto chunk = [&](const std::string& kind_and_data) {
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(kind_and_data.data()),
+                           static_cast<uInt>(kind_and_data.size()));
+    return big_endian(static_cast<unsigned>(kind_and_data.size()) - 4) + kind_and_data +
+           big_endian(static_cast<unsigned>(sum));
+  };
+  const long before = most_memory_kib();
+  const std::string png =
+      "\x89PNG\r\n\x1a\n" +
+      chunk("IHDR" + big_endian(16384) + big_endian(16384) + std::string("\x08\0\0\0\0", 5)) +
+      chunk("IDAT" + std::string(20, '\0')) + chunk("IEND");
+  CHECK(says(refusal([&] { parse_png(png, "f"); }), "bytes cannot hold 16384 x 16384 pixels"));
+  CHECK(most_memory_kib() - before < 64 * 1024);
+}
+
+TEST_CASE("trees nested so deeply that the paths of their nodes fill the memory") {
+  const long before = most_memory_kib();
+  std::string deep;
+  for (int level = 0; level < 50000; ++level) deep += "{\"children\":[";
+  CHECK(says(refusal([&] {
+               std::string ends;
+               for (int level = 0; level < 50000; ++level) ends += "]}";
+               parse_tree(deep + "{}" + ends, ".json", "f");
+             }),
+             "nested so deeply"));
+  CHECK(most_memory_kib() - before < 2048 * 1024);
+  CHECK(says(refusal([&] { parse_tree("{\"value\":1e999}", ".json", "f"); }), "beyond the range of doubles"));
 }

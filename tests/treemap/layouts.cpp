@@ -203,6 +203,15 @@ TEST_CASE("an update stays close to the layout it starts from") {
   CHECK(moved(first, updated) < 0.1 * moved(first, fresh));
 }
 
+TEST_CASE("an update from a layout with all seeds at one place") {
+  MadeTree tree;
+  for (int child = 0; child < 9; ++child) tree.add(0, 1 + child % 3);
+  const std::vector<double> start(2 * tree.parent.size(), 0.1);
+  TreemapOptions options;
+  options.start = start;
+  check_layout(tree, treemap(tree.view(), square, options), square);
+}
+
 TEST_CASE("progress is told and can stop") {
   Random random(test_seed());
   const MadeTree tree = random_tree(300, 20, 10, random);

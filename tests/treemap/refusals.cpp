@@ -66,6 +66,27 @@ TEST_CASE("outlines that are not convex") {
                 "crosses itself");
 }
 
+TEST_CASE("outlines whose area is lost in rounding, or whose moments are beyond doubles") {
+  check_outline({{0, 0}, {1e12, 0}, {1e12, 1e-3}, {0, 1e-3}}, "rounding its corners");
+  check_outline({{1e12, 0}, {1e12 + 1, 0}, {1e12 + 1, 1}, {1e12, 1}}, "rounding its corners");
+  check_outline({{0, 0}, {1e70, 0}, {1e70, 1e70}}, "1e60");
+  check_outline({{0, 0}, {1e-70, 0}, {1e-70, 1e-70}}, "1e-120");
+  MadeTree tree;
+  for (int child = 0; child < 5; ++child) tree.add(0, 1 + child);
+  for (const double scale : {1e-50, 1e50}) {
+    const Treemap map = treemap(tree.view(), {{0, 0}, {1e6 * scale, 0}, {1e6 * scale, scale}, {0, scale}});
+    CHECK(map.worst_error < 1e-6);
+  }
+}
+
+TEST_CASE("positions of polygons that are none") {
+  const std::vector<std::int64_t> parent = {-1, 0};
+  const std::vector<double> seeds(4, 0.0), vertices(6, 0.0);
+  for (const std::vector<std::uint64_t>& offset :
+       {std::vector<std::uint64_t>{0, 9, 3}, {0, std::uint64_t{1} << 63, 3}, {0, 3, 4}, {0, 3}})
+    CHECK_THROWS_AS((void)relative_positions(parent, seeds, offset, vertices), Error);
+}
+
 TEST_CASE("outlines with repeated and collinear points, in either orientation, are taken") {
   MadeTree tree;
   tree.add(0, 1);
