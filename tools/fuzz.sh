@@ -10,7 +10,8 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-all="meshes grids polygons seeds domains diagrams c_interface device_diagrams"
+all="meshes grids polygons seeds trees documents domains diagrams c_interface device_diagrams
+  triangulations treemaps transports samplings remeshings"
 [ $# -eq 2 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 targets=$1
 [ "$targets" = all ] && targets=$all

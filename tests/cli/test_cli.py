@@ -348,7 +348,7 @@ class Verify(ToolTest):
         self.broken(saved, "ownership")
 
     def test_what_is_no_saved_diagram(self):
-        self.bad(1, "cannot be read", "verify", "none.json")
+        self.bad(1, "no such file", "verify", "none.json")
         self.bad(1, "not JSON", "verify", self.write("a.json", '{"domain": {'))
         self.bad(1, "a.json", "verify", self.write("a.json", '{"cells": []}'))
         self.bad(1, "cell 0", "verify", self.write(

@@ -34,8 +34,8 @@ struct Triangulated {
       0;  ///< simplices without a positive measure, facets in more than two or twice on one side
 };
 
-/// Whether no facet is in more than two simplices, and where in two, they lie on either side of it.
-inline Triangulated check_triangulation(const Dual& dual, const SeedArray& seeds) {
+/// Facets in more than two simplices, and those in two on one side of it.
+inline std::size_t facet_faults(const Dual& dual) {
   struct Side {
     std::array<std::uint32_t, 3> facet{~0U, ~0U, ~0U};
     int sign = 1;
@@ -43,11 +43,7 @@ inline Triangulated check_triangulation(const Dual& dual, const SeedArray& seeds
   const auto corners = static_cast<std::size_t>(dual.corners);
   std::vector<Side> sides;
   sides.reserve(dual.simplices.size());
-  Triangulated result;
   for (std::size_t s = 0; s < dual.size(); ++s) {
-    const long double measure = signed_measure(dual, s, seeds);
-    result.faults += !(measure > 0);
-    result.measure += measure / (corners == 3 ? 2 : 6);
     for (std::size_t skip = 0; skip < corners; ++skip) {
       Side side;
       side.sign = skip % 2 == 0 ? 1 : -1;
@@ -62,10 +58,22 @@ inline Triangulated check_triangulation(const Dual& dual, const SeedArray& seeds
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.facet < b.facet; });
+  std::size_t faults = 0;
   for (std::size_t k = 1; k < sides.size(); ++k) {
     if (sides[k].facet != sides[k - 1].facet) continue;
-    result.faults += sides[k].sign == sides[k - 1].sign;
-    result.faults += k >= 2 && sides[k].facet == sides[k - 2].facet;
+    faults += sides[k].sign == sides[k - 1].sign;
+    faults += k >= 2 && sides[k].facet == sides[k - 2].facet;
+  }
+  return faults;
+}
+
+/// Whether no facet is in more than two simplices, and where in two, they lie on either side of it.
+inline Triangulated check_triangulation(const Dual& dual, const SeedArray& seeds) {
+  Triangulated result{0, facet_faults(dual)};
+  for (std::size_t s = 0; s < dual.size(); ++s) {
+    const long double measure = signed_measure(dual, s, seeds);
+    result.faults += !(measure > 0);
+    result.measure += measure / (dual.corners == 3 ? 2 : 6);
   }
   return result;
 }

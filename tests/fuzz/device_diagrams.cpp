@@ -5,6 +5,7 @@
 #include <powercell/opencl.hpp>
 
 #include "tests/fuzz/laws.hpp"
+#include "tests/fuzz/refusals.hpp"
 
 namespace powercell::fuzz {
 namespace {
@@ -123,18 +124,14 @@ void run(Input& input, const Domain& domain, Precision precision) {
 
 void device_diagrams(Bytes bytes) {
   Input input(bytes);
-  try {
+  accepted({ErrorCode::invalid_domain, ErrorCode::unsupported}, [&] {
     const bool single = input.flag() || !shared_device().info().fp64;
     const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
     if (single)
       run<float>(input, domain, Precision::float32);
     else
       run<double>(input, domain, Precision::float64);
-  } catch (const Error& error) {
-    require(error.code() == ErrorCode::invalid_domain || error.code() == ErrorCode::unsupported,
-            std::string(name(error.code())) + ": " + error.what());
-    require_readable(error.what());
-  }
+  });
 }
 
 }  // namespace powercell::fuzz

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/fuzz/laws.hpp"
+#include "tests/fuzz/refusals.hpp"
 
 namespace powercell::fuzz {
 namespace {
@@ -118,32 +119,17 @@ Options any_options(Input& input) {
   return options;
 }
 
-/// Runs `body`; only what the caller did wrong may be refused.
-template <class Body>
-bool accepted(Body body) {
-  try {
-    body();
-    return true;
-  } catch (const Error& error) {
-    const ErrorCode code = error.code();
-    require(code == ErrorCode::invalid_argument || code == ErrorCode::invalid_seed ||
-                code == ErrorCode::invalid_domain || code == ErrorCode::unsupported,
-            std::string(name(code)) + ": " + error.what());
-    require_readable(error.what());
-    return false;
-  }
-}
-
 }  // namespace
 
 void diagrams(Bytes bytes) {
   Input input(bytes);
   const Options options = any_options(input);
-  accepted([&] {
+  accepted(kCallersFaults, [&] {
     const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
     Session session(input, domain, options);
-    accepted([&] { session.set_seeds(); });
-    for (int steps = 0; steps < 8 && !input.at_end(); ++steps) accepted([&] { session.step(); });
+    accepted(kCallersFaults, [&] { session.set_seeds(); });
+    for (int steps = 0; steps < 8 && !input.at_end(); ++steps)
+      accepted(kCallersFaults, [&] { session.step(); });
   });
 }
 

@@ -1,13 +1,12 @@
 // The readers of files, and the domains made of what they read.
 #include <algorithm>
 #include <cmath>
-#include <powercell/error.hpp>
 #include <string>
 #include <string_view>
 
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
-#include "tests/fuzz/input.hpp"
+#include "tests/fuzz/refusals.hpp"
 
 namespace powercell::fuzz {
 namespace {
@@ -47,14 +46,9 @@ void check_arrays(const io::DomainArrays& arrays) {
 /// Runs `read`; a refusal must be one of a file or of the domain in it.
 template <class Read>
 void read_or_refuse(Read read) {
-  try {
-    read();
-  } catch (const Error& error) {
-    require(error.code() == ErrorCode::invalid_file || error.code() == ErrorCode::invalid_domain ||
-                error.code() == ErrorCode::invalid_seed || error.code() == ErrorCode::invalid_argument,
-            std::string("a file was refused as ") + name(error.code()) + ": " + error.what());
-    require_readable(error.what());
-  }
+  accepted({ErrorCode::invalid_file, ErrorCode::invalid_domain, ErrorCode::invalid_seed,
+            ErrorCode::invalid_argument},
+           read);
 }
 
 template <std::size_t Count>

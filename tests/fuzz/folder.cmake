@@ -1,5 +1,5 @@
 # The replay of the corpora is an ordinary test; the fuzzers themselves are built by the preset `fuzz` alone.
-set(library powercell_io)
+set(library powercell_commands)  # files that commands read, and powercell_io
 find_package(OpenCL REQUIRED)  # device_diagrams.cpp has a context of its own
 target_link_libraries(test_fuzz PRIVATE OpenCL::OpenCL)
 target_compile_definitions(test_fuzz PRIVATE POWERCELL_FUZZ_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}/fuzz")
@@ -7,9 +7,10 @@ if(POWERCELL_FUZZ)
   file(GLOB fuzz_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cpp)
   list(FILTER fuzz_sources EXCLUDE REGEX "/replay\\.cpp$")
   add_library(powercell_fuzz_support STATIC EXCLUDE_FROM_ALL ${fuzz_sources})
-  target_link_libraries(powercell_fuzz_support PUBLIC powercell_io OpenCL::OpenCL)
+  target_link_libraries(powercell_fuzz_support PUBLIC powercell_commands OpenCL::OpenCL)
   add_custom_target(powercell_fuzz_targets)
-  foreach(target meshes grids polygons seeds domains diagrams c_interface device_diagrams)
+  foreach(target meshes grids polygons seeds trees documents domains diagrams c_interface device_diagrams
+          triangulations treemaps transports samplings remeshings)
     add_executable(fuzz_${target} EXCLUDE_FROM_ALL ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/driver/libfuzzer.cpp)
     target_compile_definitions(fuzz_${target} PRIVATE POWERCELL_FUZZ_TARGET=${target})
     target_link_libraries(fuzz_${target} PRIVATE powercell_fuzz_support -fsanitize=fuzzer)

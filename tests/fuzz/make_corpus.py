@@ -6,6 +6,8 @@ choices (input.hpp), here random ones from a fixed seed. What the fuzzers found 
 """
 import pathlib
 import random
+import struct
+import zlib
 
 here = pathlib.Path(__file__).parent
 data = here.parent / "readers" / "data"
@@ -50,6 +52,44 @@ seeds = {
     "random": "4100:0:0.5:7",
     "range": "4100000:-1e3:1e-3",
 }
+trees = {
+    "table": "0id,parent,name,value\nworld,,World,\na,world,A,3\nb,world,\"B, \"\"b\"\"\",1.5\nc,a,C,2\nd,a,D,0\n",
+    "table_rows": "00;;root;0\n1;0;one;4\n2;0;two;5\n",
+    "table_implied_root": "0id\tparent\tvalue\n1\t0\t4\n2\t0\t5\n",
+    "nested": '1{"name":"r","children":[{"name":"a","value":2},{"name":"a","children":[{"value":1},{"size":3}]}]}',
+    "list": '1[{"id":1,"name":"r"},{"id":"a","parent":1,"value":2},{"id":"b","parentId":1,"weight":1e1}]',
+    "layout": '2[{"id":"r","parent":"","name":"r","value":3,"polygon":[[0,0],[2,0],[2,1],[0,1]],"seed":[1,0.5]},'
+              '{"id":"a","parent":"r","value":1,"polygon":[[0,0],[1,0],[1,1],[0,1]],"seed":[0.5,0.5]},'
+              '{"id":"b","parent":"r","value":2,"polygon":[[1,0],[2,0],[2,1],[1,1]],"seed":[1.5,0.5]}]',
+}
+documents = {
+    "masses": "01\n2.5\n",
+    "masses_named": '0name;mass\na;1\n"b";2e3\n',
+    "masses_column": "1x,y,area\n0,0,1\n1,1,2\n",
+    "saved_polygon": '2{"powercell":"0.1.0","domain":{"kind":"polygon","measure":1},"cells":['
+                     '{"seed":0,"position":[0.25,0.5],"weight":0,"status":"ok","measure":0.5,"centroid":[0.25,0.5],'
+                     '"vertices":[[0,0],[0.5,0],[0.5,1],[0,1]],"faces":[[0,1,2,3]],"borders":[[-1,1,-1,-1]]},'
+                     '{"seed":1,"position":[0.75,0.5],"weight":0,"status":"ok","measure":0.5,"centroid":[0.75,0.5],'
+                     '"vertices":[[0.5,0],[1,0],[1,1],[0.5,1]],"faces":[[0,1,2,3]],"borders":[[-1,-1,-1,0]]}]}',
+    "saved_volume": '2{"domain":{"kind":"volume","measure":0.5},"cells":[{"position":[0,0,0],"weight":1,"status":"ok",'
+                    '"measure":0.5,"vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"faces":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]],'
+                    '"borders":[-1,null,-2,-4]},{"position":[2,0,0],"weight":0,"status":"hidden","measure":null,'
+                    '"vertices":[],"faces":[],"borders":[]}]}',
+    "record": '4{"format":"powercell bench","format_version":1,"version":"0.1.0","revision":null,"date":"2026-01-01",'
+              '"rows":[{"passed":true,"device":"d","selector":"0:0","domain":"cube","precision":"double","n":1000,'
+              '"measures":{"cells_per_second":1e6},"adjacency":{"cells_per_second":5e5}},{"passed":false}]}',
+}
+
+
+def png(width, height, bits, colour, rows):
+    """A PNG; `rows` with the filter's byte before each."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    parts = [chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0))]
+    if colour == 3:
+        parts += [chunk(b"PLTE", bytes(range(12))), chunk(b"tRNS", b"\xff\0\x80\x40")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(parts) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
 
 def write(target, name, content):
@@ -72,8 +112,18 @@ for name, text in polygons.items():
     write("polygons", name, text)
 for name, text in seeds.items():
     write("seeds", name, text)
+for name, text in trees.items():
+    write("trees", name, text)
+for name, text in documents.items():
+    write("documents", name, text)
+for name, bits, colour, rows in (("gray", 8, 0, b"\0\x10\x80\1\x20\xf0"), ("rgba", 8, 6, b"\0" + bytes(range(8)) + b"\2" * 9),
+                                 ("deep", 16, 4, b"\0" + bytes(range(8)) + b"\4" * 9), ("bits", 1, 0, b"\0\x80\0\x40"),
+                                 ("palette", 2, 3, b"\0\x10\0\xe0")):
+    write("documents", f"png_{name}", b"5" + png(2, 2, bits, colour, rows))
+    write("documents", f"png_{name}_mended", b"6" + png(2, 2, bits, colour, rows))
 
 generator = random.Random(1)
-for target in ("domains", "diagrams", "c_interface", "device_diagrams"):
+for target in ("domains", "diagrams", "c_interface", "device_diagrams", "triangulations", "treemaps", "transports",
+               "samplings", "remeshings"):
     for k in range(12):
         write(target, f"random_{k}", bytes(generator.randrange(256) for _ in range(40 + 40 * k)))
