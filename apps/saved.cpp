@@ -12,10 +12,7 @@ namespace {
 using nlohmann::json;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw Error(
-      ErrorCode::invalid_file,
-      fmt::format("{}: {}; a saved diagram is what 'powercell diagram -o FILE.json' writes", path,
-                  io::readable(what)));
+  io::fail_file(path, what + "; a saved diagram is what 'powercell diagram -o FILE.json' writes");
 }
 
 // A number that may be missing (null) reads as not a number.

@@ -10,8 +10,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-all="meshes grids polygons seeds trees documents domains diagrams c_interface device_diagrams
-  triangulations treemaps transports samplings remeshings"
+all=$(ls tests/fuzz/corpus)
 [ $# -eq 2 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 targets=$1
 [ "$targets" = all ] && targets=$all

@@ -13,9 +13,8 @@ namespace powercell {
 
 class FlannIndex {
  public:
-  /// \param scale   positions are multiplied by it, a power of two: squares of lengths must be neither 0 nor
-  /// infinite \param heights the lift h_i by rank, the same length as the seeds, in the unit that `scale`
-  /// makes
+  /// \param scale    a power of two that positions are multiplied by, so that their squares are in range
+  /// \param heights  the lift h_i by rank, as many as seeds, in the unit that `scale` makes
   FlannIndex(const SeedSet& seeds, double scale, std::span<const double> heights);
   ~FlannIndex();
 

@@ -53,18 +53,19 @@ double turn(const std::vector<double>& p, std::size_t k) {
   return sine;
 }
 
+// Of an outline, at least three corners.
 void require_sure_area(const std::vector<double>& corners) {
   const std::size_t n = corners.size() / 2;
-  double round = 0, largest = 0;
+  double perimeter = 0, largest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t next = (k + 1) % n;
-    round += std::hypot(corners[2 * next] - corners[2 * k], corners[2 * next + 1] - corners[2 * k + 1]);
+    perimeter += std::hypot(corners[2 * next] - corners[2 * k], corners[2 * next + 1] - corners[2 * k + 1]);
     largest = std::max({largest, std::fabs(corners[2 * k]), std::fabs(corners[2 * k + 1])});
   }
   const double area = moments(corners).area;
   if (!(area >= least_area))
     throw Error(ErrorCode::invalid_domain, "the outline has an area below 1e-120; scale it");
-  if (!(std::numeric_limits<double>::epsilon() * largest * round <= area_in_doubt * area))
+  if (!(std::numeric_limits<double>::epsilon() * largest * perimeter <= area_in_doubt * area))
     throw Error(
         ErrorCode::invalid_domain,
         "the outline is so thin, or so far from the origin, that rounding its corners moves its area by more "

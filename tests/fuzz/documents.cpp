@@ -18,7 +18,7 @@
 namespace powercell::fuzz {
 namespace {
 
-constexpr std::string_view kName = "file";
+const std::string kName = "file";
 
 void check_tree(const io::NamedTree& tree) {
   const std::size_t n = tree.size();
@@ -83,7 +83,7 @@ void check_image(const io::GrayImage& image) {
 }
 
 void check_saved_diagram(std::string_view bytes) {
-  const app::SavedDiagram diagram = app::parse_saved(bytes, std::string(kName));
+  const app::SavedDiagram diagram = app::parse_saved(bytes, kName);
   std::size_t edges = 0;
   for (const app::SavedCell& cell : diagram.cells)
     for (const app::SavedFace& face : cell.faces) edges += face.loop.size();
@@ -98,14 +98,13 @@ void trees(Bytes input) {
   if (input.empty()) return;
   const std::string_view bytes(reinterpret_cast<const char*>(input.data()) + 1, input.size() - 1);
   const std::size_t format = input[0] % 3;
-  const std::string name(kName);
   const auto codes = {ErrorCode::invalid_file, ErrorCode::invalid_argument};
   accepted(codes, [&] {
-    const io::NamedTree tree = io::parse_tree(bytes, format == 0 ? ".csv" : ".json", name);
+    const io::NamedTree tree = io::parse_tree(bytes, format == 0 ? ".csv" : ".json", kName);
     check_tree(tree);
     std::vector<double> start;
     if (format == 2) {
-      const io::EarlierLayout layout = io::parse_earlier_layout(bytes, tree, name);
+      const io::EarlierLayout layout = io::parse_earlier_layout(bytes, tree, kName);
       check_layout(layout, tree);
       start = relative_positions(layout.parent, layout.seeds, layout.vertex_offset, layout.vertices);
     }
@@ -116,23 +115,22 @@ void trees(Bytes input) {
 void documents(Bytes input) {
   if (input.empty()) return;
   const std::string_view bytes(reinterpret_cast<const char*>(input.data()) + 1, input.size() - 1);
-  const std::string name(kName);
   const std::size_t choice = input[0] % 8;
   accepted({ErrorCode::invalid_file, ErrorCode::invalid_argument}, [&] {
     if (choice == 0) {
       const std::size_t rows = 1 + static_cast<std::size_t>(std::ranges::count(bytes, '\n'));
-      for (const double mass : io::parse_masses(bytes, "", rows > 2 ? rows - 1 : 1, name))
+      for (const double mass : io::parse_masses(bytes, "", rows > 2 ? rows - 1 : 1, kName))
         require(mass > 0 && std::isfinite(mass), "a mass that is not positive");
     } else if (choice == 1) {
-      io::parse_masses(bytes, "area", 2, name);
+      io::parse_masses(bytes, "area", 2, kName);
     } else if (choice <= 3) {
       check_saved_diagram(bytes);
     } else if (choice == 4) {
-      for (const app::EarlierRow& row : app::parse_record(bytes, name).rows)
+      for (const app::EarlierRow& row : app::parse_record(bytes, kName).rows)
         require(row.n > 0 && row.rate >= 0 && row.adjacency_rate >= 0,
                 "a row of no seeds or a negative rate");
     } else {
-      check_image(io::parse_png(choice == 5 ? std::string(bytes) : with_sums(bytes), name));
+      check_image(io::parse_png(choice == 5 ? std::string(bytes) : with_sums(bytes), kName));
     }
   });
 }

@@ -9,8 +9,10 @@ if(POWERCELL_FUZZ)
   add_library(powercell_fuzz_support STATIC EXCLUDE_FROM_ALL ${fuzz_sources})
   target_link_libraries(powercell_fuzz_support PUBLIC powercell_commands OpenCL::OpenCL)
   add_custom_target(powercell_fuzz_targets)
-  foreach(target meshes grids polygons seeds trees documents domains diagrams c_interface device_diagrams
-          triangulations treemaps transports samplings remeshings)
+  # A target for each folder of inputs, of the function of that name in targets.hpp.
+  file(GLOB targets RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus CONFIGURE_DEPENDS
+    ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/*)
+  foreach(target IN LISTS targets)
     add_executable(fuzz_${target} EXCLUDE_FROM_ALL ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/driver/libfuzzer.cpp)
     target_compile_definitions(fuzz_${target} PRIVATE POWERCELL_FUZZ_TARGET=${target})
     target_link_libraries(fuzz_${target} PRIVATE powercell_fuzz_support -fsanitize=fuzzer)
