@@ -280,18 +280,28 @@ static inline bool cell_goes_on(const cell_t* cell) {
   return false;
 }
 
-/* Adds the integrals over the tetrahedron of `top` and the triangle a, v, w, all with |y|^2 in the last
-   component: to sums those of 1 and of 24 y, and to `squares` parts of that of 120 |y|^2
-   (docs/mathematics.md (14)). Returns the normal of the triangle, twice its area long. */
-static inline real4 tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, real* volume, real4* sums,
-                                        real4* squares) {
-  const real4 normal = cross(v - a, w - a), sum = (top + a) + (v + w);
-  const real part = dot(normal, a - top);
+/* Outward unit normal of face f and, in w, how far `top` lies behind its plane. */
+static inline real4 face_height(const cell_t* cell, int f, real4 top) {
+  real4 n = cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]).plane : cell->normal[f];
+  n.w = 0;
+  n = n * (1 / sqrt(dot(n, n)));
+  n.w = dot(n, cell->point[cell->mark[f]] - top); /* n.w is still 0 there */
+  return n;
+}
+
+/* Adds the integrals over the tetrahedron of `top` and the triangle a, v, w in the face of that height, all with |y|^2 in the
+   last component: to sums those of 1 and of 24 y, and to `squares` parts of that of 120 |y|^2 (docs/mathematics.md (14)).
+   Returns twice the area of the triangle. By the face's own normal: that of the triangle would be lost in rounding where
+   the cell is a needle. */
+static inline real tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, real4 height, real* volume, real4* sums,
+                                       real4* squares) {
+  const real4 sum = (top + a) + (v + w);
+  const real area = dot(cross(v - a, w - a), height), part = area * height.w; /* w of the product is 0 */
   const real4 weighted = sum * part;
   *volume += part;
   *sums = *sums + weighted;
   *squares = *squares + weighted * sum;
-  return normal;
+  return area;
 }
 
 /* The integrals of 1, y and |y|^2, by the tetrahedra from one vertex over a fan of each face; side[f] = area of
@@ -311,21 +321,22 @@ static inline void cell_moments(cell_t* cell, real* moments) {
   const real4 zero = make_real4(0, 0, 0, 0), top = cell->point[first];
   real4 sums = zero, squares = zero;
   real volume = 0;
-  if (walls)
-    for (int f = 0; f < cell->faces; ++f) cell->normal[f] = zero;
+  for (int f = 0; f < cell->faces; ++f) {
+    cell->normal[f] = face_height(cell, f, top);
+    if (walls) cell->at.side[f] = 0;
+  }
   for (int w = 0; w < words; ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       UNROLL for (int k = 0; k < 3; ++k) {
         const int f = cell->face[k][v];
-        const real4 normal = tetrahedron_moments(top, cell->point[cell->mark[f]], cell->point[v],
-                                                 cell->point[cell->next[k][v]], &volume, &sums, &squares);
-        if (walls) cell->normal[f] = cell->normal[f] + normal;
+        const real area = tetrahedron_moments(top, cell->point[cell->mark[f]], cell->point[v],
+                                              cell->point[cell->next[k][v]], cell->normal[f], &volume, &sums, &squares);
+        if (walls) cell->at.side[f] += area;
       }
     }
   if (walls)
-    for (int f = 0; f < cell->faces; ++f)
-      cell->at.side[f] = sqrt(dot(cell->normal[f], cell->normal[f])) / 2;
+    for (int f = 0; f < cell->faces; ++f) cell->at.side[f] = fabs(cell->at.side[f]) / 2;
   moments[0] = volume / 6;
   moments[1] = sums.x / 24;
   moments[2] = sums.y / 24;

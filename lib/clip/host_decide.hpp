@@ -258,15 +258,31 @@ certain_plane_t facet_of_region(const Cell* cell, int f) {
     return region_plane(cell, f);
 }
 
-/// Whether the cell is exactly flat. What is not, but measures nothing to rounding, gets the least measure
-/// there is and its vertices' mean for its centroid.
+/// Area of the surface, or length of the outline. Needs cell_moments.
+template <class Cell>
+real surface_of(const Cell* cell) {
+  real sum = 0;
+  if constexpr (requires { cell->previous; }) {
+    all_edges(cell, 0, [&](int v, int u, int) {
+      real square = 0;
+      for (const auto& x : cell->at.x) square += (x[u] - x[v]) * (x[u] - x[v]);
+      sum += sqrt(square);
+      return true;
+    });
+  } else {
+    for (int f = 0; f < cell->faces; ++f) sum += cell->at.side[f];
+  }
+  return sum;
+}
+
+/// Whether the cell is exactly flat. What is not, but is no thicker than rounding of its vertices, gets the
+/// least measure there is and its vertices' mean for its centroid.
 template <class Cell>
 bool host_is_flat(const Cell* cell, real* moments) {
   const real r = cell->at.radius;
   if (moments[0] > plainly_solid * (CELL_DIMENSION == 3 ? r * r * r : r * r)) return false;
   if (is_degenerate_cell(cell)) return true;
-  const real noise = 64 * REAL_EPSILON * (CELL_DIMENSION == 3 ? r * r * r : r * r);
-  if (moments[0] > noise) return false;
+  if (moments[0] > 64 * REAL_EPSILON * r * surface_of(cell)) return false;
   moments[0] = fmax(moments[0], std::numeric_limits<real>::min());
   real mean2 = 0;
   for (int k = 0; k < DIMENSION; ++k) {
