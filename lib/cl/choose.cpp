@@ -9,6 +9,7 @@
 
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/self_test.hpp"
+#include "lib/readable.hpp"
 
 namespace powercell {
 namespace cl {
@@ -48,10 +49,8 @@ std::string not_found_message(std::span<const DeviceInfo> devices, std::string_v
   if (devices.empty())
     return "no OpenCL device on this machine; install a driver, for example one that runs on any CPU: "
            "apt-get install pocl-opencl-icd";
-  std::string shown(selector.substr(0, 100));
-  for (char& c : shown)
-    if (std::iscntrl(static_cast<unsigned char>(c))) c = '?';
-  std::string message = "no OpenCL device matches \"" + shown + "\"" + std::string(origin) + "; there are";
+  std::string message = "no OpenCL device matches \"" + readable(std::string(selector), 100) + "\"" +
+                        std::string(origin) + "; there are";
   const char* separator = " ";
   for (const auto& device : devices) {
     message += separator + device.selector() + " " + device.name + " (" + device.platform_name + ")";

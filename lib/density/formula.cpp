@@ -3,6 +3,7 @@
 #include "lib/density/make.hpp"
 #include "lib/density/pointwise.hpp"
 #include "lib/density/value.hpp"
+#include "lib/readable.hpp"
 
 namespace powercell {
 namespace {
@@ -50,7 +51,9 @@ class Expression {
     try {
       body();
     } catch (const mu::Parser::exception_type& error) {
-      throw Error(ErrorCode::invalid_argument, "formula \"" + text_ + "\": " + error.GetMsg());
+      constexpr std::size_t most = 300;
+      throw Error(ErrorCode::invalid_argument,
+                  "formula \"" + readable(text_, most) + "\": " + readable(error.GetMsg(), most));
     }
   }
 

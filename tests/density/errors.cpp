@@ -1,6 +1,8 @@
 // Densities that are none.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -36,6 +38,15 @@ TEST_CASE("what is no formula says so when it is made") {
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula(text); }), "formula"));
   for (const double tolerance : {0.0, -1.0, 1.0, std::nan("")})
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula("1", tolerance); }), "tolerance"));
+}
+
+TEST_CASE("a message about a formula is one line that can be read, whatever the formula") {
+  for (const std::string& text : {std::string("8\x1b[31m\n}"), std::string(100000, 'a')}) {
+    const std::string said = message(ErrorCode::invalid_argument, [&] { Density::formula(text); });
+    INFO(said);
+    CHECK(said.size() < 1000);
+    CHECK(std::ranges::none_of(said, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); }));
+  }
 }
 
 TEST_CASE("a formula without a density where it is asked says where") {
