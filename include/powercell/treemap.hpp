@@ -60,7 +60,9 @@ struct Treemap {
   std::vector<double> vertices;              ///< x, y pairs; each polygon convex and counter-clockwise
   std::vector<double> seeds;                 ///< n x 2, near the centroids; NaN where dropped
 
-  /// Largest |area / its share of the outline - 1| of a leaf, measured on the polygons, and whose.
+  /// Largest |area / its share of the outline - 1| of a leaf, and whose: measured on the polygons as they
+  /// are. Rounding of corners is part of it; where a leaf is tiny beside its coordinates that may be more
+  /// than the tolerance.
   double worst_error = 0;
   std::size_t worst_leaf = 0;
   /// Mean over the leaves of the ratio of the longer to the shorter principal axis (of second moments).

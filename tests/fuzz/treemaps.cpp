@@ -1,4 +1,5 @@
 // Treemaps of any tree, values and outline: areas are the values, as updates of themselves too.
+#include <algorithm>
 #include <cmath>
 #include <powercell/shapes.hpp>
 #include <powercell/treemap.hpp>
@@ -61,6 +62,17 @@ long double area(const double* points, std::size_t count) {
   return twice / 2;
 }
 
+/// By how much of its area a polygon may change as its corners are rounded.
+long double rounding(const double* points, std::size_t count) {
+  long double length = 0, far = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double *const a = points + 2 * k, *const b = points + 2 * ((k + 1) % count);
+    length += std::hypot(static_cast<long double>(b[0]) - a[0], static_cast<long double>(b[1]) - a[1]);
+    far = std::max<long double>({far, std::fabs(a[0]), std::fabs(a[1])});
+  }
+  return 4 * 0x1p-53L * far * length / std::fabs(area(points, count));
+}
+
 void check(const Treemap& map, const TreeInput& tree, double tolerance) {
   const std::size_t n = tree.parent.size();
   require(map.kind.size() == n && map.value.size() == n && map.depth.size() == n &&
@@ -68,6 +80,7 @@ void check(const Treemap& map, const TreeInput& tree, double tolerance) {
               map.vertices.size() == 2 * map.vertex_offset.back(),
           "arrays of another size than the tree");
   long double leaves = 0, outline = 0;
+  std::size_t root = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t begin = map.vertex_offset[i], count = map.vertex_offset[i + 1] - begin;
     require((count == 0) == (map.kind[i] == TreeNode::dropped), "dropped nodes and polygons do not agree");
@@ -78,11 +91,25 @@ void check(const Treemap& map, const TreeInput& tree, double tolerance) {
       require(std::isfinite(map.vertices[k]), "a corner that is not finite");
     const long double own = area(&map.vertices[2 * begin], count);
     if (map.kind[i] == TreeNode::leaf) leaves += own;
-    if (tree.parent[i] < 0) outline = own;
+    if (tree.parent[i] < 0) {
+      outline = own;
+      root = i;
+    }
   }
   require(outline > 0, "an outline without area");
   require(std::fabs(leaves / outline - 1) < 1e-6L, "the leaves do not fill the outline");
-  require(map.worst_error <= tolerance || !map.not_converged.empty(), "areas beyond the tolerance");
+  for (std::size_t i = 0; i < n; ++i) {
+    if (map.kind[i] != TreeNode::leaf) continue;
+    const double* const points = &map.vertices[2 * map.vertex_offset[i]];
+    const std::size_t count = map.vertex_offset[i + 1] - map.vertex_offset[i];
+    const long double share = static_cast<long double>(map.value[i]) / map.value[root];
+    const long double error = std::fabs(area(points, count) / outline / share - 1);
+    const long double doubt =
+        rounding(points, count) + rounding(&map.vertices[2 * map.vertex_offset[root]],
+                                           map.vertex_offset[root + 1] - map.vertex_offset[root]);
+    require(error <= map.worst_error + doubt, "an area further off than the worst");
+    require(error <= tolerance + doubt || !map.not_converged.empty(), "areas beyond the tolerance");
+  }
 }
 
 }  // namespace
