@@ -254,6 +254,7 @@ static inline real cell_certain(cell_t* cell) {
   find_radius2(&cell->at);
   for (int f = 0; f < cell->faces; ++f) {
     const certain_plane_t unit = face_plane(cell, f);
+    if (!(unit.doubt < REAL_MAX)) return -1; /* the square of q is nothing, but cell_moments needs its direction */
     cell->normal[f] = unit.plane;
     cell->doubt[f] = unit.doubt;
   }
@@ -284,6 +285,7 @@ static inline bool cell_goes_on(const cell_t* cell) {
 static inline real4 face_height(const cell_t* cell, int f, real4 top) {
   real4 n = cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]).plane : cell->normal[f];
   n.w = 0;
+  n = n * (1 / fmax(fmax(fabs(n.x), fabs(n.y)), fmax(fabs(n.z), REAL_LEAST))); /* seeds may be next to nothing apart */
   n = n * (1 / sqrt(dot(n, n)));
   n.w = dot(n, cell->point[cell->mark[f]] - top); /* n.w is still 0 there */
   return n;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <powercell/diagram.hpp>
 #include <powercell/shapes.hpp>
 #include <string>
@@ -156,6 +157,25 @@ void check_families(std::size_t sets, std::size_t most) {
 }
 
 }  // namespace
+
+TEST_CASE("seeds the least number apart share the domain, whoever decides") {
+  const double least = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> x{0, least, least, least, least, 0}, low(3, 0.0), high(3, 1e-6);
+  const Domain domain = Domain::box(low, high);
+  for (const Setup& setup : all_setups()) {
+    if (setup.options.precision == Precision::float32) continue;  // to two floats they are one
+    CAPTURE(setup.name);
+    for (const Decisions decisions : {Decisions::exact, Decisions::fast}) {
+      Options options = setup.options;
+      options.decisions = decisions;
+      Diagram diagram(setup.device, domain, options);
+      diagram.set_seeds({3, x, {}});
+      const Measures& cells = diagram.measures();
+      for (const double mass : cells.mass)
+        CHECK(mass == doctest::Approx(domain.measure() / 2).epsilon(1e-12));
+    }
+  }
+}
 
 TEST_CASE("seeds near rounding: both precisions find their cells") {
   check_families(12, 40);
