@@ -1,6 +1,7 @@
 #include "lib/remeshing/mesh_check.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 
@@ -33,11 +34,12 @@ void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshChec
       return at != last && at->from == from ? at : last;
     };
     // An open fan starts where nothing leads to.
+    std::vector<std::uint32_t> led_to;
+    std::transform(first, last, std::back_inserter(led_to), [](const Step& s) { return s.to; });
+    std::sort(led_to.begin(), led_to.end());
     auto start = first;
-    for (auto at = first; at != last; ++at) {
-      const bool led_to = std::any_of(first, last, [&](const Step& s) { return s.to == at->from; });
-      if (!led_to) start = at;
-    }
+    for (auto at = first; at != last; ++at)
+      if (!std::binary_search(led_to.begin(), led_to.end(), at->from)) start = at;
     std::size_t walked = 0;
     for (auto at = start; at != last && walked <= end - begin;) {
       ++walked;

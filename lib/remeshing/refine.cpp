@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "lib/remeshing/surface.hpp"
@@ -60,6 +61,18 @@ void cut(const Surface& surface, const std::array<std::uint32_t, 3>& row,
 }
 
 }  // namespace
+
+double refined_size(const Surface& surface, double longest) {
+  const double power = std::log2(3.0);
+  double triangles = 0;
+  for (std::uint32_t t = 0; t < surface.size(); ++t) {
+    double most = 0;
+    for (int k = 0; k < 3; ++k)
+      most = std::max(most, norm2(surface.corner(t, (k + 1) % 3) - surface.corner(t, k)));
+    triangles += std::pow(std::max(1.0, std::sqrt(most) / longest), power);
+  }
+  return triangles;
+}
 
 Surface refined(const Surface& surface, double longest, std::vector<double>& value) {
   Surface result = surface;

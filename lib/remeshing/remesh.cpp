@@ -1,6 +1,8 @@
 // remesh(): from the input mesh to the new one.
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <powercell/error.hpp>
 #include <powercell/remeshing.hpp>
@@ -34,6 +36,18 @@ void check(const RemeshOptions& o) {
   require(o.sharp_angle > 0 && o.sharp_angle <= 180,
           "the sharp angle must be above 0 and at most 180 degrees");
   require(o.rounds >= 0 && o.relaxations >= 0, "rounds must not be negative");
+}
+
+/// Triangles are cut to the length of the new edges first. Of those far longer than wide that makes numbers
+/// out of all proportion to the mesh asked for, up to no end.
+void check_thinness(const Surface& input, double spacing, std::size_t count) {
+  const double triangles = refined_size(input, spacing);
+  if (triangles <= 1e6 + 400 * static_cast<double>(count + input.size())) return;
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.2g", triangles);
+  throw Error(ErrorCode::invalid_domain, "the surface is too thin for a mesh of " + std::to_string(count) +
+                                             " points: cut to their spacing, its triangles would be about " +
+                                             digits.data());
 }
 
 class Watch {
@@ -92,6 +106,7 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   const Frame frame = frame_of(vertices);
   const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
   const double spacing = std::sqrt(input.area() / (static_cast<double>(options.count) * std::sqrt(3.0) / 2));
+  check_thinness(input, spacing, options.count);
   std::vector<double> shape = relative_sizing(input, spacing, options.contrast);
   const Surface surface = refined(input, spacing, shape);
   const Sizing sizing = scaled_sizing(surface, shape, options.gradation, options.count);

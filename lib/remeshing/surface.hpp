@@ -51,6 +51,10 @@ Surface make_surface(std::span<const double> vertices, std::span<const std::uint
 /// vertex, is interpolated.
 Surface refined(const Surface& surface, double longest, std::vector<double>& value);
 
+/// At least about how many triangles come out of `refined`. Of a needle n times as long as `longest` it makes
+/// n^1.58: three of half its length, again and again.
+double refined_size(const Surface& surface, double longest);
+
 /// Numbers of boundary loops.
 int boundary_loops(const Surface& surface);
 

@@ -207,6 +207,10 @@ TEST_CASE("what cannot be done is refused") {
   options.progress = [](double) { return false; };
   options.count = 2000;
   CHECK(code_of(small_torus(), options) == ErrorCode::interrupted);
+  options = {};
+  options.count = 100;  // whose spacing would cut a ribbon into a hundred million triangles
+  const TriangleMesh ribbon{{0, 0, 0, 1, 0, 0, 1, 1e-8, 0, 0, 1e-8, 0}, {0, 1, 2, 0, 2, 3}};
+  CHECK(code_of(ribbon, options) == ErrorCode::invalid_domain);
 }
 
 }  // namespace powercell::test
