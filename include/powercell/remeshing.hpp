@@ -56,8 +56,8 @@ struct RemeshResult {
 /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
 /// \throw Error invalid_domain: triangles of no area, edges of more than two triangles (named), a surface
 /// that cannot be oriented, one so thin that its triangles, cut to the spacing of the new points, would be
-/// millions and out of all proportion to these; invalid_argument: options out of range, too few points for the topology or the
-/// kept edges; interrupted; for transport not_converged and what TransportSolver throws
+/// millions and out of all proportion to these; invalid_argument: options out of range, too few points for
+/// the topology or the kept edges; interrupted; for transport not_converged and what TransportSolver throws
 POWERCELL_API RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                                   const RemeshOptions& options = {});
 
