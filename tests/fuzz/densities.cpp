@@ -25,7 +25,7 @@ Density any_density(Input& input, const Domain& domain) {
     case 0:
       return Density::constant(input.number());
     case 1:
-      // Sanitizers slow integrals sixty times down.
+      // Sanitizers slow integrals down.
       return Density::formula(any_formula(input), 0.03);
     case 2: {
       ImageView image;

@@ -14,6 +14,7 @@
 #include "apps/io/read_tree.hpp"
 #include "apps/saved.hpp"
 #include "tests/fuzz/refusals.hpp"
+#include "tests/fuzz/treemap_laws.hpp"
 
 namespace powercell::fuzz {
 namespace {
@@ -44,7 +45,7 @@ void lay_out(const io::NamedTree& tree, std::span<const double> start) {
   options.start = start;
   options.name = [&](std::size_t node) { return tree.called(node); };
   const Treemap map = treemap({tree.parent, tree.value}, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, options);
-  require(map.worst_error <= options.tolerance || !map.not_converged.empty(), "areas beyond the tolerance");
+  check_treemap(map, tree.parent, options.tolerance);
 }
 
 void check_layout(const io::EarlierLayout& layout, const io::NamedTree& tree) {
