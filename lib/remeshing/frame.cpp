@@ -5,19 +5,18 @@
 
 namespace powercell::remeshing {
 
-Frame frame_of(std::span<const double> vertices) {
+Frame frame_of(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
   constexpr double most = std::numeric_limits<double>::max();
   std::array<double, 3> low{most, most, most}, high{-most, -most, -most};
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    if (!std::isfinite(vertices[k])) continue;
-    low[k % 3] = std::min(low[k % 3], vertices[k]);
-    high[k % 3] = std::max(high[k % 3], vertices[k]);
-  }
-  if (low[0] > high[0]) return {};
+  for (const std::uint32_t v : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], vertices[3 * std::size_t{v} + k]);
+      high[k] = std::max(high[k], vertices[3 * std::size_t{v} + k]);
+    }
   const Vec a{low[0], low[1], low[2]}, b{high[0], high[1], high[2]};
   const double length = norm(b - a);
   // A power of two: scaling rounds nothing.
-  return {(a + b) * 0.5, length > 0 && std::isfinite(length) ? std::exp2(std::ceil(std::log2(length))) : 1};
+  return {(a + b) * 0.5, length > 0 ? std::exp2(std::ceil(std::log2(length))) : 1};
 }
 
 std::vector<double> Frame::to(std::span<const double> vertices) const {

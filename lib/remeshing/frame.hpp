@@ -2,6 +2,7 @@
 /// Coordinates in which a surface has a diagonal between 1/2 and 1 and its centre at the origin.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Frame {
   Vec back(Vec x) const { return x * length + centre; }
 };
 
-/// Of the bounding box of the vertices, those that are not finite left out.
-Frame frame_of(std::span<const double> vertices);
+/// Of the bounding box of the vertices that triangles use. Needs check_triangles.
+Frame frame_of(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
 }  // namespace powercell::remeshing

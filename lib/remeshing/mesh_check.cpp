@@ -1,9 +1,13 @@
 #include "lib/remeshing/mesh_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <unordered_map>
 #include <utility>
+
+#include "lib/domain/measure.hpp"
+#include "lib/domain/simplex_input.hpp"
 
 namespace powercell::remeshing {
 namespace {
@@ -52,6 +56,15 @@ void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshChec
 }
 
 }  // namespace
+
+void check_triangles(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+  check_simplices(vertices, triangles, 3, "triangle", "triangles");
+  double largest = 0;
+  for (const std::uint32_t v : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      largest = std::max(largest, std::fabs(vertices[3 * std::size_t{v} + k]));
+  check_magnitude(largest);
+}
 
 bool MeshCheck::has_edge(std::uint32_t from, std::uint32_t to) const {
   return std::binary_search(edges.begin(), edges.end(), key(from, to));

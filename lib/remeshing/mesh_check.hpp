@@ -1,5 +1,5 @@
 /// \file
-/// What makes a list of triangles an oriented manifold.
+/// What a list of triangles must be, and what makes it an oriented manifold.
 #pragma once
 
 #include <array>
@@ -8,6 +8,11 @@
 #include <vector>
 
 namespace powercell::remeshing {
+
+/// Whether triangles can be computed with: sizes, indices and finite coordinates as Domain::surface wants
+/// them, and of the vertices that are used, of its magnitude. \param vertices nv x 3   \param triangles nt x
+/// 3   \throw Error invalid_domain
+void check_triangles(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
 struct MeshCheck {
   std::vector<std::uint32_t> not_manifold;  ///< vertices of bad edges and of several fans, not distinct

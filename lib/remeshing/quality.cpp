@@ -1,9 +1,7 @@
 // mesh_quality() and farthest_from().
 #include <algorithm>
 #include <numbers>
-#include <powercell/error.hpp>
 #include <powercell/remeshing.hpp>
-#include <string>
 #include <tuple>
 
 #include "lib/remeshing/mesh_check.hpp"
@@ -17,17 +15,10 @@ using namespace remeshing;
 
 std::vector<std::array<std::uint32_t, 3>> rows_of(std::span<const double> vertices,
                                                   std::span<const std::uint32_t> triangles) {
-  if (vertices.size() % 3 != 0 || triangles.size() % 3 != 0 || triangles.empty())
-    throw Error(ErrorCode::invalid_domain,
-                "vertices and triangles must come in threes, and some there must be");
+  check_triangles(vertices, triangles);
   std::vector<std::array<std::uint32_t, 3>> rows;
-  for (std::size_t k = 0; k < triangles.size(); k += 3) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (triangles[k + c] >= vertices.size() / 3)
-        throw Error(ErrorCode::invalid_domain,
-                    "triangle " + std::to_string(k / 3) + " names a vertex that is not there");
+  for (std::size_t k = 0; k < triangles.size(); k += 3)
     rows.push_back({triangles[k], triangles[k + 1], triangles[k + 2]});
-  }
   return rows;
 }
 

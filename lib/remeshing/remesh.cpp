@@ -14,6 +14,7 @@
 #include "lib/remeshing/farthest.hpp"
 #include "lib/remeshing/fit.hpp"
 #include "lib/remeshing/frame.hpp"
+#include "lib/remeshing/mesh_check.hpp"
 #include "lib/remeshing/relax.hpp"
 #include "lib/remeshing/work_mesh.hpp"
 
@@ -103,7 +104,8 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   check(options);
   RemeshResult result;
   Watch watch;
-  const Frame frame = frame_of(vertices);
+  check_triangles(vertices, triangles);
+  const Frame frame = frame_of(vertices, triangles);
   const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
   const double spacing = std::sqrt(input.area() / (static_cast<double>(options.count) * std::sqrt(3.0) / 2));
   check_thinness(input, spacing, options.count);

@@ -42,8 +42,9 @@ struct Place {
 /// that neighbours agree.
 /// \param vertices nv x 3   \param triangles nt x 3   \param sharp_angle degrees: edges whose triangles'
 /// normals differ by more are kept
-/// \throw Error invalid_domain: sizes, indices, a vertex that is not finite, a triangle of no area; an edge
-/// of three or more triangles or around which the surface cannot be oriented, a vertex where sheets touch
+/// Needs check_triangles.
+/// \throw Error invalid_domain: a triangle of no area; an edge of three or more triangles or around which the
+/// surface cannot be oriented, a vertex where sheets touch
 Surface make_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                      double sharp_angle);
 

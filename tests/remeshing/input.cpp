@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 #include <powercell/error.hpp>
+#include <powercell/remeshing.hpp>
 
 #include "lib/remeshing/curves.hpp"
 #include "lib/remeshing/sizing.hpp"
@@ -17,7 +18,7 @@ using namespace remeshing;
 
 std::string refusal(const TriangleMesh& mesh) {
   try {
-    surface_from(mesh);
+    remesh(mesh.vertices, mesh.triangles);
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::invalid_domain);
     return error.what();
@@ -51,12 +52,16 @@ TEST_CASE("surfaces that are no manifolds are refused, and the place is named") 
 TEST_CASE("other broken input is refused") {
   const std::vector<double> square = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
   CHECK(says(refusal({square, {}}), "no triangles"));
-  CHECK(says(refusal({square, {0, 1, 9}}), "triangle 0 names vertex 9 of 4"));
+  CHECK(says(refusal({square, {0, 1, 9}}), "triangle 0: vertex index 9 is out of range, there are 4"));
   CHECK(says(refusal({square, {0, 1, 2, 0, 1, 3}}), "triangle 1 has no area"));
-  CHECK(says(refusal({square, {0, 1}}), "threes"));
+  CHECK(says(refusal({square, {0, 1}}), "triangles need 3 vertex indices each"));
   std::vector<double> infinite = square;
   infinite[4] = INFINITY;
-  CHECK(says(refusal({infinite, {0, 1, 2}}), "vertex 1 is not finite"));
+  CHECK(says(refusal({infinite, {0, 1, 2}}), "vertex 1: coordinate y is inf"));
+  std::vector<double> large = square;
+  large[5] = 1e101;
+  CHECK(says(refusal({large, {0, 1, 2}}), "1e+101: outside"));
+  CHECK_THROWS_AS(mesh_quality(large, std::vector<std::uint32_t>{0, 1, 2}), Error);
 }
 
 TEST_CASE("triangles are turned to agree, and vertices at one place are one") {

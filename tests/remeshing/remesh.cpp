@@ -116,6 +116,18 @@ TEST_CASE("sharp edges and corners stay") {
   }
 }
 
+TEST_CASE("vertices of no triangle change nothing") {
+  const TriangleMesh torus = small_torus();
+  TriangleMesh more = torus;
+  for (std::uint32_t& v : more.triangles) v += 2;
+  more.vertices.insert(more.vertices.begin(), {1, -1e300, 2, 5e3, 0, 0});
+  RemeshOptions options;
+  options.count = 300;
+  options.rounds = 2;
+  CHECK(remesh(more.vertices, more.triangles, options).mesh.vertices ==
+        remesh(torus.vertices, torus.triangles, options).mesh.vertices);
+}
+
 TEST_CASE("edges are shorter where the surface bends more") {
   // A flat sheet with one bump.
   TriangleMesh sheet = wavy_sheet();
