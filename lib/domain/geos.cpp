@@ -56,37 +56,35 @@ Geometry Context::segment(const double* a, const double* b) {
   return own(GEOSGeom_createLineString_r(handle_, sequence({a[0], a[1], b[0], b[1]})), "making a segment");
 }
 
-std::optional<Defect> Context::defect(const Geometry& geometry) {
-  char* reason = nullptr;
-  GEOSGeometry* place = nullptr;
-  const char valid = GEOSisValidDetail_r(handle_, geometry.get(), 0, &reason, &place);
-  const Geometry location(place, Destroy{handle_});
-  Defect found;
-  if (reason) found.reason = reason;
-  GEOSFree_r(handle_, reason);
+std::optional<std::string> Context::defect(const Geometry& geometry) {
+  char* text = nullptr;
+  GEOSGeometry* point = nullptr;
+  const char valid = GEOSisValidDetail_r(handle_, geometry.get(), 0, &text, &point);
+  const Geometry location(point, Destroy{handle_});
+  std::string reason = text ? text : "";
+  GEOSFree_r(handle_, text);
   if (valid == 1) return std::nullopt;
-  if (valid != 0) fail("the validity check");
-  if (location) {
-    GEOSGeomGetX_r(handle_, location.get(), &found.x);
-    GEOSGeomGetY_r(handle_, location.get(), &found.y);
-  }
-  return found;
+  if (valid != 0) return "cannot be judged in double precision (" + message_ + ")";
+  double x = 0, y = 0;
+  if (location && GEOSGeomGetX_r(handle_, location.get(), &x) == 1 &&
+      GEOSGeomGetY_r(handle_, location.get(), &y) == 1)
+    reason += " at " + place(x, y);
+  return reason;
 }
 
-std::optional<Defect> Context::overlap(const Geometry& a, const Geometry& b) {
+std::optional<std::string> Context::overlap(const Geometry& a, const Geometry& b) {
   const char meet = GEOSRelatePattern_r(handle_, a.get(), b.get(), "T********");
   if (meet == 0) return std::nullopt;
-  // GEOS intersects in double: where coordinates span many orders of magnitude it may give up.
-  if (meet != 1) return Defect{"cannot be told apart in double precision (" + message_ + ")"};
-  Defect found{"overlap"};
+  if (meet != 1) return "cannot be told apart in double precision (" + message_ + ")";
+  std::string reason = "overlap";
   const Geometry common(GEOSIntersection_r(handle_, a.get(), b.get()), Destroy{handle_});
-  if (!common) return found;
+  if (!common) return reason;
   const Geometry inside(GEOSPointOnSurface_r(handle_, common.get()), Destroy{handle_});
-  if (!inside) return found;
+  if (!inside) return reason;
   double x = 0, y = 0;
   if (GEOSGeomGetX_r(handle_, inside.get(), &x) == 1 && GEOSGeomGetY_r(handle_, inside.get(), &y) == 1)
-    found.reason += ", for instance at " + place(x, y);
-  return found;
+    reason += ", for instance at " + place(x, y);
+  return reason;
 }
 
 Tree::Tree(Context& context)

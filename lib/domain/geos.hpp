@@ -24,12 +24,6 @@ struct Destroy {
 };
 using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
-/// What is wrong with a geometry, and where.
-struct Defect {
-  std::string reason;
-  double x = 0, y = 0;
-};
-
 /// A context of its own for each use, so that domains can be built in several threads.
 /// Failures inside GEOS become Error internal with its message, unless said otherwise.
 class Context {
@@ -44,9 +38,13 @@ class Context {
   Geometry multipolygon(const std::vector<Geometry>& polygons);
   Geometry segment(const double* a, const double* b);
 
-  std::optional<Defect> defect(const Geometry& geometry);
-  /// If the interiors of a and b meet or may meet: the reason says where, or why that is not known.
-  std::optional<Defect> overlap(const Geometry& a, const Geometry& b);
+  // GEOS computes in double: where coordinates span many orders of magnitude it may give up. What may be wrong counts
+  // as wrong, and why it is not known is the reason.
+
+  /// If the geometry is not valid: why, and where.
+  std::optional<std::string> defect(const Geometry& geometry);
+  /// If the interiors of a and b meet: where.
+  std::optional<std::string> overlap(const Geometry& a, const Geometry& b);
 
  private:
   friend class Tree;

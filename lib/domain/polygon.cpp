@@ -27,7 +27,7 @@ void validate(geos::Context& geos, const IndexedRings& rings, const std::vector<
     polygons.push_back(geos.polygon(rings, rings.part(first[p], first[p + 1])));
     if (const auto defect = geos.defect(polygons.back())) {
       throw Error(ErrorCode::invalid_domain,
-                  "part " + std::to_string(p) + ": " + defect->reason + " at " + place(defect->x, defect->y) +
+                  "part " + std::to_string(p) + ": " + *defect +
                       ": rings must not cross or touch themselves, and holes lie inside their outer ring");
     }
   }

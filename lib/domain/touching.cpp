@@ -47,7 +47,7 @@ void check_disjoint(geos::Context& geos, const std::vector<geos::Geometry>& poly
     for (std::size_t q : near) {
       if (const auto common = geos.overlap(polygons[p], polygons[q])) {
         throw Error(ErrorCode::invalid_domain, "parts " + std::to_string(p) + " and " + std::to_string(q) +
-                                                   " " + common->reason +
+                                                   " " + *common +
                                                    ": parts may touch but not overlap, unite them first");
       }
     }
