@@ -43,7 +43,7 @@ void check(const RemeshOptions& o) {
 /// out of all proportion to the mesh asked for, up to no end.
 void check_thinness(const Surface& input, double spacing, std::size_t count) {
   const double triangles = refined_size(input, spacing);
-  if (triangles <= 1e6 + 400 * static_cast<double>(count + input.size())) return;
+  if (triangles <= 1e5 + 400 * static_cast<double>(count + input.size())) return;
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.2g", triangles);
   throw Error(ErrorCode::invalid_domain, "the surface is too thin for a mesh of " + std::to_string(count) +
@@ -107,7 +107,7 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   check_triangles(vertices, triangles);
   const Frame frame = frame_of(vertices, triangles);
   const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
-  const double spacing = std::sqrt(input.area() / (static_cast<double>(options.count) * std::sqrt(3.0) / 2));
+  const double spacing = even_spacing(input, options.count);
   check_thinness(input, spacing, options.count);
   std::vector<double> shape = relative_sizing(input, spacing, options.contrast);
   const Surface surface = refined(input, spacing, shape);

@@ -210,6 +210,24 @@ double vertices_for(const Surface& surface, const std::vector<double>& h) {
   return triangles / 2 + boundary / 2 + surface.euler_characteristic();
 }
 
+double even_spacing(const Surface& surface, std::size_t count) {
+  const double wanted = static_cast<double>(count);
+  double kept = 0, boundary = 0;
+  for (std::uint32_t t = 0; t < surface.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto edge = static_cast<std::size_t>(k);
+      if (!surface.kept[t][edge]) continue;
+      const double length = norm(surface.corner(t, (k + 1) % 3) - surface.corner(t, k));
+      const bool at_boundary = surface.across[t][edge] == nothing;
+      kept += at_boundary ? length : length / 2;  // others are met from two triangles
+      boundary += at_boundary ? length : 0;
+    }
+  // wanted h^2 = 2 area/sqrt(3) + boundary h/2
+  const double half = boundary / (4 * wanted);
+  return std::max(half + std::sqrt(half * half + surface.area() / (wanted * std::sqrt(3.0) / 2)),
+                  kept / wanted);
+}
+
 double Sizing::at(const Surface& surface, const Place& place) const {
   const std::uint32_t t = place.triangle;
   const auto share = barycentric(place.at, surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2));
@@ -221,7 +239,7 @@ Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, d
                      std::size_t count) {
   const double wanted = static_cast<double>(count);
   Sizing sizing{shape, gradation};
-  double factor = std::sqrt(surface.area() / (wanted * std::sqrt(3.0) / 2)), low = 0, high = 0;
+  double factor = even_spacing(surface, count), low = 0, high = 0;
   // The number of vertices falls with the factor; limiting h makes it fall more slowly.
   for (int step = 0; step < 40; ++step) {
     for (std::size_t v = 0; v < shape.size(); ++v) sizing.h[v] = factor * shape[v];

@@ -30,6 +30,10 @@ struct Sizing {
   double at(const Surface& surface, const Place& place) const;
 };
 
+/// The edge length of a mesh of `count` vertices and even spacing: h of docs/mathematics.md (62), and no less than what
+/// the kept edges ask for.
+double even_spacing(const Surface& surface, std::size_t count);
+
 /// The factor on `shape` with which a mesh of edge length h has `count` vertices (docs/mathematics.md (62)),
 /// h limited to grow by `gradation` a unit of length. \throw Error invalid_argument
 Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, double gradation,

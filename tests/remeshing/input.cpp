@@ -126,6 +126,16 @@ TEST_CASE("curvatures of sphere and torus") {
   }
 }
 
+TEST_CASE("even spacing gives the number of vertices asked for, and room for kept edges") {
+  for (const TriangleMesh& mesh : {sphere(8), wavy_sheet(), tube()}) {
+    const Surface surface = surface_from(mesh);
+    const std::vector<double> even(surface.vertex.size(), even_spacing(surface, 700));
+    CHECK(vertices_for(surface, even) - surface.euler_characteristic() == doctest::Approx(700));
+  }
+  const Surface cube = surface_from(cube_of_12());  // twelve edges, each between two triangles
+  CHECK(even_spacing(cube, 1) == doctest::Approx(12));
+}
+
 TEST_CASE("sizing grows no faster than the gradation and gives the number of vertices asked for") {
   for (const double gradation : {0.05, 0.3}) {
     const Surface surface = surface_from(bumpy_ball());
