@@ -2,15 +2,13 @@
 
 namespace powercell {
 
-void factorise(const SparseRows& matrix, bool singular, Factorisation& factors) {
+bool factorise(const SparseRows& matrix, bool singular, Factorisation& factors) {
   const Eigen::Index n = matrix.rows() - (singular ? 1 : 0);
-  if (n == 0) return;
+  if (n == 0) return true;
   // Symmetric, so rows are columns.
   const Eigen::SparseMatrix<double> columns = matrix.topLeftCorner(n, n);
   factors.compute(columns);
-  if (factors.info() != Eigen::Success)
-    throw Error(ErrorCode::internal,
-                "the factorisation of a system of " + std::to_string(n) + " unknowns broke down");
+  return factors.info() == Eigen::Success;
 }
 
 void solve_factorised(const Factorisation& factors, bool singular, const Vector& b, Vector& x) {

@@ -37,13 +37,14 @@ struct LinearResult {
   LinearSolver solver = LinearSolver::automatic;  ///< never automatic
   int iterations = 0;                             ///< 0 where it is direct
   double residual = 0;                            ///< |b - L x| / |b|
+  /// There is no solution: to rounding the matrix has a null space, or numbers leave the range of doubles.
+  bool broke_down = false;
 };
 
 /// Solves L x = b. A singular system must be connected; the mean of b is taken off first.
 /// \param solver     which; automatic chooses by size and dimension (docs/applications.md, "Transport")
 /// \param tolerance  of the residual, for the iteration
 /// \param dimension  of the cells: what a factorisation fills in depends on it
-/// \throw Error internal if a factorisation breaks down
 LinearResult solve_laplacian(const Laplacian& system, const Vector& right, LinearSolver solver,
                              double tolerance, int dimension);
 

@@ -94,7 +94,7 @@ Multilevel::Multilevel(const Laplacian& system) : finest_(&system.matrix), singu
     entries += static_cast<double>(matrix->nonZeros());
   }
   complexity_ = entries / static_cast<double>(finest_->nonZeros());
-  factorise(*matrix, singular_, coarsest_);
+  broke_down_ = !factorise(*matrix, singular_, coarsest_);
 }
 
 void Multilevel::cycle(std::size_t at, const SparseRows& matrix, const Vector& r, Vector& z) {

@@ -18,6 +18,8 @@ class Multilevel {
  public:
   explicit Multilevel(const Laplacian& system);
 
+  /// The matrix of the last level has a null space, to rounding: there is nothing to apply.
+  bool broke_down() const { return broke_down_; }
   /// z = M r
   void apply(const Vector& r, Vector& z);
 
@@ -35,7 +37,7 @@ class Multilevel {
   const SparseRows* finest_;
   std::vector<Level> levels_;  // level k leads from level k to k + 1; levels_[0].matrix is not used
   SparseRows coarsest_matrix_;
-  bool singular_;
+  bool singular_, broke_down_ = false;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest_;
   double complexity_ = 1;
 };

@@ -30,6 +30,8 @@ Vector solve_dense(const Laplacian& system, const Vector& b) {
 /// Conjugate gradients (Hestenes, Stiefel 1952) with the multilevel preconditioner.
 void iterate(const Laplacian& system, const Vector& b, double tolerance, LinearResult& result) {
   Multilevel preconditioner(system);
+  result.broke_down = preconditioner.broke_down();
+  if (result.broke_down) return;
   Vector& x = result.solution;
   x.setZero(b.size());
   Vector r = b, z, p, q;
@@ -69,9 +71,11 @@ LinearResult solve_laplacian(const Laplacian& system, const Vector& right, Linea
     result.solution = solve_dense(system, b);
   } else {
     Factorisation factors;
-    factorise(system.matrix, system.singular, factors);
-    solve_factorised(factors, system.singular, b, result.solution);
+    result.broke_down = !factorise(system.matrix, system.singular, factors);
+    if (!result.broke_down) solve_factorised(factors, system.singular, b, result.solution);
   }
+  result.broke_down = result.broke_down || !result.solution.allFinite();
+  if (result.broke_down) return result;
   if (system.singular) result.solution.array() -= result.solution.mean();
   result.residual = (b - system.matrix * result.solution).norm() / size;
   return result;

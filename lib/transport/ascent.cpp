@@ -12,7 +12,8 @@ constexpr double repaired = 0.01;  // min m_i / v_i from which damped Newton goe
 /// empty cell, whose own derivative is 0, is counted with.
 Vector typical_derivative(const Vector& target, const Domain& domain) {
   const double d = domain.cell_dimension(), density = target.sum() / domain.measure();
-  return d * density * (target.array() / density).pow((d - 2) / d);
+  // d density (v / density)^((d - 2)/d), with masses that may be hundreds of orders apart
+  return d * target.array().pow((d - 2) / d) * std::pow(density, 2 / d);
 }
 
 std::span<const double> span_of(const Vector& v) {
@@ -45,12 +46,14 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
       direction = course.solve(
           make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, span_of(shifts)),
           gradient);
-      next = course.evaluator().evaluate(at.weights + direction.linear.solution);
-      // The dual is concave: any rise leads up. Where rises drown in rounding the gradient tells.
-      rise = next.dual(target) - value;
-      if (rise >= 1e-4 * gradient.dot(direction.linear.solution) ||
-          next.gradient(target).norm() <= 0.75 * gradient.norm())
-        break;
+      if (!direction.linear.broke_down) {
+        next = course.evaluator().evaluate(at.weights + direction.linear.solution);
+        // The dual is concave: any rise leads up. Where rises drown in rounding the gradient tells.
+        rise = next.dual(target) - value;
+        if (rise >= 1e-4 * gradient.dot(direction.linear.solution) ||
+            next.gradient(target).norm() <= 0.75 * gradient.norm())
+          break;
+      }
       shift *= 4;
       if (shift > most_shift) return PhaseEnd::stalled;
     }

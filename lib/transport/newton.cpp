@@ -22,6 +22,7 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
     if (connected_parts(system.matrix) > 1) return PhaseEnd::disconnected;
     const Vector gradient = at.gradient(target);
     const Direction direction = course.solve(system, gradient);
+    if (direction.linear.broke_down) return PhaseEnd::stalled;
     Iterate next;
     const double length = damped_length(shortest, [&](double trial) {
       next = course.evaluator().evaluate(at.weights + trial * direction.linear.solution);

@@ -23,6 +23,10 @@ void each_wall(const Walls& walls, const Add& add) {
     }
 }
 
+[[noreturn]] void fail() {
+  throw Error(ErrorCode::internal, "the derivative of the areas by the weights is singular; please report");
+}
+
 }  // namespace
 
 struct LaplacianSolver::Storage {
@@ -44,9 +48,7 @@ struct LaplacianSolver::Storage {
     });
     unknown = Eigen::Map<const Eigen::VectorXd>(residual.data(), m + 1);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(dense);
-    if (factors.info() != Eigen::Success)
-      throw Error(ErrorCode::internal,
-                  "the derivative of the areas by the weights is singular; please report");
+    if (factors.info() != Eigen::Success) fail();
     auto head = unknown.head(m);
     factors.solveInPlace(head);
     unknown[m] = 0;
@@ -66,7 +68,9 @@ struct LaplacianSolver::Storage {
     sparse.matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::VectorXd right = Eigen::Map<const Eigen::VectorXd>(residual.data(), n);
     constexpr double unused = 0;  // a tolerance: what is factorised needs none
-    unknown = solve_laplacian(sparse, right, LinearSolver::direct, unused, 2).solution;
+    const LinearResult found = solve_laplacian(sparse, right, LinearSolver::direct, unused, 2);
+    if (found.broke_down) fail();
+    unknown = found.solution;
   }
 };
 

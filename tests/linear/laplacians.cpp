@@ -110,6 +110,23 @@ TEST_CASE("every solver finds a known solution, of mean 0 where the system is si
     }
 }
 
+TEST_CASE("a system with a null space is told, not solved") {
+  Graph graph = grid_graph(3, 2, 1);
+  for (std::size_t i = 0; i < graph.size(); ++i)
+    for (std::uint64_t k = graph.offset[i]; k < graph.offset[i + 1]; ++k)
+      if (i == 4 || graph.neighbor[k] == 4) graph.conductance[k] = 0;
+  std::vector<double> shift(graph.size(), 1);
+  for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::multilevel}) {
+    shift[4] = 1;
+    const Vector right = Vector::Ones(9);
+    CHECK(!solve_laplacian(system_of(graph, shift), right, solver, 1e-12, 2).broke_down);
+    shift[4] = 0;
+    CHECK(solve_laplacian(system_of(graph, shift), right, solver, 1e-12, 2).broke_down);
+  }
+  shift[0] = INFINITY;
+  CHECK(solve_laplacian(system_of(graph, shift), Vector::Ones(9), LinearSolver::dense, 1e-12, 2).broke_down);
+}
+
 TEST_CASE("connected parts are counted by entries that are not 0") {
   Graph graph = grid_graph(5, 2, 1);
   CHECK(connected_parts(system_of(graph).matrix) == 1);
