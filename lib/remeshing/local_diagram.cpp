@@ -60,6 +60,7 @@ void LocalDiagram::add_piece(std::uint32_t seed, std::uint32_t triangle, const R
   Piece& piece = pieces_[id];
   piece.seed = seed;
   piece.triangle = triangle;
+  piece.rank = static_cast<std::uint32_t>(cells_[seed].pieces.size());
   piece.ring.assign(ring.begin(), ring.end());
   owners_[triangle].push_back(id);
   cells_[seed].pieces.push_back(id);
@@ -67,12 +68,14 @@ void LocalDiagram::add_piece(std::uint32_t seed, std::uint32_t triangle, const R
 }
 
 void LocalDiagram::drop_piece(std::uint32_t piece) {
-  const auto leave = [&](std::vector<std::uint32_t>& list) {
-    *std::find(list.begin(), list.end(), piece) = list.back();
-    list.pop_back();
-  };
-  leave(owners_[pieces_[piece].triangle]);
-  leave(cells_[pieces_[piece].seed].pieces);
+  // Of one triangle there are few pieces, of one seed as many as the surface has triangles.
+  std::vector<std::uint32_t>& owners = owners_[pieces_[piece].triangle];
+  *std::find(owners.begin(), owners.end(), piece) = owners.back();
+  owners.pop_back();
+  std::vector<std::uint32_t>& own = cells_[pieces_[piece].seed].pieces;
+  own[pieces_[piece].rank] = own.back();
+  pieces_[own.back()].rank = pieces_[piece].rank;
+  own.pop_back();
   mark_changed(pieces_[piece].seed);
   free_pieces_.push_back(piece);
 }

@@ -19,6 +19,7 @@ struct Corner {
 /// The part of a triangle that a seed owns: a convex polygon, counter-clockwise as the triangle.
 struct Piece {
   std::uint32_t seed, triangle;
+  std::uint32_t rank;  ///< in the list of its seed
   std::vector<Corner> ring;
 };
 
