@@ -54,11 +54,11 @@ struct RemeshResult {
 /// it is a manifold with the same Euler characteristic and boundary loops; boundaries, edges sharper than
 /// `sharp_angle` and their corners are made of its edges and vertices.
 /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
-/// \throw Error invalid_domain: what Domain::surface refuses of sizes, indices and coordinates; triangles of no
-/// area, edges of more than two triangles (named), a surface that cannot be oriented, one so thin that its
-/// triangles, cut to the spacing of the new points, would be millions and out of all proportion to these;
-/// invalid_argument: options out of range, too few points for the topology or the kept edges; interrupted; for
-/// transport not_converged and what TransportSolver throws
+/// \throw Error invalid_domain: what Domain::surface refuses of sizes, indices and coordinates; triangles of
+/// no area, edges of more than two triangles (named), a surface that cannot be oriented, one so thin that its
+/// triangles, cut to the spacing of the new points, would be more than 10^5 and out of all proportion to
+/// these; invalid_argument: options out of range, too few points for the topology or the kept edges;
+/// interrupted; for transport not_converged and what TransportSolver throws
 POWERCELL_API RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                                   const RemeshOptions& options = {});
 
@@ -77,6 +77,7 @@ struct MeshQuality {
   bool manifold = false;  ///< every edge has one or two triangles, every vertex one fan, sides agree
 };
 
+/// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
 /// \throw Error invalid_domain: what Domain::surface refuses of sizes, indices and coordinates
 POWERCELL_API MeshQuality mesh_quality(std::span<const double> vertices,
                                        std::span<const std::uint32_t> triangles);

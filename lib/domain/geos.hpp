@@ -38,8 +38,8 @@ class Context {
   Geometry multipolygon(const std::vector<Geometry>& polygons);
   Geometry segment(const double* a, const double* b);
 
-  // GEOS computes in double: where coordinates span many orders of magnitude it may give up. What may be wrong counts
-  // as wrong, and why it is not known is the reason.
+  // GEOS computes in double: where coordinates span many orders of magnitude it may give up. What may be
+  // wrong counts as wrong, and why it is not known is the reason.
 
   /// If the geometry is not valid: why, and where.
   std::optional<std::string> defect(const Geometry& geometry);

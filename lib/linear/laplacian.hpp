@@ -37,7 +37,8 @@ struct LinearResult {
   LinearSolver solver = LinearSolver::automatic;  ///< never automatic
   int iterations = 0;                             ///< 0 where it is direct
   double residual = 0;                            ///< |b - L x| / |b|
-  /// There is no solution: to rounding the matrix has a null space, or numbers leave the range of doubles.
+  /// There is no solution, and the one here means nothing: to rounding the matrix has a null space, or
+  /// numbers leave the range of doubles.
   bool broke_down = false;
 };
 

@@ -9,9 +9,10 @@
 
 namespace powercell::remeshing {
 
-/// Whether triangles can be computed with: sizes, indices and finite coordinates as Domain::surface wants
-/// them, and of the vertices that are used, of its magnitude. \param vertices nv x 3   \param triangles nt x
-/// 3   \throw Error invalid_domain
+/// Refuses triangles that cannot be computed with: sizes, indices and finite coordinates have to be as
+/// Domain::surface wants them, coordinates of vertices that are used of a magnitude as it does.
+/// \param vertices nv x 3   \param triangles nt x 3
+/// \throw Error invalid_domain
 void check_triangles(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
 struct MeshCheck {

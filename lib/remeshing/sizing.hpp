@@ -30,8 +30,8 @@ struct Sizing {
   double at(const Surface& surface, const Place& place) const;
 };
 
-/// The edge length of a mesh of `count` vertices and even spacing: h of docs/mathematics.md (62), and no less than what
-/// the kept edges ask for.
+/// The edge length of a mesh of `count` vertices and even spacing: h of docs/mathematics.md (62), and no less
+/// than at which the kept edges alone have as many.
 double even_spacing(const Surface& surface, std::size_t count);
 
 /// The factor on `shape` with which a mesh of edge length h has `count` vertices (docs/mathematics.md (62)),

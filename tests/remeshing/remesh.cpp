@@ -223,8 +223,7 @@ TEST_CASE("what cannot be done is refused") {
   options.count = 100;  // fewer than the boundary of a ribbon asks for, whatever the spacing by its area
   const TriangleMesh ribbon{{0, 0, 0, 1, 0, 0, 1, 1e-8, 0, 0, 1e-8, 0}, {0, 1, 2, 0, 2, 3}};
   CHECK(code_of(ribbon, options) == ErrorCode::invalid_argument);
-  options.count = 100;  // whose spacing would cut a needle into hundreds of millions of triangles
-  options.sharp_angle = 180;
+  options.sharp_angle = 180;  // no kept edges, and a spacing that would cut a needle into millions of triangles
   TriangleMesh needle{{1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1},
                       {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
   for (std::size_t k = 0; k < needle.vertices.size(); k += 3) needle.vertices[k] *= 1e9;
