@@ -28,8 +28,9 @@ forbid lib/transport "lib/(primitives|$stages|diagram|verify|c_api|cl|density)/"
   "transport is built on the public headers and lib/linear" 'lib/domain/region_mesh\.hpp"'
 forbid lib/treemap "lib/($stages|primitives|cl|diagram|verify|c_api|transport|density)/" \
   "treemaps are built on the public headers and lib/linear" 'lib/seeds/(threads|seed_set)\.hpp"'
+# A mesh is refused as the domain of its triangles would be.
 forbid lib/remeshing "lib/(linear|primitives|$stages|diagram|verify|c_api|cl|density|transport)/" \
-  "remeshing is built on the public headers"
+  "remeshing is built on the public headers" 'lib/domain/input_checks\.hpp"'
 forbid lib/periodic "lib/(primitives|$stages|diagram|verify|c_api|cl|transport|density)/" \
   "periodic diagrams are built on the public headers"
 forbid lib/sampling "lib/(primitives|neighbors|pairs|clip|integrate|collect|diagram|verify|c_api|cl|transport|density|linear)/" \

@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
+#include <string>
+
+#include "lib/domain/input_checks.hpp"
 
 namespace powercell {
-
-void check_magnitude(double largest) {
-  if (largest <= 1e100 && largest >= 1e-100) return;
-  std::ostringstream text;
-  text << "the coordinates of the domain are of size " << largest
-       << ": outside 1e-100 .. 1e100 measures leave the range of double, scale them";
-  throw Error(ErrorCode::invalid_domain, text.str());
-}
 
 void finish(RegionMesh& mesh, const CompensatedSum& measure) {
   const auto dimension = static_cast<std::size_t>(mesh.dimension);

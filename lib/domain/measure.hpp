@@ -43,10 +43,6 @@ inline long double dot(const Vector& a, const Vector& b) {
 /// edge: four units in the last place, about what rounding its vertices can make of a true zero.
 inline constexpr long double flat_ratio = 0x1p-50L;
 
-/// Refuses a domain whose largest coordinate is not within 10^-100 .. 10^100, where neither volumes nor the
-/// rounding errors of areas leave the range of double. \throw Error invalid_domain
-void check_magnitude(double largest);
-
 /// Sets the bounding box from the vertices that regions use, and checks that coordinates and measure are of
 /// a size to compute with. \throw Error invalid_domain
 void finish(RegionMesh& mesh, const CompensatedSum& measure);

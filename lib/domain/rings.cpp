@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "lib/domain/measure.hpp"
+#include "lib/domain/input_checks.hpp"
 #include "lib/domain/orient2d.hpp"
 
 namespace powercell {

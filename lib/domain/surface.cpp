@@ -1,7 +1,7 @@
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/build.hpp"
+#include "lib/domain/input_checks.hpp"
 #include "lib/domain/measure.hpp"
-#include "lib/domain/simplex_input.hpp"
 
 namespace powercell {
 namespace {

@@ -6,8 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "lib/domain/measure.hpp"
-#include "lib/domain/simplex_input.hpp"
+#include "lib/domain/input_checks.hpp"
 
 namespace powercell::remeshing {
 namespace {

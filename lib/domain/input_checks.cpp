@@ -1,7 +1,8 @@
-#include "lib/domain/simplex_input.hpp"
+#include "lib/domain/input_checks.hpp"
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace powercell {
 
@@ -41,6 +42,14 @@ void check_simplices(std::span<const double> vertices, std::span<const std::uint
              std::to_string(vertices.size() / 3) + " vertices (indices from 0)");
     }
   }
+}
+
+void check_magnitude(double largest) {
+  if (largest <= 1e100 && largest >= 1e-100) return;
+  std::ostringstream text;
+  text << "the coordinates of the domain are of size " << largest
+       << ": outside 1e-100 .. 1e100 measures leave the range of double, scale them";
+  throw Error(ErrorCode::invalid_domain, text.str());
 }
 
 }  // namespace powercell
