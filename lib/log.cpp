@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <mutex>
 
+#include "lib/digits.hpp"
+
 namespace powercell {
 namespace {
 
@@ -61,9 +63,7 @@ void write_line(LogLevel level, const std::string& line) noexcept {
 }
 
 std::string in_seconds(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g s", seconds);
-  return text;
+  return digits(seconds, 3) + " s";
 }
 
 }  // namespace powercell

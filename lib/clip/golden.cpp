@@ -4,6 +4,7 @@
 
 #include "kernels/layout.h"
 #include "lib/clip/clipper.hpp"
+#include "lib/digits.hpp"
 
 namespace powercell {
 
@@ -80,8 +81,8 @@ void require_golden(const cl::Context& context, std::string_view program, const 
   throw Error(ErrorCode::self_test_failed,
               "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
                   ") computed a known diagram wrongly: cell " + std::to_string(s) + " measures " +
-                  std::to_string(measure) + ", not " + std::to_string(expected) + ", in " +
-                  std::string(program) + options + "; update its driver or choose another device");
+                  digits(measure) + ", not " + digits(expected) + ", in " + std::string(program) + options +
+                  "; update its driver or choose another device");
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "lib/density/constant.hpp"
 #include "lib/density/make.hpp"
+#include "lib/digits.hpp"
 #include "lib/domain/measure.hpp"
 #include "lib/seeds/seed_set.hpp"
 
@@ -11,7 +12,7 @@ namespace powercell {
 Density Density::constant(double value) {
   if (!(value > 0) || !std::isfinite(value))
     throw Error(ErrorCode::invalid_argument,
-                "a constant density must be positive and finite, got " + std::to_string(value));
+                "a constant density must be positive and finite, got " + digits(value));
   return Density(std::make_shared<ConstantDensity>(value));
 }
 

@@ -1,10 +1,12 @@
 #include "lib/density/value.hpp"
 
+#include "lib/digits.hpp"
+
 namespace powercell {
 
 void refuse_density(double value, const std::string& where) {
-  throw Error(ErrorCode::invalid_argument, "the density is " + std::to_string(value) + " at " + where +
-                                               "; it must be finite and not negative");
+  throw Error(ErrorCode::invalid_argument,
+              "the density is " + digits(value) + " at " + where + "; it must be finite and not negative");
 }
 
 }  // namespace powercell

@@ -2,20 +2,20 @@
 
 #include <cmath>
 #include <powercell/error.hpp>
-#include <sstream>
+#include <string>
 
+#include "lib/digits.hpp"
 #include "lib/seeds/threads.hpp"
 
 namespace powercell {
 namespace {
 
 [[noreturn]] void refuse(std::size_t seed, const std::string& what, double value, bool float32) {
-  std::ostringstream text;
-  text << "seed " << seed << ": " << what << " is " << value << ", too large beside the domain for "
-       << (float32 ? "single" : "double")
-       << " precision, in which its square would not be finite; remove this seed"
-       << (float32 ? " or use double precision" : "");
-  throw Error(ErrorCode::invalid_seed, text.str());
+  throw Error(ErrorCode::invalid_seed,
+              "seed " + std::to_string(seed) + ": " + what + " is " + digits(value) +
+                  ", too large beside the domain for " + (float32 ? "single" : "double") +
+                  " precision, in which its square would not be finite; remove this seed" +
+                  (float32 ? " or use double precision" : ""));
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
+
+#include "lib/digits.hpp"
 
 namespace powercell {
 
@@ -32,7 +33,7 @@ void check_simplices(std::span<const double> vertices, std::span<const std::uint
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     if (!std::isfinite(vertices[k])) {
       refuse("vertex " + std::to_string(k / 3) + ": coordinate " + "xyz"[k % 3] + " is " +
-             std::to_string(vertices[k]));
+             digits(vertices[k]));
     }
   }
   for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -46,10 +47,9 @@ void check_simplices(std::span<const double> vertices, std::span<const std::uint
 
 void check_magnitude(double largest) {
   if (largest <= 1e100 && largest >= 1e-100) return;
-  std::ostringstream text;
-  text << "the coordinates of the domain are of size " << largest
-       << ": outside 1e-100 .. 1e100 measures leave the range of double, scale them";
-  throw Error(ErrorCode::invalid_domain, text.str());
+  throw Error(ErrorCode::invalid_domain,
+              "the coordinates of the domain are of size " + digits(largest) +
+                  ": outside 1e-100 .. 1e100 measures leave the range of double, scale them");
 }
 
 }  // namespace powercell

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "lib/digits.hpp"
 #include "lib/domain/input_checks.hpp"
 
 namespace powercell {
@@ -26,8 +27,7 @@ void finish(RegionMesh& mesh, const CompensatedSum& measure) {
   if (!std::isfinite(mesh.measure) || mesh.measure <= 0) {
     throw Error(ErrorCode::invalid_domain,
                 std::string("the ") + (mesh.cell_dimension == 3 ? "volume" : "area") + " of the domain is " +
-                    std::to_string(mesh.measure) +
-                    " in double precision: scale the coordinates to a moderate size");
+                    digits(mesh.measure) + " in double precision: scale the coordinates to a moderate size");
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "lib/digits.hpp"
 #include "lib/domain/input_checks.hpp"
 #include "lib/domain/orient2d.hpp"
 
@@ -74,9 +74,7 @@ Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
 }  // namespace
 
 std::string place(double x, double y) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.17g, %.17g)", x, y);
-  return text;
+  return "(" + digits(x) + ", " + digits(y) + ")";
 }
 
 std::string ring_name(std::uint32_t part, std::uint32_t hole) {

@@ -1,14 +1,13 @@
 // remesh(): from the input mesh to the new one.
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <powercell/error.hpp>
 #include <powercell/remeshing.hpp>
 #include <string>
 #include <utility>
 
+#include "lib/digits.hpp"
 #include "lib/remeshing/dual.hpp"
 #include "lib/remeshing/even_mass.hpp"
 #include "lib/remeshing/farthest.hpp"
@@ -44,11 +43,9 @@ void check(const RemeshOptions& o) {
 void check_thinness(const Surface& input, double spacing, std::size_t count) {
   const double triangles = refined_size(input, spacing);
   if (triangles <= 1e5 + 400 * static_cast<double>(count + input.size())) return;
-  std::array<char, 32> digits{};
-  std::snprintf(digits.data(), digits.size(), "%.2g", triangles);
   throw Error(ErrorCode::invalid_domain, "the surface is too thin for a mesh of " + std::to_string(count) +
                                              " points: cut to their spacing, its triangles would be about " +
-                                             digits.data());
+                                             digits(triangles, 2));
 }
 
 class Watch {

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <powercell/error.hpp>
-#include <sstream>
 #include <string>
+
+#include "lib/digits.hpp"
 
 namespace powercell {
 namespace {
 
 [[noreturn]] void refuse(double eta, const std::string& why) {
-  std::ostringstream text;
-  text << "the height of the lift, " << eta << ", is " << why << "; leave it unset to use the largest weight";
-  throw Error(ErrorCode::invalid_argument, text.str());
+  throw Error(ErrorCode::invalid_argument, "the height of the lift, " + digits(eta) + ", is " + why +
+                                               "; leave it unset to use the largest weight");
 }
 
 }  // namespace
@@ -22,11 +22,7 @@ std::vector<double> lift_heights(const SeedSet& seeds, double eta, const Frame& 
   if (heights.empty()) return heights;
   const double largest = *std::max_element(seeds.weights.begin(), seeds.weights.end());
   if (std::isnan(eta)) eta = largest;
-  if (!(eta >= largest)) {
-    std::ostringstream why;
-    why << "below the largest weight, " << largest;
-    refuse(eta, why.str());
-  }
+  if (!(eta >= largest)) refuse(eta, "below the largest weight, " + digits(largest));
   const double top = frame.weight_to_device(eta);
   // Beyond, distances between lifted seeds are infinite, and lists of the nearest are of any.
   if (!(top <= frame.most_weight()))

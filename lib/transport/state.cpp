@@ -1,12 +1,11 @@
 #include "lib/transport/state.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
+#include "lib/digits.hpp"
 #include "lib/transport/course.hpp"
 #include "lib/transport/merge.hpp"
 #include "lib/transport/periodic_evaluator.hpp"
@@ -19,12 +18,6 @@ constexpr double sum_tolerance = 1e-9;  // of the masses' sum, relative
 /// What integrals may be off by, of what masses may: the value of the dual is off by about the square of the
 /// latter.
 constexpr double integral_share = 1e-4;
-
-std::string digits(double value) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.12g", value);
-  return text.data();
-}
 
 /// Rows of `width` values, those of `kept`.
 std::vector<double> rows(std::span<const double> values, const std::vector<std::uint32_t>& kept,
@@ -77,7 +70,7 @@ std::vector<double> TransportSolver::State::targets(double total) const {
   const double sum = vector_of(masses).sum();
   if (!options.rescale && !(std::abs(sum - total) <= sum_tolerance * total))
     throw Error(ErrorCode::invalid_argument,
-                "the masses sum to " + digits(sum) + ", the domain's mass is " + digits(total) +
+                "the masses sum to " + digits(sum, 12) + ", the domain's mass is " + digits(total, 12) +
                     "; let them be rescaled (--rescale) if their ratios are meant");
   std::vector<double> result = masses;
   for (double& m : result) m *= total / sum;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "lib/digits.hpp"
+
 namespace powercell::treemap_detail {
 namespace {
 
@@ -23,7 +25,7 @@ double cross(double ax, double ay, double bx, double by) {
 }
 
 std::string at(double x, double y) {
-  return "(" + std::to_string(x) + ", " + std::to_string(y) + ")";
+  return "(" + digits(x) + ", " + digits(y) + ")";
 }
 
 std::vector<double> without_repeated(const Ring& ring) {

@@ -1,10 +1,10 @@
 #include "lib/treemap/hierarchy.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
+
+#include "lib/digits.hpp"
 
 namespace powercell::treemap_detail {
 namespace {
@@ -93,9 +93,7 @@ void check_range(const Hierarchy& h, const NodeName& name) {
     refuse("the values sum to more than a double holds; divide them by a common number");
   for (std::size_t i = 0; i < h.size(); ++i) {
     if (h.kind[i] != TreeNode::leaf || h.value[i] >= least_share * total) continue;
-    std::array<char, 32> share{};
-    std::snprintf(share.data(), share.size(), "%.2g", h.value[i] / total);
-    refuse("the value of " + name(i) + " is " + share.data() +
+    refuse("the value of " + name(i) + " is " + digits(h.value[i] / total, 2) +
            " of the sum; a cell below 1e-16 of the outline has no exact area in double coordinates");
   }
 }

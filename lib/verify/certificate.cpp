@@ -7,6 +7,7 @@
 #include <powercell/error.hpp>
 #include <string>
 
+#include "lib/digits.hpp"
 #include "lib/domain/random_points.hpp"
 #include "lib/seeds/threads.hpp"
 #include "lib/verify/laws.hpp"
@@ -59,7 +60,7 @@ void require_symmetry(const Certified& r) {
   if (r.adjacency == nullptr || r.adjacency->wall.empty()) return;
   const double largest = *std::max_element(r.adjacency->wall.begin(), r.adjacency->wall.end());
   if (r.adjacency->asymmetry <= largest * (r.float32 ? asymmetry_float : asymmetry_double)) return;
-  refuse("the two sides of a wall differ by " + digits(r.adjacency->asymmetry));
+  refuse("the two sides of a wall differ by " + digits(r.adjacency->asymmetry, 3));
 }
 
 template <std::size_t d>

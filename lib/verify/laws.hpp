@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "lib/domain/random_points.hpp"
 #include "lib/verify/law.hpp"
 #include "lib/verify/rounding.hpp"
-#include "lib/domain/random_points.hpp"
 
 namespace powercell {
 
@@ -45,8 +45,5 @@ inline long double length(const Vector& a) {
 
 /// Corner k of face f: of a polyhedron's loop, or of the edge k of a polygon.
 std::vector<Vector> face_corners(const Cells& cells, std::size_t piece, std::uint64_t face);
-
-/// "3.1e-07"
-std::string digits(double value);
 
 }  // namespace powercell

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/digits.hpp"
 #include "lib/seeds/seed_set.hpp"
 #include "lib/seeds/threads.hpp"
 #include "lib/verify/laws.hpp"
@@ -124,7 +125,7 @@ std::string tell(const Sample& sample, std::size_t owner, const Outside& outside
   for (std::size_t k = 1; k < static_cast<std::size_t>(dimension); ++k)
     point += ", " + digits(static_cast<double>(sample.point[k]));
   const std::string where = outside.distance < 1e300
-                                ? "lies " + digits(outside.distance) + " outside its cell"
+                                ? "lies " + digits(outside.distance, 3) + " outside its cell"
                                 : "has no cell to lie in";
   return "the point (" + point + ") of region " + std::to_string(sample.region) + " belongs to seed " +
          std::to_string(owner) + " but " + where;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/digits.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -107,7 +108,7 @@ std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells,
     const double apart = static_cast<double>(length(stated - (1 / sums.measure) * sums.first));
     const double allowed = rounding.shift(i) + moved * static_cast<double>(sums.extent / sums.measure);
     centroid.see(apart, allowed, [&] {
-      return "the centroid of seed " + std::to_string(i) + " is " + digits(apart) +
+      return "the centroid of seed " + std::to_string(i) + " is " + digits(apart, 3) +
              " from that of its pieces";
     });
   }

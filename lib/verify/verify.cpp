@@ -1,6 +1,6 @@
-#include <cstdio>
 #include <powercell/verify.hpp>
 
+#include "lib/digits.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -31,12 +31,6 @@ void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
 }
 
 }  // namespace
-
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const VerifyOptions& options) {
   check_same_seeds(diagram, seeds);

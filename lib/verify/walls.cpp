@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/digits.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -44,7 +45,7 @@ LawCheck check_walls(const Adjacency& adjacency, int cell_dimension, const Round
                  adjacency.asymmetry,
                  tolerance,
                  {}};
-  if (!check.passed) check.detail = "the two sides of a wall differ by " + digits(adjacency.asymmetry);
+  if (!check.passed) check.detail = "the two sides of a wall differ by " + digits(adjacency.asymmetry, 3);
   for (std::size_t i = 0; i < n; ++i) {
     std::string fault = fault_of(adjacency, i);
     if (fault.empty()) continue;

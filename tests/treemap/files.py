@@ -166,7 +166,7 @@ class Treemap(unittest.TestCase):
         ring = {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]],
                                                    [[1, 1], [2, 1], [2, 2], [1, 1]]]}
         self.write("ring.geojson", json.dumps(ring))
-        self.refused("not convex at (1.0", 1, "t.csv", "--shape", "arrow.geojson", "-o", "t.svg")
+        self.refused("not convex at (1, 1)", 1, "t.csv", "--shape", "arrow.geojson", "-o", "t.svg")
         self.refused("1 parts, 1 holes", 1, "t.csv", "--shape", "ring.geojson", "-o", "t.svg")
         self.refused("above 0", 1, "t.csv", "--shape", "0:1", "-o", "t.svg")
         self.refused("3 to 10000 corners", 1, "t.csv", "--shape", "circle:2", "-o", "t.svg")

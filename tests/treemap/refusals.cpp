@@ -60,7 +60,7 @@ TEST_CASE("values that are none") {
 TEST_CASE("outlines that are not convex") {
   check_outline({{0, 0}, {1, 0}}, "fewer than three corners");
   check_outline({{0, 0}, {1, 1}, {2, 2}}, "no");
-  check_outline({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}, "not convex at (1.0");
+  check_outline({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}, "not convex at (1, 0.5)");
   check_outline({{0, 0}, {1, 0}, {1, 1}, {0, std::nan("")}}, "not finite");
   check_outline({{0, 1}, {0.588, -0.809}, {-0.951, 0.309}, {0.951, 0.309}, {-0.588, -0.809}},
                 "crosses itself");
