@@ -39,8 +39,7 @@ double Density::total(const Domain& domain, int threads) const {
 
 DensityIntegrals integrate(Diagram& diagram, const Density& density, const IntegrationOptions& options) {
   if (!(options.tolerance >= 0 && options.tolerance < 1))
-    throw Error(ErrorCode::invalid_argument, "the tolerance of integrals is " +
-                                                 std::to_string(options.tolerance) +
+    throw Error(ErrorCode::invalid_argument, "the tolerance of integrals is " + digits(options.tolerance) +
                                                  "; it must be 0 or between 0 and 1");
   IntegrationOptions counted = options;
   counted.threads = thread_count(options.threads);

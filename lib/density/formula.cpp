@@ -3,21 +3,20 @@
 #include "lib/density/make.hpp"
 #include "lib/density/pointwise.hpp"
 #include "lib/density/value.hpp"
+#include "lib/digits.hpp"
 #include "lib/readable.hpp"
 
 namespace powercell {
 namespace {
 
 std::string place(const Point& x) {
-  std::string text = "x = " + std::to_string(x[0]);
-  text += ", y = " + std::to_string(x[1]);
-  return text += ", z = " + std::to_string(x[2]);
+  return "x = " + digits(x[0]) + ", y = " + digits(x[1]) + ", z = " + digits(x[2]);
 }
 
 void check_tolerance(double tolerance) {
   if (!(tolerance > 0 && tolerance < 1))
-    throw Error(ErrorCode::invalid_argument, "the tolerance of a density is " + std::to_string(tolerance) +
-                                                 "; it must be between 0 and 1");
+    throw Error(ErrorCode::invalid_argument,
+                "the tolerance of a density is " + digits(tolerance) + "; it must be between 0 and 1");
 }
 
 /// A parser with its variables. It can be used by one thread at a time and cannot move. Points one by one:

@@ -5,6 +5,7 @@
 
 #include "lib/density/cell_integrals.hpp"
 #include "lib/density/region_cells.hpp"
+#include "lib/digits.hpp"
 #include "lib/domain/measure.hpp"
 
 namespace powercell {
@@ -38,7 +39,7 @@ double GeometricDensity::total(const Domain& domain, int threads) const {
   const double rough = sum(std::numeric_limits<double>::infinity());
   const double total = sum(negligible_share * std::abs(rough) / domain.measure());
   if (!(total > 0) || !std::isfinite(total))
-    throw Error(ErrorCode::invalid_argument, "the density has the integral " + std::to_string(total) +
+    throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total) +
                                                  " over the domain; it must be positive somewhere");
   const std::lock_guard lock(mutex_);
   known_.emplace(Known{domain, total});

@@ -32,6 +32,8 @@ double measure(const Simplex<3>& s) {
   return dot(minus(s[1].at, s[0].at), cross(minus(s[2].at, s[0].at), minus(s[3].at, s[0].at))) / 6;
 }
 
+constexpr std::size_t all_points = 70;  // of the last rule of a tetrahedron
+
 /// Walls make the matrix of an iteration, whose result they do not change: they may be off by so much more
 /// than masses, within these bounds.
 constexpr double wall_slack = 1e3, least_wall_tolerance = 1e-6, most_wall_tolerance = 1e-4;
@@ -135,10 +137,18 @@ class SimplexIntegrator : public PieceIntegrator {
   };
 
   /// Integrals over a simplex of measure 1 about its middle, or the part of them that the points of a rule
-  /// make.
+  /// make: of the density, its moment of inertia, and the density times each barycentric coordinate.
+  template <int N>
   struct Sums {
     double mass = 0, second = 0;
-    Point first{};
+    std::array<double, N + 1> at_corner{};
+
+    Point first(const Local<N>& local) const {
+      Point sum{};
+      for (std::size_t c = 0; c <= N; ++c)
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += at_corner[c] * local.corner[c][k];
+      return sum;
+    }
   };
 
   template <int N>
@@ -148,23 +158,30 @@ class SimplexIntegrator : public PieceIntegrator {
     if (depth < least_depth_) return bisect<N>(simplex, depth, moments);
     const SimplexRules& rules = simplex_rules(N);
     const Local<N> local(simplex);
-    std::array<Sums, SimplexRules::count> part;
-    Range range;
-    Sums last;
+    std::array<Sums<N>, SimplexRules::count> part;
+    std::array<double, all_points> value;
+    Sums<N> last;
     double before = 0;
     for (std::size_t s = 0; s < SimplexRules::count; ++s) {
-      part[s] = sum_points<N>(local, rules, s, range);
-      const Sums found = apply(rules, s, part);
-      if (linear_ && s == 1) return take(found, local.middle, size, 0, moments);
+      part[s] = sum_points<N>(local, rules, s, value);
+      const Sums<N> found = apply<N>(rules, s, part);
+      if (linear_ && s == 1) return take(found, local, size, 0, moments);
       const double change = s == 0 ? 0 : difference<N>(found, last, local);
       if (s > 1) {
         // Where changes shrink they go on shrinking; a factor of 4 is for safety.
         const double left = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
-        const double allowed = tolerance_ * std::max(std::abs(found.mass), negligible_);
+        const double density = std::max(std::abs(found.mass), negligible_), allowed = tolerance_ * density;
+        if (depth == least_depth_) density_around_ = density;
         const bool end = s + 1 == SimplexRules::count;
-        const bool good = left <= allowed && corners_fit<N>(simplex, range, allowed);
-        if (good || (end && depth == depth_))
-          return take(found, local.middle, size, good ? 0 : left, moments);
+        const auto seen = std::span<const double>(value).first(rules.size[s]);
+        const bool good = left <= allowed && corners_fit<N>(simplex, found, seen, allowed);
+        if (good || (end && depth == depth_)) return take(found, local, size, good ? 0 : left, moments);
+        if (depth < depth_ && change > before / 2) {
+          const double at_jump = allowed_at_jump<N>(depth);
+          if (change <= at_jump && corners_fit<N>(simplex, found, seen, at_jump))
+            return take(found, local, size, change, moments);
+          return bisect<N>(simplex, depth, moments);
+        }
       }
       before = change;
       last = found;
@@ -172,22 +189,32 @@ class SimplexIntegrator : public PieceIntegrator {
     bisect<N>(simplex, depth, moments);
   }
 
-  struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    void see(double value) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  };
-
-  /// Points of rules lie inside, so a jump across a corner goes between them. Next to a smooth extremum the
-  /// values at corners are farther out than those at the points by up to twice the range of these.
+  /// Where higher rules bring nothing there is a jump or a kink, a surface that 2^((N - 1) depth / N) of the
+  /// 2^depth simplices meet: each may be off by its part of what all may (docs/mathematics.md, below (32a)).
   template <int N>
-  static bool corners_fit(const Simplex<N>& simplex, const Range& range, double allowed) {
-    const double margin = 4 * (range.high - range.low) + allowed;
-    return std::all_of(simplex.begin(), simplex.end(), [&](const Corner& corner) {
-      return corner.value >= range.low - margin && corner.value <= range.high + margin;
-    });
+  double allowed_at_jump(int depth) const {
+    return tolerance_ * density_around_ * std::exp2(static_cast<double>(depth - least_depth_) / N);
+  }
+
+  /// Points of rules lie inside, and a jump or a kink across a corner goes between them. What they bend,
+  /// their way from the linear function of the same moments (32a), goes on to the corners, where polynomials
+  /// of the rules' degrees are farther from it by up to some twenty times.
+  template <int N>
+  static bool corners_fit(const Simplex<N>& simplex, const Sums<N>& found, std::span<const double> value,
+                          double allowed) {
+    constexpr double farther = 20;
+    const SimplexRules& rules = simplex_rules(N);
+    std::array<double, N + 1> linear;
+    for (std::size_t c = 0; c <= N; ++c) linear[c] = (N + 1) * ((N + 2) * found.at_corner[c] - found.mass);
+    double bend = 0;
+    for (std::size_t q = 0; q < value.size(); ++q) {
+      double fit = 0;
+      for (std::size_t c = 0; c <= N; ++c) fit += rules.point[q][c] * linear[c];
+      bend = std::max(bend, std::abs(value[q] - fit));
+    }
+    for (std::size_t c = 0; c <= N; ++c)
+      if (!(std::abs(simplex[c].value - linear[c]) <= farther * bend + allowed)) return false;
+    return true;
   }
 
   template <int N>
@@ -213,13 +240,13 @@ class SimplexIntegrator : public PieceIntegrator {
     }
   }
 
-  /// Sums over the points that rule s adds to the one before.
+  /// Sums over the points that rule s adds to the one before, whose values go behind those of the latter.
   template <int N>
-  Sums sum_points(const Local<N>& local, const SimplexRules& rules, std::size_t s, Range& range) {
+  Sums<N> sum_points(const Local<N>& local, const SimplexRules& rules, std::size_t s,
+                     std::span<double, all_points> values) {
     const std::size_t begin = s == 0 ? 0 : rules.size[s - 1], count = rules.size[s] - begin;
     const Point middle{seed_[0] + local.middle[0], seed_[1] + local.middle[1], seed_[2] + local.middle[2]};
-    std::array<Point, most_points> place, at;
-    std::array<double, most_points> value;
+    std::array<Point, all_points> place, at;
     for (std::size_t q = 0; q < count; ++q) {
       Point y{};
       for (std::size_t c = 0; c <= N; ++c)
@@ -227,25 +254,26 @@ class SimplexIntegrator : public PieceIntegrator {
       place[q] = y;
       at[q] = {middle[0] + y[0], middle[1] + y[1], middle[2] + y[2]};
     }
-    source_->evaluate(std::span(at).first(count), region_, std::span(value).first(count));
-    Sums sums;
+    const std::span<double> value = std::span(values).subspan(begin, count);
+    source_->evaluate(std::span(at).first(count), region_, value);
+    Sums<N> sums;
     for (std::size_t q = 0; q < count; ++q) {
-      range.see(value[q]);
       sums.mass += value[q];
-      for (std::size_t k = 0; k < 3; ++k) sums.first[k] += value[q] * place[q][k];
+      for (std::size_t c = 0; c <= N; ++c) sums.at_corner[c] += value[q] * rules.point[begin + q][c];
       sums.second += value[q] * dot(place[q], place[q]);
     }
     return sums;
   }
 
   /// Rule s.
-  static Sums apply(const SimplexRules& rules, std::size_t s,
-                    const std::array<Sums, SimplexRules::count>& part) {
-    Sums sums;
+  template <int N>
+  static Sums<N> apply(const SimplexRules& rules, std::size_t s,
+                       const std::array<Sums<N>, SimplexRules::count>& part) {
+    Sums<N> sums;
     for (std::size_t k = 0; k <= s; ++k) {
       const double weight = rules.weight[s][k];
       sums.mass += weight * part[k].mass;
-      for (std::size_t c = 0; c < 3; ++c) sums.first[c] += weight * part[k].first[c];
+      for (std::size_t c = 0; c <= N; ++c) sums.at_corner[c] += weight * part[k].at_corner[c];
       sums.second += weight * part[k].second;
     }
     return sums;
@@ -254,15 +282,17 @@ class SimplexIntegrator : public PieceIntegrator {
   /// How far apart two rules are, in the unit of the mass: moments over the way from the middle to the second
   /// point.
   template <int N>
-  static double difference(const Sums& a, const Sums& b, const Local<N>& local) {
-    const Point moved = minus(a.first, b.first);
+  static double difference(const Sums<N>& a, const Sums<N>& b, const Local<N>& local) {
+    const Point moved = minus(a.first(local), b.first(local));
     return std::max(std::abs(a.mass - b.mass), std::sqrt(dot(moved, moved) / dot(local.reach, local.reach)));
   }
 
-  static void take(const Sums& found, const Point& middle, double size, double error, Moments& moments) {
+  template <int N>
+  static void take(const Sums<N>& found, const Local<N>& local, double size, double error, Moments& moments) {
+    const Point first = found.first(local), &middle = local.middle;
     moments.mass += size * found.mass;
-    for (std::size_t k = 0; k < 3; ++k) moments.first[k] += size * (found.first[k] + found.mass * middle[k]);
-    moments.second += size * (found.second + 2 * dot(found.first, middle) + found.mass * dot(middle, middle));
+    for (std::size_t k = 0; k < 3; ++k) moments.first[k] += size * (first[k] + found.mass * middle[k]);
+    moments.second += size * (found.second + 2 * dot(first, middle) + found.mass * dot(middle, middle));
     moments.error += std::abs(size) * error;
   }
 
@@ -270,12 +300,11 @@ class SimplexIntegrator : public PieceIntegrator {
   bool linear_;
   double cell_tolerance_, negligible_;
   int least_depth_, more_depth_;
-  double tolerance_ = 0;
+  double tolerance_ = 0, density_around_ = 0;
   Point seed_{};
   std::uint32_t region_ = 0;
   int depth_ = 0;
-  static constexpr std::size_t most_points = 35;  // that rule 4 of a tetrahedron adds
-  std::vector<Point> places_, at_;                // about the seed, and where that is
+  std::vector<Point> places_, at_;  // about the seed, and where that is
   std::vector<double> values_;
   std::vector<Corner> corners_;
 };

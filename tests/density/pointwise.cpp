@@ -1,6 +1,7 @@
 // Formulas, functions and values at vertices against what follows from plain measures.
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "tests/density/cases.hpp"
@@ -114,6 +115,46 @@ TEST_CASE("a jump is integrated as far as bisections go, and the rest is reporte
   CHECK(std::abs(disk.total(one.domain) / expected - 1) < 1e-6);
   CHECK(found.quadrature_error > 0);
   CHECK(found.quadrature_error < 1e-3);
+}
+
+TEST_CASE("a kink between the points of rules is found") {
+  struct Kinked {
+    DensityCase one;
+    double tolerance;
+  };
+  for (Kinked kinked :
+       {Kinked{{"square", unit_box(2), {2, {}, {}}}, 1e-9}, {{"cube", unit_box(3), {3, {}, {}}}, 1e-6}}) {
+    CAPTURE(kinked.one.name);
+    Random random(test_seed());
+    kinked.one.seeds = scatter(Distribution::white, 100, kinked.one.seeds.dimension, {}, random);
+    const Density kink =
+        Density::function([](const std::array<double, 3>& x) { return 0.1 + std::abs(x[0] - 0.3); });
+    Diagram diagram = diagram_of(kinked.one);
+    const DensityIntegrals found = integrate(diagram, kink, false);
+    const double expected = 0.1 + (0.3 * 0.3 + 0.7 * 0.7) / 2;
+    CHECK(std::abs(found.total() / expected - 1) < kinked.tolerance);
+    CHECK(std::abs(kink.total(kinked.one.domain) / expected - 1) < 1e-5);
+  }
+}
+
+TEST_CASE("a jump takes no more simplices than a loose tolerance asks for") {
+  DensityCase one{"square", unit_box(2), {2, {}, {}}};
+  Random random(test_seed());
+  one.seeds = scatter(Distribution::white, 30, 2, {}, random);
+  Diagram diagram = diagram_of(one);
+  for (const auto& [tolerance, most] : {std::pair{0.01, 1'000'000L}, {0.05, 250'000L}}) {
+    std::atomic<long> evaluations{0};
+    const auto disk = [&](const std::array<double, 3>& x) {
+      ++evaluations;
+      return std::hypot(x[0] - 0.5, x[1] - 0.5) < 0.4 ? 3.0 : 1.0;
+    };
+    const Density jump = Density::function(disk, tolerance);
+    (void)jump.total(one.domain);  // known from now on
+    evaluations = 0;
+    const DensityIntegrals found = integrate(diagram, jump, false);
+    CHECK(std::abs(found.total() / (1 + 2 * 0.16 * std::acos(-1.0)) - 1) < tolerance);
+    CHECK(evaluations.load() < most);
+  }
 }
 
 TEST_CASE("values at vertices are integrated exactly on meshes") {
