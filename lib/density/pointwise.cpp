@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "lib/density/simplex_rule.hpp"
@@ -31,8 +30,6 @@ double measure(const Simplex<2>& s) {
 double measure(const Simplex<3>& s) {
   return dot(minus(s[1].at, s[0].at), cross(minus(s[2].at, s[0].at), minus(s[3].at, s[0].at))) / 6;
 }
-
-constexpr std::size_t all_points = 70;  // of the last rule of a tetrahedron
 
 /// Walls make the matrix of an iteration, whose result they do not change: they may be off by so much more
 /// than masses, within these bounds.
@@ -159,7 +156,7 @@ class SimplexIntegrator : public PieceIntegrator {
     const SimplexRules& rules = simplex_rules(N);
     const Local<N> local(simplex);
     std::array<Sums<N>, SimplexRules::count> part;
-    std::array<double, all_points> value;
+    std::array<double, SimplexRules::most_points> value;
     Sums<N> last;
     double before = 0;
     for (std::size_t s = 0; s < SimplexRules::count; ++s) {
@@ -243,10 +240,10 @@ class SimplexIntegrator : public PieceIntegrator {
   /// Sums over the points that rule s adds to the one before, whose values go behind those of the latter.
   template <int N>
   Sums<N> sum_points(const Local<N>& local, const SimplexRules& rules, std::size_t s,
-                     std::span<double, all_points> values) {
+                     std::span<double, SimplexRules::most_points> values) {
     const std::size_t begin = s == 0 ? 0 : rules.size[s - 1], count = rules.size[s] - begin;
     const Point middle{seed_[0] + local.middle[0], seed_[1] + local.middle[1], seed_[2] + local.middle[2]};
-    std::array<Point, all_points> place, at;
+    std::array<Point, SimplexRules::most_points> place, at;
     for (std::size_t q = 0; q < count; ++q) {
       Point y{};
       for (std::size_t c = 0; c <= N; ++c)
@@ -254,7 +251,7 @@ class SimplexIntegrator : public PieceIntegrator {
       place[q] = y;
       at[q] = {middle[0] + y[0], middle[1] + y[1], middle[2] + y[2]};
     }
-    const std::span<double> value = std::span(values).subspan(begin, count);
+    const std::span<double> value = values.subspan(begin, count);
     source_->evaluate(std::span(at).first(count), region_, value);
     Sums<N> sums;
     for (std::size_t q = 0; q < count; ++q) {

@@ -14,8 +14,9 @@ namespace powercell {
 /// points that a rule adds have one weight in each rule, so sums over them are all that is needed.
 struct SimplexRules {
   static constexpr std::size_t count = 5;
-  std::vector<std::array<double, 4>> point;  ///< barycentric coordinates, those of rule 0 first
-  std::array<std::size_t, count> size{};     ///< rule s uses the points [0, size[s])
+  static constexpr std::size_t most_points = 70;  ///< of the last rule of a tetrahedron
+  std::vector<std::array<double, 4>> point;       ///< barycentric coordinates, those of rule 0 first
+  std::array<std::size_t, count> size{};          ///< rule s uses the points [0, size[s])
   /// [s][k]: in rule s, of each point that rule k <= s has and k-1 has not; over all points they sum to 1.
   std::array<std::array<double, count>, count> weight{};
 };

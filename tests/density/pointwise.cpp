@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "lib/density/simplex_rule.hpp"
 #include "tests/density/cases.hpp"
 
 using namespace powercell;
@@ -117,7 +118,13 @@ TEST_CASE("a jump is integrated as far as bisections go, and the rest is reporte
   CHECK(found.quadrature_error < 1e-3);
 }
 
+TEST_CASE("no rule has more points than are made room for") {
+  for (const int n : {1, 2, 3}) CHECK(simplex_rules(n).size.back() <= SimplexRules::most_points);
+  CHECK(simplex_rules(3).size.back() == SimplexRules::most_points);
+}
+
 TEST_CASE("a kink between the points of rules is found") {
+  INFO(replay_hint());
   struct Kinked {
     DensityCase one;
     double tolerance;
@@ -138,6 +145,7 @@ TEST_CASE("a kink between the points of rules is found") {
 }
 
 TEST_CASE("a jump takes no more simplices than a loose tolerance asks for") {
+  INFO(replay_hint());
   DensityCase one{"square", unit_box(2), {2, {}, {}}};
   Random random(test_seed());
   one.seeds = scatter(Distribution::white, 30, 2, {}, random);
