@@ -15,7 +15,8 @@ namespace powercell {
 /// or duplicates. Empty where the seeds do not span the space.
 /// The cells inside a box around the seeds come from the device, those that leave it from the host, which follows them
 /// as far as 2^80 times the extent of the seeds: a simplex whose centre is farther out, next to the hull and flat to
-/// that degree, is not found.
+/// that degree, is not found. Coordinates are taken to multiples of 2^-990 of that
+/// extent, weights of 2^-910 of its square.
 /// \param options  decisions are exact whatever they say
 /// \throw Error as Diagram
 POWERCELL_API Dual regular_triangulation(const Device& device, const SeedsView& seeds, const Options& options = {});

@@ -6,6 +6,7 @@
 #include <powercell/triangulation.hpp>
 
 #include "kernels/layout.h"
+#include "lib/clip/frame.hpp"
 #include "lib/clip/host_clip.hpp"
 #include "lib/clip/scene.hpp"
 #include "lib/collect/dual.hpp"
@@ -46,6 +47,20 @@ struct Extent {
       high.push_back(x + room * size);
     }
     return Domain::box(low, high);
+  }
+};
+
+/// Seeds as the frame of the far box has them: its scale takes numbers that are some 280 orders of magnitude below
+/// the extent beyond the range of doubles, where the near box still tells them apart.
+struct FarSeeds {
+  std::vector<double> positions, weights;
+
+  FarSeeds(const SeedsView& seeds, const Extent& extent)
+      : positions(seeds.positions.begin(), seeds.positions.end()),
+        weights(seeds.weights.begin(), seeds.weights.end()) {
+    const Frame frame = Frame::of(extent.box(far_room).mesh(), false);
+    for (double& x : positions) x = frame.to_device(x, 0) / frame.scale;
+    for (double& w : weights) w = frame.weight_to_device(w) / frame.scale / frame.scale;
   }
 };
 
@@ -156,10 +171,12 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   if (seeds.size() < static_cast<std::size_t>(none.corners)) return none;
   const Extent extent(seeds);
   if (!(extent.size > 0)) return none;
+  const FarSeeds far(seeds, extent);
+  const SeedsView rounded{seeds.dimension, far.positions, far.weights};
   Options exact = options;
   exact.decisions = Decisions::exact;
   Diagram diagram(device, extent.box(near_room), exact);
-  diagram.set_seeds(seeds);
+  diagram.set_seeds(rounded);
   diagram.compute(false, true);
   const std::vector<bool> leaves = at_boundary(diagram.cells());
   std::vector<bool> inside(seeds.size());
@@ -167,7 +184,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
     inside[i] = diagram.measures().status[i] == SeedStatus::ok && !leaves[i];
   std::vector<std::uint32_t> rows;
   OuterCells(device, extent, diagram.state().seeds, threads).collect(inside, leaves, rows);
-  return extend_dual(diagram.dual(), rows, seeds);
+  return extend_dual(diagram.dual(), rows, rounded);
 }
 
 }  // namespace powercell

@@ -86,6 +86,22 @@ TEST_CASE("seeds whose cells are exactly flat are no vertices") {
   }
 }
 
+TEST_CASE("coordinates hundreds of orders of magnitude below the extent are the same near and far") {
+  // All but -13 and the large ones vanish beside the far box of the host.
+  const SeedArray seeds{
+      3,
+      {-7.625,   4.5, 11.25, -8.5, -8.5, -8.5,   -8.5,    -8.5, 7.625,    -12.375, -12.5, -13,
+       4.8e-312, -13, -13,   -13,  -13,  -10.25, -12.875, -13,  1.5e-309, 3e-315,  -13,   -13},
+      std::vector<double>(8, -13)};
+  for (const Precision precision : {Precision::float64, Precision::float32}) {
+    Options options;
+    options.precision = precision;
+    const Dual dual = regular_triangulation(Device::choose(), seeds.view(), options);
+    CHECK(dual.size() > 0);
+    CHECK(facet_faults(dual) == 0);
+  }
+}
+
 TEST_CASE("seeds that do not span the space have no simplices; too few neither") {
   for (const int dimension : {2, 3}) {
     const Device device = Device::choose();
