@@ -142,8 +142,8 @@ class POWERCELL_API TransportSolver {
   /// Of the last solve.
   const TransportResult& result() const;
 
-  /// The diagram of all seeds with the weights of the last solve. \throw Error invalid_argument before it,
-  /// unsupported for a periodic box
+  /// The diagram of all seeds with the weights of the last solve. \throw Error invalid_argument before it, also
+  /// where seeds were set or moved since; unsupported for a periodic box
   Diagram& diagram();
 
   struct State;  ///< library-internal

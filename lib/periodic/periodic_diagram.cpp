@@ -37,11 +37,7 @@ void PeriodicDiagram::set_seeds(std::span<const double> positions, std::span<con
   given_.assign(positions.begin(), positions.end());
   weights_.assign(weights.begin(), weights.end());
   weights_.resize(n);
-  inside_.resize(positions.size());
-  for (std::size_t k = 0; k < positions.size(); ++k) {
-    const double part = (given_[k] - low_[k % 2]) / size_[k % 2];
-    inside_[k] = given_[k] - std::floor(part) * size_[k % 2];
-  }
+  inside_ = inside(positions);
   if (margin_ == 0)
     margin_ = spacings_at_first *
               std::sqrt(size_[0] * size_[1] / static_cast<double>(std::max<std::size_t>(n, 1))) /
@@ -49,6 +45,18 @@ void PeriodicDiagram::set_seeds(std::span<const double> positions, std::span<con
   margin_ = std::min(margin_, 1.0);
   copies_placed_ = weights_set_ = have_walls_ = false;
   measures_.reset();
+}
+
+std::vector<double> PeriodicDiagram::inside(std::span<const double> positions) const {
+  std::vector<double> result(positions.begin(), positions.end());
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const double low = low_[k % 2], size = size_[k % 2];
+    if (result[k] >= low && result[k] < low + size) continue;
+    double rest = std::fmod(result[k] - low, size);  // exact, however many boxes away
+    if (rest < 0) rest += size;
+    result[k] = rest < size ? low + rest : low;
+  }
+  return result;
 }
 
 void PeriodicDiagram::set_weights(std::span<const double> weights) {

@@ -38,6 +38,8 @@ class PeriodicDiagram {
   const std::vector<Wall>& walls();
 
   const Domain& box() const { return box_; }
+  /// Where the copies inside the box are of positions, n x 2.
+  std::vector<double> inside(std::span<const double> positions) const;
 
  private:
   void compute(bool walls);

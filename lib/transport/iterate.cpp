@@ -41,6 +41,7 @@ Iterate Evaluator::evaluate(Vector weights) {
   Iterate result;
   weights.array() -= weights.mean();
   result.weights = std::move(weights);
+  last_ = result.weights;
   measure(result);
   for (const double m : result.cells.mass) result.empty += m > 0 ? 0 : 1;
   ++count_;

@@ -47,6 +47,7 @@ class Evaluator {
   std::span<const double> positions() const { return positions_; }
   Diagram& diagram() { return diagram_; }
   std::size_t count() const { return count_; }  ///< diagrams so far
+  const Vector& last() const { return last_; }  ///< weights that the diagram has
   double seconds() const { return seconds_; }   ///< wall clock in them
 
  protected:
@@ -59,6 +60,7 @@ class Evaluator {
   std::span<const double> positions_;
   std::size_t dimension_;
   IntegrationOptions options_;
+  Vector last_;
   std::size_t count_ = 0;
   double seconds_ = 0;
 };

@@ -11,7 +11,8 @@ constexpr double smallest_fraction = 1.0 / 16;  // of given weights that is trie
 constexpr double room = 0.9;                    // of the domain's box that seeds are moved into
 
 /// Weights that make the power diagram of the seeds p = s y + t the Voronoi diagram of y, with s and t such
-/// that all y are in the domain's box: w = |p|² - s |y|².
+/// that all y are in the domain's box: w = |p|² - s |y|², less the square of the way to the seeds' middle,
+/// which is that of all and would leave no digits to those far away.
 Vector weights_of_moved_seeds(const Domain& domain, std::span<const double> positions) {
   const auto d = static_cast<std::size_t>(domain.dimension());
   const std::size_t n = positions.size() / d;
@@ -32,8 +33,8 @@ Vector weights_of_moved_seeds(const Domain& domain, std::span<const double> posi
   if (scale == 0) return weights;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t c = 0; c < d; ++c) {
-      const double p = positions[i * d + c] - center[c], y = (positions[i * d + c] - middle[c]) / scale;
-      weights[static_cast<Eigen::Index>(i)] += p * p - scale * y * y;
+      const double u = positions[i * d + c] - middle[c], away = middle[c] - center[c];
+      weights[static_cast<Eigen::Index>(i)] += u * (u + 2 * away - u / scale);
     }
   return weights;
 }

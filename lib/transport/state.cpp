@@ -66,26 +66,38 @@ double TransportSolver::State::used_tolerance() const {
 }
 
 std::vector<double> TransportSolver::State::targets(double total) const {
-  if (masses.empty()) return std::vector<double>(size(), total / static_cast<double>(size()));
-  const double sum = vector_of(masses).sum();
-  if (!options.rescale && !(std::abs(sum - total) <= sum_tolerance * total))
-    throw Error(ErrorCode::invalid_argument,
-                "the masses sum to " + digits(sum, 12) + ", the domain's mass is " + digits(total, 12) +
-                    "; let them be rescaled (--rescale) if their ratios are meant");
   std::vector<double> result = masses;
-  for (double& m : result) m *= total / sum;
+  if (masses.empty()) {
+    result.assign(size(), total / static_cast<double>(size()));
+  } else {
+    // The largest first: sums of masses may be beyond the range of doubles.
+    const double largest = vector_of(masses).maxCoeff(), sum = (vector_of(masses) / largest).sum();
+    if (!options.rescale && !(std::abs(sum * largest - total) <= sum_tolerance * total))
+      throw Error(ErrorCode::invalid_argument,
+                  "the masses sum to " + digits(sum * largest, 12) + ", the domain's mass is " +
+                      digits(total, 12) + "; let them be rescaled (--rescale) if their ratios are meant");
+    for (double& m : result) m = m / largest * (total / sum);
+  }
+  for (std::size_t i = 0; i < size(); ++i)
+    if (!(result[i] >= std::numeric_limits<double>::min()))
+      throw Error(ErrorCode::invalid_argument, "seed " + std::to_string(i) + ": its mass is " +
+                                                   digits(result[i]) + " of the domain's " + digits(total) +
+                                                   ", less than numbers tell");
   return result;
 }
 
 const TransportResult& TransportSolver::State::solve() {
   if (positions.empty())
     throw Error(ErrorCode::invalid_argument, "solve before set_seeds: there are no seeds");
-  const std::size_t d = dimension();
   const double total = options.density.total(diagram.domain(), options.diagram.threads);
+  if (!(total >= std::numeric_limits<double>::min()) || !std::isfinite(total))
+    throw Error(ErrorCode::invalid_argument,
+                "the mass of the domain is " + digits(total) + ": choose another unit for the density");
   const std::vector<double> target = targets(total);
 
   TransportResult next;
-  next.merged_with = first_at_position(positions, d);
+  const std::size_t d = dimension();
+  next.merged_with = first_at_position(periodic ? periodic->inside(positions) : positions, d);
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < size(); ++i)
     if (next.merged_with[i] == i) kept.push_back(i);
@@ -94,7 +106,9 @@ const TransportResult& TransportSolver::State::solve() {
   for (std::size_t i = 0; i < size(); ++i) joined[next.merged_with[i]] += target[i];
 
   const std::vector<double> kept_positions = rows(positions, kept, d), kept_weights = rows(weights, kept, 1);
+  diagram_has_weights = false;
   if (next.merged > 0 || !diagram_has_all) {
+    diagram_has_all = false;
     diagram.set_seeds({diagram.domain().dimension(), kept_positions, kept_weights});
     diagram_has_all = next.merged == 0;
   }
@@ -113,6 +127,7 @@ const TransportResult& TransportSolver::State::solve() {
   next.dual = at.dual(course.target());
   result = std::move(next);
   fill_result(at, kept);
+  diagram_has_weights = cells->last() == at.weights;
   solved = true;
   return result;
 }

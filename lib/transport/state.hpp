@@ -17,10 +17,11 @@ struct TransportSolver::State {
   Diagram diagram;
   std::optional<PeriodicDiagram> periodic;  // has the cells where the options ask for it
   bool diagram_has_all = false;             // of the seeds; else those that are not merged
+  bool diagram_has_weights = false;         // of the result; else of a step that was tried
 
   std::vector<double> positions, weights, masses;  // of all seeds; no masses: equal ones
   TransportResult result;
-  bool solved = false;
+  bool solved = false;  // since the seeds were set or moved
 
   State(Device device, Domain domain, TransportOptions options);
 

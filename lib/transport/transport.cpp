@@ -67,6 +67,7 @@ void TransportSolver::set_seeds(const SeedsView& seeds) {
   if (seeds.size() == 0) refuse("no seeds: a transport needs at least one");
   s.diagram.set_seeds(seeds);
   s.diagram_has_all = true;
+  s.solved = false;
   s.positions.assign(seeds.positions.begin(), seeds.positions.end());
   s.weights.assign(seeds.weights.begin(), seeds.weights.end());
   s.weights.resize(s.size());
@@ -85,6 +86,7 @@ void TransportSolver::move_seeds(std::span<const double> positions) {
   }
   s.diagram.set_seeds({s.diagram.domain().dimension(), positions, weights});
   s.diagram_has_all = true;
+  s.solved = false;
   s.positions.assign(positions.begin(), positions.end());
   s.weights = std::move(weights);
 }
@@ -127,12 +129,15 @@ const TransportResult& TransportSolver::result() const {
 
 Diagram& TransportSolver::diagram() {
   State& s = *state_;
-  if (!s.solved) refuse("diagram before solve: there are no weights yet");
+  if (!s.solved) refuse("diagram before solve: there are no weights for these seeds yet");
   if (s.periodic) throw Error(ErrorCode::unsupported, "there is no diagram of a periodic box to hand out");
   if (!s.diagram_has_all) {
-    s.diagram.set_seeds(s.seeds());
+    s.diagram.set_seeds({s.diagram.domain().dimension(), s.positions, s.result.weights});
     s.diagram_has_all = true;
+  } else if (!s.diagram_has_weights) {
+    s.diagram.set_weights(s.result.weights);
   }
+  s.diagram_has_weights = true;
   return s.diagram;
 }
 

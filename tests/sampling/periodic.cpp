@@ -134,6 +134,27 @@ TEST_CASE("transport on a periodic box: Newton converges, and moving all seeds c
   }
 }
 
+TEST_CASE("copies of one seed are one, and seeds however far away are inside") {
+  const Setup& setup = main_setups().front();
+  TransportOptions options;
+  options.diagram = setup.options;
+  options.periodic = true;
+  // The box is [-1, 2] x [2, 4].
+  const std::vector<double> positions{-1, 3, 2, 3, 0.5, 2.5, 5, 1};
+  const TransportResult found = transport(setup.device, box(), {2, positions, {}}, {}, options);
+  CHECK(found.converged);
+  CHECK(found.merged == 2);
+  CHECK(found.merged_with == std::vector<std::uint32_t>{0, 0, 2, 0});
+  CHECK(found.mass[0] == doctest::Approx(4.5).epsilon(1e-5));
+  const PeriodicDiagram diagram(setup.device, box(), setup.options);
+  const std::vector<double> far{1e17, -1e300, -1 - 1e-18, 4};
+  const std::vector<double> inside = diagram.inside(far);
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    CHECK(inside[k] >= low[k % 2]);
+    CHECK(inside[k] < high[k % 2]);
+  }
+}
+
 TEST_CASE("what cannot be periodic is refused") {
   const Setup& setup = main_setups().front();
   const auto code = [&](const Domain& domain, const Density& density) {

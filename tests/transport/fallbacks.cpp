@@ -131,6 +131,66 @@ TEST_CASE("no convergence is said, and the best weights are kept") {
   CHECK(!solve(unit_box(2), seeds.view(), {}, options).converged);
 }
 
+TEST_CASE("the diagram is that of the result, whatever was tried last") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const Domain domain = Domain::polygon(islands());
+  const SeedArray seeds = seeds_for(domain, Distribution::white, WeightRange::W0, 40, random);
+  const std::vector<double> masses = random_masses(40, 1e4, domain.measure(), random);
+  for (int most = 1; most < 60; most += 3) {
+    TransportOptions options = transport_options();
+    options.max_steps = most;
+    TransportSolver solver(transport_device(), domain, options);
+    solver.set_seeds(seeds.view());
+    solver.set_masses(masses);
+    const TransportResult& found = solver.solve();
+    CHECK(distance(solver.diagram().measures().mass, found.mass) < 1e-12);
+  }
+}
+
+TEST_CASE("a solve that was stopped leaves the diagram of the last one, and seeds that changed have none") {
+  const SeedArray seeds = white(200);
+  TransportOptions options = transport_options();
+  bool stop = false;
+  options.progress = [&stop](const TransportStep& step) { return !stop || step.step < 2; };
+  TransportSolver solver(transport_device(), unit_box(2), options);
+  solver.set_seeds(seeds.view());
+  const std::vector<double> found = solver.solve().mass;
+  Random random(test_seed());
+  solver.set_masses(random_masses(200, 10, 1, random));
+  stop = true;
+  CHECK_THROWS_AS(solver.solve(), Error);
+  CHECK(distance(solver.diagram().measures().mass, found) < 1e-12);
+  solver.move_seeds(seeds.positions);
+  CHECK_THROWS_AS(solver.diagram(), Error);
+  solver.set_seeds(SeedArray{2, {0.5, 0.5}, {0}}.view());
+  CHECK_THROWS_AS(solver.diagram(), Error);
+}
+
+TEST_CASE("seeds a million domains away") {
+  SeedArray seeds = white(100);
+  translate(seeds, {1e6, -1e6, 0});
+  CHECK(solve(unit_box(2), seeds.view()).converged);
+}
+
+TEST_CASE("masses at the ends of the range of numbers are met, or refused by name") {
+  const SeedArray seeds = white(4);
+  TransportOptions options = transport_options();
+  options.rescale = true;
+  for (const double mass : {1e308, 1e-320}) {
+    const TransportResult found = solve(unit_box(2), seeds.view(), std::vector<double>(4, mass), options);
+    CHECK(found.converged);
+    CHECK(std::abs(found.target[0] - 0.25) < 1e-15);
+  }
+  CHECK_THROWS_AS(solve(unit_box(2), seeds.view(), std::vector<double>{1e-300, 1e300, 1e300, 1e300}, options),
+                  Error);
+  const std::array<double, 2> low{0, 0}, high{10, 10}, tiny{1e-9, 1e-9};
+  options.density = Density::constant(1e308);
+  CHECK_THROWS_AS(solve(Domain::box(low, high), seeds.view(), {}, options), Error);
+  options.density = Density::constant(1e-310);
+  CHECK_THROWS_AS(solve(Domain::box(low, tiny), seeds.view(), {}, options), Error);
+}
+
 TEST_CASE("a solve continues where seeds moved to their centroids") {
   INFO(replay_hint());
   const SeedArray seeds = white(1000);
