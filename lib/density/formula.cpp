@@ -1,5 +1,7 @@
 #include <muParser.h>
 
+#include <string_view>
+
 #include "lib/density/make.hpp"
 #include "lib/density/pointwise.hpp"
 #include "lib/density/value.hpp"
@@ -32,8 +34,18 @@ class Expression {
       parser_.DefineVar("z", &x_[2]);
       parser_.SetExpr(text);
     });
+    refuse_assignment();
   }
   Expression(const Expression&) = delete;
+
+  /// \throw Error invalid_argument where it has several values: muparser takes the last of "1,5 + x"
+  void require_one_value() {
+    int count = 0;
+    x_ = {0.5, 0.5, 0.5};
+    guarded([&] { parser_.Eval(count); });
+    if (count != 1)
+      refuse("it has " + std::to_string(count) + " values; decimals are written with a point, as in 1.5");
+  }
 
   void evaluate(std::span<const Point> x, std::span<double> values) {
     guarded([&] {
@@ -45,17 +57,33 @@ class Expression {
   }
 
  private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw Error(ErrorCode::invalid_argument,
+                "formula \"" + readable(text_, longest) + "\": " + readable(why, longest));
+  }
+
+  /// muparser assigns to the variables: "x = 0.5 ? 1 : 3" would be 1 everywhere.
+  void refuse_assignment() const {
+    for (std::size_t k = 0; k < text_.size(); ++k) {
+      if (text_[k] != '=') continue;
+      if (k + 1 < text_.size() && text_[k + 1] == '=') {
+        ++k;  // ==
+      } else if (k == 0 || std::string_view("!<>").find(text_[k - 1]) == std::string_view::npos) {
+        refuse("'=' assigns; comparisons are written ==");
+      }
+    }
+  }
+
   template <class Body>
   void guarded(const Body& body) const {
     try {
       body();
     } catch (const mu::Parser::exception_type& error) {
-      constexpr std::size_t most = 300;
-      throw Error(ErrorCode::invalid_argument,
-                  "formula \"" + readable(text_, most) + "\": " + readable(error.GetMsg(), most));
+      refuse(error.GetMsg());
     }
   }
 
+  static constexpr std::size_t longest = 300;  // that is quoted
   std::string text_;
   Point x_{};
   mu::Parser parser_;
@@ -78,9 +106,7 @@ class Formula : public PointwiseDensity {
  public:
   Formula(std::string_view text, double tolerance) : PointwiseDensity(tolerance), text_(text) {
     check_tolerance(tolerance);
-    const Point anywhere{0.5, 0.5, 0.5};
-    double value = 0;
-    Expression(text_).evaluate({&anywhere, 1}, {&value, 1});  // tells whether it is one
+    Expression(text_).require_one_value();  // tells whether it is one
   }
 
  public:

@@ -4,15 +4,19 @@
 #include "lib/density/geometric.hpp"
 #include "lib/density/make.hpp"
 #include "lib/density/pixels.hpp"
+#include "lib/digits.hpp"
 
 namespace powercell {
 namespace {
 
 using Place = std::array<double, 2>;  // in pixels
 
+/// Beside the image nothing changes from column to column, and it may be far wider than pixels.
+enum class Columns { one_by_one, beside };
+
 /// Cuts the segment from a to b at the borders of pixels: `visit(from, to)` for each part, in order.
 template <class Visit>
-void walk(const Place& a, const Place& b, const Visit& visit) {
+void cut_at_pixels(const Place& a, const Place& b, Columns columns, const Visit& visit) {
   struct Crossings {
     double next, step, end;  // the next border, the way to go, and where the segment ends
     double from, slope;      // fraction of the segment at a border: (border - from) * slope
@@ -22,7 +26,7 @@ void walk(const Place& a, const Place& b, const Visit& visit) {
   };
   std::array<Crossings, 2> axis;
   for (std::size_t k = 0; k < 2; ++k) {
-    const double way = b[k] - a[k];
+    const double way = k == 0 && columns == Columns::beside ? 0 : b[k] - a[k];
     const double step = way > 0 ? 1 : way < 0 ? -1 : 0;
     axis[k] = {step > 0 ? std::floor(a[k]) + 1 : std::ceil(a[k]) - 1, step, b[k], a[k],
                step == 0 ? 0 : 1 / way};
@@ -42,8 +46,38 @@ void walk(const Place& a, const Place& b, const Visit& visit) {
   visit(from, b);
 }
 
+/// Where a segment is at fraction t.
+Place between(const Place& a, const Place& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+}
+
+/// Fractions of the way from a to b at which it comes into [0, end] and leaves it; the first is the larger
+/// where it does neither.
+std::array<double, 2> passage(double a, double b, double end) {
+  if (a == b) return a >= 0 && a <= end ? std::array{0.0, 1.0} : std::array{1.0, 0.0};
+  const double s = -a / (b - a), t = (end - a) / (b - a);
+  return {std::max(std::min(s, t), 0.0), std::min(std::max(s, t), 1.0)};
+}
+
+/// The parts of a segment in the rows of the image, cut at the borders of its pixels.
+template <class Visit>
+void walk(const Place& a, const Place& b, const Pixels& pixels, const Visit& visit) {
+  const auto [in, out] = passage(a[1], b[1], pixels.height());
+  if (in > out) return;
+  // Ends that are not cut stay what they are, so that segments which meet there still do.
+  const Place from = in > 0 ? between(a, b, in) : a, to = out < 1 ? between(a, b, out) : b;
+  const auto [left, right] = passage(from[0], to[0], pixels.width());
+  if (left > right) return cut_at_pixels(from, to, Columns::beside, visit);
+  const Place first = left > 0 ? between(from, to, left) : from,
+              last = right < 1 ? between(from, to, right) : to;
+  if (left > 0) cut_at_pixels(from, first, Columns::beside, visit);
+  cut_at_pixels(first, last, Columns::one_by_one, visit);
+  if (right < 1) cut_at_pixels(last, to, Columns::beside, visit);
+}
+
+/// The pixel that a part lies in; beside the image any number beyond it.
 std::ptrdiff_t pixel_of(double a, double b) {
-  return static_cast<std::ptrdiff_t>(std::floor((a + b) / 2));
+  return static_cast<std::ptrdiff_t>(std::clamp(std::floor((a + b) / 2), -1.0, 0x1p53));
 }
 
 /// Green's theorem: with R(u, v) the integral of the density along the row up to u, the mass is the integral
@@ -59,7 +93,7 @@ class ImageIntegrator : public PieceIntegrator {
     Place from = place(piece, piece.vertex_count() - 1);
     for (std::uint64_t k = 0; k < piece.vertex_count(); ++k) {
       const Place to = place(piece, k);
-      walk(from, to, [&](const Place& a, const Place& b) { add_part(a, b); });
+      walk(from, to, pixels_, [&](const Place& a, const Place& b) { add_part(a, b); });
       from = to;
     }
     // Without density in it a piece has what rounding leaves of terms that cancel.
@@ -75,7 +109,7 @@ class ImageIntegrator : public PieceIntegrator {
   double over_face(const Piece& piece, std::uint64_t face) override {
     const auto [w, h] = pixels_.size();
     double sum = 0;
-    walk(place(piece, piece.corner(face, 0)), place(piece, piece.corner(face, 1)),
+    walk(place(piece, piece.corner(face, 0)), place(piece, piece.corner(face, 1)), pixels_,
          [&, w = w, h = h](const Place& a, const Place& b) {
            const double length = std::hypot(w * (b[0] - a[0]), h * (b[1] - a[1]));
            sum += length * pixels_.value(pixel_of(a[1], b[1]), pixel_of(a[0], b[0]));
@@ -148,6 +182,7 @@ class Image : public GeometricDensity {
  protected:
   std::unique_ptr<PieceIntegrator> integrator(const Domain& domain, const Accuracy&) const override {
     require_plane(domain);
+    require_pixels_in_reach(domain);
     return std::make_unique<ImageIntegrator>(pixels_);
   }
 
@@ -155,6 +190,18 @@ class Image : public GeometricDensity {
   static void require_plane(const Domain& domain) {
     if (domain.kind() != DomainKind::polygon)
       throw Error(ErrorCode::unsupported, "an image is a density of the plane: the domain must be a polygon");
+  }
+
+  /// Places are counted in pixels, of which rounding of the farthest must be a small part.
+  void require_pixels_in_reach(const Domain& domain) const {
+    constexpr double most = 1e12;
+    for (const auto& corner : {domain.low(), domain.high()}) {
+      const Place at = pixels_.pixels(corner[0], corner[1]);
+      if (!(std::abs(at[0]) <= most && std::abs(at[1]) <= most))
+        throw Error(ErrorCode::invalid_argument,
+                    "the image is too small, or too far away, beside the domain: a corner of it is " +
+                        digits(std::max(std::abs(at[0]), std::abs(at[1])), 3) + " pixels from the image's");
+    }
   }
 
   Pixels pixels_;

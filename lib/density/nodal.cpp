@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "lib/density/make.hpp"
@@ -31,17 +33,24 @@ class LinearSource : public PointSource {
     const std::uint32_t* corner = &mesh_.region_vertex[mesh_.region_offset[region]];
     origin_ = vertex(corner[0]);
     value_ = values_[corner[0]];
-    const Point a = minus(vertex(corner[1]), origin_), b = minus(vertex(corner[2]), origin_);
+    Point a = minus(vertex(corner[1]), origin_), b = minus(vertex(corner[2]), origin_), c{};
     const double da = values_[corner[1]] - value_, db = values_[corner[2]] - value_;
-    Point c = cross(a, b);  // on a surface the third direction, along which nothing changes
     double dc = 0;
     if (mesh_.cell_dimension == 3) {
       c = minus(vertex(corner[3]), origin_);
       dc = values_[corner[3]] - value_;
     }
+    // In a unit of the region's own: products of four lengths may be beyond range.
+    double size = 0;
+    for (const Point* edge : {&a, &b, &c})
+      for (const double x : *edge) size = std::max(size, std::abs(x));
+    for (Point* edge : {&a, &b, &c})
+      for (double& x : *edge) x /= size;
+    if (mesh_.cell_dimension == 2) c = cross(a, b);  // along which nothing changes
     const Point bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
     const double determinant = dot(a, bc);
-    for (std::size_t k = 0; k < 3; ++k) gradient_[k] = (da * bc[k] + db * ca[k] + dc * ab[k]) / determinant;
+    for (std::size_t k = 0; k < 3; ++k)
+      gradient_[k] = (da * bc[k] + db * ca[k] + dc * ab[k]) / determinant / size;
     known_ = region;
   }
 

@@ -22,6 +22,7 @@ class Pixels {
   double value(std::ptrdiff_t row, std::ptrdiff_t column) const;
 
   double width() const { return static_cast<double>(width_); }
+  double height() const { return static_cast<double>(height_); }
   std::array<double, 2> pixels(double x, double y) const {
     return {(x - low_[0]) / size_[0], (y - low_[1]) / size_[1]};
   }

@@ -24,7 +24,7 @@ double measure(const Simplex<1>& s) {
 }
 double measure(const Simplex<2>& s) {
   const Point normal = cross(minus(s[1].at, s[0].at), minus(s[2].at, s[0].at));
-  return std::sqrt(dot(normal, normal)) / 2;
+  return std::hypot(normal[0], normal[1], normal[2]) / 2;  // squares of areas may be beyond range
 }
 /// Signed: fans of solids that rounding has bent cancel.
 double measure(const Simplex<3>& s) {

@@ -36,6 +36,10 @@ bool has(const std::string& text, const std::string& part) {
 TEST_CASE("what is no formula says so when it is made") {
   for (const char* text : {"", "1 +", "foo(x)", "x y", "(1", "a"})
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula(text); }), "formula"));
+  for (const char* text : {"1,5+x", "x=0.5?1:3", "=1", "x+=1", "x==1=2"})
+    CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula(text); }), "formula"));
+  for (const char* text : {"x==0.5?1:3", "x!=0.5", "x<=0.5?1:2", "min(x,y)+(y>=0.25)"})
+    Density::formula(text);
   for (const double tolerance : {0.0, -1.0, 1.0, std::nan("")})
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula("1", tolerance); }), "tolerance"));
 }

@@ -95,6 +95,24 @@ TEST_CASE("an image is 0 outside its rectangle, and works in polygons with holes
     CHECK(std::abs(found.mass[i] - expected.mass[i]) < 1e-4 * domain.measure());
 }
 
+TEST_CASE("an image far smaller than the domain is found, in as little time as another") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const DensityCase one{"square", unit_box(2),
+                        random_seeds(Distribution::white, WeightRange::W1, 50, 2, random)};
+  Diagram diagram = diagram_of(one);
+  for (const double side : {1e-3, 1e-6, 1e-9}) {
+    const std::vector<double> gray{1.0, 3.0, 0.0, 4.0};
+    const ImageView image{2, 2, gray, {0.3, 0.6}, {0.3 + side, 0.6 + side}};
+    const double mass = 2 * (image.high[0] - image.low[0]) * (image.high[1] - image.low[1]);
+    const DensityIntegrals found = integrate(diagram, Density::image(image), true);
+    CHECK(found.domain_mass == doctest::Approx(mass).epsilon(1e-4 * 1e-9 / side + 1e-9));
+    CHECK(found.relative_error() < 1e-4);
+  }
+  const std::vector<double> gray{1.0};
+  CHECK_THROWS_AS((void)Density::image({1, 1, gray, {0, 0}, {1e-15, 1e-15}}).total(one.domain), Error);
+}
+
 TEST_CASE("pixels on the walls: a grid of seeds in step with the image") {
   // Each cell is one pixel, and every wall lies on the border of pixels.
   const DensityCase one{"grid", unit_box(2), grid(4, 2)};

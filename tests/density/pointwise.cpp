@@ -204,6 +204,25 @@ TEST_CASE("values at vertices are integrated exactly on meshes") {
   }
 }
 
+TEST_CASE("integrals in the smallest and largest domains that are taken") {
+  for (const double unit : {1e-95, 1e-78, 1e78, 1e95}) {
+    const std::array<double, 2> low{0, 0}, high{unit, unit};
+    const Domain box = Domain::box(low, high);
+    CHECK(Density::formula("1").total(box) == doctest::Approx(box.measure()).epsilon(1e-12));
+    Diagram diagram(Device::choose(), box);
+    const double positions[]{0.25 * unit, 0.5 * unit, 0.75 * unit, 0.5 * unit};
+    diagram.set_seeds({2, positions, {}});
+    const DensityIntegrals found = integrate(diagram, Density::formula("1"), true);
+    CHECK(found.mass[0] / box.measure() == doctest::Approx(0.5).epsilon(1e-12));
+    CHECK(found.walls.wall.at(0) / unit == doctest::Approx(1).epsilon(1e-12));
+    const std::vector<double> vertices{0, 0, 0, unit, 0, 0, 0, unit, 0};
+    const std::vector<std::uint32_t> triangle{0, 1, 2};
+    const Domain surface = Domain::surface(vertices, triangle);
+    const std::vector<double> values{0, 3, 0};
+    CHECK(Density::nodal(values).total(surface) / surface.measure() == doctest::Approx(1).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("threads do not change a bit") {
   Random random(test_seed());
   const Domain domain = unit_box(3);
