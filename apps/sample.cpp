@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -95,23 +96,44 @@ void tell(const SampleArguments& arguments, const Source& source, const Study& s
   }
 }
 
+/// What was asked for and not reached, of a run that did not converge.
+std::string shortfall(const SamplingResult& points, const SamplingOptions& options) {
+  const SamplingStep& last = points.steps.back();
+  if (!(points.capacity_error < options.capacity_tolerance))
+    return fmt::format("the masses are equal to {:.1e}, not {:.1e}", points.capacity_error,
+                       options.capacity_tolerance);
+  if (std::isfinite(last.hexatic))
+    return fmt::format("the hexatic order is {:.3f}, not {:.3f}", last.hexatic, options.hexatic);
+  return fmt::format("the mean move is {:.1e}", last.gradient);
+}
+
+/// Spectra take the square of the number of points: they are told where they take no time, or are asked for.
+bool wants_spectra(const SampleArguments& arguments) {
+  constexpr std::size_t quick = 4096;
+  return arguments.periodic && (arguments.count <= quick || !arguments.analysis.empty());
+}
+
 int run(const SampleArguments& arguments) {
+  if (arguments.periodic && !arguments.cells.empty())
+    throw Error(
+        ErrorCode::invalid_argument,
+        "--cells: cells that go on at the opposite side of a periodic box cannot be written; leave out "
+        "--cells or --periodic");
   const Source source = read_source(arguments.source);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
   for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());
   const Device device = open_device(arguments);
   const SamplingOptions options = sampling_options(arguments, source);
-  const Study study = run_study(device, source, arguments.count, options, arguments.runs);
+  const Study study =
+      run_study(device, source, arguments.count, options, arguments.runs, wants_spectra(arguments));
   tell(arguments, source, study, write_files(arguments, device, source, study));
   for (const Run& one : study.runs)
     if (!one.points.converged)
       throw Error(
           ErrorCode::not_converged,
-          fmt::format(
-              "not converged after {} iterations: capacity error {:.1e} (tolerance {:.1e}), mean move "
-              "{:.1e}; the best points are kept; allow more with --iterations",
-              one.points.steps.back().iteration, one.points.capacity_error, arguments.tolerance,
-              one.points.steps.back().gradient));
+          fmt::format("not converged after {} iterations: {}; the best points are kept; allow more with "
+                      "--iterations",
+                      one.points.steps.back().iteration, shortfall(one.points, options)));
   return 0;
 }
 
@@ -179,7 +201,9 @@ Command add_sample(CLI::App& app) {
       ->type_name("FILE")
       ->expected(1)
       ->take_all();
-  command->add_option("--analysis", arguments->analysis, "All figures and spectra as JSON")
+  command
+      ->add_option("--analysis", arguments->analysis,
+                   "All figures and spectra as JSON; spectra of n points take n^2 time")
       ->type_name("FILE.json");
   add_common_options(*command, *arguments);
   command->footer(examples);

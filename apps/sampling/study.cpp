@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
@@ -46,8 +47,8 @@ nlohmann::json as_json(const Run& run) {
           {"capacity_error", run.points.capacity_error},
           {"energy", run.points.energy},
           {"relative_energy", run.points.relative_energy},
-          {"least_distance", run.spacing.least},
-          {"mean_distance", run.spacing.mean},
+          {"least_distance", number(run.spacing.least)},
+          {"mean_distance", number(run.spacing.mean)},
           {"hexatic", number(run.spacing.hexatic)},
           {"seconds", run.seconds},
           {"processor_seconds", run.processor_seconds},
@@ -64,9 +65,10 @@ double mean_of(const Study& study, const Value& value) {
 }  // namespace
 
 Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
-                int runs) {
+                int runs, bool spectra) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Study study;
-  std::vector<Spectrum> spectra;
+  std::vector<Spectrum> found;
   for (int k = 0; k < runs; ++k) {
     SamplingOptions own = options;
     own.random_seed += static_cast<std::uint64_t>(k);
@@ -77,15 +79,15 @@ Study run_study(const Device& device, const Source& source, std::size_t n, const
       run.points = sample(device, source.domain, n, own);
       run.seconds = watch.lap();
       run.processor_seconds = processor_seconds() - before;
-      if (n > 1)
-        run.spacing = spacing(device, source.domain, run.points.positions, own.periodic,
-                              source.density.is_constant(), own.diagram);
-      if (own.periodic)
-        spectra.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
+      run.spacing = n == 1 ? Spacing{nan, nan, nan}
+                           : spacing(device, source.domain, run.points.positions, own.periodic,
+                                     source.density.is_constant(), own.diagram);
+      if (own.periodic && spectra)
+        found.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
     });
     study.runs.push_back(std::move(run));
   }
-  if (!spectra.empty()) study.spectrum = mean(spectra);
+  if (!found.empty()) study.spectrum = mean(found);
   return study;
 }
 
@@ -120,22 +122,24 @@ nlohmann::json as_json(const Study& study, bool with_power) {
 std::string line_of(const Run& run) {
   const SamplingResult& points = run.points;
   std::string text = fmt::format(
-      "{} points, {} iterations, capacity error {:.1e}, energy {:.6g} ({:.4f} of the lattice), distances "
-      "least "
-      "{:.3f} mean {:.3f}",
-      with_commas(points.weights.size()), points.steps.back().iteration, points.capacity_error, points.energy,
-      points.relative_energy, run.spacing.least, run.spacing.mean);
+      "{} point{}, {} iterations, capacity error {:.1e}, energy {:.6g} ({:.4f} of the lattice)",
+      with_commas(points.weights.size()), points.weights.size() == 1 ? "" : "s",
+      points.steps.back().iteration, points.capacity_error, points.energy, points.relative_energy);
+  if (std::isfinite(run.spacing.least))
+    text += fmt::format(", distances least {:.3f} mean {:.3f}", run.spacing.least, run.spacing.mean);
   if (std::isfinite(run.spacing.hexatic)) text += fmt::format(", hexatic order {:.3f}", run.spacing.hexatic);
   return text + fmt::format("; {:.2f} s ({:.2f} s of processors)", run.seconds, run.processor_seconds);
 }
 
 std::string summary_of(const Study& study) {
-  std::string text = fmt::format(
-      "mean of {}: energy {:.4f} of the lattice, distances least {:.3f} mean {:.3f}, hexatic order {:.3f}",
-      study.runs.size(), mean_of(study, [](const Run& r) { return r.points.relative_energy; }),
-      mean_of(study, [](const Run& r) { return r.spacing.least; }),
-      mean_of(study, [](const Run& r) { return r.spacing.mean; }),
-      mean_of(study, [](const Run& r) { return r.spacing.hexatic; }));
+  std::string text = fmt::format("mean of {}: energy {:.4f} of the lattice", study.runs.size(),
+                                 mean_of(study, [](const Run& r) { return r.points.relative_energy; }));
+  const double least = mean_of(study, [](const Run& r) { return r.spacing.least; });
+  if (std::isfinite(least))
+    text += fmt::format(", distances least {:.3f} mean {:.3f}", least,
+                        mean_of(study, [](const Run& r) { return r.spacing.mean; }));
+  const double order = mean_of(study, [](const Run& r) { return r.spacing.hexatic; });
+  if (std::isfinite(order)) text += fmt::format(", hexatic order {:.3f}", order);
   if (study.spectrum) text += fmt::format(", low-frequency power {:.2e}", study.spectrum->low_frequency());
   return text;
 }

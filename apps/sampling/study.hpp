@@ -13,19 +13,19 @@ namespace powercell::app {
 
 struct Run {
   SamplingResult points;
-  Spacing spacing;
+  Spacing spacing;               ///< NaN where no point has a neighbour
   double seconds = 0;            ///< wall clock
   double processor_seconds = 0;  ///< of all threads
 };
 
 struct Study {
   std::vector<Run> runs;
-  std::optional<Spectrum> spectrum;  ///< the mean, in periodic boxes
+  std::optional<Spectrum> spectrum;  ///< the mean, in periodic boxes, if asked for
 };
 
-/// \param runs  with the random seeds from options.random_seed on
+/// \param runs  with the random seeds from options.random_seed on   \param spectra  take n² time
 Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
-                int runs);
+                int runs, bool spectra);
 
 /// Keys: runs (a list), mean, spectrum (radial frequencies in waves a box; power, anisotropy in decibels,
 /// low_frequency up to half of sqrt(n), low_frequencies up to several parts of it). \param with_power  also

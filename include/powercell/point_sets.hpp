@@ -21,7 +21,8 @@ POWERCELL_API std::vector<double> random_points(const Domain& domain, const Dens
 struct Spacing {
   /// Least and mean distance of a point from its nearest, over the largest that all distances can have: in
   /// the hexagonal lattice of the same density, or on volumes in the face-centred cubic one. With a density
-  /// that varies each distance is taken over that of a lattice with cells as large as the point's.
+  /// that varies each distance is taken over that of a lattice with cells as large as the point's. Of points that have
+  /// neighbours; NaN where none has.
   double least = 0, mean = 0;
   /// Mean over the points of |mean over neighbours of exp(6 i angle)|: 1 in the hexagonal lattice, about .37
   /// at random. NaN unless the domain is in the plane.

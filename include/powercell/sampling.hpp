@@ -46,10 +46,11 @@ struct SamplingOptions {
   bool periodic = false;
   /// Moves at most. 0: 100 for blue in the plane, 20 for blue elsewhere, 1000 for quantise.
   int iterations = 0;
-  /// Blue in the plane ends at this hexatic order.
+  /// Blue in the plane ends at this hexatic order, after a move at least; of less than 50 points, or where they have less
+  /// than five neighbours on average, as in a row, the order says nothing, and it ends after 20 moves.
   double hexatic = 0.61;
-  /// Quantise ends when the gradient is below this fraction of the spacing (M's measure / n)^(1/d'); with 0
-  /// after `iterations` moves.
+  /// Quantise, and blue in the plane, end when the gradient is below this fraction of the spacing
+  /// (M's measure / n)^(1/d'); with 0 quantise ends after `iterations` moves, or where rounding allows none.
   double movement = 1e-4;
   /// max |m_i / (M/n) - 1| at the end.
   double capacity_tolerance = 1e-6;
@@ -82,7 +83,7 @@ struct SamplingResult {
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                                     const SamplingOptions& options = {});
 
-/// The same from points of the caller's. \param positions  n x d, row-major
+/// The same from points of the caller's, no two at one place. \param positions  n x d, row-major
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain,
                                     std::span<const double> positions, const SamplingOptions& options = {});
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double lloyd_tolerance = 3e-2, lbfgs_tolerance = 1e-5;
 constexpr double sufficient_decrease = 1e-4;
 constexpr int most_halvings = 10;
+constexpr int iterations_without_order = 20;
+/// Points have six neighbours in the plane, and fewer where most are at its boundary. The order of points in
+/// a row, or of a few in all, says nothing.
+constexpr double neighbours_with_order = 5;
+constexpr std::size_t points_with_order = 50;
 
 class Sampler {
  public:
@@ -32,18 +38,22 @@ class Sampler {
   SamplingResult run() {
     const int most = iterations();
     state_.move_to(start_, tolerance());
+    refuse_copies();
     record(0);
     while (!at_end() && result_.steps.back().iteration < most) {
       const int iteration = result_.steps.back().iteration + 1;
       if (options_.descent == SamplingDescent::lloyd) {
         state_.move_to(state_.centroids(), tolerance());
       } else if (!lbfgs_move()) {
-        break;  // no lower energy to be found: as low as rounding allows
+        as_low_as_rounding_allows_ = true;
+        break;
       }
       record(iteration);
     }
-    const bool moved_enough = at_end() || (fixed_count_ && result_.steps.back().iteration == most);
-    state_.move_to(state_.in_domain(), options_.capacity_tolerance);
+    const int moves = result_.steps.back().iteration;
+    const bool moved_enough = at_end() || (fixed_count_ && (moves == most || as_low_as_rounding_allows_));
+    const bool at_centroids = moves > 0 && options_.descent == SamplingDescent::lloyd;
+    state_.move_to(state_.in_domain(at_centroids), options_.capacity_tolerance);
     finish(moved_enough);
     return std::move(result_);
   }
@@ -52,7 +62,7 @@ class Sampler {
   int iterations() const {
     if (options_.iterations > 0) return options_.iterations;
     if (options_.mode == SamplingMode::quantise) return 1000;
-    return until_hexatic_ ? 100 : 20;
+    return until_hexatic_ ? 100 : iterations_without_order;
   }
 
   double tolerance() const {
@@ -61,8 +71,13 @@ class Sampler {
 
   bool at_end() const {
     const SamplingStep& step = result_.steps.back();
-    if (until_hexatic_) return step.hexatic >= options_.hexatic;
-    return options_.mode == SamplingMode::quantise && step.gradient <= options_.movement * spacing_;
+    const bool at_rest = step.gradient <= options_.movement * spacing_;
+    if (!until_hexatic_) return options_.mode == SamplingMode::quantise && at_rest;
+    if (step.iteration == 0) return false;  // where the points come from is not asked
+    if (at_rest) return true;
+    if (neighbours_ >= neighbours_with_order && state_.size() >= points_with_order)
+      return step.hexatic >= options_.hexatic;
+    return step.iteration >= std::min(iterations_without_order, iterations());
   }
 
   void record(int iteration) {
@@ -70,8 +85,13 @@ class Sampler {
     step.iteration = iteration;
     step.energy = state_.energy();
     step.gradient = state_.distance_to_centroids();
-    step.hexatic = until_hexatic_ ? state_.hexatic() : std::numeric_limits<double>::quiet_NaN();
-    step.capacity_error = state_.cells().error;
+    step.hexatic = std::numeric_limits<double>::quiet_NaN();
+    if (until_hexatic_) {
+      const Surroundings found = state_.surroundings();
+      step.hexatic = found.spacing.hexatic;
+      neighbours_ = found.neighbours;
+    }
+    step.capacity_error = state_.capacity_error();
     step.newton_steps = static_cast<int>(state_.cells().newton_steps());
     const Clock::time_point now = Clock::now();
     step.seconds = std::chrono::duration<double>(now - before_).count();
@@ -79,6 +99,16 @@ class Sampler {
     result_.steps.push_back(step);
     if (options_.progress && !options_.progress(step))
       throw Error(ErrorCode::interrupted, "stopped by the progress callback");
+  }
+
+  /// Points at one place would stay together. \throw Error invalid_argument
+  void refuse_copies() const {
+    const std::vector<std::uint32_t>& first = state_.cells().merged_with;
+    for (std::size_t i = 0; i < first.size(); ++i)
+      if (first[i] != i)
+        throw Error(ErrorCode::invalid_argument,
+                    "points " + std::to_string(first[i]) + " and " + std::to_string(i) +
+                        " are at one place: their cells could not be told apart");
   }
 
   /// One step with backtracking. False if there is no descent along the gradient either.
@@ -113,11 +143,11 @@ class Sampler {
 
   void finish(bool moved_enough) {
     const TransportResult& cells = state_.cells();
-    result_.converged = moved_enough && cells.converged;
+    result_.converged = moved_enough && cells.converged && cells.merged == 0;
     result_.positions = state_.wrapped();
     result_.weights = cells.weights;
     result_.mass = cells.mass;
-    result_.capacity_error = cells.error;
+    result_.capacity_error = state_.capacity_error();
     result_.energy = cells.primal;
     result_.relative_energy = state_.relative_energy();
   }
@@ -128,6 +158,8 @@ class Sampler {
   SamplingState state_;
   double spacing_;
   LbfgsMemory memory_;
+  double neighbours_ = 0;  // of a point on average, after the last iteration of blue in the plane
+  bool as_low_as_rounding_allows_ = false;
   SamplingResult result_;
   Clock::time_point before_ = Clock::now();
 };

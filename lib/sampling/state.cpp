@@ -58,8 +58,15 @@ double SamplingState::distance_to_centroids() const {
   return std::sqrt(sum / static_cast<double>(size()));
 }
 
-double SamplingState::hexatic() const {
-  return spacing(device_, domain_, wrapped(), options_.periodic, true, options_.diagram).hexatic;
+Surroundings SamplingState::surroundings() const {
+  return powercell::surroundings(device_, domain_, wrapped(), options_.periodic, true, options_.diagram);
+}
+
+double SamplingState::capacity_error() const {
+  const double capacity = cells().total_mass / static_cast<double>(size());
+  double worst = 0;
+  for (const double mass : cells().mass) worst = std::max(worst, std::abs(mass / capacity - 1));
+  return worst;
 }
 
 std::vector<double> SamplingState::wrapped() const {
@@ -73,10 +80,10 @@ std::vector<double> SamplingState::wrapped() const {
   return result;
 }
 
-std::vector<double> SamplingState::in_domain() {
+std::vector<double> SamplingState::in_domain(bool at_centroids) {
   std::vector<double> result = positions_;
   // Centroids of convex cells are in them.
-  if (options_.periodic || domain_.region_count() == 1) return result;
+  if (options_.periodic || (at_centroids && domain_.region_count() == 1)) return result;
   const Cells& geometry = solver_.diagram().cells();
   for (std::size_t i = 0; i < size(); ++i) {
     if (geometry.cell_offset[i] == geometry.cell_offset[i + 1]) continue;

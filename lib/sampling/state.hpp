@@ -5,6 +5,8 @@
 #include <powercell/sampling.hpp>
 #include <powercell/transport.hpp>
 
+#include "lib/sampling/spacing.hpp"
+
 namespace powercell {
 
 /// Points, and the cells of equal mass that they have. Evaluating is the expensive part.
@@ -22,9 +24,13 @@ class SamplingState {
   std::vector<double> energy_gradient() const;
   /// Root mean square of |c_i - p_i|.
   double distance_to_centroids() const;
-  double hexatic() const;
+  /// In the plane.
+  Surroundings surroundings() const;
+  /// max |m_i / (M/n) - 1|
+  double capacity_error() const;
   /// Points outside the domain go to the nearest place of their own cell, on surfaces all points.
-  std::vector<double> in_domain();
+  /// \param at_centroids  of the cells that they have
+  std::vector<double> in_domain(bool at_centroids);
   /// The points again, in the box where that is periodic.
   std::vector<double> wrapped() const;
   /// Energy over that of the best lattice.

@@ -91,6 +91,8 @@ class Sample(ToolTest):
                 (1, "exclude", ["--density", "x", "--image", "ink.png"]),
                 (1, "constant", ["--density", "1+x", "--periodic"]),
                 (1, "box", ["--domain", "disk", "--periodic"]),
+                (1, "--cells", ["--periodic", "--cells", "cells.json"]),
+                (1, "1,5", ["--density", "1,5+x"]),
                 (1, "extension", ["-o", "points.jpg"]),
                 (1, "flat", ["--domain", "cube", "-o", "points.png"]),
                 (1, "--paper", ["--paper", "2", "--domain", "disk"]),
@@ -100,6 +102,17 @@ class Sample(ToolTest):
                 (2, "points", ["-n", "-3"]),
         ]:
             self.bad(code, pattern, "sample", "-n", "20", *arguments)
+
+    def test_one_point_has_no_distances(self):
+        done = run("sample", "-n", "1", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("distances", done.stdout)
+
+    def test_spectra_of_many_points_are_asked_for(self):
+        for more, told in [([], False), (["--analysis", "a.json"], True)]:
+            done = run("sample", "-n", "5000", "--periodic", "--iterations", "1", *more, cwd=self.folder)
+            self.assertRegex(done.stderr, "the hexatic order is .*, not 0.610")
+            self.assertEqual("low-frequency" in done.stdout, told)
 
     def test_not_converged_is_said_and_the_best_kept(self):
         done = run("sample", "-n", "100", "--mode", "quantise", "--movement", "1e-9", "--iterations", "2",

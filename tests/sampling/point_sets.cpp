@@ -129,6 +129,16 @@ TEST_CASE("random points follow their density, on every kind of domain") {
   CHECK(right / n == doctest::Approx(0.75).epsilon(0.03));
 }
 
+TEST_CASE("points without a neighbour have no spacing") {
+  const std::vector<PolygonPart> two{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}},
+                                     {{{5, 0}, {6, 0}, {6, 1}, {5, 1}}, {}}};
+  const std::vector<double> apart{0.5, 0.5, 5.5, 0.5};
+  const Spacing found = spacing(main_setups().front().device, Domain::polygon(two), apart);
+  CHECK(std::isnan(found.least));
+  CHECK(std::isnan(found.mean));
+  CHECK(std::isnan(found.hexatic));
+}
+
 TEST_CASE("points without a spacing or a spectrum are refused") {
   const Device& device = main_setups().front().device;
   const std::vector<double> one{0.5, 0.5}, twice{0.5, 0.5, 0.5, 0.5}, solid{0.1, 0.2, 0.3};

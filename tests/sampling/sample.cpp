@@ -1,6 +1,7 @@
 // Blue noise and quantisers: capacities, energies and order that are known.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <powercell/diagram.hpp>
 #include <powercell/point_sets.hpp>
@@ -169,6 +170,42 @@ TEST_CASE("the same seed gives the same points, and another one others") {
   CHECK(a.positions == b.positions);
   options.random_seed = 2;
   CHECK(sample(device(), unit_box(2), 50, options).positions != a.positions);
+}
+
+TEST_CASE("points in a row, on islands and few in all move, whatever the order of those at the start") {
+  const std::array<double, 2> low{0, 0}, high{1000, 1};
+  const Domain strip = Domain::box(low, high);
+  const SamplingResult row = sample(device(), strip, 100);
+  CHECK(row.converged);
+  CHECK(row.steps.back().iteration == 20);
+  CHECK(row.relative_energy < 10);  // over 500 at random: squares by 10 x 1 are 5.2
+  for (const std::size_t n : {1u, 2u, 3u, 4u, 6u, 10u}) {
+    INFO(n << " points");
+    for (const bool periodic : {false, true}) {
+      SamplingOptions options;
+      options.periodic = periodic;
+      const SamplingResult found = sample(device(), unit_box(2), n, options);
+      CHECK(found.converged);
+      CHECK(found.steps.back().iteration > 0);
+      CHECK(found.relative_energy < 1.4);
+    }
+    CHECK(sample(device(), Domain::polygon(islands()), n).converged);
+  }
+}
+
+TEST_CASE("points of the caller's outside come into the domain, and copies are refused") {
+  for (const SamplingDescent descent : {SamplingDescent::lloyd, SamplingDescent::lbfgs})
+    for (const double movement : {1e-4, 1e9}) {
+      SamplingOptions options;
+      options.mode = movement > 1 ? SamplingMode::quantise : SamplingMode::blue;
+      options.descent = descent;
+      options.movement = movement;
+      const std::vector<double> outside{5, 5, 6, 6, 7, 5.5, 0.5, 0.5};
+      for (const double x : sample(device(), unit_box(2), outside, options).positions)
+        CHECK(x == std::clamp(x, 0.0, 1.0));
+    }
+  const std::vector<double> twice{0.2, 0.2, 0.5, 0.5, 0.2, 0.2};
+  CHECK_THROWS_AS(sample(device(), unit_box(2), twice), Error);
 }
 
 TEST_CASE("what cannot be sampled is refused") {
