@@ -17,7 +17,8 @@ namespace powercell::io {
 /// they stand, in the plane (longitudes and latitudes too). Several geometries are united.
 std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name);
 
-/// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION; several are united.
+/// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION, also EMPTY; several are united. `SRID=n;`
+/// before them is passed over, but must be the same everywhere.
 std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name);
 
 /// Largest distance between a curve of an SVG file and its polygon, over the diagonal of the drawing.

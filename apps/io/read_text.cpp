@@ -53,6 +53,14 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
 bool next_word(std::string_view& text, std::string_view& word) {
   std::size_t begin = 0;
   while (begin < text.size() && (blank(text[begin]) || text[begin] == '\n')) ++begin;

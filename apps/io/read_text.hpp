@@ -69,6 +69,9 @@ class TextScanner {
 /// Without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// With the letters A to Z made small, in every locale alike.
+std::string lower_case(std::string_view text);
+
 /// Splits at blanks; an element views `text`.
 bool next_word(std::string_view& text, std::string_view& word);
 

@@ -86,20 +86,13 @@ char find_separator(std::string_view text) {
   return best;
 }
 
-std::string lower(std::string_view text) {
-  std::string result(trimmed(text));
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-  return result;
-}
-
 using Places = std::array<std::optional<std::size_t>, columns>;
 
 // Which field is what, if this is a header.
 std::optional<Places> read_header(const std::vector<std::string>& fields) {
   Places places;
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    const std::string heading = lower(fields[f]);
+    const std::string heading = lower_case(trimmed(fields[f]));
     for (std::size_t c = 0; c < columns; ++c)
       if (!heading.empty() && std::find(headings[c].begin(), headings[c].end(), heading) != headings[c].end())
         places[c] = f;

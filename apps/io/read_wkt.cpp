@@ -1,5 +1,5 @@
 // Well-known text, by GEOS's reader. A file may hold several geometries, one after the other; GEOS takes
-// one at a time, so the text is split where the parentheses close.
+// one at a time, so the text is split where the parentheses close or the word EMPTY stands for them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,32 +14,89 @@ namespace {
 
 constexpr int kDeepestNesting = 64;  // GEOS reads collections by recursion
 
-// The text of the next geometry, without blanks before it; empty at the end. `at` moves behind it.
-std::string_view next_geometry(std::string_view text, std::size_t& at, const std::string& name) {
-  at = std::min(text.find_first_not_of(" \t\r\n;", at), text.size());
-  const std::size_t begin = at;
-  int depth = 0;
-  bool opened = false;
-  for (; at < text.size() && !(opened && depth == 0); ++at) {
-    if (text[at] == '(') {
-      opened = true;
-      if (++depth > kDeepestNesting) fail_line(name, line_of(text, at), "parentheses are nested too deeply");
-    } else if (text[at] == ')' && --depth < 0) {
-      fail_line(name, line_of(text, at), "a parenthesis closes that was not opened");
-    } else if (text[at] == '\0') {
-      fail_line(name, line_of(text, at), "a NUL byte; is this a text file?");
-    }
-  }
-  if (depth != 0)
-    fail_line(name, line_of(text, begin), "a geometry whose parentheses do not close; the file is truncated");
-  return text.substr(begin, at - begin);
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-void require_finite(const std::vector<PolygonPart>& parts, std::size_t line, const std::string& name) {
+// The geometries of a text, one after the other.
+class Geometries {
+ public:
+  Geometries(std::string_view text, const std::string& name) : text_(text), name_(name) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  }
+  // The text of the next one, without blanks before it; empty at the end.
+  std::string_view next();
+  [[noreturn]] void fail(const std::string& what) const {  // of the last one
+    fail_line(name_, line_of(text_, begin_), what);
+  }
+
+ private:
+  void skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t\r\n;", at_), text_.size()); }
+  void skip_reference_system();
+  bool skip_empty();
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0, begin_ = 0;
+  std::string reference_system_;
+};
+
+// PostGIS writes `SRID=n;` before a geometry. Coordinates are taken as they stand, in whatever system; but
+// numbers of two systems in one plane would mean nothing.
+void Geometries::skip_reference_system() {
+  if (lower_case(text_.substr(at_, 5)) != "srid=") return;
+  const std::size_t end = std::min(text_.find_first_not_of("0123456789", at_ + 5), text_.size());
+  const std::string number(text_.substr(at_ + 5, end - at_ - 5));
+  if (number.empty() || end == text_.size() || text_[end] != ';')
+    fail_line(name_, line_of(text_, at_), "SRID= needs a number and a ';' before the geometry");
+  if (!reference_system_.empty() && number != reference_system_) {
+    fail_line(name_, line_of(text_, at_),
+              fmt::format("SRID {} after a geometry with SRID {}; transform all to one system",
+                          number.substr(0, 40), reference_system_.substr(0, 40)));
+  }
+  reference_system_ = number;
+  at_ = end;
+  skip_blanks();
+}
+
+// Passes over the word at `at_`, if there is one; true if it is EMPTY.
+bool Geometries::skip_empty() {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+  return lower_case(text_.substr(begin, at_ - begin)) == "empty";
+}
+
+std::string_view Geometries::next() {
+  skip_blanks();
+  skip_reference_system();
+  begin_ = at_;
+  if (at_ == text_.size()) return {};
+  int depth = 0;
+  while (at_ < text_.size()) {
+    // GEOS reads up to the end of one geometry and leaves the rest unread, so that all ends must be found
+    // here.
+    if (depth == 0 && is_letter(text_[at_])) {
+      if (skip_empty()) return text_.substr(begin_, at_ - begin_);
+      continue;
+    }
+    const char c = text_[at_++];
+    if (c == '\0') fail_line(name_, line_of(text_, at_), "a NUL byte; is this a text file?");
+    if (c == '(' && ++depth > kDeepestNesting)
+      fail_line(name_, line_of(text_, at_), "parentheses are nested too deeply");
+    if (c == ')' && --depth < 0)
+      fail_line(name_, line_of(text_, at_), "a parenthesis closes that was not opened");
+    if (c == ')' && depth == 0) return text_.substr(begin_, at_ - begin_);
+  }
+  if (depth != 0) fail("a geometry whose parentheses do not close; the file is truncated");
+  fail(fmt::format("is not well-known text: '{}' is followed by neither parentheses nor EMPTY",
+                   trimmed(text_.substr(begin_)).substr(0, 40)));
+}
+
+void require_finite(const std::vector<PolygonPart>& parts, const Geometries& geometries) {
   const auto check = [&](const Ring& ring) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
       if (!std::isfinite(ring[k][0]) || !std::isfinite(ring[k][1]))
-        fail_line(name, line, fmt::format("point {} of a ring is not finite", k));
+        geometries.fail(fmt::format("point {} of a ring is not finite", k));
     }
   };
   for (const PolygonPart& part : parts) {
@@ -59,18 +116,17 @@ std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& nam
   const std::unique_ptr<GEOSWKTReader, Destroy> reader(GEOSWKTReader_create_r(geos.handle()),
                                                        Destroy{geos.handle()});
   std::vector<std::vector<PolygonPart>> groups;
-  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  Geometries geometries(text, name);
   for (;;) {
-    const std::string one(next_geometry(text, at, name));
+    const std::string one(geometries.next());
     if (one.empty()) break;
-    const std::size_t line = line_of(text, at - one.size());
     const Geos::Geometry geometry = geos.own(GEOSWKTReader_read_r(geos.handle(), reader.get(), one.c_str()));
-    if (!geometry) fail_line(name, line, fmt::format("is not well-known text: {}", geos.message()));
+    if (!geometry) geometries.fail(fmt::format("is not well-known text: {}", geos.message()));
     std::vector<PolygonPart> parts;
     if (!geos.parts(geometry.get(), parts)) {
-      fail_line(name, line, "only POLYGON and MULTIPOLYGON make a domain; leave the other geometries out");
+      geometries.fail("only POLYGON and MULTIPOLYGON make a domain; leave the other geometries out");
     }
-    require_finite(parts, line, name);
+    require_finite(parts, geometries);
     if (!parts.empty()) groups.push_back(std::move(parts));
   }
   if (groups.empty()) fail_file(name, "holds no polygon");

@@ -74,6 +74,28 @@ TEST_CASE("WKT: polygons, multipolygons, several geometries") {
         doctest::Approx(1));
 }
 
+TEST_CASE("WKT: empty geometries hide nothing") {
+  const std::string one = "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", two = "POLYGON ((2 0, 4 0, 4 1, 2 1, 2 0))";
+  const auto read = [](const std::string& text) { return area(parse_wkt(text, "t.wkt")); };
+  CHECK(read(one + "\nPOLYGON EMPTY\n" + two) == doctest::Approx(3));
+  CHECK(read("polygon empty\n" + one) == doctest::Approx(1));
+  CHECK(read("MULTIPOLYGON Z EMPTY;" + one + "MULTIPOLYGON EMPTY " + two + "\nPOLYGON EMPTY") ==
+        doctest::Approx(3));
+  CHECK(read("GEOMETRYCOLLECTION (POLYGON EMPTY, " + one + ", MULTIPOLYGON EMPTY)\n" + two) ==
+        doctest::Approx(3));
+  CHECK(read("MULTIPOLYGON (EMPTY, ((0 0, 1 0, 1 1, 0 1, 0 0)))\n" + two) == doctest::Approx(3));
+}
+
+TEST_CASE("WKT: a number of the reference system before a geometry is passed over") {
+  const std::string one = "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", two = "POLYGON ((2 0, 4 0, 4 1, 2 1, 2 0))";
+  CHECK(area(parse_wkt("SRID=4326;" + one + "\nsrid=4326; " + two, "t.wkt")) == doctest::Approx(3));
+  const auto message = [](const std::string& text) { return refusal([&] { parse_wkt(text, "t.wkt"); }); };
+  CHECK(says(message("SRID=4326;" + one + "\nSRID=3857;" + two),
+             "t.wkt:2: SRID 3857 after a geometry with SRID 4326; transform all to one system"));
+  CHECK(says(message("SRID=4326" + one), "t.wkt:1: SRID= needs a number and a ';'"));
+  CHECK(says(message("SRID=;" + one), "t.wkt:1: SRID= needs a number and a ';'"));
+}
+
 TEST_CASE("WKT: refusals name the line") {
   const auto message = [](const std::string& text) { return refusal([&] { parse_wkt(text, "t.wkt"); }); };
   CHECK(says(message("\n\nPOLYGON ((0 0, 1 0, 1 x, 0 0))"), "invalid_file: t.wkt:3: is not well-known text"));
@@ -81,6 +103,11 @@ TEST_CASE("WKT: refusals name the line") {
   CHECK(says(message("LINESTRING (0 0, 1 0)"), "only POLYGON and MULTIPOLYGON"));
   CHECK(says(message("POLYGON ((0 0, 1 0, nan 1, 0 0))"), "t.wkt:1"));
   CHECK(says(message("  \n"), "holds no polygon"));
+  CHECK(says(message("POLYGON EMPTY\nPOLYGON EMPTY\n"), "holds no polygon"));
+  CHECK(says(message("POLYGON EMPTY\nPOLYGON\n"),
+             "t.wkt:2: is not well-known text: 'POLYGON' is followed by neither parentheses nor EMPTY"));
+  CHECK(says(message("POLYGON EMPTY ((0 0, 1 0, 1 1, 0 0))"), "t.wkt:1: is not well-known text"));
+  CHECK(says(message("LINESTRING EMPTY"), "only POLYGON and MULTIPOLYGON"));
   CHECK(says(message(std::string(1000, '(')), "nested too deeply"));
 }
 
