@@ -1,4 +1,6 @@
-// OFF: a header word, counts `nv nf ne`, vertex rows, face rows `k i0 ... [colour]`. ASCII.
+// OFF: a header word, counts `nv nf ne`, vertices, face rows `k i0 ... [colour]`. ASCII. The format is free:
+// line ends matter behind a face only. Most files keep a line for each vertex all the same, and many of them
+// have colours behind the coordinates that no header announces.
 #include <fmt/format.h>
 
 #include "apps/io/read_file.hpp"
@@ -8,47 +10,125 @@
 namespace powercell::io {
 namespace {
 
+// What the header announces of a vertex.
+struct VertexKind {
+  std::size_t words = 3;  // at least
+  bool coloured = false;  // by 3 or 4 numbers, nothing says which
+};
+
+struct Counts {
+  std::uint64_t vertices, faces;
+  bool edges;  // whether their number stands there, which many writers leave out or set to 0
+};
+
 // OFF with any of the prefixes ST (texture), C (colour), N (normal): numbers after the position.
-void read_header(TextScanner& scanner) {
+VertexKind read_header(TextScanner& scanner) {
   std::string_view header = scanner.word({"header", 0});
-  if (header.starts_with("ST")) header.remove_prefix(2);
-  if (header.starts_with("C")) header.remove_prefix(1);
-  if (header.starts_with("N")) header.remove_prefix(1);
+  VertexKind kind;
+  const auto prefix = [&](std::string_view letters, std::size_t words) {
+    if (!header.starts_with(letters)) return false;
+    header.remove_prefix(letters.size());
+    kind.words += words;
+    return true;
+  };
+  prefix("ST", 2);
+  kind.coloured = prefix("C", 3);
+  prefix("N", 3);
   if (header != "OFF") {
     scanner.fail("does not begin with OFF (or COFF, NOFF, STOFF); 4OFF and nOFF are not surfaces in space");
   }
   if (scanner.peek() == "BINARY") scanner.fail("binary OFF is not read; save it as ASCII OFF or PLY");
+  return kind;
+}
+
+std::size_t words_of(std::string_view line) {
+  std::size_t words = 0;
+  for (std::string_view word; next_word(line, word);) ++words;
+  return words;
+}
+
+Counts read_counts(TextScanner& scanner) {
+  Counts counts{scanner.count({"count", 0}), scanner.count({"count", 1}), false};
+  TextScanner ahead = scanner;
+  std::size_t words = words_of(ahead.rest_of_line());
+  if (words > 1) scanner.fail("more than three counts; begin the vertices in a line of their own");
+  if (words == 0) words = words_of(ahead.line().value_or(""));  // a vertex has three words
+  counts.edges = words == 1;
+  if (counts.edges) scanner.count({"count", 2});
+  scanner.rest_of_line();
+  return counts;
+}
+
+// Whether each vertex has a line of its own: there are lines enough for all vertices and faces, and those of
+// the vertices are equally long. Where vertices share lines there are fewer lines; where one takes several
+// lines they are shorter than a vertex. In a file of a line each nothing is missing, whatever the header
+// says.
+bool vertex_a_line(TextScanner scanner, const Counts& counts, const VertexKind& kind) {
+  std::size_t lines = 0, words = 0;
+  for (; const auto line = scanner.line(); ++lines) {
+    if (lines >= counts.vertices) continue;
+    const std::size_t here = words_of(*line);
+    if (lines == 0) words = here;
+    if (here != words) return false;
+  }
+  const std::uint64_t needed = counts.vertices + counts.faces;
+  return lines >= needed && words >= (lines == needed ? 3 : kind.words);
+}
+
+void read_vertices(TextScanner& scanner, const Counts& counts, const VertexKind& kind,
+                   std::vector<double>& coordinates) {
+  const bool lines = vertex_a_line(scanner, counts, kind);
+  if (!lines && !counts.edges) {
+    scanner.fail(
+        "the number of edges is missing, and not every vertex and face has a line of its own, equally long "
+        "for "
+        "all vertices: the file is truncated, or write the number of edges (0 will do)");
+  }
+  if (!lines && kind.coloured) {
+    scanner.fail(
+        "not every vertex and face has a line of its own, and colours may be 3 or 4 numbers: the file is "
+        "truncated, or give each a line, equally long for all vertices");
+  }
+  for (std::size_t v = 0; v < counts.vertices; ++v) {
+    for (int axis = 0; axis < 3; ++axis) coordinates.push_back(scanner.number({"vertex", v}));
+    if (lines) {
+      scanner.rest_of_line();
+    } else {
+      for (std::size_t more = 3; more < kind.words; ++more) scanner.number({"vertex", v});
+    }
+  }
+  if (!lines && counts.vertices > 0 && !scanner.rest_of_line().empty()) {
+    scanner.fail(fmt::format(
+        "the line goes on behind the last of {} vertices of {} numbers; give each vertex and face a line of "
+        "its own, equally long for all vertices",
+        counts.vertices, kind.words));
+  }
 }
 
 }  // namespace
 
 MeshFile parse_off(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name);
-  read_header(scanner);
-  const auto vertices = scanner.count({"count", 0});
-  const auto faces = scanner.count({"count", 1});
-  scanner.rest_of_line();  // the number of edges, which many writers leave out or set to 0
-  scanner.check_count(vertices, 6, "vertices");
-  scanner.check_count(faces, 4, "faces");
+  const VertexKind kind = read_header(scanner);
+  const Counts counts = read_counts(scanner);
+  scanner.check_count(counts.vertices, 6, "vertices");
+  scanner.check_count(counts.faces, 4, "faces");
 
   MeshFile mesh;
-  mesh.vertices.reserve(3 * checked_vertex_count(vertices, name));
-  for (std::size_t v = 0; v < vertices; ++v) {
-    for (int axis = 0; axis < 3; ++axis) mesh.vertices.push_back(scanner.number({"vertex", v}));
-    scanner.rest_of_line();
-  }
-  for (std::size_t f = 0; f < faces; ++f) {
+  mesh.vertices.reserve(3 * checked_vertex_count(counts.vertices, name));
+  read_vertices(scanner, counts, kind, mesh.vertices);
+  for (std::size_t f = 0; f < counts.faces; ++f) {
     const auto corners = scanner.count({"face", f});
     scanner.check_count(corners, 2, "corners");
     for (std::size_t k = 0; k < corners; ++k) {
-      mesh.face_vertex.push_back(scanner.index({"face", f}, vertices));
+      mesh.face_vertex.push_back(scanner.index({"face", f}, counts.vertices));
     }
     scanner.rest_of_line();
     mesh.end_face();
   }
   if (!scanner.at_end()) {
     scanner.word({"end", 0});
-    scanner.fail(fmt::format("more text after the {} faces announced", faces));
+    scanner.fail(fmt::format("more text after the {} faces announced", counts.faces));
   }
   return mesh;
 }

@@ -145,6 +145,26 @@ TEST_CASE("doubles come through unrounded, in the order of the file") {
   CHECK(mesh.elements == std::vector<std::uint32_t>{2, 0, 1});
 }
 
+TEST_CASE("OFF: counts, vertices and colours on lines in any way") {
+  const std::string faces = "3 0 2 1\n3 0 1 3 255 0 0\n3 0 3 2\n3 1 2 3\n";
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::vector<double> corner{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  for (const std::string& text :
+       {"OFF 4 4 6\n" + points + faces, "OFF\n4 4\n6\n" + points + faces, "OFF\n4\n\n4\n6\n" + points + faces,
+        "OFF\n4 4\n" + points + faces, "OFF\n4 4 6\n0 0 0  1 0 0\n0 1 0  0 0 1\n" + faces,
+        "OFF\n4 4 6\n0 0 0 1 0 0 0 1 0 0 0 1\n" + faces,
+        "OFF\n4 4 6\n0\n0 0\n1 0 0\n0 1 0\n0 0\n1 # end\n" + faces,
+        "OFF\n4 4 6\n0 0 0 9 8 7\n1 0 0 9 8 7\n0 1 0 9 8 7\n0 0 1 9 8 7\n" + faces,
+        "COFF\n4 4\n0 0 0 9 8 7 1\n1 0 0 9 8 7 1\n0 1 0 9 8 7 1\n0 0 1 9 8 7 1\n" + faces,
+        "COFF\n4 4 0\n" + points + faces,
+        "NOFF\n4 4 6\n0 0 0\n0 0 1\n1 0 0\n0 0 1\n0 1 0\n0 0 1\n0 0 1\n0 0 1\n" + faces}) {
+    CAPTURE(text);
+    const DomainArrays mesh = parse_domain(text, ".off", std::nullopt, "t.off");
+    CHECK(mesh.vertices == corner);
+    CHECK(mesh.elements == std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+  }
+}
+
 TEST_CASE("CRLF, comments, a byte order mark, colours and negative indices are read") {
   const DomainArrays off = parse_domain(
       "\xEF\xBB\xBFOFF # a comment\r\n\r\n4 1 0\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3 255 0 0\r\n",

@@ -55,6 +55,14 @@ TEST_CASE("OFF") {
   CHECK(says(refused("OFF\n4000000000 1 0\n0 0 0\n", ".off"),
              "4000000000 vertices are announced, but only 6 bytes are left"));
   CHECK(says(refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", ".off"), "face 0 (from 0) has 2 corners"));
+  CHECK(
+      says(refused("OFF\n3 1 0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off"), "f.off:2: more than three counts"));
+  CHECK(says(refused("OFF\n3 1\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", ".off"),
+             "f.off:2: the number of edges is missing"));
+  CHECK(says(refused("OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0 7\n3 0 1 2\n", ".off"),
+             "f.off:4: the line goes on behind the last of 3 vertices"));
+  CHECK(says(refused("COFF\n2 1 0\n0 0 0 9 9 9 1 0 0 9 9 9\n3 0 1 1\n", ".off"),
+             "f.off:2: not every vertex and face has a line of its own, and colours may be 3 or 4 numbers"));
   CHECK(says(refused("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", ".off"), "neither tetrahedra nor faces"));
 }
 
