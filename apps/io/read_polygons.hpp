@@ -25,8 +25,11 @@ std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& nam
 inline constexpr double kSvgTolerance = 1e-4;
 
 /// All path, polygon, polyline, rect, circle and ellipse elements, whatever their paint, but not those in
-/// defs, symbol, clipPath, mask, marker, pattern or with display="none". Transforms are applied, each
-/// element is filled by its fill-rule, the elements are united. SVG's y axis points down: y = -y(SVG).
+/// defs, symbol, clipPath, mask, marker, pattern, foreignObject, of another namespace or with display: none;
+/// of a switch the first child that applies. Transforms are applied, each element is filled by its
+/// fill-rule, the elements are united. Properties come from attributes, `style` and style sheets with simple
+/// selectors (read_svg_style.hpp). Refused: use, clip-path, mask, transforms in CSS. SVG's y axis points
+/// down: y = -y(SVG).
 std::vector<PolygonPart> parse_svg(std::string_view text, const std::string& name);
 
 /// A polygon or a mesh.

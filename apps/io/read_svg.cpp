@@ -10,6 +10,7 @@
 #include "apps/io/read_polygons.hpp"
 #include "apps/io/read_svg_fill.hpp"
 #include "apps/io/read_svg_path.hpp"
+#include "apps/io/read_svg_style.hpp"
 #include "apps/io/read_text.hpp"
 
 namespace powercell::io {
@@ -26,7 +27,12 @@ class SvgReader {
   std::vector<PolygonPart> read();
 
  private:
+  void read_style_sheets(const pugi::xml_document& document);
   void element(const pugi::xml_node& node, const SvgTransform& outer, bool even_odd, int depth);
+  void children(const pugi::xml_node& node, const SvgTransform& here, bool even_odd, int depth);
+  bool is_drawn(const pugi::xml_node& node) const;
+  void refuse_unread(const pugi::xml_node& node, const SvgProperties& css) const;
+  SvgTransform transform_of(const pugi::xml_node& node, const SvgProperties& css) const;
   std::vector<SvgOutline> outlines(const pugi::xml_node& node, std::string_view tag);
   std::vector<SvgOutline> rounded_rectangle(const pugi::xml_node& node);
   std::vector<SvgOutline> points(const pugi::xml_node& node);
@@ -39,27 +45,34 @@ class SvgReader {
 
   std::string_view text_;
   std::string name_;
+  std::string namespace_;  // of the outermost element
+  SvgStyle style_;
   std::vector<Shape> shapes_;
 };
 
-std::string_view local_name(const char* name) {
-  const std::string_view full = name;
+// As it is written; entities of the file, such as Illustrator's &ns_svg;, are not replaced.
+std::string namespace_of(const pugi::xml_node& node) {
+  const std::string_view full = node.name();
   const std::size_t colon = full.find(':');
-  return colon == std::string_view::npos ? full : full.substr(colon + 1);
+  const std::string prefix(colon == std::string_view::npos ? "" : full.substr(0, colon));
+  const std::string declaration = prefix.empty() ? "xmlns" : "xmlns:" + prefix;
+  for (pugi::xml_node from = node; from; from = from.parent()) {
+    if (const pugi::xml_attribute found = from.attribute(declaration.c_str())) return found.value();
+  }
+  return prefix.empty() ? "" : "undeclared " + prefix;
 }
 
-// The value of a property, from `style` or from the attribute of its name.
-std::string property(const pugi::xml_node& node, std::string_view key) {
-  const std::string_view style = node.attribute("style").value();
-  for (std::size_t at = 0; at < style.size();) {
-    const std::size_t end = std::min(style.find(';', at), style.size());
-    const std::string_view one = style.substr(at, end - at);
-    const std::size_t colon = one.find(':');
-    if (colon != std::string_view::npos && trimmed(one.substr(0, colon)) == key)
-      return std::string(trimmed(one.substr(colon + 1)));
-    at = end + 1;
-  }
-  return node.attribute(std::string(key).c_str()).value();
+// What CSS gives, else the attribute; empty where neither does or where the parent's value counts.
+std::string property(const pugi::xml_node& node, const SvgProperties& css, const char* key) {
+  const auto given = css.find(key);
+  std::string value = given != css.end() ? given->second : lower_case(trimmed(node.attribute(key).value()));
+  if (value == "inherit" || value == "unset" || value == "revert") value.clear();
+  return value;
+}
+
+// Whether `value`, of a property that cuts or moves, changes anything.
+bool is_set(const std::string& value) {
+  return !value.empty() && value != "none" && value != "initial";
 }
 
 double SvgReader::length(const pugi::xml_node& node, const char* attribute, double missing) {
@@ -124,29 +137,107 @@ std::vector<SvgOutline> SvgReader::outlines(const pugi::xml_node& node, std::str
   return {};
 }
 
+void SvgReader::read_style_sheets(const pugi::xml_document& document) {
+  if (const pugi::xml_node sheet = document.child("xml-stylesheet"))
+    fail(sheet, "a style sheet of its own is not read; put its rules into an element <style>");
+  struct Collector : pugi::xml_tree_walker {  // not by recursion: files may be nested deeply
+    explicit Collector(SvgReader& to) : reader(to) {}
+    bool for_each(pugi::xml_node& node) override {
+      if (svg_local_name(node) != "style") return true;
+      const std::string type = lower_case(trimmed(node.attribute("type").value()));
+      if (!type.empty() && type != "text/css") return true;  // drawn without it everywhere
+      const std::string media = lower_case(trimmed(node.attribute("media").value()));
+      if (!media.empty() && media != "all" && media != "screen")
+        reader.fail(node, "rules that depend on the medium are not read; take the attribute media out");
+      std::string sheet;
+      for (const pugi::xml_node& child : node.children()) sheet += child.value();  // text and CDATA
+      try {
+        reader.style_.add(sheet);
+      } catch (const SvgError& error) {
+        reader.fail(node, error.what());
+      }
+      return true;
+    }
+    SvgReader& reader;
+  } collector(*this);
+  pugi::xml_node whole = document;
+  whole.traverse(collector);
+}
+
+// Whether an element and what it holds are drawn at all, as far as its name and its conditions tell.
+bool SvgReader::is_drawn(const pugi::xml_node& node) const {
+  const std::string of = namespace_of(node);
+  if (of != namespace_ && of != "http://www.w3.org/2000/svg") return false;
+  const std::string_view tag = svg_local_name(node);
+  for (const char* unseen : {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "style",
+                             "script", "text", "font", "foreignObject", "flowRoot"}) {
+    if (tag == unseen) return false;
+  }
+  if (node.attribute("systemLanguage"))
+    fail(node, "what is drawn depends on the reader's language; keep one and take systemLanguage out");
+  return !node.attribute("requiredExtensions");
+}
+
+// Refuses what would change the area and is not read.
+void SvgReader::refuse_unread(const pugi::xml_node& node, const SvgProperties& css) const {
+  for (const char* cut : {"clip-path", "mask", "mask-image"}) {
+    if (is_set(property(node, css, cut)))
+      fail(node, fmt::format("{} is not read; cut the shapes themselves, or take it out", cut));
+  }
+  for (const char* move : {"translate", "rotate", "scale", "offset-path"}) {
+    const auto given = css.find(move);
+    if (given != css.end() && is_set(given->second))
+      fail(node, fmt::format("{} in CSS is not read; write it as the attribute transform", move));
+  }
+  if (node.attribute("transform") && is_set(property(node, css, "transform-origin")))
+    fail(node, "transform-origin is not read; write the transform about 0 0");
+  const std::string_view tag = svg_local_name(node);
+  if (tag != "path" && tag != "rect" && tag != "circle" && tag != "ellipse") return;
+  for (const char* place : {"d", "x", "y", "cx", "cy", "r", "rx", "ry", "width", "height"}) {
+    if (css.contains(place))
+      fail(node, fmt::format("{} in CSS is not read; write it as an attribute", place));
+  }
+}
+
+SvgTransform SvgReader::transform_of(const pugi::xml_node& node, const SvgProperties& css) const {
+  const auto given = css.find("transform");
+  if (given == css.end()) return parse_svg_transform(node.attribute("transform").value());
+  if (given->second != "none")
+    fail(node, "transform in CSS is not read; write it as the attribute transform");
+  return {};
+}
+
+void SvgReader::children(const pugi::xml_node& node, const SvgTransform& here, bool even_odd, int depth) {
+  const bool first_only = svg_local_name(node) == "switch";
+  for (const pugi::xml_node& child : node.children()) {
+    if (child.type() != pugi::node_element) continue;
+    element(child, here, even_odd, depth + 1);
+    if (first_only && namespace_of(child) == namespace_ && !child.attribute("requiredExtensions")) return;
+  }
+}
+
 void SvgReader::element(const pugi::xml_node& node, const SvgTransform& outer, bool even_odd, int depth) {
   if (depth > 256) fail(node, "is nested too deeply");
-  const std::string_view tag = local_name(node.name());
-  for (const char* unseen :
-       {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "style", "script", "text"}) {
-    if (tag == unseen) return;
-  }
-  if (property(node, "display") == "none") return;
+  if (!is_drawn(node)) return;
+  const SvgProperties css = style_.of(node);
+  if (property(node, css, "display") == "none") return;
+  refuse_unread(node, css);
+  const std::string_view tag = svg_local_name(node);
   try {
-    SvgTransform here = outer * parse_svg_transform(node.attribute("transform").value());
+    SvgTransform here = outer * transform_of(node, css);
     if (tag == "svg" && depth > 0) {
       if (node.attribute("viewBox"))
         fail(node, "a drawing with its own viewBox inside the drawing is not read; take it out");
       here = here * SvgTransform{1, 0, 0, 1, length(node, "x"), length(node, "y")};
     }
-    const std::string rule = property(node, "fill-rule");
+    const std::string rule = property(node, css, "fill-rule");
+    if (!rule.empty() && rule != "evenodd" && rule != "nonzero" && rule != "initial")
+      fail(node, fmt::format("fill-rule '{}' is neither nonzero nor evenodd", rule.substr(0, 40)));
     if (!rule.empty()) even_odd = rule == "evenodd";
     Shape shape{outlines(node, tag), even_odd};
     for (SvgOutline& outline : shape.outlines) transform(outline, here);
     if (!shape.outlines.empty()) shapes_.push_back(std::move(shape));
-    for (const pugi::xml_node& child : node.children()) {
-      if (child.type() == pugi::node_element) element(child, here, even_odd, depth + 1);
-    }
+    children(node, here, even_odd, depth);
   } catch (const SvgError& error) {
     fail(node, error.what());
   }
@@ -177,14 +268,17 @@ double diagonal(const std::vector<Shape>& shapes) {
 
 std::vector<PolygonPart> SvgReader::read() {
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(text_.data(), text_.size());
+  const pugi::xml_parse_result result =
+      document.load_buffer(text_.data(), text_.size(), pugi::parse_default | pugi::parse_pi);
   if (!result) {
     fail_line(
         name_, line_of(text_, static_cast<std::size_t>(result.offset)),
         fmt::format("is not well-formed XML: {}; the file is truncated or damaged", result.description()));
   }
   const pugi::xml_node root = document.document_element();
-  if (local_name(root.name()) != "svg") fail_line(name_, 1, "its outermost element is not <svg>");
+  if (svg_local_name(root) != "svg") fail_line(name_, 1, "its outermost element is not <svg>");
+  namespace_ = namespace_of(root);
+  read_style_sheets(document);
   element(root, SvgTransform{1, 0, 0, -1, 0, 0}, false, 0);  // y up
   if (shapes_.empty()) fail_file(name_, "holds no path, polygon, polyline, rect, circle or ellipse");
 

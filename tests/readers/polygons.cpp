@@ -187,6 +187,74 @@ TEST_CASE("SVG: the two fill rules") {
         area(draw("<polygon fill-rule='evenodd' " + star + "/>")) + 30);
 }
 
+TEST_CASE("SVG: style sheets fill and hide") {
+  const std::string frame = "d='M0 0h10v10h-10zM2 2h4v4h-4z'/>";
+  for (const char* css :
+       {"<style>.a{fill:#fff;fill-rule:evenodd;clip-rule:evenodd}</style><path class='b a' ",
+        "<style type='text/css'><![CDATA[ .z, path { FILL-RULE : EvenOdd } ]]></style><path ",
+        "<defs><style>/* .a{} */ #a { fill-rule : evenodd }</style></defs><path id='a' ",
+        "<style>*{fill-rule:evenodd}</style><path fill-rule='nonzero' ",
+        "<style>#a{fill-rule:evenodd} .b{fill-rule:nonzero}</style><path id='a' class='b' ",
+        "<style>.a{fill-rule:evenodd!important}</style><path class='a' style='fill-rule:nonzero' ",
+        "<style>.a{fill-rule:nonzero}.b{fill-rule:evenodd}</style><path class='b a' ",
+        "<style>g{fill-rule:evenodd}</style><g><path fill-rule='inherit' ",
+        "<style>@charset 'a'; @font-face{src:url(\"a{;\")} @media print{.a{fill:red}}"
+        " path:hover{fill:red} .a{fill-rule:evenodd}</style><path class='a' ",
+        "<path style=\"background:url('a;b');fill-rule:evenodd\" fill-rule='nonzero' "}) {
+    CAPTURE(css);
+    const std::string text = css + frame;
+    CHECK(area(draw(says(text, "<g>") ? text + "</g>" : text)) == doctest::Approx(84));
+  }
+  CHECK(area(draw("<style>.a{fill-rule:evenodd}</style><path class='a' style='fill-rule:nonzero' " +
+                  frame)) == doctest::Approx(100));
+  const std::string square = "<rect width='1' height='1'/>";
+  for (const char* hidden : {"<style>.h{display:none;}</style><g class='h'>",
+                             "<g style='display:none !important'>", "<g display=' none'>"}) {
+    CAPTURE(hidden);
+    CHECK(area(draw(hidden + std::string("<rect x='5' width='1' height='1'/></g>") + square)) ==
+          doctest::Approx(1));
+  }
+}
+
+TEST_CASE("SVG: only what is drawn counts") {
+  const std::string far = "<rect x='5' width='1' height='1'/>", square = "<rect width='1' height='1'/>";
+  CHECK(area(draw("<switch>" + square + far + "</switch>")) == doctest::Approx(1));
+  CHECK(area(draw("<switch><foreignObject requiredExtensions='a'/>" + square + far + "</switch>")) ==
+        doctest::Approx(1));
+  CHECK(area(draw("<foreignObject><svg>" + far + "</svg></foreignObject>" + square)) == doctest::Approx(1));
+  CHECK(area(draw("<i:rect x='5' width='1' height='1'/><i:g xmlns:i='a'>" + far + "</i:g>" + square)) ==
+        doctest::Approx(1));
+  CHECK(area(draw("<s:rect xmlns:s='http://www.w3.org/2000/svg' width='2' height='1'/>")) ==
+        doctest::Approx(2));
+  CHECK(area(parse_svg("<s:svg>"
+                       "<s:rect width='2' height='1'/></s:svg>",
+                       "t.svg")) == doctest::Approx(2));
+  CHECK(area(draw("<g clip-path='none' style='mask:none'><rect style='transform:none' transform='scale(3)' "
+                  "width='2' height='1'/></g>")) == doctest::Approx(2));
+}
+
+TEST_CASE("SVG: what would change the area and is not read is refused") {
+  const auto message = [](const std::string& body) { return refusal([&] { draw("\n" + body); }); };
+  const auto sheet = [&](const std::string& css) { return message("<style>" + css + "</style>"); };
+  CHECK(says(message("<rect clip-path='url(#c)'/>"), "t.svg:3: <rect>: clip-path is not read"));
+  CHECK(says(message("<style>.a{mask:url(#m)}</style><g class='a'/>"), "t.svg:3: <g>: mask is not read"));
+  CHECK(says(message("<g style='transform:scale(2)'/>"), "<g>: transform in CSS is not read"));
+  CHECK(says(message("<g style='scale:2'/>"), "<g>: scale in CSS is not read"));
+  CHECK(says(message("<g transform='rotate(9)' transform-origin='5 5'/>"), "transform-origin is not read"));
+  CHECK(says(message("<rect style='width:5px'/>"), "<rect>: width in CSS is not read"));
+  CHECK(says(message("<g systemLanguage='de'/>"), "depends on the reader's language"));
+  CHECK(says(message("<path fill-rule='odd'/>"), "fill-rule 'odd' is neither"));
+  CHECK(says(sheet("g .a{display:none}"),
+             "t.svg:3: <style>: its rule for 'g .a' sets display, but only rules"));
+  CHECK(says(sheet("@media screen{.a{display:none}}"), "display in '@media screen' depends on where"));
+  CHECK(says(sheet("@import 'a.css';"), "@import is not read"));
+  CHECK(says(sheet(".a{display:none"), "braces do not close"));
+  CHECK(says(sheet(".a"), "ends with '.a'"));
+  CHECK(says(sheet(".a{.b{display:none}}"), "rules inside rules"));
+  CHECK(says(refusal([] { parse_svg("<?xml-stylesheet href='a.css'?><svg/>", "t.svg"); }),
+             "t.svg:1: <xml-stylesheet>: a style sheet of its own"));
+}
+
 TEST_CASE("SVG: refusals name the line and the element") {
   const auto message = [](const std::string& text) { return refusal([&] { parse_svg(text, "t.svg"); }); };
   CHECK(says(message("<svg>\n<path d='M0 0'>\n"), "t.svg:"));
