@@ -103,8 +103,12 @@ class Values {
   Values(TextScanner& text, const Header& header, const std::string& name)
       : text_(text), ascii_(header.ascii), bytes_(text.text(), name, header.order, text.offset()) {}
 
-  double next(Type type, Item item) {
-    return ascii_ ? text_.number(item) : bytes_.next(type, item.thing);
+  double next(Type type, Item item) { return ascii_ ? text_.number(item) : bytes_.next(type, item.thing); }
+  void skip(Type type, Item item) {
+    if (ascii_)
+      text_.word(item);  // need not be a finite number: normals are nan at times
+    else
+      bytes_.skip(1, size_of(type), item.thing);
   }
   void check_count(std::uint64_t count, std::size_t least_text, std::size_t least_bytes,
                    const char* things) const {
@@ -135,7 +139,7 @@ std::size_t list_length(Values& values, const Property& property, Item item) {
 
 void skip(Values& values, const Property& property, Item item) {
   const std::size_t count = property.list ? list_length(values, property, item) : 1;
-  for (std::size_t k = 0; k < count; ++k) values.next(property.type, item);
+  for (std::size_t k = 0; k < count; ++k) values.skip(property.type, item);
 }
 
 void read_vertices(Values& values, const Element& element, MeshFile& mesh) {

@@ -32,8 +32,12 @@ class LegacyReader {
   std::int64_t whole_number(double value, const char* what) const;
   void read_cell_types();
   void skip_field();
+  void skip_values(std::uint64_t count, std::size_t array);
+  void skip_strings(std::uint64_t count);
+  void skip_metadata();
   std::string keyword();
-  Type type();
+  Type type() { return type_named(keyword()); }
+  Type type_named(const std::string& word) const;
   template <class Take>
   void values(std::uint64_t count, Type type, Item item, Take take);
 
@@ -52,14 +56,13 @@ std::string LegacyReader::keyword() {
   return word;
 }
 
-Type LegacyReader::type() {
+Type LegacyReader::type_named(const std::string& word) const {
   constexpr std::pair<std::string_view, Type> kTypes[] = {
       {"DOUBLE", Type::f64},       {"FLOAT", Type::f32},          {"INT", Type::i32},
       {"UNSIGNED_INT", Type::u32}, {"LONG", Type::i64},           {"UNSIGNED_LONG", Type::u64},
       {"VTKTYPEINT64", Type::i64}, {"VTKIDTYPE", Type::i32},      {"VTKTYPEUINT64", Type::u64},
       {"SHORT", Type::i16},        {"UNSIGNED_SHORT", Type::u16}, {"CHAR", Type::i8},
       {"UNSIGNED_CHAR", Type::u8}};
-  const std::string word = keyword();
   for (const auto& [known, type] : kTypes) {
     if (word == known) return type;
   }
@@ -158,6 +161,47 @@ void LegacyReader::read_cell_types() {
          [this](double value) { cells_.type.push_back(whole_number(value, "a cell type")); });
 }
 
+// VTK puts a length before each string in binary files; the highest two bits say in how many bytes.
+void LegacyReader::skip_strings(std::uint64_t count) {
+  text_.rest_of_line();
+  if (ascii_) {
+    text_.check_count(count, 1, "strings");
+    for (std::uint64_t k = 0; k < count; ++k) text_.rest_of_line();
+    return;
+  }
+  bytes_.seek(text_.offset());
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const auto first = bytes_.next<std::uint8_t>("a string");
+    std::uint64_t length = first & 0x3f;
+    const int more = first >= 0xc0 ? 0 : first >= 0x80 ? 1 : first >= 0x40 ? 3 : 7;
+    for (int byte = 0; byte < more; ++byte) length = length << 8 | bytes_.next<std::uint8_t>("a string");
+    bytes_.skip(length, 1, "a string");
+  }
+  text_.seek(bytes_.offset());
+}
+
+void LegacyReader::skip_values(std::uint64_t count, std::size_t array) {
+  const std::string word = keyword();
+  if (word == "STRING") return skip_strings(count);
+  const bool bits = word == "BIT";
+  const std::size_t size = bits ? 1 : size_of(type_named(word));
+  if (ascii_) {
+    text_.check_count(count, 2, "values");
+    for (std::uint64_t k = 0; k < count; ++k) text_.word({"array", array});  // not a number at times: nan
+    return;
+  }
+  text_.rest_of_line();
+  bytes_.seek(text_.offset());
+  bytes_.skip(bits ? count / 8 + (count % 8 != 0 ? 1 : 0) : count, size, "an array of a field");
+  text_.seek(bytes_.offset());
+}
+
+void LegacyReader::skip_metadata() {
+  text_.rest_of_line();
+  while (text_.offset() < text_.text().size() && !text_.rest_of_line().empty()) {  // up to an empty line
+  }
+}
+
 void LegacyReader::skip_field() {
   text_.word({"field", 0});
   const auto arrays = text_.count({"number of arrays", 0});
@@ -165,9 +209,14 @@ void LegacyReader::skip_field() {
     text_.word({"array", k});
     const auto components = text_.count({"components of array", k});
     const auto tuples = text_.count({"tuples of array", k});
-    if (components != 0 && tuples > text_.text().size() / components)
+    // A byte may hold eight bits.
+    if (components != 0 && tuples / 8 > text_.text().size() / components)
       text_.fail("the size of an array is wrong");
-    values(components * tuples, type(), {"field", k}, [](double) {});
+    skip_values(components * tuples, k);
+    if (text_.peek() == "METADATA") {
+      text_.word({"array", k});
+      skip_metadata();
+    }
   }
 }
 
@@ -190,9 +239,7 @@ bool LegacyReader::read_section(const std::string& keyword) {
   } else if (keyword == "FIELD") {
     skip_field();
   } else if (keyword == "METADATA") {
-    text_.rest_of_line();
-    while (text_.offset() < text_.text().size() && !text_.rest_of_line().empty()) {  // up to an empty line
-    }
+    skip_metadata();
   } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
     return false;
   } else {

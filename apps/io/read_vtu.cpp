@@ -131,9 +131,9 @@ pugi::xml_node VtuReader::named(const pugi::xml_node& parent, const char* array_
 void VtuReader::read_piece(const pugi::xml_node& piece) {
   const std::uint64_t points = piece.attribute("NumberOfPoints").as_ullong(),
                       cell_count = piece.attribute("NumberOfCells").as_ullong();
+  if (points == 0 && piece.attribute("NumberOfPoints") && cell_count == 0) return;  // with or without arrays
   const pugi::xml_node positions = piece.child("Points").child("DataArray");
   if (!positions) fail(piece, "a piece lacks the DataArray of its Points");
-  if (points == 0) return;
   const std::size_t base = mesh_.vertex_count();
   const std::vector<double> coordinates = doubles(positions);
   if (coordinates.size() / 3 != points || coordinates.size() % 3 != 0) {

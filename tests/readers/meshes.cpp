@@ -165,6 +165,52 @@ TEST_CASE("OFF: counts, vertices and colours on lines in any way") {
   }
 }
 
+TEST_CASE("what a mesh does not need is passed over, whatever it holds") {
+  const auto elements = [](const std::string& text, const std::string& extension) {
+    return parse_domain(text, extension, std::nullopt, "t" + extension).elements;
+  };
+  const std::vector<std::uint32_t> tetrahedron{0, 1, 2, 3};
+  const std::string grid = "\nDATASET UNSTRUCTURED_GRID\n";
+  const std::string ascii = "# vtk DataFile Version 4.2\nt\nASCII" + grid;
+  const std::string body =
+      "POINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  CHECK(elements(ascii +
+                     "FIELD f 4\ntime 1 1 double\nnan\nMETADATA\nINFORMATION 1\nNAME a LOCATION b\n\nnames 1 "
+                     "3 string\nPOINTS%20a b\n\nx\n\nbits 1 9 bit\n" +
+                     "0 1 0 1 0 1 0 1\n0\nids 1 2 vtkIdType\n7 8\n" + body,
+                 ".vtk") == tetrahedron);
+  const auto big = [](auto... values) {
+    std::string bytes;
+    for (const std::uint32_t value : {static_cast<std::uint32_t>(values)...})
+      for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  const std::uint32_t one = 0x3f800000;  // as a float
+  const std::string strings =
+      "\xC3x\ny" + std::string("\x80\x02zz", 4) + big(0x40000001) + "a" + big(0, 2) + "bc";
+  CHECK(elements("# vtk DataFile Version 4.2\nt\nBINARY" + grid + "FIELD f 3\nnames 1 4 string\n" + strings +
+                     "\nbits 1 9 bit\nU@\nids 1 1 int\n" + big(7) + "\nPOINTS 4 float\n" +
+                     big(0, 0, 0, one, 0, 0, 0, one, 0, 0, 0, one) + "\nCELLS 1 5\n" + big(4, 0, 1, 2, 3) +
+                     "\nCELL_TYPES 1\n" + big(10) + "\n",
+                 ".vtk") == tetrahedron);
+
+  const std::string points =
+      "<Piece NumberOfPoints='4' NumberOfCells='1'><Points><DataArray>0 0 0 1 0 0 0 1 0 0 0 1"
+      "</DataArray></Points><Cells><DataArray Name='connectivity'>0 1 2 3</DataArray><DataArray "
+      "Name='offsets'>4</DataArray><DataArray Name='types'>10</DataArray></Cells></Piece>";
+  CHECK(elements(
+            "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='0' NumberOfCells='0'>"
+            "<Points></Points></Piece>" +
+                points + "</UnstructuredGrid></VTKFile>",
+            ".vtu") == tetrahedron);
+
+  CHECK(elements(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float nx\nproperty list uchar float w\nelement face 1\nproperty list uchar int "
+            "vertex_indices\nend_header\n0 0 0 nan 2 inf 1\n1 0 0 -nan 0\n0 1 0 1 1 1\n3 0 1 2\n",
+            ".ply") == std::vector<std::uint32_t>{0, 1, 2});
+}
+
 TEST_CASE("CRLF, comments, a byte order mark, colours and negative indices are read") {
   const DomainArrays off = parse_domain(
       "\xEF\xBB\xBFOFF # a comment\r\n\r\n4 1 0\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3 255 0 0\r\n",

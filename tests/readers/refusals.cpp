@@ -142,6 +142,20 @@ TEST_CASE("volume formats: indices, NaN, counts") {
   CHECK(says(refused("4 1\n0 0 0\n1 0 0\n0 1\n0 0 1\n1 2 3 4\n", ".tet"),
              "f.tet:4: point 2 (from 0) has 2 coordinates"));
   CHECK(says(refused("3 1\n0 0\n1 0\n0 1\n0 1 2\n9 9 9\n", ".txt"), "f.txt:6: more rows"));
+  const auto piece = [](const std::string& attributes) {
+    return "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece " + attributes +
+           "><Points/></Piece></UnstructuredGrid></VTKFile>";
+  };
+  CHECK(says(refused(piece("NumberOfPoints='0' NumberOfCells='0'"), ".vtu"), "f.vtu: has no points"));
+  CHECK(says(refused(piece("NumberOfPoints='0' NumberOfCells='1'"), ".vtu"), "f.vtu:1: a piece lacks"));
+  CHECK(says(refused(piece("NumberOfCells='0'"), ".vtu"), "f.vtu:1: a piece lacks"));
+  CHECK(
+      says(refused("# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nFIELD f 1\na 1 1 string\n\xC9x",
+                   ".vtk"),
+           "the file ends in a string: 9 of 1 bytes are needed and 1 bytes are left"));
+  CHECK(says(
+      refused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nFIELD f 1\na 1 1 variant\n1", ".vtk"),
+      "'VARIANT' is not a type"));
   CHECK(says(refused("<VTKFile type='PolyData'/>", ".vtu"), "f.vtu:1: VTKFile of type 'PolyData'"));
   CHECK(says(refused("x", ".foo"), "extension '.foo' is not known; a domain is .geojson"));
   CHECK(says(refused("OFF\n", ".off", DomainKind::polygon), "f.off"));
