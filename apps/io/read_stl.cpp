@@ -41,12 +41,17 @@ class Welder {
   std::unordered_map<std::array<double, 3>, std::uint32_t, PointHash> known_;
 };
 
+bool begins_as_ascii(std::string_view bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  return lower_case(trimmed(bytes.substr(0, 256)).substr(0, 5)) == "solid";
+}
+
 bool is_binary(std::string_view bytes) {
   if (bytes.size() < kBinaryHeader) return false;
   const auto count = load_number<std::uint32_t>(bytes.data() + 80, swapped_from(std::endian::little));
   if (bytes.size() == kBinaryHeader + kBinaryTriangle * std::size_t{count}) return true;
   // Some binary files begin with "solid" too, some have bytes to spare: NUL never occurs in ASCII.
-  return !bytes.starts_with("solid") || bytes.substr(0, 4096).find('\0') != std::string_view::npos;
+  return !begins_as_ascii(bytes) || bytes.substr(0, 4096).find('\0') != std::string_view::npos;
 }
 
 void parse_binary(std::string_view bytes, const std::string& name, MeshFile& mesh) {
@@ -71,7 +76,7 @@ void parse_binary(std::string_view bytes, const std::string& name, MeshFile& mes
 }
 
 void expect(TextScanner& scanner, std::string_view word, std::size_t triangle) {
-  if (scanner.word({"triangle", triangle}) != word) {
+  if (lower_case(scanner.word({"triangle", triangle})) != word) {
     scanner.fail(fmt::format("triangle {} (from 0): '{}' expected", triangle, word));
   }
 }
@@ -82,7 +87,7 @@ void parse_ascii(std::string_view text, const std::string& name, MeshFile& mesh)
   bool open = false;
   while (!scanner.at_end()) {
     const std::size_t t = mesh.face_count();
-    const std::string_view word = scanner.word({"triangle", t});
+    const std::string word = lower_case(scanner.word({"triangle", t}));
     if (word == "solid" || word == "endsolid") {
       open = word == "solid";
       scanner.rest_of_line();
@@ -115,8 +120,7 @@ MeshFile parse_stl(std::string_view bytes, const std::string& name) {
   if (is_binary(bytes)) {
     parse_binary(bytes, name, mesh);
   } else {
-    if (!trimmed(bytes.substr(0, 256)).starts_with("solid"))
-      fail_line(name, 1, "is neither ASCII STL ('solid ...') nor binary STL");
+    if (!begins_as_ascii(bytes)) fail_line(name, 1, "is neither ASCII STL ('solid ...') nor binary STL");
     parse_ascii(bytes, name, mesh);
   }
   return mesh;

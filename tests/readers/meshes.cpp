@@ -126,6 +126,23 @@ TEST_CASE("corners of an STL file at one place become one vertex") {
   CHECK(load("cube_ascii.stl").elements == mesh.elements);
 }
 
+TEST_CASE("ASCII STL begins in any way that a word does, binary STL with any") {
+  const std::string ascii = data_bytes("cube_ascii.stl");
+  const DomainArrays mesh = load("cube_ascii.stl");
+  std::string upper = ascii;
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  for (const std::string& text : {" " + ascii, "\r\n\n" + ascii, "\xEF\xBB\xBF" + ascii, upper}) {
+    CAPTURE(text.substr(0, 20));
+    CHECK(parse_domain(text, ".stl", std::nullopt, "t.stl").elements == mesh.elements);
+  }
+  std::string binary = data_bytes("cube_binary.stl");
+  for (const char* head : {"solid ", " SOLID ", "\xEF\xBB\xBFsolid"}) {
+    binary.replace(0, 80, (head + std::string(80, ' ')).substr(0, 80));
+    for (const char* more : {"", "more"})
+      CHECK(parse_domain(binary + more, ".stl", std::nullopt, "t.stl").elements == mesh.elements);
+  }
+}
+
 TEST_CASE("the faces of a volume file make a surface when asked for") {
   for (const char* file : {"cube.mesh", "cube_22_binary.msh", "cube_41_binary.msh", "cube_vtk_51_binary.vtk",
                            "cube_vtk_appended_raw_zlib.vtu"}) {
