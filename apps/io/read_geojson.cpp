@@ -32,7 +32,8 @@ class GeoJson {
       if (!value.contains("geometry")) fail(path, "has no geometry");
       if (!value["geometry"].is_null()) object(value["geometry"], path + ".geometry", depth + 1);
     } else if (type == "Polygon") {
-      groups.push_back({part(coordinates(value, path), path + ".coordinates")});
+      const json& rings = coordinates(value, path);  // none stand for null (RFC 7946, 3.1)
+      if (!rings.empty()) groups.push_back({part(rings, path + ".coordinates")});
     } else if (type == "MultiPolygon") {
       const json& all = coordinates(value, path);
       std::vector<PolygonPart> group;

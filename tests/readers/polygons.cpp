@@ -39,6 +39,8 @@ TEST_CASE("GeoJSON: a polygon with a hole, a multipolygon, features") {
   const auto states = parse_geojson(R"({"type":"FeatureCollection","features":[
     {"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]]]}},
     {"type":"Feature","geometry":null},
+    {"type":"Feature","geometry":{"type":"Polygon","coordinates":[]}},
+    {"type":"Feature","geometry":{"type":"MultiPolygon","coordinates":[]}},
     {"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[1,0],[2,0],[2,1],[1,1],[1,0]]]}}]})",
                                     "t.json");
   CHECK(states.size() == 1);
@@ -59,6 +61,7 @@ TEST_CASE("GeoJSON: refusals name the line or the place") {
   CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1e999],[0,0]]]})"),
              "invalid_file: t.json: is not JSON"));
   CHECK(says(message(R"({"type":"FeatureCollection","features":[]})"), "holds no polygon"));
+  CHECK(says(message(R"({"type":"Polygon","coordinates":[]})"), "holds no polygon"));
   CHECK(says(message("[1, 2]"), "is no GeoJSON object"));
   const std::string bow = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,1],[1,0],[0,1],[0,0]]]}";
   CHECK(says(message("{\"type\":\"GeometryCollection\",\"geometries\":[" + bow + "," + bow + "]}"),
