@@ -67,15 +67,49 @@ Rows read_rows(TextScanner& scanner, std::uint64_t count) {
   return rows;
 }
 
-// Takes the numbers of corners off the rows, where every row begins with its own.
-// A single row of 4 numbers that begins with 3 can be meant both ways: `as_tetrahedra` decides.
-void drop_lengths(Rows& rows, bool as_tetrahedra) {
-  bool all = rows.count() > 0, all_four = true;
+// Whether every row may begin with the number of its corners.
+bool may_have_lengths(const Rows& rows) {
   for (std::size_t row = 0; row < rows.count(); ++row) {
-    all = all && rows.length(row) > 1 && *rows.begin(row) == rows.length(row) - 1;
-    all_four = all_four && rows.length(row) == 4;
+    if (rows.length(row) < 2 || *rows.begin(row) != rows.length(row) - 1) return false;
   }
-  if (!all || (as_tetrahedra && all_four)) return;
+  return rows.count() > 0;
+}
+
+// The first point that no row uses, leaving `skipped` numbers out at the beginning of each; or `points`.
+std::size_t first_unused(const Rows& rows, std::size_t skipped, std::size_t points) {
+  std::vector<bool> used(points);
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    for (std::size_t k = skipped; k < rows.length(row); ++k) {
+      if (rows.begin(row)[k] < points) used[rows.begin(row)[k]] = true;
+    }
+  }
+  return static_cast<std::size_t>(std::ranges::find(used, false) - used.begin());
+}
+
+// Refuses rows that all begin with what may be their number of corners or one more corner, where it is the
+// second reading that makes sense of all points.
+void refuse_two_readings(const Rows& rows, std::size_t points, bool in_space, const std::string& name) {
+  if (!may_have_lengths(rows)) return;
+  for (std::size_t row = 0; row < rows.count(); ++row) {
+    const std::uint32_t *first = rows.begin(row), *end = first + rows.length(row);
+    if (rows.length(row) < 3 || *first >= points || std::find(first + 1, end, *first) != end) return;
+  }
+  const std::size_t unused = first_unused(rows, 1, points);
+  if (unused == points || first_unused(rows, 0, points) != points) return;
+  fail_line(name, rows.line.front(),
+            fmt::format(
+                "the first number of every row may be how many corners follow, but then point {} (from 0) is "
+                "unused, or itself a corner; {}write the number of corners in front of every row, or leave "
+                "unused points out",
+                unused, in_space ? "say --kind surface (numbers) or --kind volume (corners), or " : ""));
+}
+
+// Takes the numbers of corners off the rows, where every row begins with its own.
+// Rows of 4 numbers that begin with 3 can be meant both ways: `as_tetrahedra` decides.
+void drop_lengths(Rows& rows, bool as_tetrahedra) {
+  bool all_four = true;
+  for (std::size_t row = 0; row < rows.count(); ++row) all_four = all_four && rows.length(row) == 4;
+  if (!may_have_lengths(rows) || (as_tetrahedra && all_four)) return;
   Rows bare;
   for (std::size_t row = 0; row < rows.count(); ++row) {
     bare.index.insert(bare.index.end(), rows.begin(row) + 1, rows.begin(row) + rows.length(row));
@@ -164,6 +198,7 @@ DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, 
   std::vector<double> coordinates;
   const std::size_t dimension = read_points(scanner, counts.vertices, coordinates);
   Rows rows = read_rows(scanner, counts.elements);
+  if (dimension == 2 || !kind) refuse_two_readings(rows, counts.vertices, dimension == 3, name);
   drop_lengths(rows, dimension == 3 && kind == DomainKind::volume);
   check_indices(rows, checked_vertex_count(counts.vertices, name), name);
   if (dimension == 2) {

@@ -41,8 +41,9 @@ struct DomainArrays {
 };
 
 /// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, each with or without
-/// their number in front. 2 coordinates: polygons, which are united. 3: triangles (or larger faces) or
-/// tetrahedra, by the length of the rows, or by `kind` where that leaves a doubt.
+/// their number in front; refused where only rows without it would use all points. 2 coordinates: polygons,
+/// which are united. 3: triangles (or larger faces) or tetrahedra, by the length of the rows, or by `kind`
+/// where that leaves a doubt.
 DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, const std::string& name);
 
 /// The union of groups of parts, each group a valid polygon. \throw Error invalid_file, invalid_domain

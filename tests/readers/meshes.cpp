@@ -274,7 +274,7 @@ TEST_CASE("plain text is a polygon, a surface or a volume") {
         doctest::Approx(1.0 / 6));
   CHECK(volume(parse_domain(points + "4 0 1 2 3\n", ".txt", std::nullopt, "t.txt")) ==
         doctest::Approx(1.0 / 6));
-  CHECK(parse_domain(points + "3 0 1 2\n", ".txt", std::nullopt, "t.txt").kind == DomainKind::surface);
+  CHECK(parse_domain(points + "3 0 1 2\n", ".txt", DomainKind::surface, "t.txt").elements.size() == 3);
   CHECK(parse_domain(points + "3 0 1 2\n", ".txt", DomainKind::volume, "t.txt").kind == DomainKind::volume);
   CHECK(parse_domain(points + "0 1 2\n", ".txt", std::nullopt, "t.txt").elements.size() == 3);
   CHECK(volume(parse_domain("4 vertices\n1 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 3\n", ".tet",

@@ -163,6 +163,24 @@ TEST_CASE("volume formats: indices, NaN, counts") {
              "f.wkt: holds a polygon, not a volume"));
 }
 
+TEST_CASE("plain text whose rows may begin with their length or with a corner") {
+  const std::string square = "4 1\n0 0\n1 0\n1 1\n0 1\n",
+                    body = "5 4\n0 0 0\n1 0 0\n0 1 0\n.2 .2 .2\n0 0 1\n",
+                    rows = "3 0 1 2\n3 0 1 4\n3 0 2 4\n3 1 2 4\n";
+  CHECK(says(
+      refused(square + "3 0 1 2\n", ".txt"),
+      "f.txt:6: the first number of every row may be how many corners follow, but then point 3 (from 0) is "
+      "unused, or itself a corner; write the number"));
+  CHECK(refused(square + "4 3 0 1 2\n", ".txt") == "nothing");
+  CHECK(refused("3 1\n0 0\n1 0\n1 1\n3 0 1 2\n", ".txt") == "nothing");
+  CHECK(refused("5 1\n0 0\n1 0\n1 1\n0 1\n7 7\n3 0 1 2\n", ".txt") == "nothing");  // point 4 is unused anyway
+  CHECK(says(refused(body + rows, ".txt"),
+             "say --kind surface (numbers) or --kind volume (corners), or write"));
+  CHECK(parse_domain(body + rows, ".txt", DomainKind::volume, "f.txt").elements.size() == 16);
+  CHECK(parse_domain(body + rows, ".txt", DomainKind::surface, "f.txt").elements.size() == 12);
+  CHECK(refused(body + rows, ".tet") == "nothing");
+}
+
 TEST_CASE("files that are missing, empty or folders") {
   const TemporaryFolder folder;
   CHECK(says(refusal([&] { read_domain(folder.path("none.off")); }), "none.off: no such file"));
