@@ -66,6 +66,11 @@ SavedCell cell_of(const json& from, const SavedDiagram& diagram, std::size_t cel
   cell.weight = from.at("weight").get<double>();
   cell.measure = number(from.at("measure"));
   cell.status = status_of(from.at("status").get<std::string>());
+  if (from.contains("centroid") && !from["centroid"].is_null()) {
+    cell.centroid = from["centroid"].get<std::vector<double>>();
+    if (cell.centroid.size() != cell.position.size())
+      throw std::invalid_argument("'centroid' has the wrong number of coordinates");
+  }
   for (const json& vertex : from.at("vertices")) {
     const auto x = vertex.get<std::vector<double>>();
     if (x.size() != cell.position.size())
@@ -81,6 +86,12 @@ SavedCell cell_of(const json& from, const SavedDiagram& diagram, std::size_t cel
   return cell;
 }
 
+SavedSummary summary_of(const json& from) {
+  return {from.at("cells").get<std::size_t>(), from.at("hidden").get<std::size_t>(),
+          from.at("duplicate").get<std::size_t>(), number(from.at("measure")),
+          number(from.at("domain_measure"))};
+}
+
 }  // namespace
 
 SavedDiagram parse_saved(std::string_view bytes, const std::string& name) {
@@ -92,6 +103,7 @@ SavedDiagram parse_saved(std::string_view bytes, const std::string& name) {
     diagram.kind = kind_of(whole.at("domain").at("kind").get<std::string>());
     diagram.dimension = diagram.kind == DomainKind::polygon ? 2 : 3;
     diagram.domain_measure = whole.at("domain").at("measure").get<double>();
+    if (whole.contains("check")) diagram.summary = summary_of(whole["check"]);
     const json& cells = whole.at("cells");
     in_cells = true;
     for (; reading < cells.size(); ++reading)

@@ -21,15 +21,23 @@ struct SavedFace {
 
 struct SavedCell {
   std::vector<double> position, vertices;  ///< d; d a vertex
+  std::vector<double> centroid;            ///< d, or none
   double weight = 0, measure = 0;
   SeedStatus status = SeedStatus::ok;
   std::vector<SavedFace> faces;
+};
+
+/// What the head of a file says of its cells.
+struct SavedSummary {
+  std::size_t cells = 0, hidden = 0, duplicate = 0;
+  double measure = 0, domain_measure = 0;
 };
 
 struct SavedDiagram {
   DomainKind kind = DomainKind::polygon;
   int dimension = 2;
   double domain_measure = 0;
+  std::optional<SavedSummary> summary;
   std::vector<SavedCell> cells;  ///< in the order of the seeds
 };
 
@@ -38,9 +46,10 @@ SavedDiagram read_saved(const std::string& path);
 /// The same from memory. \param name  for messages
 SavedDiagram parse_saved(std::string_view bytes, const std::string& name);
 
-/// The laws that a file can show: partition; each cell's measure from its own vertices; walls the same
-/// from both sides; every vertex on the bisectors it borders; no seed nearer to a vertex than its cell's.
-/// \param samples  vertices that are held against all seeds
+/// The laws that a file can show: partition; the summary, where there is one, is that of the cells; each
+/// cell's measure from its own vertices, and its centroid where there is one; walls the same from both sides;
+/// every vertex on the bisectors it borders; no seed nearer to a vertex than its cell's. \param samples
+/// vertices that are held against all seeds
 std::vector<LawCheck> check_saved(const SavedDiagram& diagram, Precision precision,
                                   const VerifyOptions& options);
 

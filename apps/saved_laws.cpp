@@ -51,23 +51,39 @@ Point area_vector(const SavedCell& cell, const SavedFace& face, int d) {
   return sum;
 }
 
-double measure_from_vertices(const SavedCell& cell, const SavedDiagram& diagram) {
-  double sum = 0;
-  for (const SavedFace& face : cell.faces) {
-    const Point area = area_vector(cell, face, diagram.dimension);
-    switch (diagram.kind) {
-      case DomainKind::polygon:
-        sum += area[2] / 2;
-        break;  // holes run clockwise and count against it
-      case DomainKind::surface:
-        sum += length(area) / 2;
-        break;
-      case DomainKind::volume:
-        if (!face.loop.empty()) sum += dot(area, vertex_of(cell, face.loop[0], diagram.dimension)) / 6;
-        break;
-    }
+// What the vertices of a cell say of it.
+struct Moments {
+  double measure = 0;
+  Point first{};  // integral of the place, seen from the seed
+};
+
+// The part of one face: triangles about its first vertex, in space tetrahedra about the seed.
+void add_face(Moments& moments, const SavedCell& cell, const SavedFace& face, const SavedDiagram& diagram) {
+  const int d = diagram.dimension;
+  const Point whole = area_vector(cell, face, d), first = vertex_of(cell, face.loop[0], d);
+  const double size = length(whole);
+  const bool solid = diagram.kind == DomainKind::volume;
+  for (std::size_t k = 1; k + 1 < face.loop.size(); ++k) {
+    const Point a = vertex_of(cell, face.loop[k], d), b = vertex_of(cell, face.loop[k + 1], d);
+    const Point area = cross(minus(a, first), minus(b, first));
+    double part = 0;
+    if (solid)
+      part = dot(area, first) / 6;
+    else if (diagram.kind == DomainKind::polygon)
+      part = area[2] / 2;  // holes run clockwise and count against it
+    else if (size > 0)
+      part = dot(area, whole) / (2 * size);  // the face may not be convex
+    moments.measure += part;
+    for (int axis = 0; axis < 3; ++axis)
+      moments.first[axis] += part * (first[axis] + a[axis] + b[axis]) / (solid ? 4 : 3);
   }
-  return sum;
+}
+
+Moments moments_from_vertices(const SavedCell& cell, const SavedDiagram& diagram) {
+  Moments moments;
+  for (const SavedFace& face : cell.faces)
+    if (!face.loop.empty()) add_face(moments, cell, face, diagram);
+  return moments;
 }
 
 // Half-width of the box of all vertices: the scale that defects are compared with.
@@ -114,24 +130,53 @@ struct Worst {
   }
 };
 
-LawCheck partition(const SavedDiagram& diagram, double tolerance) {
+double sum_of_measures(const SavedDiagram& diagram) {
   long double sum = 0;
   for (const SavedCell& cell : diagram.cells) sum += cell.measure;
+  return static_cast<double>(sum);
+}
+
+LawCheck partition(const SavedDiagram& diagram, double tolerance) {
+  const double sum = sum_of_measures(diagram);
   Worst worst;
-  if (!diagram.cells.empty())
-    worst.see(static_cast<double>(std::abs(sum / diagram.domain_measure - 1)), [&] {
-      return fmt::format("sum {:.17g}, domain {:.17g}", static_cast<double>(sum), diagram.domain_measure);
-    });
+  // No cells are right where there were no seeds, which only the summary can say.
+  const bool no_seeds = diagram.cells.empty() && diagram.summary && diagram.summary->cells == 0;
+  if (!no_seeds)
+    worst.see(std::abs(sum / diagram.domain_measure - 1),
+              [&] { return fmt::format("sum {:.17g}, domain {:.17g}", sum, diagram.domain_measure); });
   return worst.law("partition: the measures sum to the domain's", tolerance);
 }
 
+LawCheck summary(const SavedDiagram& diagram, const SavedSummary& said, double tolerance) {
+  Worst worst;
+  const auto count = [&](SeedStatus status, std::size_t expected, const char* what) {
+    const auto found =
+        static_cast<std::size_t>(std::ranges::count(diagram.cells, status, &SavedCell::status));
+    if (found != expected)
+      worst.see(1, [&] { return fmt::format("{} {} in 'check', but {}", expected, what, found); });
+  };
+  count(SeedStatus::ok, said.cells, "cells");
+  count(SeedStatus::hidden, said.hidden, "hidden seeds");
+  count(SeedStatus::duplicate, said.duplicate, "duplicates");
+  const auto measure = [&](double expected, double found, const char* what) {
+    worst.see(std::abs(expected - found) / diagram.domain_measure,
+              [&] { return fmt::format("{} {:.17g} in 'check', but {:.17g}", what, expected, found); });
+  };
+  measure(said.measure, sum_of_measures(diagram), "measure");
+  measure(said.domain_measure, diagram.domain_measure, "measure of the domain");
+  return worst.law("summary: what 'check' says is true of the cells", tolerance);
+}
+
+double mean_measure(const SavedDiagram& diagram) {
+  return diagram.domain_measure / static_cast<double>(std::max<std::size_t>(1, diagram.cells.size()));
+}
+
 LawCheck own_measure(const SavedDiagram& diagram, double tolerance) {
-  const double mean =
-      diagram.domain_measure / static_cast<double>(std::max<std::size_t>(1, diagram.cells.size()));
+  const double mean = mean_measure(diagram);
   Worst worst;
   for (std::size_t i = 0; i < diagram.cells.size(); ++i) {
     const SavedCell& cell = diagram.cells[i];
-    const double again = measure_from_vertices(cell, diagram);
+    const double again = moments_from_vertices(cell, diagram).measure;
     worst.see(std::abs(again - cell.measure) / std::max(mean, cell.measure), [&] {
       return fmt::format("seed {}: {:.17g} in the file, {:.17g} from its vertices", i, cell.measure, again);
     });
@@ -140,6 +185,26 @@ LawCheck own_measure(const SavedDiagram& diagram, double tolerance) {
       worst.see(1, [&] { return fmt::format("seed {} is said to be empty and has a cell", i); });
   }
   return worst.law("geometry: each cell's vertices give its measure", tolerance);
+}
+
+// Centroids of slivers are known to as many digits as their measures: a cell counts by its part of a mean
+// cell.
+LawCheck own_centroid(const SavedDiagram& diagram, double size, double tolerance) {
+  const double mean = mean_measure(diagram);
+  Worst worst;
+  for (std::size_t i = 0; i < diagram.cells.size(); ++i) {
+    const SavedCell& cell = diagram.cells[i];
+    if (cell.centroid.empty()) continue;
+    const Moments again = moments_from_vertices(cell, diagram);
+    if (!(again.measure > 0)) continue;  // told by the law of measures
+    const Point said =
+        minus(point(cell.centroid.data(), diagram.dimension), seed_of(cell, diagram.dimension));
+    Point off{};
+    for (int axis = 0; axis < 3; ++axis) off[axis] = again.first[axis] / again.measure - said[axis];
+    worst.see(length(off) / size * std::min(1.0, again.measure / mean),
+              [&] { return fmt::format("the centroid of seed {} is off by {:.3g}", i, length(off)); });
+  }
+  return worst.law("centroids: each cell's vertices give its centroid", tolerance);
 }
 
 // Wall measures as seen from each side.
@@ -219,8 +284,12 @@ std::vector<LawCheck> check_saved(const SavedDiagram& diagram, Precision precisi
   const bool single = precision == Precision::float32;
   const double sums = single ? 1e-4 : 1e-11, places = single ? 1e-4 : 1e-9;
   const double size = std::max(extent(diagram), std::numeric_limits<double>::min());
-  return {partition(diagram, sums), own_measure(diagram, places), symmetry(diagram, size, places),
-          on_bisectors(diagram, size, places), ownership(diagram, size, options, places)};
+  std::vector<LawCheck> laws{partition(diagram, sums)};
+  if (diagram.summary) laws.push_back(summary(diagram, *diagram.summary, sums));
+  laws.insert(laws.end(), {own_measure(diagram, places), own_centroid(diagram, size, places),
+                           symmetry(diagram, size, places), on_bisectors(diagram, size, places),
+                           ownership(diagram, size, options, places)});
+  return laws;
 }
 
 }  // namespace powercell::app

@@ -327,7 +327,7 @@ class Verify(ToolTest):
             with self.subTest(shape=shape):
                 self.saved(shape)
                 out = self.good("verify", "a.json").stdout
-                self.assertEqual(out.count("  ok "), 5, out)
+                self.assertEqual(out.count("  ok "), 7, out)
 
     def broken(self, saved, law):
         self.write("a.json", json.dumps(saved))
@@ -346,6 +346,25 @@ class Verify(ToolTest):
         cell["weight"] += 0.01
         self.broken(saved, "bisectors")
         self.broken(saved, "ownership")
+
+    def test_tampered_heads_and_centroids_are_found_out(self):
+        for shape in ("square", "cube", "sphere"):
+            saved = self.saved(shape)
+            cell = next(c for c in saved["cells"] if c["status"] == "ok")
+            cell["centroid"][1] += 0.001
+            with self.subTest(shape=shape):
+                self.broken(saved, "centroids")
+        saved = self.saved("square")
+        for key in saved["check"].keys() - {"relative_error"}:
+            with self.subTest(key=key):
+                self.broken(saved | {"check": saved["check"] | {key: 7}}, "summary")
+        self.broken(saved | {"cells": []}, "partition")
+        self.broken({"domain": saved["domain"], "cells": []}, "partition")
+        del saved["check"]
+        for cell in saved["cells"]:
+            del cell["centroid"]
+        self.write("a.json", json.dumps(saved))
+        self.assertIn("all laws hold", self.good("verify", "a.json").stdout)
 
     def test_what_is_no_saved_diagram(self):
         self.bad(1, "no such file", "verify", "none.json")
