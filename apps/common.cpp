@@ -67,8 +67,8 @@ void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& k
       ->required(required);
   command
       .add_option("--seeds", seeds,
-                  "Rows 'x y [z] w' as text or CSV, an .npy file, or random:N[:LO:HI[:SEED]] with weights "
-                  "from LO to HI")
+                  "Rows 'x y [z] w' as text or CSV, in any order under a header with these names (or lon, lat, "
+                  "weight), an .npy file, or random:N[:LO:HI[:SEED]] with weights from LO to HI")
       ->required(required);
   command
       .add_option("--kind", kind, "What a file is that could be more than one: polygon, surface or volume")

@@ -46,11 +46,13 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Seed
   report.write = watch.lap();
 }
 
-void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, const RunReport& report) {
+void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, const std::string& note,
+          const RunReport& report) {
   if (arguments.json) {
     fmt::print("{}\n", as_json(report).dump(2));
   } else if (!arguments.quiet) {
     fmt::print("{}\n", domain.description);
+    if (!note.empty()) fmt::print("{}\n", note);
     for (const std::string& path : report.files) fmt::print("wrote {}\n", path);
     fmt::print("{}\n", self_check_line(report));
   }
@@ -75,7 +77,7 @@ int run(const DiagramArguments& arguments) {
   require_partition(report);
   write_files(arguments, diagram, seeds, report);
   report.build = diagram.device().build_seconds();  // geometry may have needed kernels of its own
-  tell(arguments, domain, report);
+  tell(arguments, domain, table.note, report);
   return 0;
 }
 

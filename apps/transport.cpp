@@ -195,6 +195,7 @@ int run(const TransportArguments& arguments) {
     fmt::print("{}\n", as_json(report, result).dump(2));
   } else if (!arguments.quiet) {
     fmt::print("{}\n", domain.description);
+    if (!table.note.empty()) fmt::print("{}\n", table.note);
     for (const std::string& path : report.run.files) fmt::print("wrote {}\n", path);
     fmt::print("{}\n", result_line(report, result));
   }

@@ -100,6 +100,7 @@ std::vector<Checked> check_device(const VerifyArguments& arguments, const Device
 std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
   const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
   const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
+  if (!table.note.empty() && !arguments.quiet && !arguments.json) fmt::print("{}\n", table.note);
   const SeedsView seeds{table.dimension, table.positions, table.weights};
   return {check(arguments, device, domain.domain, seeds,
                 fmt::format("{} with {}", arguments.domain, arguments.seeds))};

@@ -1,22 +1,59 @@
 /// \file
-/// The fields of a line of a table.
+/// The fields of a table, record by record. Quoting is that of RFC 4180.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <string>
 #include <string_view>
-
-#include "apps/io/read_text.hpp"
+#include <vector>
 
 namespace powercell::io {
 
-constexpr std::size_t most_columns = 64;
-using Fields = std::array<std::string_view, most_columns>;
+using Fields = std::vector<std::string_view>;
 
-/// Splits the line that `scanner` is at: a comma or a semicolon ends a field; blanks do where neither stands
-/// between two fields. Quotes around a field are taken off. \return how many  \throw Error invalid_file
-std::size_t split_fields(const TextScanner& scanner, std::string_view line, Fields& fields);
+/// What separates the columns of a table of numbers, by its first line of more than one word: `;` where there
+/// is one, else a tab, else `,`, else blanks.
+char number_separator(std::string_view text, char comment);
+
+/// " (columns are separated by tabs in this file)"; for messages.
+std::string separated_by(char separator);
+
+/// Reads one record after the other. A field in quotes may hold separators, quotes (doubled), comments and
+/// line ends; blanks around a field are none of it. Blanks as separators count once, however many.
+class Records {
+ public:
+  /// \param comment  begins one, to the end of the line; none where it is 0
+  Records(std::string_view text, std::string name, char separator, char comment = '\0');
+
+  /// The next record in which any field is not empty; false at the end. The fields are valid until the next.
+  bool next(Fields& fields);
+
+  std::size_t line() const { return line_; }  ///< where the last record begins, from 1
+  char separator() const { return separator_; }
+  const std::string& name() const { return name_; }
+  /// \throw Error invalid_file, always, with the line
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  bool record(Fields& fields);
+  bool at_end_of_record() const;
+  void skip_blanks();
+  void end_line();
+  std::string_view plain();
+  std::string_view quoted();
+
+  std::string_view text_;
+  std::string name_;
+  char separator_, comment_;
+  std::array<bool, 256> ends_plain_{};  // whether a byte ends a field without quotes
+  std::deque<std::string> unescaped_;   // fields of the record that had doubled quotes
+  std::size_t at_ = 0, line_ = 1, line_at_ = 1;
+};
+
+/// Whether no field is a number, nor meant to be one with a comma for its point.
+bool is_header(const Fields& fields);
 
 /// In lower case, without blanks at its ends.
 std::string column_name(std::string_view field);

@@ -15,6 +15,7 @@ struct SeedTable {
   int dimension = 0;              ///< coordinates of a seed: 2 or 3
   std::vector<double> positions;  ///< n x dimension, row-major, in the order of the file
   std::vector<double> weights;    ///< n, length^2
+  std::string note;               ///< for a report: which columns of a table were taken for what
   std::size_t count() const { return weights.size(); }
 };
 
@@ -23,10 +24,11 @@ struct SeedTable {
 /// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
 SeedTable read_seeds(const std::string& spec, const Domain& domain);
 
-/// Text or CSV from memory: `x y [z] w` a row, columns separated by blanks, one comma or one semicolon;
-/// `#` begins a comment. The first line may be a header: with columns named x, y (, z) and weight or w
-/// these are taken wherever they stand, and other columns passed over. It may instead be the number of
-/// rows. Weights are 0 if every row has exactly `dimension` columns.
+/// Text or CSV from memory: `x y [z] w` a row, columns separated as `number_separator` says and quoted as in
+/// RFC 4180; `#` begins a comment; rows of empty fields are passed over. The first line may be a header: with
+/// columns named x, y (, z), else by longitude and latitude or easting and northing, and weight or w these
+/// are taken wherever they stand, and other columns passed over. It may instead be the number of rows.
+/// Weights are 0 where there is no column of them.
 SeedTable parse_seeds_text(std::string_view text, int dimension, const std::string& name);
 
 /// NumPy's .npy from memory, versions 1 to 3: real or integer numbers, shape (n, d) or (n, d + 1).

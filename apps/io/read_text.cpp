@@ -36,6 +36,15 @@ Parsed parse_number(std::string_view word, double& value) {
   return std::isfinite(value) ? Parsed::ok : Parsed::not_finite;
 }
 
+bool has_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) return false;
+  std::string with_point(word);
+  with_point[comma] = '.';
+  double value = 0;
+  return parse_number(with_point, value) == Parsed::ok;
+}
+
 std::string why_not(std::string_view word, Parsed parsed) {
   switch (parsed) {
     case Parsed::not_finite:
@@ -43,7 +52,8 @@ std::string why_not(std::string_view word, Parsed parsed) {
     case Parsed::too_large:
       return fmt::format("'{}' is too large for a double", shown(word));
     default:
-      return fmt::format("'{}' is not a number", shown(word));
+      return fmt::format("'{}' is not a number{}", shown(word),
+                         has_decimal_comma(word) ? ": decimal commas are not read, write a point" : "");
   }
 }
 

@@ -21,6 +21,9 @@ enum class Parsed { ok, not_a_number, not_finite, too_large };
 /// The whole of `word` as a finite double; a leading '+' is allowed.
 Parsed parse_number(std::string_view word, double& value);
 
+/// Whether it would be a number with a point for its comma.
+bool has_decimal_comma(std::string_view word);
+
 /// Why parse_number refused `word`: "'nan' is not finite".
 std::string why_not(std::string_view word, Parsed parsed);
 

@@ -1,10 +1,11 @@
-// Tables of rows id, parent, name, value. Quoting is that of RFC 4180.
+// Tables of rows id, parent, name, value.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
+#include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_text.hpp"
 #include "apps/io/read_tree_formats.hpp"
@@ -20,63 +21,6 @@ constexpr std::array<std::array<std::string_view, 4>, columns> headings = {
      {"name", "label", "title", ""},
      {"value", "weight", "size", "area"}}};
 
-// Reads one record after the other; a quoted field may hold separators, quotes (doubled) and line ends.
-class Records {
- public:
-  Records(std::string_view text, const std::string& name, char separator)
-      : text_(text), name_(name), separator_(separator) {}
-
-  /// The next record that is not blank; false at the end.
-  bool next(std::vector<std::string>& fields) {
-    while (at_ < text_.size()) {
-      line_ = line_at_;
-      fields.assign(1, {});
-      record(fields);
-      if (fields.size() > 1 || !trimmed(fields[0]).empty()) return true;
-    }
-    return false;
-  }
-  std::size_t line() const { return line_; }  ///< where the last record begins
-
- private:
-  void record(std::vector<std::string>& fields) {
-    for (; at_ < text_.size(); ++at_) {
-      const char c = text_[at_];
-      if (c == '"' && trimmed(fields.back()).empty()) {
-        fields.back().clear();
-        quoted(fields.back());
-      } else if (c == separator_) {
-        fields.emplace_back();
-      } else if (c == '\n') {
-        ++line_at_;
-        ++at_;
-        return;
-      } else {
-        fields.back() += c;
-      }
-    }
-  }
-
-  void quoted(std::string& field) {
-    for (++at_; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\n') ++line_at_;
-      if (text_[at_] != '"') {
-        field += text_[at_];
-      } else if (at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
-        field += text_[++at_];
-      } else {
-        return;
-      }
-    }
-    fail_line(name_, line_, "a quote is opened and never closed");
-  }
-
-  std::string_view text_;
-  const std::string& name_;
-  char separator_;
-  std::size_t at_ = 0, line_ = 1, line_at_ = 1;
-};
-
 // Whichever the first line has most of.
 char find_separator(std::string_view text) {
   const std::string_view first = text.substr(0, text.find('\n'));
@@ -89,10 +33,10 @@ char find_separator(std::string_view text) {
 using Places = std::array<std::optional<std::size_t>, columns>;
 
 // Which field is what, if this is a header.
-std::optional<Places> read_header(const std::vector<std::string>& fields) {
+std::optional<Places> read_header(const Fields& fields) {
   Places places;
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    const std::string heading = lower_case(trimmed(fields[f]));
+    const std::string heading = column_name(fields[f]);
     for (std::size_t c = 0; c < columns; ++c)
       if (!heading.empty() && std::find(headings[c].begin(), headings[c].end(), heading) != headings[c].end())
         places[c] = f;
@@ -101,12 +45,11 @@ std::optional<Places> read_header(const std::vector<std::string>& fields) {
   return places;
 }
 
-std::string field_of(const std::vector<std::string>& fields, std::optional<std::size_t> place) {
+std::string field_of(const Fields& fields, std::optional<std::size_t> place) {
   return place && *place < fields.size() ? std::string(trimmed(fields[*place])) : std::string();
 }
 
-TreeRow read_row(const std::vector<std::string>& fields, const Places& places, const std::string& name,
-                 std::size_t line) {
+TreeRow read_row(const Fields& fields, const Places& places, const std::string& name, std::size_t line) {
   TreeRow row;
   row.place = line;
   row.id = field_of(fields, places[id_column]);
@@ -124,11 +67,10 @@ TreeRow read_row(const std::vector<std::string>& fields, const Places& places, c
 }  // namespace
 
 NamedTree parse_tree_table(std::string_view text, const std::string& name) {
-  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // the byte order mark of spreadsheets
   Records records(text, name, find_separator(text));
   Places places = {0, 1, 2, 3};
   std::size_t width = columns;
-  std::vector<std::string> fields;
+  Fields fields;
   std::vector<TreeRow> rows;
   for (bool first = true; records.next(fields); first = false) {
     if (first) {

@@ -213,6 +213,16 @@ class Diagram(ToolTest):
         for row in rows:
             self.assertEqual(int(row["neighbors"]), sum(1 for i, _ in walls if i == int(row["seed"])))
 
+    def test_columns_of_seeds_are_told(self):
+        self.write("s.csv", "w,lon,lat\n0.01,0.2,0.3\n0,0.6,0.8\n")
+        self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--table", "t.csv")
+        self.assertEqual([(row["x"], row["y"], row["weight"]) for row in self.rows("t.csv")],
+                         [("0.2", "0.3", "0.01"), ("0.6", "0.8", "0")])
+        told = "seeds: x from 'x', y from 'y', weight from 'weight'; not used: 'seed', 'status', 'measure'"
+        self.assertIn(told, self.good("diagram", "--domain", "square", "--seeds", "t.csv").stdout)
+        self.assertIn(told, self.good("verify", "--domain", "square", "--seeds", "t.csv").stdout)
+        self.assertEqual(self.report("diagram", "--domain", "square", "--seeds", "t.csv")["cells"], 2)
+
     def test_few_and_equal_seeds(self):
         for text, cells, duplicate in (("# none\n", 0, 0), ("0.5 0.5 0\n", 1, 0), ("0.5 0.5 0\n" * 3, 1, 2),
                                        ("0.2 0.5 1\n0.8 0.5 1\n", 2, 0)):
@@ -249,6 +259,7 @@ class DiagramErrors(ToolTest):
         for text, says in (("0 0 0\n0 inf 0\n", r"s:2: seed 1 .*'inf' is not a finite number"),
                            ("0 0 0\n0 0\n", r"s:2: seed 1 .*2 columns"), ("0 0 1e999\n", "s:1: .*too large"),
                            ("1e300 0 0\n0 0 0\n", "seed 0: coordinate x is 1e.300"), ("9\n0 0\n", "9 seeds are announced"),
+                           ("id,lon,w\n0,0,0\n", "s:1: the header names "), ("0,5;1\n", "s:1: .*decimal commas are not read"),
                            ("0 0\x1b[31m\x07 1\n", "s:1: .*is not a number")):
             with self.subTest(seeds=text):
                 self.bad(1, says, "diagram", "--domain", "square", "--seeds", self.write("s", text))

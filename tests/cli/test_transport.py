@@ -42,6 +42,13 @@ class Transport(ToolTest):
         for i in range(20):
             self.assertAlmostEqual(mass[i] / mass[0], 1 + i, delta=1e-4)
 
+    def test_masses_of_names_as_spreadsheets_write_them(self):
+        self.write("s.csv", 'City Name,lon,lat\nNew York,0.2,0.2\n"Rome, ""old""",0.7,0.7\n,,\n')
+        self.write("m.csv", 'City Name,mass\nNew York,1\n"Rome, ""old""",3\n,\n')
+        done = self.good(*self.square, "s.csv", "--masses", "m.csv", "--rescale", "--table", "t.csv")
+        self.assertIn("seeds: x from 'lon', y from 'lat', no weights; not used: 'city name'\n", done.stdout)
+        self.assertAlmostEqual(float(self.rows("t.csv")[1]["mass"]), 0.75, delta=1e-6)
+
     def test_density_surface_and_volume(self):
         for domain, density in (("square", "exp(-4*(x^2+y^2))"), ("ball:4", "1+x^2"), ("sphere:6", "2")):
             with self.subTest(domain=domain):
@@ -84,7 +91,9 @@ class Transport(ToolTest):
                               ("mass\n0\n1\n", r"m.csv:2: seed 0 .* 0; masses must be positive"),
                               ("1\nnan\n", r"m.csv:2: seed 1 .*nan"), ("1\nx\n", r"m.csv:2: seed 1.*'x'"),
                               ("1\n", r"1 masses for 2 seeds"), ("a,b\n1,2\n3,4\n", r"no column 'mass'"),
-                              ("1 2\n3 4\n", r"2 columns and no header"),
+                              ("1 2\n3 4\n", r"2 columns and no header"), ("0;5\n1;5\n", r"2 columns.*separated by semicolons"),
+                              ("name;mass\na;0,5\nb;0,5\n", r"m.csv:2: .*decimal commas are not read"),
+                              ("mass,mass\n1,2\n3,4\n", r"m.csv:1: the header has 2 columns 'mass'"),
                               ("2\n3\n", r"the masses sum to 5, the domain's mass is 1.*--rescale")):
             with self.subTest(text=text):
                 self.write("m.csv", text)

@@ -24,7 +24,11 @@ TEST_CASE("text and CSV in every spelling give the same seeds") {
         "\xEF\xBB\xBF"
         "X,Y,W\n0.25,0.5,3\n1,-2,4\n",
         "seed,x,weight,y,status\n0,0.25,3,0.5,ok\n1,1,4,-2,hidden\n",
-        "\"w\",\"y\",\"x\"\n3,0.5,0.25\n4,-2,1\n"}) {
+        "\"w\",\"y\",\"x\"\n3,0.5,0.25\n4,-2,1\n", "weights;LAT;Long\n3;0.5;0.25\n4;-2;1\n",
+        "easting\tnorthing\tw\n0.25\t0.5\t3\n1\t-2\t4\n", "lon,lat,y,x,w\n8,9,.5,.25,3\n8,9,-2,1,4\n",
+        "City Name,x,y,w\nNew York,0.25,0.5,3\n\"Rome, \"\"old\"\" #2\",1,-2,4\n,,,\n",
+        "name\tx\ty\tw\n\t0.25\t0.5\t3\n\t1\t-2\t4\n", "\"two\nlines\",x,y,w\n,0.25,0.5,3\n,1,-2,4\n",
+        "x,y,w,\n0.25,0.5,3,\n1,-2,4,\n", "0.25\t0.5\t3\t\n1\t-2\t4\t\n"}) {
     CAPTURE(text);
     const SeedTable seeds = parse_seeds_text(text, 2, "s.txt");
     CHECK(seeds.positions == kPositions);
@@ -61,6 +65,49 @@ TEST_CASE("malformed tables are refused with line and seed") {
   CHECK(says(message("x,y\n1,2\n", 3), "s.csv:1: the header names some of x, y, z"));
   CHECK(says(message(std::string("1 2\0 3\n", 7)), "NUL bytes"));
   CHECK(parse_seeds_text("1 2 1e-400\n", 2, "s.csv").weights[0] == 0);
+}
+
+TEST_CASE("a table that may be misread is refused") {
+  const auto message = [](const std::string& text, int d = 2) {
+    return refusal([&] { parse_seeds_text(text, d, "s.csv"); });
+  };
+  for (const char* header :
+       {"w,lon", "id,a,b", "fid,a,b", "Name,a,b", "seed,a,b", "a,b,weight", ",a,b", "w,lon", "x,lat"}) {
+    CAPTURE(header);
+    CHECK(says(message(std::string(header) + "\n1,2,3\n"), "invalid_file: s.csv:1: the header names "));
+    CHECK(says(message(std::string(header) + "\n1,2,3\n"), "x, y, weight"));
+  }
+  CHECK(says(message("x,x,y\n1,2,3\n"), "s.csv:1: the header names columns 'x' and 'x'"));
+  CHECK(says(message("lon,lat,easting\n1,2,3\n"), "names columns 'lon' and 'easting', which say the same"));
+  CHECK(says(message("x,y,w,weight\n1,2,3,3\n"), "names columns 'w' and 'weight'"));
+  CHECK(
+      says(message("x,y,Radius\n1,2,3\n"), "s.csv:1: the header has a column 'radius' and none of weights"));
+  CHECK(parse_seeds_text("x,y,r,w\n1,2,3,9\n", 2, "s.csv").weights == std::vector<double>{9});
+  for (const char* text :
+       {"0,5;1\n1,5;2\n", "0,5;1,5\n1,5;2,5\n", "x;y\n0,5;1\n", "0,5\t1\n", "\"0,5\",1\n"}) {
+    CAPTURE(text);
+    CHECK(says(message(text), "'0,5' is not a number: decimal commas are not read"));
+  }
+  CHECK(
+      says(message("x,y,n1,n2\n1 5,0.2,0.3\n"), "s.csv:2: seed 0 (from 0) has 3 columns, the header has 4"));
+  CHECK(says(message("x y\n0.1,0.2\n"), "(columns are separated by blanks in this file)"));
+  CHECK(says(message("1 500\t2\t3\n", 3), "column 1: '1 500' is not a number"));
+  CHECK(says(message("a,b\n1,2\n\"1,2\n"), "s.csv:3: a quote is opened and never closed"));
+  CHECK(says(message("a,b\n\"1\"0,2\n"), "s.csv:2: there is text after a closing quote"));
+  CHECK(says(message("name,x,y\n\"two\nlines\",1,2\nb,1,z\n"), "s.csv:4: seed 1"));
+  CHECK(says(message(std::string(20000, ',')), "more than 16384 columns"));
+}
+
+TEST_CASE("what a header's columns were taken for is told where it is in question") {
+  const auto note = [](const std::string& text) { return parse_seeds_text(text, 2, "s.csv").note; };
+  CHECK(note("1 2 3\n") == "");
+  CHECK(note("x,y,w\n1,2,3\n") == "");
+  CHECK(note("x,y\n1,2\n") == "seeds: x from 'x', y from 'y', no weights");
+  CHECK(note("lat,lon,w,City\n1,2,3,a\n") ==
+        "seeds: x from 'lon', y from 'lat', weight from 'w'; not used: 'city'");
+  CHECK(note("a,b,c\n1,2,3\n") == "seeds: x from 'a', y from 'b', weight from 'c' (by their order)");
+  CHECK(note("x,y,w,a,b,c,d,e,f,g\n1,2,3,4,5,6,7,8,9,10\n") ==
+        "seeds: x from 'x', y from 'y', weight from 'w'; not used: 'a', 'b', 'c', 'd', 'e' and 2 more");
 }
 
 TEST_CASE("NumPy arrays") {

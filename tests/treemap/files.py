@@ -92,6 +92,11 @@ class Treemap(unittest.TestCase):
         self.good("out.json", "-o", "again.json")
         self.measured_again("n.json", "again.json")
 
+    def test_empty_rows_of_spreadsheets_are_passed_over(self):
+        self.write("t.csv", 'id,parent,name,value\nr,,root,\n,,,\na,r,"an ""a""",1\nb,r,b,2\n,,,\n')
+        self.good("t.csv", "-o", "t.json")
+        self.measured_again("t.csv", "t.json")
+
     def test_semicolons_with_an_implied_root(self):
         self.write("t.txt", "nodeId;parentId;name;weight\n1;0;a;1\n2;1;b;2.5\n3;1;c;1e-3\n4;0;d;1\n")
         self.good("t.txt", "-o", "t.json")
@@ -136,6 +141,7 @@ class Treemap(unittest.TestCase):
             "t.csv:4: the id 'a' is that of line 3 already": head + "a,r,a,1\na,r,a,2\n",
             "t.csv:3: 3 fields where 4 are expected": head + "a,r,1\n",
             "t.csv:3: a quote is opened and never closed": head + 'a,r,"a,1\n',
+            "t.csv:3: there is text after a closing quote": head + 'a,r,"a"b,1\n',
             "nothing to lay out": head + "a,r,a,0\n",
             "t.csv:3: the row has no id": head + ",r,a,1\n",
             "the value of 'b' (t.csv:4) is 1e-20 of the sum": head + "a,r,a,1\nb,r,b,1e-20\n",
