@@ -147,6 +147,15 @@ class Diagram(ToolTest):
         self.assertGreater(report["hidden"], 0)
         self.assertEqual(report["domain_measure"], 1)
 
+    def test_parts_of_the_time_are_parts_of_it_where_kernels_are_compiled(self):
+        for domain in ("sphere:8", "torus:6"):  # the second finds some of its kernels compiled
+            with self.subTest(domain=domain):
+                seconds = self.report("diagram", "--domain", domain, "--seeds", "random:50",
+                                      env={"POCL_CACHE_DIR": str(self.folder)})["seconds"]
+                parts = [seconds[key] for key in ("prepare", "pairs", "neighbors", "clip", "collect")]
+                self.assertGreaterEqual(min(parts), 0)
+                self.assertLessEqual(sum(parts), seconds["total"] + 1e-9)
+
     def test_ends_with_the_self_check(self):
         out = self.good("diagram", "--domain", "cube", "--seeds", "random:50").stdout
         self.assertRegex(out.splitlines()[-1], r"^50 cells, 0 hidden, 0 duplicate; sum of measures / domain = 1 [+-] ")
