@@ -50,13 +50,6 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   add_output_options(command, options);
 }
 
-void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds) {
-  command.add_option("-o,--output", files, "File to write, as often as wanted: " + kinds)
-      ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
-}
-
 void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,
                           bool required) {
   command

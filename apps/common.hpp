@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <powercell/powercell.hpp>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,11 @@ class App;
 }
 
 namespace powercell::app {
+
+/// Arguments that cannot be meant: exit code 2, where other errors give 1.
+struct WrongUsage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Options that every subcommand which computes accepts.
 struct CommonOptions {
@@ -35,9 +41,6 @@ void add_output_options(CLI::App& command, CommonOptions& options);
 void add_engine_options(CLI::App& command, CommonOptions& options);
 /// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
-
-/// Adds -o: files to write, as often as wanted. \param kinds  which endings there are, for the help
-void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds);
 
 /// Adds --domain, --seeds and --kind.
 void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,

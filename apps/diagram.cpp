@@ -11,6 +11,7 @@
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/write_table.hpp"
+#include "apps/outputs.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -59,6 +60,7 @@ void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, con
 }
 
 int run(const DiagramArguments& arguments) {
+  check_writable(arguments.outputs, {arguments.table, arguments.walls});
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
@@ -95,7 +97,8 @@ Command add_diagram(CLI::App& app) {
   auto arguments = std::make_shared<DiagramArguments>();
   CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
-  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()));
+  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()),
+                   io::check_output_format);
   command->add_option("--table", arguments->table, "CSV with one row a seed")->type_name("FILE.csv");
   command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
       ->type_name("FILE.csv");

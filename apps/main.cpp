@@ -22,7 +22,7 @@ int report(int code, std::string message) {
 }
 
 // What is wrong with the arguments, in one line, and where to read on.
-int report_usage(const CLI::App& app, const CLI::ParseError& error) {
+int report_usage(const CLI::App& app, const std::exception& error) {
   std::string command = "powercell";
   for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
   return report(wrong_usage, fmt::format("{} (see '{} --help')", error.what(), command));
@@ -62,7 +62,12 @@ int run(int argc, char** argv) {
     return report_usage(app, error);
   }
   powercell::app::catch_interrupts();
-  const int code = commands.at(app.get_subcommands().front()->get_name())();
+  int code = done;
+  try {
+    code = commands.at(app.get_subcommands().front()->get_name())();
+  } catch (const powercell::app::WrongUsage& error) {
+    return report_usage(app, error);
+  }
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
     return report(failed, "standard output could not be written whole");
   return code;

@@ -12,6 +12,7 @@
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/write_triangles.hpp"
+#include "apps/outputs.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -136,7 +137,7 @@ RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& i
 }
 
 int run(const RemeshArguments& arguments) {
-  for (const std::string& path : arguments.outputs) io::check_triangle_output(path);
+  check_writable(arguments.outputs, {arguments.report});
   Outcome outcome;
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);
@@ -206,7 +207,8 @@ Command add_remesh(CLI::App& app) {
   add_shape_options(*command, arguments->remesh);
   add_output_files(
       *command, arguments->outputs,
-      std::string(io::known_triangle_files()) + " for the mesh, .png for both beside each other");
+      std::string(io::known_triangle_files()) + " for the mesh, .png for both beside each other",
+      io::check_triangle_output);
   command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
   command->add_option("--device", arguments->device, "For transport: as 'powercell diagram' takes it");
   command->add_option("--threads", arguments->threads, "For transport: on the host and of PoCL; 0 means all")

@@ -11,6 +11,7 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/write_points.hpp"
+#include "apps/outputs.hpp"
 #include "apps/sampling/study.hpp"
 
 namespace powercell::app {
@@ -119,6 +120,9 @@ int run(const SampleArguments& arguments) {
         ErrorCode::invalid_argument,
         "--cells: cells that go on at the opposite side of a periodic box cannot be written; leave out "
         "--cells or --periodic");
+  std::vector<std::string> files = arguments.outputs;
+  files.insert(files.end(), arguments.cells.begin(), arguments.cells.end());
+  check_writable(std::move(files), {arguments.analysis});
   const Source source = read_source(arguments.source);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
   for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());
@@ -195,7 +199,8 @@ Command add_sample(CLI::App& app) {
       ->add_option("--runs", arguments->runs,
                    "Samplings, with random seeds counting up; figures are averaged")
       ->check(CLI::Range(1, 1000));
-  add_output_files(*command, arguments->outputs, ".svg .png .pdf .csv .txt, of the points of the first run");
+  add_output_files(*command, arguments->outputs, ".svg .png .pdf .csv .txt, of the points of the first run",
+                   io::check_points_format);
   command
       ->add_option("--cells", arguments->cells, "Cells of the first run, as 'powercell diagram' writes them")
       ->type_name("FILE")

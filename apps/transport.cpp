@@ -16,6 +16,7 @@
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/io/write_transport.hpp"
+#include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 
@@ -164,6 +165,7 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 }
 
 int run(const TransportArguments& arguments) {
+  check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log});
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
@@ -245,7 +247,8 @@ Command add_transport(CLI::App& app) {
   CLI::App* command = app.add_subcommand("transport", "Find the weights with which cells have given masses");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
   add_solver_options(*command, *arguments);
-  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()));
+  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()),
+                   io::check_output_format);
   command->add_option("--table", arguments->table, "CSV with one row a seed: weight, mass, centroid, ...")
       ->type_name("FILE.csv");
   command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")

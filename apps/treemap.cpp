@@ -10,6 +10,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/read_tree.hpp"
 #include "apps/io/write_treemap.hpp"
+#include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 #include "apps/treemap_shape.hpp"
@@ -107,7 +108,7 @@ void tell(const io::NamedTree& tree, const Treemap& map, const std::vector<std::
 }
 
 int run(const TreemapArguments& arguments) {
-  for (const std::string& path : arguments.outputs) io::check_treemap_output(path);
+  check_writable(arguments.outputs);
   Stopwatch watch;
   Seconds seconds;
   const Ring outline = treemap_shape(arguments.shape);
@@ -152,7 +153,8 @@ Command add_treemap(CLI::App& app) {
   command->add_option("tree", arguments->tree, "A table (.csv .txt .tsv), .json, or a folder")
       ->required()
       ->type_name("TREE");
-  add_output_files(*command, arguments->outputs, std::string(io::known_treemap_outputs()));
+  add_output_files(*command, arguments->outputs, std::string(io::known_treemap_outputs()),
+                   io::check_treemap_output);
   command
       ->add_option("--shape", arguments->shape,
                    "W:H, circle, hexagon, circle:N (N corners), or a file with one convex polygon")

@@ -133,6 +133,12 @@ void AtomicFile::fail(const char* doing, int error) const {
   throw Error(ErrorCode::write_failed, path_ + ": cannot " + doing + " it: " + std::strerror(error) + hint);
 }
 
+void check_can_create(const std::string& path) {
+  struct stat old {};
+  const bool exists = stat(path.c_str(), &old) == 0;
+  if (!exists || S_ISREG(old.st_mode) || S_ISDIR(old.st_mode)) AtomicFile{path};
+}
+
 void remove_unfinished_files() noexcept {
   for (auto& slot : slots) {
     if (slot.filled) unlink(slot.path.data());

@@ -41,6 +41,11 @@ class AtomicFile {
   int slot_ = -1;
 };
 
+/// Refuses, before what is to be written is computed, what an AtomicFile would refuse when it is made; leaves
+/// nothing. A pipe or terminal passes: at its other end it must not be seen opened and closed.
+/// \throw Error write_failed
+void check_can_create(const std::string& path);
+
 /// Removes the unfinished files of this process; for a signal handler (async-signal-safe).
 void remove_unfinished_files() noexcept;
 

@@ -24,6 +24,8 @@ struct DiagramOutput {
 std::string_view known_outputs();
 /// Whether `write_output` knows the extension of `path` (upper or lower case).
 bool known_output(const std::string& path);
+/// \throw Error invalid_file if it does not
+void check_output_format(const std::string& path);
 /// Refuses, before anything is computed, what `write_output` would refuse for this kind of domain.
 /// \throw Error invalid_file (unknown extension), unsupported (a flat format for a surface or volume)
 void check_output(const std::string& path, DomainKind kind);

@@ -42,11 +42,8 @@ const Format* find_format(const std::string& path) {
 }
 
 const Format& checked_format(const std::string& path, DomainKind kind) {
+  check_output_format(path);
   const Format* format = find_format(path);
-  if (!format) {
-    throw Error(ErrorCode::invalid_file,
-                path + ": unknown extension of an output file; known are " + std::string(known_outputs()));
-  }
   if (format->flat_only && kind != DomainKind::polygon) {
     throw Error(ErrorCode::unsupported,
                 path + ": " + std::string(format->extension) +
@@ -69,6 +66,12 @@ std::string_view known_outputs() {
 
 bool known_output(const std::string& path) {
   return find_format(path) != nullptr;
+}
+
+void check_output_format(const std::string& path) {
+  if (!known_output(path))
+    throw Error(ErrorCode::invalid_file,
+                path + ": unknown extension of an output file; known are " + std::string(known_outputs()));
 }
 
 void check_output(const std::string& path, DomainKind kind) {

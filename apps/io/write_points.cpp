@@ -73,12 +73,16 @@ void write_svg_dots(const std::string& path, const Scene& scene) {
 
 }  // namespace
 
-void check_points(const std::string& path, const Domain& domain) {
+void check_points_format(const std::string& path) {
   const std::string extension = lower_extension(path);
   if (!is_table(extension) && !is_picture(extension))
     throw Error(ErrorCode::invalid_file,
                 path + ": unknown extension; points are written as .csv .txt .svg .png .pdf");
-  if (is_picture(extension) && domain.dimension() != 2)
+}
+
+void check_points(const std::string& path, const Domain& domain) {
+  check_points_format(path);
+  if (is_picture(lower_extension(path)) && domain.dimension() != 2)
     throw Error(ErrorCode::unsupported,
                 path + ": pictures of dots are flat; write points in space as .csv or .txt, or their cells");
 }

@@ -17,6 +17,9 @@ struct PointOutput {
   std::span<const double> radii;      ///< n, of the dots, length; only pictures need them
 };
 
+/// \throw Error invalid_file (unknown extension)
+void check_points_format(const std::string& path);
+
 /// Refuses, before anything is computed, what `write_points` would refuse. \throw Error invalid_file (unknown
 /// extension), unsupported (a picture of points in space)
 void check_points(const std::string& path, const Domain& domain);

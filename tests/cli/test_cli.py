@@ -283,7 +283,7 @@ class DiagramErrors(ToolTest):
         self.bad(1, "N is above 2147483646", "diagram", "--domain", "square", "--seeds", "random:2147483647")
 
     def test_outputs_are_refused_before_anything_is_computed(self):
-        self.bad(1, r"\.xyz", *self.diagram("-o", "a.xyz", "-o", "a.svg"))
+        self.bad(2, r"a\.xyz: unknown extension.*--help", *self.diagram("-o", "a.xyz", "-o", "a.svg"))
         self.bad(1, "svg", "diagram", "--domain", "cube", "--seeds", "random:20", "-o", "a.svg")
 
     def test_what_cannot_be_written(self):
@@ -291,6 +291,30 @@ class DiagramErrors(ToolTest):
         self.bad(1, "missing", *self.diagram("--table", "missing/t.csv"))
         if os.path.exists("/dev/full"):
             self.bad(1, "/dev/full", *self.diagram("--table", "/dev/full"))
+
+    def test_what_cannot_be_written_is_told_before_the_work(self):
+        (self.folder / "folder").mkdir()
+        late = ("--domain", "square", "--seeds", "no-such.csv")
+        for command, option in (("diagram", "--table"), ("diagram", "--walls"), ("transport", "--table"),
+                                ("transport", "--log"), ("sample", "--analysis"), ("sample", "--cells"),
+                                ("remesh", "--report")):
+            start = {"sample": ("--domain", "no-such.off"), "remesh": ("no-such.off", "--count", 9)}.get(command, late)
+            with self.subTest(command=command, option=option):
+                self.bad(1, r"nodir/t\.svg: cannot create it", command, *start, option, "nodir/t.svg")
+                self.bad(1, r"folder: cannot open it", command, *start, option, "folder")
+                name = "t.off" if command == "remesh" else "t.svg"
+                self.bad(2, rf"\./{name} and {name} are one file.*'powercell {command} --help'", command, *start,
+                         option, name, "-o", "./" + name)
+        self.bad(1, r"nodir/t\.svg: cannot create it", "treemap", "no-such.csv", "-o", "nodir/t.svg")
+        self.bad(2, "one file", "treemap", "no-such.csv", "-o", "t.svg", "-o", "t.svg")
+        self.good(*self.diagram("--table", "/dev/null", "--walls", "/dev/null"))
+
+    def test_a_pipe_is_written_once(self):
+        os.mkfifo(self.folder / "pipe")
+        process = subprocess.Popen([TOOL, *self.diagram("--table", "pipe")], cwd=self.folder, stdout=subprocess.PIPE)
+        self.assertEqual(len((self.folder / "pipe").read_text().splitlines()), 21)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0)
 
     def test_an_older_file_survives_a_failure(self):
         self.write("a.svg", "older")

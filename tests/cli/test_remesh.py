@@ -41,7 +41,7 @@ class Remesh(ToolTest):
         self.bad(1, "too few points", "remesh", "torus:12", "--count", 4, "-o", "b.off")
         self.bad(1, "no-such.off", "remesh", "no-such.off", "--count", 50)
         self.bad(1, "polygon", "remesh", DATA / "italy.geojson", "--count", 50)
-        self.bad(1, r"\.xyz", "remesh", "torus:12", "--count", 50, "-o", "b.xyz")
+        self.bad(2, r"\.xyz", "remesh", "torus:12", "--count", 50, "-o", "b.xyz")
         self.bad(1, "gradation", "remesh", "torus:12", "--count", 50, "--gradation", 0)
         self.bad(2, "--count", "remesh", "torus:12")
 

@@ -93,7 +93,7 @@ class Sample(ToolTest):
                 (1, "box", ["--domain", "disk", "--periodic"]),
                 (1, "--cells", ["--periodic", "--cells", "cells.json"]),
                 (1, "1,5", ["--density", "1,5+x"]),
-                (1, "extension", ["-o", "points.jpg"]),
+                (2, "extension", ["-o", "points.jpg"]),
                 (1, "flat", ["--domain", "cube", "-o", "points.png"]),
                 (1, "--paper", ["--paper", "2", "--domain", "disk"]),
                 (2, "paper", ["--paper", "4"]),

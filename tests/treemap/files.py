@@ -176,7 +176,7 @@ class Treemap(unittest.TestCase):
         self.refused("1 parts, 1 holes", 1, "t.csv", "--shape", "ring.geojson", "-o", "t.svg")
         self.refused("above 0", 1, "t.csv", "--shape", "0:1", "-o", "t.svg")
         self.refused("3 to 10000 corners", 1, "t.csv", "--shape", "circle:2", "-o", "t.svg")
-        self.refused("no format for a treemap", 1, "t.csv", "-o", "t.svg", "-o", "t.xls")
+        self.refused("no format for a treemap", 2, "t.csv", "-o", "t.svg", "-o", "t.xls")
         self.refused("", 1, "absent.csv", "-o", "t.svg")
         self.refused("--help", 2, "t.csv", "--rounds", "-1", "-o", "t.svg")
         self.refused("no list of nodes", 1, "t.csv", "--previous", "arrow.geojson", "-o", "t.svg")

@@ -1,0 +1,60 @@
+#include "apps/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <powercell/error.hpp>
+
+#include "apps/common.hpp"
+#include "apps/io/atomic_file.hpp"
+
+namespace powercell::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A pipe or a terminal may be named more than once: what is written goes there one after the other.
+bool goes_on(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds,
+                      std::function<void(const std::string&)> check) {
+  const auto refusal = [check = std::move(check)](const std::string& path) -> std::string {
+    try {
+      check(path);
+      return {};
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  command.add_option("-o,--output", files, "File to write, as often as wanted: " + kinds)
+      ->check(refusal)
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+}
+
+void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more) {
+  files.insert(files.end(), more);
+  std::map<fs::path, std::string> named;
+  for (const std::string& path : files) {
+    if (path.empty()) continue;
+    io::check_can_create(path);
+    if (goes_on(path)) continue;
+    std::error_code ignored;
+    const auto [first, is_new] =
+        named.emplace(fs::weakly_canonical(fs::absolute(path, ignored), ignored), path);
+    if (!is_new)
+      throw WrongUsage(
+          fmt::format("{} and {} are one file, which would hold only what is written last; name another",
+                      first->second, path));
+  }
+}
+
+}  // namespace powercell::app
