@@ -11,6 +11,7 @@
 #include "apps/bench/run.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/report.hpp"
 
 namespace powercell::app {
 namespace {
@@ -63,7 +64,7 @@ int run(const BenchArguments& arguments) {
   if (!arguments.json_file.empty() && arguments.json_file != "-") file.emplace(arguments.json_file);
 
   const BenchRecord record = run_bench(arguments, earlier ? &*earlier : nullptr);
-  const std::string json = as_json(record).dump(2) + "\n";
+  const std::string json = json_text(as_json(record)) + "\n";
   if (file) {
     file->write(json);
     file->commit();

@@ -178,12 +178,11 @@ int run(const DemoArguments& arguments) {
   write_page(page);
   const double seconds = watch.lap();
   if (arguments.json)
-    fmt::print("{}\n", nlohmann::json({{"shapes", shapes},
-                                       {"open", page.string()},
-                                       {"build", device.build_seconds()},
-                                       {"seconds", seconds},
-                                       {"version", version()}})
-                           .dump(2));
+    fmt::print("{}\n", json_text({{"shapes", shapes},
+                                  {"open", page.string()},
+                                  {"build", device.build_seconds()},
+                                  {"seconds", seconds},
+                                  {"version", version()}}));
   if (talk)
     fmt::print(
         "{:.1f} s in all, {:.1f} s of them building kernels (kept for the next run)\n"

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
+#include "apps/report.hpp"
 
 namespace powercell::app {
 namespace {
@@ -45,7 +46,7 @@ int run(const CommonOptions& options) {
   if (options.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const DeviceInfo& device : all) list.push_back(as_json(device));
-    fmt::print("{}\n", nlohmann::json({{"devices", list}, {"version", version()}}).dump(2));
+    fmt::print("{}\n", json_text({{"devices", list}, {"version", version()}}));
     return 0;
   }
   if (all.empty())

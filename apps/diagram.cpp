@@ -50,7 +50,7 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Seed
 void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, const std::string& note,
           const RunReport& report) {
   if (arguments.json) {
-    fmt::print("{}\n", as_json(report).dump(2));
+    fmt::print("{}\n", json_text(as_json(report)));
   } else if (!arguments.quiet) {
     fmt::print("{}\n", domain.description);
     if (!note.empty()) fmt::print("{}\n", note);
@@ -97,8 +97,7 @@ Command add_diagram(CLI::App& app) {
   auto arguments = std::make_shared<DiagramArguments>();
   CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
-  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()),
-                   io::check_output_format);
+  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   command->add_option("--table", arguments->table, "CSV with one row a seed")->type_name("FILE.csv");
   command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
       ->type_name("FILE.csv");

@@ -85,7 +85,7 @@ void tell_quality(const char* name, const MeshQuality& q) {
 
 void tell(const RemeshArguments& arguments, const Outcome& o) {
   if (arguments.json) {
-    fmt::print("{}\n", as_json(arguments, o).dump(2));
+    fmt::print("{}\n", json_text(as_json(arguments, o)));
     return;
   }
   if (arguments.quiet) return;
@@ -157,7 +157,7 @@ int run(const RemeshArguments& arguments) {
   outcome.write = watch.lap();
   if (!arguments.report.empty()) {
     io::AtomicFile file(arguments.report);
-    file.write(as_json(arguments, outcome).dump(2) + "\n");
+    file.write(json_text(as_json(arguments, outcome)) + "\n");
     file.commit();
   }
   tell(arguments, outcome);
@@ -205,10 +205,9 @@ Command add_remesh(CLI::App& app) {
       ->check(CLI::IsMember({"fpo", "transport"}))
       ->capture_default_str();
   add_shape_options(*command, arguments->remesh);
-  add_output_files(
-      *command, arguments->outputs,
-      std::string(io::known_triangle_files()) + " for the mesh, .png for both beside each other",
-      io::check_triangle_output);
+  add_output_files(*command, arguments->outputs,
+                   std::string(io::known_triangle_files()) + " for the mesh, .png for both beside each other",
+                   io::check_triangle_output);
   command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
   command->add_option("--device", arguments->device, "For transport: as 'powercell diagram' takes it");
   command->add_option("--threads", arguments->threads, "For transport: on the host and of PoCL; 0 means all")

@@ -64,6 +64,10 @@ nlohmann::json as_json(const RunReport& report) {
           {"files", report.files}};
 }
 
+std::string json_text(const nlohmann::json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string self_check_line(const RunReport& report) {
   const double defect = report.domain_measure > 0 ? report.measure / report.domain_measure - 1 : 0;
   std::string line = fmt::format(

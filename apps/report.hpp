@@ -35,6 +35,9 @@ RunReport report_of(Diagram& diagram);
 /// The keys that programs may rely on are written down in README.md.
 nlohmann::json as_json(const RunReport& report);
 
+/// Indented. Names of files may be no UTF-8: what is not is replaced by U+FFFD.
+std::string json_text(const nlohmann::json& json);
+
 /// "4,812 cells, 188 hidden, 0 duplicate; sum of measures / domain = 1 + 2.2e-16; ..."
 std::string self_check_line(const RunReport& report);
 

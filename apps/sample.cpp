@@ -12,6 +12,7 @@
 #include "apps/io/output.hpp"
 #include "apps/io/write_points.hpp"
 #include "apps/outputs.hpp"
+#include "apps/report.hpp"
 #include "apps/sampling/study.hpp"
 
 namespace powercell::app {
@@ -88,7 +89,7 @@ void tell(const SampleArguments& arguments, const Source& source, const Study& s
     nlohmann::json json = as_json(study, false);
     json["points"] = study.runs.front().points.weights.size();
     json["files"] = written;
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
   } else if (!arguments.quiet) {
     fmt::print("{}\n", source.description);
     for (const std::string& path : written) fmt::print("wrote {}\n", path);

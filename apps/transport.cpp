@@ -194,7 +194,7 @@ int run(const TransportArguments& arguments) {
   report.run.build = solver.diagram().device().build_seconds();
 
   if (arguments.json) {
-    fmt::print("{}\n", as_json(report, result).dump(2));
+    fmt::print("{}\n", json_text(as_json(report, result)));
   } else if (!arguments.quiet) {
     fmt::print("{}\n", domain.description);
     if (!table.note.empty()) fmt::print("{}\n", table.note);
@@ -247,8 +247,7 @@ Command add_transport(CLI::App& app) {
   CLI::App* command = app.add_subcommand("transport", "Find the weights with which cells have given masses");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
   add_solver_options(*command, *arguments);
-  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()),
-                   io::check_output_format);
+  add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   command->add_option("--table", arguments->table, "CSV with one row a seed: weight, mass, centroid, ...")
       ->type_name("FILE.csv");
   command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")

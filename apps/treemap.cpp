@@ -87,7 +87,7 @@ void tell_json(const io::NamedTree& tree, const Treemap& map, const std::vector<
       {"version", version()},
       {"files", files},
       {"seconds", {{"read", seconds.read}, {"layout", seconds.layout}, {"write", seconds.write}}}};
-  fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(report));
 }
 
 void tell(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,

@@ -12,6 +12,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
+#include "apps/report.hpp"
 #include "apps/saved.hpp"
 
 namespace powercell::app {
@@ -132,10 +133,10 @@ nlohmann::json as_json(const std::vector<Checked>& all) {
 int conclude(const VerifyArguments& arguments, const std::string& subject, const std::vector<Checked>& all) {
   const bool good = std::all_of(all.begin(), all.end(), passed);
   if (arguments.json)
-    fmt::print("{}\n",
-               nlohmann::json(
-                   {{"subject", subject}, {"passed", good}, {"checks", as_json(all)}, {"version", version()}})
-                   .dump(2));
+    fmt::print(
+        "{}\n",
+        json_text(
+            {{"subject", subject}, {"passed", good}, {"checks", as_json(all)}, {"version", version()}}));
   else if (!arguments.quiet)
     fmt::print("{}: {}\n", subject, good ? "all laws hold" : "SOME LAWS ARE BROKEN");
   return good ? 0 : 1;

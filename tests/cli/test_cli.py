@@ -240,6 +240,24 @@ class Diagram(ToolTest):
                 self.assertEqual((report["cells"], report["duplicate"]), (cells, duplicate))
 
 
+class Names(ToolTest):
+    """Files whose names are not those one would choose."""
+
+    def test_names_that_are_no_utf8_are_replaced_in_json(self):
+        name = os.fsdecode(b"\xff.svg")
+        report = self.report("diagram", "--domain", "square", "--seeds", "random:9", "-o", name)
+        self.assertEqual(report["files"], ["\ufffd.svg"])
+        self.assertEqual([path.name for path in self.folder.iterdir()], [name])
+        seeds = os.fsdecode(b"\xff.csv")
+        self.write(seeds, "0.3 0.4\n0.7 0.5\n")
+        self.report("verify", "--domain", "square", "--seeds", seeds)
+        self.assertEqual(self.report("transport", "--domain", "square", "--seeds", seeds, "--log", name)["files"],
+                         ["\ufffd.svg"])
+        self.assertEqual(self.report("sample", "-n", 300, "-o", name)["files"], ["\ufffd.svg"])
+        self.assertEqual(self.report("remesh", "torus:12", "--count", 200, "-o", name[0] + ".off")["files"], ["\ufffd.off"])
+        self.assertTrue(self.report("demo", "-o", name[0])["open"].startswith("\ufffd"))
+
+
 class DiagramErrors(ToolTest):
     def diagram(self, *arguments):
         return ("diagram", "--domain", "square", "--seeds", "random:20", *arguments)
