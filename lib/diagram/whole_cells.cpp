@@ -13,6 +13,8 @@ namespace {
 /// The cell's ball about its centroid must be larger than what rounding moved its vertices by, in units of
 /// the domain's size.
 constexpr double least_radius_double = 1e-11, least_radius_float = 1e-3;
+/// Units of roundoff, of the distance from the seed, within which moments are known.
+constexpr double moment_errors = 64;
 
 using Vector = std::array<double, 3>;
 
@@ -22,7 +24,9 @@ enum class Place : unsigned char { inside, outside, unclear };
 class Places {
  public:
   Places(const RegionMesh& mesh, PairFinder& finder, bool float32)
-      : dimension_(mesh.dimension), locator_(finder.locator()) {
+      : dimension_(mesh.dimension),
+        error_(moment_errors * (float32 ? 0x1p-24 : 0x1p-53)),
+        locator_(finder.locator()) {
     double extent = 0, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       extent = std::max(extent, mesh.high[k] - mesh.low[k]);
@@ -33,10 +37,19 @@ class Places {
   }
 
   Place of(const double* seed, const double* centroid, double mass, double second_moment) const {
-    double variance = second_moment / mass;  // the mean square of the distance from the centroid
-    for (int k = 0; k < dimension_; ++k) variance -= (centroid[k] - seed[k]) * (centroid[k] - seed[k]);
+    // Far from its seed a cell has the difference of nearly equal numbers left: with their rounding added it
+    // is never too small, and then the radius never too large.
+    const double from_seed = second_moment / mass;
+    double centroid_from_seed = 0, rounding = error_ * from_seed;
+    for (int k = 0; k < dimension_; ++k) {
+      const double q = centroid[k] - seed[k];
+      centroid_from_seed += q * q;
+      rounding += 0x1p-50 * std::abs(q) * (std::abs(centroid[k]) + std::abs(seed[k]));
+    }
+    const double variance = from_seed - centroid_from_seed + rounding;  // about the centroid
     const double radius = dimension_ == 3 ? 0.055 * mass / variance : 0.11 * mass / std::sqrt(variance);
-    if (!(variance > 0) || !(radius > least_radius_)) return Place::unclear;
+    const double least = std::max(least_radius_, error_ * std::sqrt(from_seed));
+    if (!(variance > 0) || !(radius > least)) return Place::unclear;
     // Of meshes made by rule some directions stay within facets, but hardly all of these.
     constexpr Vector directions[] = {{0.61, 0.29, 0.37}, {-0.23, 0.67, -0.41}, {0.13, -0.47, 0.71}};
     for (const Vector& direction : directions) {
@@ -52,6 +65,7 @@ class Places {
 
  private:
   int dimension_;
+  double error_;  // of moments, relative
   pairs::RegionLocator locator_;
   double least_radius_ = 0;
 };

@@ -132,3 +132,27 @@ TEST_CASE(
     for (const double mass : measures.mass) REQUIRE(std::abs(mass * 4096 - 1) <= 100 * tolerance(setup));
   }
 }
+
+TEST_CASE("whole cells: a cell far from its seed keeps its mass") {
+  // The Voronoi cells of a cross of seven seeds y, as the power cells of seeds y + t with weights 2 t.y. Seen
+  // from t the second moment and the centroid tell little of a cell's size.
+  const Domain domain = volume_of(ball_tetrahedra(1));
+  const double arm = 0.3125, directions[3] = {825.2275390625, -702.692138671875, 719.823486328125};
+  for (const double far : {0x1p-6, 0x1p-3, 1.0, 8.0}) {
+    SeedArray seeds;
+    for (int j = 0; j < 7; ++j) {
+      double y[3] = {0, 0, 0};
+      if (j > 0) y[(j - 1) / 2] = j % 2 ? -arm : arm;
+      double weight = 0;
+      for (int k = 0; k < 3; ++k) weight += 2 * far * directions[k] * y[k];
+      seeds.push({y[0] + far * directions[0], y[1] + far * directions[1], y[2] + far * directions[2]},
+                 weight);
+    }
+    for (const Setup& setup : all_setups()) {
+      INFO(setup.name << ", " << far);
+      const Measures measures = measures_of(setup, domain, seeds);
+      CHECK(measures.status[0] == SeedStatus::ok);
+      CHECK(measures.mass[0] == doctest::Approx(arm * arm * arm).epsilon(0.01));
+    }
+  }
+}
