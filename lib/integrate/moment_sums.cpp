@@ -128,8 +128,11 @@ void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_
   cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);
   const bool open = pair_offset[last + 1] > end;
   set_measures(first, open ? last : last + 1, sums.data());
-  if (open) open_.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
+  // The row of the chunk before is needed once more if ending the map fails and the chunk is repeated.
+  std::vector<std::byte> goes_on;
+  if (open) goes_on.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
   sums.end();
+  if (open) open_ = std::move(goes_on);
 }
 
 }  // namespace powercell

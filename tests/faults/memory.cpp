@@ -123,6 +123,46 @@ TEST_CASE("a largest allocation far below the memory: smaller chunks with the sa
   }
 }
 
+TEST_CASE("a chunk repeated because its memory could not be given back counts once") {
+  const shim::Scope scope;
+  Setup setup = main_setups().front();
+  setup.options.chunk_pairs = 1500;
+  setup.options.decisions = Decisions::fast;
+  Random random(test_seed());
+  const NamedDomain torus_surface{"torus", surface_of(torus(40, 20))};
+  const std::vector<Case> several_chunks = {
+      // Cells of many pieces, which go on from chunk to chunk.
+      {torus_surface, seeds_for(torus_surface.domain, Distribution::white, WeightRange::W0, 500, random)},
+      // Every cell is decided by rounding.
+      {{"cube", unit_box(3)}, grid(16, 3)}};
+  for (const Case& c : several_chunks) {
+    INFO(c.domain.name);
+    const auto measured = [&] {
+      Diagram diagram(setup.device, c.domain.domain, setup.options);
+      diagram.set_seeds(c.seeds.view());
+      return diagram.measures();
+    };
+    measured();
+    shim::reset_calls();
+    const Measures expected = measured();
+    const std::uint64_t calls = shim::calls()[static_cast<std::size_t>(shim::Entry::clEnqueueUnmapMemObject)];
+    std::size_t survived = 0;
+    for (std::uint64_t nth = 1; nth <= calls; ++nth) {
+      CAPTURE(nth);
+      shim::fail(shim::Entry::clEnqueueUnmapMemObject, nth, CL_OUT_OF_HOST_MEMORY);
+      try {
+        const Measures measures = measured();
+        ++survived;
+        CHECK(bit_differences(measures, expected) == "");
+      } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::out_of_device_memory);
+      }
+      shim::behave();
+    }
+    CHECK(survived > 1);
+  }
+}
+
 TEST_CASE("an allocation that is too large even for the least chunk is refused by its size") {
   const shim::Scope scope;
   const Setup& setup = main_setups().front();
