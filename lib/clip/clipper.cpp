@@ -24,6 +24,13 @@ constexpr unsigned common_arguments = 17;
 
 }  // namespace
 
+void ClipStatistics::add(const ClipStatistics& other) {
+  retried += other.retried;
+  on_host += other.on_host;
+  uncertain += other.uncertain;
+  rounds = std::max(rounds, other.rounds);
+}
+
 ClipMemory::ClipMemory(const std::shared_ptr<cl::Context>& context)
     : active(context),
       seed(context),

@@ -21,6 +21,8 @@ struct ClipStatistics {
   std::uint64_t on_host = 0;    ///< pairs that ended on the host
   std::uint64_t uncertain = 0;  ///< pairs that rounding may have decided
   int rounds = 0;               ///< most rounds of candidates that a chunk needed
+
+  void add(const ClipStatistics& other);
 };
 
 struct ClipOptions {

@@ -80,12 +80,14 @@ void ChunkRun::clip_all() {
   clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_, clip_options,
                                        std::exchange(s_.clip_memory, std::nullopt));
   const double neighbor_seconds = s_.candidates->host_seconds(), built_before = s_.device.build_seconds();
+  ClipStatistics done;  // chunks of clippers that were given up
   Stopwatch watch;
   std::uint64_t chunk = chunk_pairs();
   // No last chunk of a few pairs, which the cores could not share well.
   if (s_.options.chunk_pairs == 0) chunk = (total - 1) / ((total - 1) / chunk + 1) + 1;
   for (std::uint64_t begin = 0; begin < total;) {
     const std::uint64_t end = std::min(total, begin + chunk);
+    const ClipStatistics before = clipper_->statistics();
     try {
       clip_chunk(begin, end);
     } catch (const Error& error) {
@@ -95,6 +97,7 @@ void ChunkRun::clip_all() {
       write_log(LogLevel::info, [&] {
         return "device memory does not suffice; chunks of " + std::to_string(chunk) + " pairs from now on";
       });
+      done.add(before);
       clipper_ = std::make_unique<Clipper>(s_.scene, *s_.candidates, outputs_,
                                            clip_options);  // gives its buffers back
       continue;
@@ -109,10 +112,11 @@ void ChunkRun::clip_all() {
   s_.timings.collect = collect_seconds_;
   s_.timings.clip = watch.seconds() - collect_seconds_ - (s_.candidates->host_seconds() - neighbor_seconds) -
                     (s_.device.build_seconds() - built_before);
-  s_.timings.retried = clipper_->statistics().retried;
-  s_.timings.on_host = clipper_->statistics().on_host;
-  s_.timings.uncertain = clipper_->statistics().uncertain;
-  s_.timings.rounds = clipper_->statistics().rounds;
+  done.add(clipper_->statistics());
+  s_.timings.retried = done.retried;
+  s_.timings.on_host = done.on_host;
+  s_.timings.uncertain = done.uncertain;
+  s_.timings.rounds = done.rounds;
 }
 
 void ChunkRun::keep_wall_memory() {

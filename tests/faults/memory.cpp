@@ -140,20 +140,25 @@ TEST_CASE("a chunk repeated because its memory could not be given back counts on
     const auto measured = [&] {
       Diagram diagram(setup.device, c.domain.domain, setup.options);
       diagram.set_seeds(c.seeds.view());
-      return diagram.measures();
+      Measures measures = diagram.measures();
+      return std::pair(std::move(measures), diagram.timings());
     };
     measured();
     shim::reset_calls();
-    const Measures expected = measured();
+    const auto [expected, expected_timings] = measured();
     const std::uint64_t calls = shim::calls()[static_cast<std::size_t>(shim::Entry::clEnqueueUnmapMemObject)];
     std::size_t survived = 0;
     for (std::uint64_t nth = 1; nth <= calls; ++nth) {
       CAPTURE(nth);
       shim::fail(shim::Entry::clEnqueueUnmapMemObject, nth, CL_OUT_OF_HOST_MEMORY);
       try {
-        const Measures measures = measured();
+        const auto [measures, timings] = measured();
         ++survived;
         CHECK(bit_differences(measures, expected) == "");
+        CHECK(timings.retried == expected_timings.retried);
+        CHECK(timings.on_host == expected_timings.on_host);
+        CHECK(timings.uncertain == expected_timings.uncertain);
+        CHECK(timings.rounds == expected_timings.rounds);
       } catch (const Error& error) {
         CHECK(error.code() == ErrorCode::out_of_device_memory);
       }
