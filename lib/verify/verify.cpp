@@ -23,7 +23,17 @@ LawCheck check_partition(const Measures& measures, Precision precision) {
 }
 
 void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
-  if (seeds.dimension == diagram.domain().dimension() && seeds.size() == diagram.size()) return;
+  const bool same = seeds.dimension == diagram.domain().dimension() && seeds.size() == diagram.size();
+  const std::size_t coordinates = seeds.positions.size(), weights = seeds.weights.size();
+  if (same && coordinates == seeds.size() * static_cast<std::size_t>(seeds.dimension) &&
+      (weights == 0 || weights == seeds.size()))
+    return;
+  if (same)
+    throw Error(ErrorCode::invalid_argument,
+                std::to_string(coordinates) + " coordinates and " + std::to_string(weights) +
+                    " weights were given for " + std::to_string(seeds.size()) + " seeds in " +
+                    std::to_string(seeds.dimension) +
+                    "D: give all coordinates, and one weight for each seed or none for all zero");
   throw Error(ErrorCode::invalid_argument,
               std::to_string(seeds.size()) + " seeds in " + std::to_string(seeds.dimension) +
                   "D were given to check a diagram of " + std::to_string(diagram.size()) + " seeds in " +

@@ -66,6 +66,12 @@ TEST_CASE("other seeds than the diagram's are refused, or found out") {
   diagram.set_seeds(seeds.view());
   CHECK_THROWS_AS(verify(diagram, scatter(Distribution::white, 49, 2, {}, random).view()), Error);
   CHECK_THROWS_AS(verify(diagram, scatter(Distribution::white, 50, 3, {}, random).view()), Error);
+  // Too few weights, and half a seed too many.
+  const std::vector<double> weights(49, 0);
+  CHECK_THROWS_AS(verify(diagram, {2, seeds.positions, weights}), Error);
+  std::vector<double> positions = seeds.positions;
+  positions.push_back(0.5);
+  CHECK_THROWS_AS(verify(diagram, {2, positions, {}}), Error);
   std::size_t failed = 0;
   for (const LawCheck& check : verify(diagram, others.view())) {
     failed += !check.passed;
