@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lib/digits.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/measure.hpp"
 
@@ -18,8 +19,8 @@ void check_corners(std::span<const double> low, std::span<const double> high) {
       throw Error(ErrorCode::invalid_domain, axis + ": a corner is not finite");
     }
     if (!(low[k] < high[k])) {
-      throw Error(ErrorCode::invalid_domain, axis + ": low " + std::to_string(low[k]) +
-                                                 " is not less than high " + std::to_string(high[k]));
+      throw Error(ErrorCode::invalid_domain,
+                  axis + ": low " + digits(low[k]) + " is not less than high " + digits(high[k]));
     }
   }
 }

@@ -53,6 +53,7 @@ TEST_CASE("what is not a box is refused") {
   CHECK_SAYS(refusal([] { box({0, 0}, {1, std::nan("")}); }), "axis y: a corner is not finite");
   CHECK_SAYS(refusal([] { box({0, 0, 3}, {1, 1, 3}); }), "axis z: low");
   CHECK_SAYS(refusal([] { box({0, 2}, {1, 1}); }), "axis y: low");
+  CHECK_SAYS(refusal([] { box({1e-9, 0}, {1e-10, 1}); }), "low 1e-09 is not less than high 1e-10");
   CHECK_SAYS(refusal([] { box({0, 0, 0}, {1e200, 1e200, 1}); }), "of size 1e+200");
   CHECK_SAYS(refusal([] { box({-1e101, 0, 0}, {1, 1, 1}); }), "of size 1e+101");
   CHECK_SAYS(refusal([] { box({0, 0}, {1e-101, 1e-101}); }), "of size 1e-101");
