@@ -4,14 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "kernels/layout.h"
 #include "lib/clip/clipper.hpp"
+#include "lib/log.hpp"
 
 namespace powercell {
 namespace {
 
 constexpr std::size_t chunk_cells = std::size_t{1} << 15;
+/// Where device memory does not suffice, chunks are halved down to this before the error is passed on.
+constexpr std::size_t least_chunk_cells = 1024;
 /// Cells are proved with vertices this near to the true ones.
 constexpr double vertex_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  vertex_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
@@ -75,14 +79,28 @@ class WallCollection {
 
 CellWalls clip_cells(const Scene& scene, TreeCandidates& candidates, std::span<const std::uint32_t> ranks) {
   TreeOf tree(candidates);
-  Clipper clipper(scene, tree, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY);
+  std::optional<Clipper> clipper;
   const auto around = static_cast<std::uint32_t>(scene.mesh().region_count() - 1);
-  const std::vector<std::uint32_t> regions(std::min(chunk_cells, ranks.size()), around);
+  std::size_t chunk = std::min(chunk_cells, ranks.size());
+  const std::vector<std::uint32_t> regions(chunk, around);
   WallCollection cells(scene);
-  for (std::size_t begin = 0; begin < ranks.size(); begin += chunk_cells) {
-    const std::size_t count = std::min(chunk_cells, ranks.size() - begin);
-    const PieceSet& pieces = clipper.clip(ranks.subspan(begin, count), std::span(regions).first(count));
-    for (std::size_t k = 0; k < count; ++k) cells.add(ranks[begin + k], pieces, k);
+  for (std::size_t begin = 0; begin < ranks.size();) {
+    const std::size_t count = std::min(chunk, ranks.size() - begin);
+    const PieceSet* pieces = nullptr;
+    try {
+      if (!clipper) clipper.emplace(scene, tree, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY);
+      pieces = &clipper->clip(ranks.subspan(begin, count), std::span(regions).first(count));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::out_of_device_memory || chunk <= least_chunk_cells) throw;
+      chunk = std::max(least_chunk_cells, chunk / 2);
+      write_log(LogLevel::info, [&] {
+        return "device memory does not suffice; chunks of " + std::to_string(chunk) + " cells from now on";
+      });
+      clipper.reset();  // gives its buffers back
+      continue;
+    }
+    for (std::size_t k = 0; k < count; ++k) cells.add(ranks[begin + k], *pieces, k);
+    begin += count;
   }
   cells.fill_up_to(scene.seeds().size());
   return std::move(cells.walls);

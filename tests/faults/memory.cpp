@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "tests/faults/jobs.hpp"
 
@@ -121,6 +122,25 @@ TEST_CASE("a largest allocation far below the memory: smaller chunks with the sa
     CHECK(uploads() > uploads_at_best);
     shim::behave();
   }
+}
+
+TEST_CASE("cells that are clipped before their regions: smaller chunks with the same bits") {
+  const shim::Scope scope;
+  const Setup& setup = main_setups().front();
+  const Domain ball = volume_of(ball_tetrahedra(2));
+  Random random(test_seed());
+  const SeedArray seeds = seeds_for(ball, Distribution::white, WeightRange::W1, 8000, random);
+  const auto measures_within = [&](std::size_t limit) {
+    Diagram diagram(setup.device, ball, setup.options);
+    shim::reset_calls();
+    shim::limit_memory(limit);
+    diagram.set_seeds(seeds.view());
+    return diagram.measures();
+  };
+  const Measures expected = measures_within(std::numeric_limits<std::size_t>::max());
+  const std::size_t peak = shim::peak_buffer_bytes();
+  CAPTURE(peak);
+  CHECK(bit_differences(measures_within(peak / 6 * 5), expected) == "");
 }
 
 TEST_CASE("a chunk repeated because its memory could not be given back counts once") {
