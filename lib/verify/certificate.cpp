@@ -18,29 +18,55 @@ namespace {
 constexpr double partition_double = 1e-12, partition_float = 1e-6;
 /// Of the largest wall. The sides of a wall are measured in the coordinates of two seeds.
 constexpr double asymmetry_double = 1e-9, asymmetry_float = 1e-3;
+/// Roundings that add up in a place seen from a seed, and in a power distance.
+constexpr double place_roundings = 64, power_roundings = 16;
 constexpr std::size_t points = 8;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::internal, "the certificate of the diagram does not hold: " + what);
 }
 
-void require_partition(const Certified& r) {
+double unit_of(const Certified& r) {
+  return r.float32 ? 0x1p-24 : 0x1p-53;
+}
+
+/// Edge of the domain's box.
+double extent_of(const Domain& domain) {
+  const std::array<double, 3> low = domain.low(), high = domain.high();
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
+  return extent;
+}
+
+/// How far outside of the domain's box seeds with cells are, along an axis: what these seeds see moves by the
+/// rounding of that distance.
+double farthest_outside(const Certified& r) {
+  const auto d = static_cast<std::size_t>(r.seeds.dimension);
+  const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
+  double farthest = 0;
+  for (std::size_t rank = 0; rank < r.seeds.size(); ++rank)
+    for (std::size_t k = 0; k < d; ++k) {
+      const double p = r.seeds.positions[rank * d + k], outside = std::max(low[k] - p, p - high[k]);
+      if (outside > farthest && r.measures.status[r.seeds.input[rank]] == SeedStatus::ok) farthest = outside;
+    }
+  return farthest;
+}
+
+void require_partition(const Certified& r, double outside) {
   const double error = r.measures.mass.empty() ? 0 : r.measures.relative_error();
-  if (error <= (r.float32 ? partition_float : partition_double)) return;
+  if (error <= (r.float32 ? partition_float : partition_double) * (1 + outside / extent_of(r.domain))) return;
   refuse("the cells measure " + digits(r.measures.total()) + " together, the domain " +
          digits(r.measures.domain_measure));
 }
 
 /// The first seed whose figures no cell of the domain can have.
-void require_numbers(const Certified& r) {
+void require_numbers(const Certified& r, double outside) {
   const auto d = static_cast<std::size_t>(r.measures.dimension);
   const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
-  double extent = 0, reach = 0;
-  for (std::size_t k = 0; k < d; ++k) {
-    extent = std::max(extent, high[k] - low[k]);
-    reach = std::max({reach, std::abs(low[k]), std::abs(high[k])});
-  }
-  const double slack = extent * (r.float32 ? 1e-4 : 1e-8) + reach * 1e-14;
+  double reach = 0;
+  for (std::size_t k = 0; k < d; ++k) reach = std::max({reach, std::abs(low[k]), std::abs(high[k])});
+  const double slack = extent_of(r.domain) * (r.float32 ? 1e-4 : 1e-8) + reach * 1e-14 +
+                       place_roundings * unit_of(r) * outside;
   const std::size_t wrong = first_of(r.measures.mass.size(), r.threads, [&](std::size_t i) {
     if (!(r.measures.mass[i] >= 0) || !(r.measures.second_moment[i] >= 0)) return true;
     if ((r.measures.status[i] == SeedStatus::ok) != (r.measures.mass[i] > 0)) return true;
@@ -63,14 +89,19 @@ void require_symmetry(const Certified& r) {
   refuse("the two sides of a wall differ by " + digits(r.adjacency->asymmetry, 3));
 }
 
+struct Power {
+  double value;  // |x-p|^2 - w
+  double terms;  // |x-p|^2 + |w|, of which it has the rounding
+};
+
 template <std::size_t d>
-double power(const SeedSet& seeds, std::size_t i, const std::array<double, 3>& x) {
-  double sum = -seeds.weights[i];
+Power power(const SeedSet& seeds, std::size_t i, const std::array<double, 3>& x) {
+  double square = 0;
   for (std::size_t k = 0; k < d; ++k) {
     const double q = x[k] - seeds.positions[i * d + k];
-    sum += q * q;
+    square += q * q;
   }
-  return sum;
+  return {square - seeds.weights[i], square + std::abs(seeds.weights[i])};
 }
 
 /// The rank of least power distance from x: the least first, in lanes, then whose it is.
@@ -82,13 +113,30 @@ std::size_t owner_of(const SeedSet& seeds, const std::array<double, 3>& x) {
   std::size_t i = 0;
   for (; i + lanes <= seeds.size(); i += lanes)
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const double here = power<d>(seeds, i + lane, x);
+      const double here = power<d>(seeds, i + lane, x).value;
       least[lane] = here < least[lane] ? here : least[lane];
     }
-  for (; i < seeds.size(); ++i) least[0] = std::min(least[0], power<d>(seeds, i, x));
+  for (; i < seeds.size(); ++i) least[0] = std::min(least[0], power<d>(seeds, i, x).value);
   const double of_all = *std::min_element(least.begin(), least.end());
-  for (i = 0; i + 1 < seeds.size() && power<d>(seeds, i, x) != of_all;) ++i;
+  for (i = 0; i + 1 < seeds.size() && power<d>(seeds, i, x).value != of_all;) ++i;
   return i;
+}
+
+/// The rank of a seed with a cell whose power distance from x is the least to rounding, or else of any other.
+template <std::size_t d>
+std::size_t owner_with_cell(const Certified& r, const std::array<double, 3>& x) {
+  const auto has_cell = [&](std::size_t rank) {
+    return r.measures.status[r.seeds.input[rank]] == SeedStatus::ok;
+  };
+  const std::size_t owner = owner_of<d>(r.seeds, x);
+  if (has_cell(owner)) return owner;
+  const Power least = power<d>(r.seeds, owner, x);
+  for (std::size_t rank = 0; rank < r.seeds.size(); ++rank) {
+    const Power here = power<d>(r.seeds, rank, x);
+    const double rounding = power_roundings * 0x1p-53 * (here.terms + least.terms);
+    if (here.value - least.value <= rounding && has_cell(rank)) return rank;
+  }
+  return owner;
 }
 
 void require_owners(const Certified& r) {
@@ -100,7 +148,7 @@ void require_owners(const Certified& r) {
       const Vector& point = samples[k].point;
       const std::array<double, 3> x{static_cast<double>(point[0]), static_cast<double>(point[1]),
                                     static_cast<double>(point[2])};
-      owner[k] = r.seeds.dimension == 2 ? owner_of<2>(r.seeds, x) : owner_of<3>(r.seeds, x);
+      owner[k] = r.seeds.dimension == 2 ? owner_with_cell<2>(r, x) : owner_with_cell<3>(r, x);
     }
   });
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -116,8 +164,9 @@ void require_owners(const Certified& r) {
 }  // namespace
 
 void require_certificate(const Certified& result) {
-  require_partition(result);
-  require_numbers(result);
+  const double outside = farthest_outside(result);
+  require_partition(result, outside);
+  require_numbers(result, outside);
   require_symmetry(result);
   require_owners(result);
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <functional>
 #include <powercell/diagram.hpp>
 
@@ -34,6 +35,50 @@ TEST_CASE("certificates of ordinary and degenerate diagrams hold, on every kind 
       diagram.set_seeds({named.domain.dimension(), {}, {}});
       CHECK_NOTHROW(diagram.measures());
     }
+}
+
+TEST_CASE("certificates hold where the seeds of a point differ by less than rounding") {
+  // The middle one of three is hidden by a weight far below the rounding of distances.
+  const double h = 1e-17;
+  for (Setup setup : main_setups()) {
+    setup.options.certify = true;
+    for (int k = 0; k < 6; ++k) {
+      SeedArray seeds{2, {}, {}};
+      for (int j = 0; j < 3; ++j) {
+        const int at = (j + k) % 3;
+        seeds.push({at * h, 0.5 + 0.01 * k}, at == 1 ? -4 * h * h : 0);
+      }
+      Diagram diagram(setup.device, unit_box(2), setup.options);
+      diagram.set_seeds(seeds.view());
+      CHECK_NOTHROW(diagram.measures());
+      CHECK(diagram.measures().status[static_cast<std::size_t>((4 - k % 3) % 3)] == SeedStatus::hidden);
+    }
+  }
+}
+
+TEST_CASE("certificates of cells far from their seeds hold, and are refused for what is wrong nevertheless") {
+  Random random(test_seed());
+  for (const double far : {0x1p18, 0x1p22}) {
+    // Voronoi cells of seeds y, as those of y + far with weights 2 far.y.
+    SeedArray seeds = scatter(Distribution::white, 300, 2, {}, random);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const double y = std::ldexp(std::floor(std::ldexp(seeds.coordinate(i, 0), 20)), -20);
+      seeds.coordinate(i, 0) = y + far;
+      seeds.weights[i] = 2 * far * y;
+    }
+    for (Setup setup : all_setups()) {
+      INFO(setup.name << ", " << far);
+      setup.options.certify = true;
+      Diagram diagram(setup.device, unit_box(2), setup.options);
+      diagram.set_seeds(seeds.view());
+      CHECK_NOTHROW(diagram.measures());
+      if (setup.options.precision == Precision::float32) continue;
+      Measures measures = diagram.measures();
+      measures.mass[7] *= 1.1;
+      const SeedSet set = make_seed_set(seeds.view(), 2, 1);
+      CHECK_THROWS_AS(require_certificate({unit_box(2), set, measures, nullptr, false, 1}), Error);
+    }
+  }
 }
 
 TEST_CASE("a certificate is refused for what no diagram is, and names the seed") {
