@@ -67,16 +67,17 @@ class Fit {
 
   bool move(std::uint32_t v) {
     const double h = mesh_.vertex(v).h;
-    const double shape = std::max(1.0, cost_around(mesh_, v, mesh_.at(v), shape_cost));
+    const double shape = std::max(1.0, cost_around(mesh_, surface_, v, mesh_.vertex(v).place, shape_cost));
     const auto cost = [&](Vec a, Vec b, Vec c) {
       return shape_cost(a, b, c) > shape ? worst : distance2(a, b, c);
     };
-    const auto place_at = [&](Vec to) { return project(surface_, mesh_.vertex(v).place, to); };
-    const double before = cost_around(mesh_, v, mesh_.at(v), cost);
+    const auto place_at = [&](const Vec& to) { return project(surface_, mesh_.vertex(v).place, to); };
+    const double before = cost_around(mesh_, surface_, v, mesh_.vertex(v).place, cost);
     if (!(before > negligible * negligible * h * h) || before == worst) return false;
     for (const double step : {0.16, 0.08, 0.04}) {
-      const auto best = best_around(mesh_, surface_, v, step * h, 0.97 * before,
-                                    [&](Vec to) { return cost_around(mesh_, v, place_at(to).at, cost); });
+      const auto best = best_around(mesh_, surface_, v, step * h, 0.97 * before, [&](const Place& to) {
+        return cost_around(mesh_, surface_, v, place_at(to.at), cost);
+      });
       if (!best) continue;
       const Place place = place_at(*best);
       mesh_.move(v, place, sizing_.at(surface_, place));
@@ -105,6 +106,7 @@ class Fit {
     const Vec old = unit(unit(normal_of(a, b, c)) + unit(normal_of(b, a, d)));
     if (dot(left, right) < least_cosine || dot(left, old) < least_cosine || dot(right, old) < least_cosine)
       return false;
+    if (flips_inwards(mesh_, surface_, e)) return false;
     const double before = std::max(distance2(a, b, c), distance2(b, a, d));
     return before > negligible * negligible * norm2(a - b) &&
            std::max(distance2(a, d, c), distance2(d, b, c)) < 0.9 * before;

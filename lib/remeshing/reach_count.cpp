@@ -82,7 +82,7 @@ void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
     before = mesh.alive();
     collapse_shortest(mesh, count + (mesh.alive() - count) / 2);
-    flip_edges(mesh);
+    flip_edges(mesh, surface);
   }
   if (mesh.alive() > count)
     throw Error(ErrorCode::invalid_argument,
@@ -92,7 +92,7 @@ void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   while (mesh.alive() < count) {
     if (!split_longest(mesh, surface, sizing))
       throw Error(ErrorCode::invalid_argument, "too many points: there is no edge left to split");
-    flip_edges(mesh);
+    flip_edges(mesh, surface);
   }
 }
 

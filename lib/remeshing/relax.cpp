@@ -20,7 +20,7 @@ double shape_cost(Vec a, Vec b, Vec c) {
 }
 
 /// The larger cost of the two triangles of an edge after a flip; `worst` where they would fold.
-double cost_flipped(const WorkMesh& mesh, const WorkMesh::Edge& e, Cost cost) {
+double cost_flipped(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Edge& e, Cost cost) {
   const Vec a = mesh.at(e.a), b = mesh.at(e.b), c = mesh.at(e.c), d = mesh.at(e.d);
   const Vec left = unit(normal_of(a, d, c)), right = unit(normal_of(d, b, c));
   const Vec old_left = unit(normal_of(a, b, c)), old_right = unit(normal_of(b, a, d));
@@ -28,6 +28,7 @@ double cost_flipped(const WorkMesh& mesh, const WorkMesh::Edge& e, Cost cost) {
   if (dot(left, right) < least_bend) return worst;
   const Vec mean = unit(old_left + old_right);
   if (dot(left, mean) < 0.6 || dot(right, mean) < 0.6) return worst;
+  if (flips_inwards(mesh, surface, e)) return worst;
   return std::max(cost(a, d, c), cost(d, b, c));
 }
 
@@ -69,7 +70,7 @@ Vec centroid_around(const WorkMesh& mesh, std::uint32_t v) {
 bool try_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v, Vec to,
               double most, Cost cost) {
   const Place place = project(surface, mesh.vertex(v).place, to);
-  if (cost_around(mesh, v, place.at, cost) >= most) return false;
+  if (cost_around(mesh, surface, v, place, cost) >= most) return false;
   mesh.move(v, place, sizing.at(surface, place));
   return true;
 }
@@ -78,7 +79,7 @@ void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
   const double well = std::cos(40 * std::numbers::pi / 180);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
-    const double before = cost_around(mesh, v, mesh.at(v), largest_cosine);
+    const double before = cost_around(mesh, surface, v, mesh.vertex(v).place, largest_cosine);
     try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, well),
              largest_cosine);
   }
@@ -86,8 +87,8 @@ void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
 
 /// Moves a vertex in its tangent plane where that makes the worst triangle around it better.
 bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v) {
-  const double before = cost_around(mesh, v, mesh.at(v), shape_cost);
-  const auto cost = [&](const Vec& to) { return cost_around(mesh, v, to, shape_cost); };
+  const double before = cost_around(mesh, surface, v, mesh.vertex(v).place, shape_cost);
+  const auto cost = [&](const Place& to) { return cost_around(mesh, surface, v, to, shape_cost); };
   for (double step = 0.2; step > 0.01; step /= 2) {
     const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before - 1e-3, cost);
     if (best && try_move(mesh, surface, sizing, v, *best, before - 1e-4, shape_cost)) return true;
@@ -95,18 +96,17 @@ bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   return false;
 }
 
-/// Sum over the triangles around v, with v at `at`, of (a^2 + b^2 + c^2) / (4 sqrt(3) area), which is 1 where
+/// Sum over the triangles around v, with v at `to`, of (a^2 + b^2 + c^2) / (4 sqrt(3) area), which is 1 where
 /// they are equilateral; infinity where one turns over.
-double distortion_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
+double distortion_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, const Place& to) {
   double sum = 0;
   for (const std::uint32_t t : mesh.around(v)) {
     const Row& row = mesh.triangle(t);
     const std::size_t k = row[0] == v ? 0 : row[1] == v ? 1 : 2;
     const Vec b = mesh.at(row[(k + 1) % 3]), c = mesh.at(row[(k + 2) % 3]);
-    const Vec before = normal_of(mesh.at(v), b, c), after = normal_of(at, b, c);
-    const double area = norm(after);
-    if (!(dot(before, after) > 0.5 * norm(before) * area)) return std::numeric_limits<double>::infinity();
-    const double d = (norm2(b - at) + norm2(c - at) + norm2(c - b)) / area;
+    if (turns_over(mesh, surface, t, v, to)) return worst;
+    const double area = norm(normal_of(to.at, b, c));
+    const double d = (norm2(b - to.at) + norm2(c - to.at) + norm2(c - b)) / area;
     sum += d * d;
   }
   return sum;
@@ -116,12 +116,12 @@ double distortion_around(const WorkMesh& mesh, std::uint32_t v, Vec at) {
 void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, double step) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
-    const double before = distortion_around(mesh, v, mesh.at(v));
+    const double before = distortion_around(mesh, surface, v, mesh.vertex(v).place);
     const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before,
-                                  [&](const Vec& to) { return distortion_around(mesh, v, to); });
+                                  [&](const Place& to) { return distortion_around(mesh, surface, v, to); });
     if (!best) continue;
     const Place place = project(surface, mesh.vertex(v).place, *best);
-    if (distortion_around(mesh, v, place.at) < before) mesh.move(v, place, sizing.at(surface, place));
+    if (distortion_around(mesh, surface, v, place) < before) mesh.move(v, place, sizing.at(surface, place));
   }
 }
 
@@ -139,7 +139,7 @@ void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, in
       for (const std::uint32_t u : mesh.neighbors(v)) {
         const auto e = mesh.edge(v, u);
         if (!e || !mesh.can_flip(*e)) continue;
-        if (cost_flipped(mesh, *e, shape_cost) >= cost_of(mesh, *e, shape_cost) - 0.005) continue;
+        if (cost_flipped(mesh, surface, *e, shape_cost) >= cost_of(mesh, *e, shape_cost) - 0.005) continue;
         mesh.flip(*e);
         any = true;
       }
@@ -151,7 +151,7 @@ void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, in
 
 }  // namespace
 
-std::size_t flip_edges(WorkMesh& mesh) {
+std::size_t flip_edges(WorkMesh& mesh, const Surface& surface) {
   const double well = std::cos(30 * std::numbers::pi / 180);
   std::size_t flips = 0;
   for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a) {
@@ -160,7 +160,8 @@ std::size_t flip_edges(WorkMesh& mesh) {
       if (b < a) continue;
       const auto e = mesh.edge(a, b);
       if (!e || !mesh.can_flip(*e)) continue;
-      const double before = cost_of(mesh, *e, largest_cosine), after = cost_flipped(mesh, *e, largest_cosine);
+      const double before = cost_of(mesh, *e, largest_cosine);
+      const double after = cost_flipped(mesh, surface, *e, largest_cosine);
       const int gain = degree_gain(mesh, *e);
       const bool better = after < before - 0.01 && (gain >= 0 || before > well);
       if (!better && !(gain >= 2 && after < well)) continue;
@@ -175,7 +176,7 @@ void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rou
   constexpr int spreading = 5;  // first rounds, which even out sizes; the others see to shapes
   constexpr std::array<double, 3> steps = {0.1, 0.05, 0.025};  // of h
   for (int round = 0; round < rounds; ++round) {
-    flip_edges(mesh);
+    flip_edges(mesh, surface);
     if (round < spreading)
       smooth(mesh, surface, sizing);
     else

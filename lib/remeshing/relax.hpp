@@ -8,7 +8,7 @@ namespace powercell::remeshing {
 
 /// Flips what makes degrees regular without angles below some 30 degrees, and what makes the least angle of
 /// two triangles larger. Returns how many.
-std::size_t flip_edges(WorkMesh& mesh);
+std::size_t flip_edges(WorkMesh& mesh, const Surface& surface);
 
 /// Brings the mesh to `count` vertices by collapses of its relatively shortest edges or splits of its
 /// longest. Curves are left as they are. \throw Error invalid_argument where the topology forbids it

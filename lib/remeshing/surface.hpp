@@ -28,6 +28,7 @@ struct Surface {
   int edge_towards(std::uint32_t t, std::uint32_t a, std::uint32_t b) const;
   double area(std::uint32_t t) const { return norm(normal_of(corner(t, 0), corner(t, 1), corner(t, 2))) / 2; }
   double area() const;
+  Vec normal(std::uint32_t t) const { return unit(normal_of(corner(t, 0), corner(t, 1), corner(t, 2))); }
   /// Vertices - edges + triangles; vertices that no triangle has do not count.
   int euler_characteristic() const;
 };

@@ -1,0 +1,51 @@
+// Few points for a surface of small parts: the mesh is coarse, and still one of the surface.
+#include <doctest/doctest.h>
+
+#include <powercell/remeshing.hpp>
+
+#include "lib/remeshing/vec.hpp"
+#include "tests/remeshing/shapes.hpp"
+#include "tests/support/meshes.hpp"
+
+namespace powercell::test {
+namespace {
+
+using remeshing::Vec;
+
+/// A mesh with a ball of 42 vertices more.
+void add_ball(TriangleMesh& mesh, Vec centre, double radius) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+  const Mesh ball = icosphere(1);
+  for (std::size_t k = 0; k < ball.vertices.size(); k += 3)
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {centre.x + radius * ball.vertices[k], centre.y + radius * ball.vertices[k + 1],
+                          centre.z + radius * ball.vertices[k + 2]});
+  for (const std::uint32_t v : ball.elements) mesh.triangles.push_back(first + v);
+}
+
+Vec vertex(const TriangleMesh& mesh, std::uint32_t v) {
+  return {mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2]};
+}
+
+}  // namespace
+
+TEST_CASE("relaxation turns no triangle of a coarse mesh inside out") {
+  TriangleMesh balls;  // 27 of them, apart, with five or six vertices each in the end
+  for (int k = 0; k < 27; ++k)
+    add_ball(balls, {static_cast<double>(k / 9), static_cast<double>(k / 3 % 3), static_cast<double>(k % 3)},
+             0.3);
+  RemeshOptions options;
+  options.count = 150;
+  options.rounds = 3;
+  const TriangleMesh mesh = remesh(balls.vertices, balls.triangles, options).mesh;
+  std::size_t inwards = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const Vec a = vertex(mesh, mesh.triangles[t]), b = vertex(mesh, mesh.triangles[t + 1]),
+              c = vertex(mesh, mesh.triangles[t + 2]);
+    const Vec centre{std::round(a.x), std::round(a.y), std::round(a.z)};
+    if (dot(normal_of(a, b, c), a + b + c - centre * 3) <= 0) ++inwards;
+  }
+  CHECK(inwards == 0);
+}
+
+}  // namespace powercell::test
