@@ -74,7 +74,9 @@ struct MeshQuality {
   double regular = 0;
   int euler_characteristic = 0;
   int boundary_loops = 0;
-  bool manifold = false;  ///< every edge has one or two triangles, every vertex one fan, sides agree
+  /// Every edge has one or two triangles, every vertex one fan, at least three triangles where it is closed;
+  /// sides agree.
+  bool manifold = false;
 };
 
 /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0

@@ -15,7 +15,8 @@ std::uint64_t key(std::uint32_t from, std::uint32_t to) {
   return std::uint64_t{from} << 32 | to;
 }
 
-/// Per vertex its triangles; a vertex of one fan is walked once round from the start of that fan.
+/// Per vertex its triangles; a vertex of one fan is walked once round from the start of that fan. A closed
+/// fan of fewer than three triangles is flat: two triangles on the same three corners.
 void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshCheck& check) {
   // Leaving vertex v: from its next corner the fan goes on to the one after.
   struct Step {
@@ -44,12 +45,14 @@ void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshChec
     for (auto at = first; at != last; ++at)
       if (!std::binary_search(led_to.begin(), led_to.end(), at->from)) start = at;
     std::size_t walked = 0;
+    bool closed = false;
     for (auto at = start; at != last && walked <= end - begin;) {
       ++walked;
       at = find(at->to);
-      if (at == start) break;
+      closed = at == start;
+      if (closed) break;
     }
-    if (walked != end - begin) check.not_manifold.push_back(steps[begin].v);
+    if (walked != end - begin || (closed && walked < 3)) check.not_manifold.push_back(steps[begin].v);
     begin = end;
   }
 }

@@ -48,4 +48,21 @@ TEST_CASE("relaxation turns no triangle of a coarse mesh inside out") {
   CHECK(inwards == 0);
 }
 
+TEST_CASE("a small closed part has a volume") {
+  TriangleMesh balls;
+  add_ball(balls, {0, 0, 0}, 1);
+  add_ball(balls, {3, 0, 0}, 0.02);
+  RemeshOptions options;
+  options.count = 60;
+  options.rounds = 2;
+  const TriangleMesh mesh = remesh(balls.vertices, balls.triangles, options).mesh;
+  const MeshQuality quality = mesh_quality(mesh.vertices, mesh.triangles);
+  CHECK(quality.manifold);
+  CHECK(quality.euler_characteristic == 4);
+  std::size_t of_small = 0;
+  for (const std::uint32_t v : mesh.triangles)
+    if (vertex(mesh, v).x > 2) ++of_small;
+  CHECK(of_small >= 3 * 4);  // a tetrahedron at least
+}
+
 }  // namespace powercell::test

@@ -43,9 +43,10 @@ TEST_CASE("lists of triangles that are no manifold are told from those that are"
   CHECK(open.euler == 1);
   CHECK(open.loops == 1);
   CHECK(open.boundary_edges.size() == 3);
-  // A triangle turned over, one twice, one more at an edge, two fans at a vertex.
+  // A triangle turned over, one twice, one and its back, one more at an edge, two fans at a vertex.
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4).not_manifold.empty());
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 1, 2}}, 3).not_manifold.empty());
+  CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 2, 1}}, 3).not_manifold.empty());
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 5).not_manifold.empty());
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 3, 4}}, 5).not_manifold.empty());
 }
