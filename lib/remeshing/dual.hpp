@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "lib/remeshing/sampling.hpp"
@@ -30,8 +31,9 @@ struct Defects {
 DualMesh dual_of(const Sampling& sampling, Defects& defects);
 
 /// Adds seeds where there are defects until there are none.
-/// \param most  seeds there may be in the end
-/// \throw Error invalid_argument when they do not suffice
-DualMesh mend(Sampling& sampling, std::size_t most);
+/// \param most      seeds there may be in the end
+/// \param progress  called with 1 before each round, as the points are spread; false stops
+/// \throw Error invalid_argument when they do not suffice; interrupted
+DualMesh mend(Sampling& sampling, std::size_t most, const std::function<bool(double)>& progress);
 
 }  // namespace powercell::remeshing

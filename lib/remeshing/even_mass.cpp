@@ -6,6 +6,7 @@
 #include <powercell/transport.hpp>
 #include <string>
 
+#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/work_mesh.hpp"
 
 namespace powercell::remeshing {
@@ -122,8 +123,7 @@ std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing,
       throw Error(ErrorCode::not_converged, "the masses of the cells could not be made equal: " +
                                                 std::to_string(result.error) + " is left");
     const double moved = move_to_centroids(sampling, sizing, result.centroid, points);
-    if (progress && !progress(static_cast<double>(round + 1) / rounds))
-      throw Error(ErrorCode::interrupted, "interrupted");
+    tell(progress, static_cast<double>(round + 1) / rounds);
     if (moved < at_rest) break;
     solver.move_seeds(points.positions());
   }

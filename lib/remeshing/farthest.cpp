@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <powercell/error.hpp>
 
+#include "lib/remeshing/interrupt.hpp"
+
 namespace powercell::remeshing {
 namespace {
+
+constexpr std::size_t steps_between_calls = 256;  // added or moved seeds
 
 /// A shuffle that is the same on every machine.
 void shuffle(std::vector<std::uint32_t>& ids, std::mt19937_64& random) {
@@ -13,12 +17,13 @@ void shuffle(std::vector<std::uint32_t>& ids, std::mt19937_64& random) {
 
 }  // namespace
 
-void fill_farthest(Sampling& sampling, std::size_t count) {
+void fill_farthest(Sampling& sampling, std::size_t count, const std::function<bool(double)>& progress) {
   if (sampling.diagram().alive() == 0 && count > 0) {
     const Surface& surface = sampling.diagram().surface();
     sampling.add_free({0, surface.corner(0, 0)});
   }
-  while (sampling.diagram().alive() < count) {
+  for (std::size_t added = 0; sampling.diagram().alive() < count; ++added) {
+    if (added % steps_between_calls == 0) tell(progress, 0);
     const FarPoint far = sampling.farthest();
     if (far.place.triangle == nothing)
       throw Error(ErrorCode::invalid_argument,
@@ -44,10 +49,10 @@ std::vector<double> optimise_farthest(Sampling& sampling, int rounds,
       sampling.remove(seed);
       const FarPoint far = sampling.farthest();
       sampling.add_free(far.place.triangle == nothing ? old : far.place);
-      if (++done % 256 == 0 && progress &&
-          !progress((round + static_cast<double>(done) / static_cast<double>(order.size())) / rounds))
-        throw Error(ErrorCode::interrupted, "interrupted");
+      if (++done % steps_between_calls == 0)
+        tell(progress, (round + static_cast<double>(done) / static_cast<double>(order.size())) / rounds);
     }
+    tell(progress, (round + 1.0) / rounds);
     history.push_back(sampling.least_spacing());
     without_gain = history.back() > best * at_rest ? 0 : without_gain + 1;
     best = std::max(best, history.back());

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "lib/remeshing/dual.hpp"
+#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/mesh_check.hpp"
 
 namespace powercell::remeshing {
@@ -53,9 +54,10 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
 
 }  // namespace
 
-DualMesh mend(Sampling& sampling, std::size_t most) {
+DualMesh mend(Sampling& sampling, std::size_t most, const std::function<bool(double)>& progress) {
   const Surface& surface = sampling.diagram().surface();
   while (true) {
+    tell(progress, 1);
     Defects defects;
     DualMesh dual = dual_of(sampling, defects);
     if (defects.none()) {

@@ -79,7 +79,7 @@ std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing, c
   const std::vector<Curve> curves = kept_curves(surface, options.sharp_angle);
   auto sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
   sampling->place_on_curves(options.count);
-  fill_farthest(*sampling, options.count);
+  fill_farthest(*sampling, options.count, options.progress);
   if (options.method == RemeshMethod::farthest_point) {
     result.least_spacing = optimise_farthest(*sampling, options.rounds, options.progress);
     return sampling;
@@ -113,7 +113,7 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   const std::unique_ptr<Sampling> sampling = sample(surface, sizing, options, result);
   result.seconds_sample = watch.lap();
 
-  const DualMesh dual = mend(*sampling, 2 * options.count + 200);
+  const DualMesh dual = mend(*sampling, 2 * options.count + 200, options.progress);
   result.added = sampling->diagram().alive() - options.count;
   WorkMesh mesh(*sampling, dual);
   result.seconds_dual = watch.lap();

@@ -26,8 +26,8 @@ using Rows = std::vector<std::array<std::uint32_t, 3>>;
 WorkMesh mesh_of_300(const Surface& surface, const Sizing& sizing) {
   Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
   sampling.place_on_curves(300);
-  fill_farthest(sampling, 300);
-  return WorkMesh(sampling, mend(sampling, 600));
+  fill_farthest(sampling, 300, {});
+  return WorkMesh(sampling, mend(sampling, 600, {}));
 }
 
 }  // namespace

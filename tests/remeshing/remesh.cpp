@@ -201,6 +201,30 @@ TEST_CASE("transport spreads the masses and can be interrupted") {
   CHECK(code_of(ring, options) == ErrorCode::interrupted);
 }
 
+TEST_CASE("progress is told from the first seeds to the dual, of few points too, and can stop at each call") {
+  const TriangleMesh ring = small_torus();
+  RemeshOptions options;
+  options.count = 60;
+  options.rounds = 4;
+  std::vector<double> told;
+  options.progress = [&](double done) {
+    told.push_back(done);
+    return true;
+  };
+  remesh(ring.vertices, ring.triangles, options);
+  REQUIRE(told.size() > 4);
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  CHECK(told.front() == 0);
+  CHECK(std::count(told.begin(), told.end(), 0.25) == 1);
+  CHECK(told.back() == 1);
+  for (std::size_t call = 0; call < told.size(); ++call) {
+    std::size_t calls = 0;
+    options.progress = [&](double) { return calls++ < call; };
+    CHECK(code_of(ring, options) == ErrorCode::interrupted);
+    CHECK(calls == call + 1);
+  }
+}
+
 TEST_CASE("what cannot be done is refused") {
   RemeshOptions options;
   options.count = 3;
