@@ -4,6 +4,7 @@
 #include <powercell/remeshing.hpp>
 #include <tuple>
 
+#include "lib/remeshing/frame.hpp"
 #include "lib/remeshing/mesh_check.hpp"
 #include "lib/remeshing/nearest.hpp"
 #include "lib/remeshing/triangle.hpp"
@@ -49,11 +50,23 @@ double regular_share(const std::vector<std::array<std::uint32_t, 3>>& rows, cons
   return static_cast<double>(regular) / static_cast<double>(used);
 }
 
+/// Coordinates in which both surfaces have about the size 1, as areas are squared.
+Frame common_frame(const TriangleMesh& a, const TriangleMesh& b) {
+  std::vector<double> vertices = a.vertices;
+  vertices.insert(vertices.end(), b.vertices.begin(), b.vertices.end());
+  std::vector<std::uint32_t> triangles = a.triangles;
+  const auto first = static_cast<std::uint32_t>(a.vertices.size() / 3);
+  for (const std::uint32_t v : b.triangles) triangles.push_back(first + v);
+  return frame_of(vertices, triangles);
+}
+
 }  // namespace
 
 MeshQuality mesh_quality(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
   const auto rows = rows_of(vertices, triangles);
   const MeshCheck check = check_mesh(rows, vertices.size() / 3);
+  // Areas are squared: beyond 10^77 and below 10^-77 that is no number.
+  const std::vector<double> scaled = frame_of(vertices, triangles).to(vertices);
   MeshQuality quality;
   quality.vertices = static_cast<std::size_t>(std::count(check.used.begin(), check.used.end(), true));
   quality.triangles = rows.size();
@@ -61,7 +74,7 @@ MeshQuality mesh_quality(std::span<const double> vertices, std::span<const std::
   quality.angle_min = 180;
   std::size_t below_30 = 0;
   for (const auto& row : rows) {
-    const auto [a, b, c] = corners(vertices, row);
+    const auto [a, b, c] = corners(scaled, row);
     const double q = triangle_quality(a, b, c);
     quality.q_min = std::min(quality.q_min, q);
     quality.q_mean += q / static_cast<double>(rows.size());
@@ -86,17 +99,19 @@ MeshQuality mesh_quality(std::span<const double> vertices, std::span<const std::
 
 double farthest_from(const TriangleMesh& a, const TriangleMesh& b, std::size_t samples) {
   const auto rows_a = rows_of(a.vertices, a.triangles), rows_b = rows_of(b.vertices, b.triangles);
+  const Frame frame = common_frame(a, b);
+  const std::vector<double> vertices_a = frame.to(a.vertices), vertices_b = frame.to(b.vertices);
   std::vector<std::array<Vec, 3>> target;
-  for (const auto& row : rows_b) target.push_back(corners(b.vertices, row));
+  for (const auto& row : rows_b) target.push_back(corners(vertices_b, row));
   const NearestPoint nearest(std::move(target));
   double area = 0, most = 0;
   for (const auto& row : rows_a) {
-    const auto [p, q, r] = corners(a.vertices, row);
+    const auto [p, q, r] = corners(vertices_a, row);
     area += norm(normal_of(p, q, r)) / 2;
   }
   const double share = area / static_cast<double>(std::max<std::size_t>(samples, 1));
   for (const auto& row : rows_a) {
-    const auto [p, q, r] = corners(a.vertices, row);
+    const auto [p, q, r] = corners(vertices_a, row);
     // A grid of n^2 small triangles has (n+1)(n+2)/2 corners.
     const double wanted = share > 0 ? norm(normal_of(p, q, r)) / 2 / share : 0;
     const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(2 * wanted))));
@@ -105,7 +120,7 @@ double farthest_from(const TriangleMesh& a, const TriangleMesh& b, std::size_t s
         most = std::max(most, nearest.distance2(p + (q - p) * (static_cast<double>(i) / n) +
                                                 (r - p) * (static_cast<double>(j) / n)));
   }
-  return std::sqrt(most);
+  return std::sqrt(most) * frame.length;
 }
 
 }  // namespace powercell

@@ -212,6 +212,23 @@ TEST_CASE("figures of meshes") {
   CHECK(mesh_quality(torus.vertices, torus.triangles).regular == 1);
 }
 
+TEST_CASE("figures of a mesh and distances do not depend on its size") {
+  const TriangleMesh ball = sphere(4);
+  const MeshQuality expected = mesh_quality(ball.vertices, ball.triangles);
+  for (const double scale : {1e-99, 1e-80, 1e80, 1e99}) {
+    CAPTURE(scale);
+    TriangleMesh scaled = ball, half = ball;
+    for (double& x : scaled.vertices) x *= scale;
+    for (double& x : half.vertices) x *= scale / 2;
+    const MeshQuality q = mesh_quality(scaled.vertices, scaled.triangles);
+    CHECK(q.q_min == doctest::Approx(expected.q_min));
+    CHECK(q.q_mean == doctest::Approx(expected.q_mean));
+    CHECK(q.angle_min == doctest::Approx(expected.angle_min));
+    CHECK(q.angle_max == doctest::Approx(expected.angle_max));
+    CHECK(farthest_from(scaled, half, 20000) / scale == doctest::Approx(0.5).epsilon(0.02));
+  }
+}
+
 TEST_CASE("distances between surfaces") {
   TriangleMesh low = cube_of_12(), high = low;
   for (std::size_t k = 2; k < high.vertices.size(); k += 3) high.vertices[k] += 0.25;
