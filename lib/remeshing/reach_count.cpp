@@ -86,9 +86,8 @@ void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   }
   if (mesh.alive() > count)
     throw Error(ErrorCode::invalid_argument,
-                "too few points for the topology of the surface: not fewer than " +
-                    std::to_string(mesh.alive()) + " are possible, " + std::to_string(count) +
-                    " were asked for");
+                "too few points for the topology of the surface: " + std::to_string(count) +
+                    " could not be reached from a mesh of " + std::to_string(mesh.alive()) + " points");
   while (mesh.alive() < count) {
     if (!split_longest(mesh, surface, sizing))
       throw Error(ErrorCode::invalid_argument, "too many points: there is no edge left to split");
