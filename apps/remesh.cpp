@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <powercell/remeshing.hpp>
@@ -103,6 +105,21 @@ void tell(const RemeshArguments& arguments, const Outcome& o) {
       o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax);
 }
 
+/// The mesh with vertices at one position made one, as the library takes it: only so its topology is that of
+/// the new mesh.
+TriangleMesh joined(const TriangleMesh& mesh) {
+  std::map<std::array<double, 3>, std::uint32_t> number;
+  TriangleMesh result;
+  for (const std::uint32_t v : mesh.triangles) {
+    const double* at = &mesh.vertices[3 * std::size_t{v}];
+    const auto [found, added] =
+        number.try_emplace({at[0], at[1], at[2]}, static_cast<std::uint32_t>(number.size()));
+    if (added) result.vertices.insert(result.vertices.end(), at, at + 3);
+    result.triangles.push_back(found->second);
+  }
+  return result;
+}
+
 /// A mesh of another topology is a fault of the library, and no file of it is written.
 void require_same_topology(const Outcome& o) {
   if (!o.after.manifold ||
@@ -141,12 +158,13 @@ int run(const RemeshArguments& arguments) {
   Outcome outcome;
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);
-  const TriangleMesh input{domain.vertices, domain.elements};
+  const TriangleMesh given{domain.vertices, domain.elements};
   outcome.diagonal = diagonal_of(domain.domain);
   outcome.read = watch.lap();
-  outcome.result = remesh_file(arguments, input);
+  outcome.result = remesh_file(arguments, given);
   outcome.remesh = watch.lap();
   const TriangleMesh& mesh = outcome.result.mesh;
+  const TriangleMesh input = joined(given);
   outcome.before = mesh_quality(input.vertices, input.triangles);
   outcome.after = mesh_quality(mesh.vertices, mesh.triangles);
   require_same_topology(outcome);

@@ -27,6 +27,16 @@ class Remesh(ToolTest):
         first = (self.folder / "a.off").read_text().split()
         self.assertEqual(first[1:3], ["700", "1408"])
 
+    def test_vertices_at_one_place_count_as_one(self):
+        corners = [[k & 1, k >> 1 & 1, k >> 2 & 1] for k in range(8)]
+        faces = [0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]
+        points = [" ".join(map(str, corners[k])) for face in faces for k in face]
+        self.write("cube.off", "\n".join(["OFF", "24 6 0", *points, *(f"4 {k} {k + 1} {k + 2} {k + 3}" for k in
+                                                                       range(0, 24, 4))]) + "\n")
+        report = self.report("remesh", "cube.off", "--count", 100, "--rounds", 2, "-o", "a.off")
+        self.assertEqual((report["input"]["vertices"], report["input"]["euler_characteristic"]), (8, 2))
+        self.assertEqual((report["mesh"]["euler_characteristic"], report["mesh"]["boundary_loops"]), (2, 0))
+
     def test_transport(self):
         report = self.report("remesh", "torus:12", "--count", 200, "--method", "transport", "--rounds", 2)
         self.assertEqual(report["method"], "transport")
