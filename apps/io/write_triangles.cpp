@@ -87,6 +87,31 @@ void write_stl_triangles(AtomicFile& file, const TriangleMesh& mesh) {
   }
 }
 
+float single(double x) {
+  if (std::fabs(x) <= std::numeric_limits<float>::max()) return static_cast<float>(x);
+  return std::numeric_limits<float>::infinity();
+}
+
+/// STL holds single precision. \throw Error write_failed where that changes an edge by more than half of its
+/// length, so that triangles may lose their area or fold
+void require_single_precision(const std::string& path, const TriangleMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* a = &mesh.vertices[3 * std::size_t{mesh.triangles[t + c]}];
+      const double* b = &mesh.vertices[3 * std::size_t{mesh.triangles[t + (c + 1) % 3]}];
+      double edge[3], change[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        edge[k] = b[k] - a[k];
+        change[k] = double{single(b[k])} - double{single(a[k])} - edge[k];
+      }
+      if (std::hypot(change[0], change[1], change[2]) <= 0.5 * std::hypot(edge[0], edge[1], edge[2]))
+        continue;
+      throw Error(ErrorCode::write_failed,
+                  path + ": STL holds single precision, which ruins triangle " + std::to_string(t / 3) +
+                      "; write .ply, or scale the surface and move it to the origin");
+    }
+}
+
 struct Format {
   std::string_view extension;
   void (*write)(AtomicFile& file, const TriangleMesh& mesh);
@@ -117,6 +142,7 @@ void write_triangles(const std::string& path, const TriangleMesh& mesh) {
   const std::string extension = lower_extension(path);
   for (const Format& format : formats) {
     if (extension != format.extension) continue;
+    if (extension == ".stl") require_single_precision(path, mesh);
     AtomicFile file(path);
     format.write(file, mesh);
     file.commit();

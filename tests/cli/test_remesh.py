@@ -43,6 +43,20 @@ class Remesh(ToolTest):
         self.assertEqual((report["mesh"]["vertices"], report["mesh"]["triangles"]), (200, 400))
         self.bad(2, "--method", "remesh", "torus:12", "--count", 50, "--method", "other")
 
+    def test_stl_that_single_precision_would_ruin(self):
+        for name, scale, shift in ("far", 1, 1e7), ("large", 1e39, 0), ("small", 1e-46, 0), ("good", 1e3, 1e5):
+            corners = [[scale * (k == i) * s + shift * (k == 0) for k in range(3)] for i in range(3) for s in (1, -1)]
+            faces = "024", "214", "134", "304", "205", "125", "315", "035"
+            self.write(name + ".off", "\n".join(["OFF", "6 8 0", *(" ".join(map(repr, p)) for p in corners),
+                                                 *("3 " + " ".join(face) for face in faces)]) + "\n")
+            arguments = "remesh", name + ".off", "--count", 60, "--rounds", 1, "-o"
+            if name == "good":
+                self.report(*arguments, "good.stl")
+                continue
+            self.bad(1, "STL holds single precision", *arguments, name + ".stl")
+            self.assertFalse((self.folder / (name + ".stl")).exists())
+            self.report(*arguments, name + ".ply")
+
     def test_what_cannot_be_remeshed(self):
         pages = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n"
         self.write("pages.off", pages)
