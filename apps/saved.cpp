@@ -20,6 +20,13 @@ double number(const json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
+// Not by get<std::size_t>(), which turns 1e80 and -1 into some other number.
+std::size_t count(const json& value) {
+  if (!value.is_number_unsigned())
+    throw std::invalid_argument(fmt::format("{} is no count", value.dump().substr(0, 40)));
+  return value.get<std::size_t>();
+}
+
 SeedStatus status_of(const std::string& name) {
   if (name == "ok") return SeedStatus::ok;
   if (name == "hidden") return SeedStatus::hidden;
@@ -36,18 +43,21 @@ DomainKind kind_of(const std::string& name) {
 
 std::optional<std::int64_t> border_of(const json& value, std::size_t cells) {
   if (value.is_null()) return std::nullopt;
-  const auto border = value.get<std::int64_t>();
-  if (border >= static_cast<std::int64_t>(cells))
+  if (!value.is_number_integer())
+    throw std::invalid_argument(fmt::format("the border {} is no integer", value.dump().substr(0, 40)));
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() >= cells)
     throw std::invalid_argument("a border names a seed there is not");
-  return border;
+  return value.get<std::int64_t>();
 }
 
 SavedFace face_of(const json& loop, const json& border, bool volume, std::size_t vertices,
                   std::size_t cells) {
   SavedFace face;
-  face.loop = loop.get<std::vector<std::uint32_t>>();
-  for (const std::uint32_t v : face.loop)
+  for (const json& place : loop) {
+    const std::size_t v = count(place);
     if (v >= vertices) throw std::invalid_argument("a face names a vertex there is not");
+    face.loop.push_back(static_cast<std::uint32_t>(v));
+  }
   if (volume) {
     face.border.push_back(border_of(border, cells));
   } else {
@@ -87,9 +97,8 @@ SavedCell cell_of(const json& from, const SavedDiagram& diagram, std::size_t cel
 }
 
 SavedSummary summary_of(const json& from) {
-  return {from.at("cells").get<std::size_t>(), from.at("hidden").get<std::size_t>(),
-          from.at("duplicate").get<std::size_t>(), number(from.at("measure")),
-          number(from.at("domain_measure"))};
+  return {count(from.at("cells")), count(from.at("hidden")), count(from.at("duplicate")),
+          number(from.at("measure")), number(from.at("domain_measure"))};
 }
 
 }  // namespace
