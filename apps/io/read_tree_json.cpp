@@ -71,8 +71,8 @@ NamedTree read_list(const json& list, const std::string& name) {
   return link_rows(std::move(rows), name, false);
 }
 
-// Ids are the names from the root on, joined by slashes; of equal names the second is "name#2". They grow
-// with the square of the depth.
+// Ids are the names from the root on, joined by slashes; where that is an id already, with "#2" and so on at
+// the end. They grow with the square of the depth.
 constexpr std::size_t most_id_bytes = std::size_t{1} << 28;
 
 class Nested {
@@ -106,8 +106,7 @@ class Nested {
     std::string name = as_text(member(object, {"name", "label", "id"}), "name", file_,
                                [&] { return "below '" + above + "'"; });
     if (name.empty()) name = parent < 0 ? "root" : fmt::format("child {}", node);
-    const int times = ++used_[above + name];
-    tree_.id.push_back(times == 1 ? above + name : fmt::format("{}{}#{}", above, name, times));
+    tree_.id.push_back(free_id(above + name));
     id_bytes_ += tree_.id.back().size();
     if (id_bytes_ > most_id_bytes)
       fail_file(
@@ -121,9 +120,19 @@ class Nested {
     return node;
   }
 
+  std::string free_id(const std::string& path) {
+    std::string id = path;
+    if (const auto known = used_.find(path); known != used_.end()) {
+      do id = fmt::format("{}#{}", path, ++known->second);
+      while (used_.contains(id));
+    }
+    used_.emplace(id, 1);
+    return id;
+  }
+
   const std::string& file_;
   NamedTree tree_;
-  std::unordered_map<std::string, int> used_;
+  std::unordered_map<std::string, int> used_;  // ids, and how often each was wanted
   std::size_t id_bytes_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_text.hpp"
@@ -56,6 +57,8 @@ TreeRow read_row(const Fields& fields, const Places& places, const std::string& 
   row.parent = field_of(fields, places[parent_column]);
   row.name = field_of(fields, places[name_column]);
   if (row.id.empty()) fail_line(name, line, "the row has no id");
+  if (printable(row.id) != row.id)
+    fail_line(name, line, "the id is no text in UTF-8; save the table as UTF-8");
   const std::string value = field_of(fields, places[value_column]);
   if (value.empty()) return row;
   const Parsed parsed = parse_number(value, row.value);

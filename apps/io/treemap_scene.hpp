@@ -48,9 +48,6 @@ void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output);
 /// Width of a text of one em in the pictures' font.
 double text_width(const std::string& text, bool bold);
 
-/// Valid UTF-8 without control characters: what is neither becomes U+FFFD.
-std::string printable(const std::string& text);
-
 void draw_treemap_svg(const std::string& path, const TreemapScene& scene, const TreemapOutput& output);
 void draw_treemap_png(const std::string& path, const TreemapScene& scene);
 void draw_treemap_pdf(const std::string& path, const TreemapScene& scene);

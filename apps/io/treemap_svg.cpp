@@ -4,6 +4,7 @@
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/picture_svg_text.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/treemap_scene.hpp"
 
 namespace powercell::io {

@@ -92,6 +92,16 @@ class Treemap(unittest.TestCase):
         self.good("out.json", "-o", "again.json")
         self.measured_again("n.json", "again.json")
 
+    def test_ids_of_equal_names_are_distinct(self):
+        children = [{"name": name, "value": 1} for name in ("x", "x", "x#2", "x", "x#2")]
+        self.write("n.json", json.dumps({"name": "r", "children": children}))
+        self.good("n.json", "-o", "out.json")
+        ids = [row["id"] for row in json.loads((self.folder / "out.json").read_text())]
+        self.assertEqual(ids, ["r", "r/x", "r/x#2", "r/x#2#2", "r/x#3", "r/x#2#3"])
+        self.good("n.json", "--previous", "out.json", "-o", "again.json")
+        (self.folder / "t.csv").write_bytes(b"id,parent,name,value\nr,,r,\n\xe9,r,caf\xe9,1\n\xe8,r,b,1\n")
+        self.refused("t.csv:3: the id is no text in UTF-8; save the table as UTF-8", 1, "t.csv", "-o", "t.svg")
+
     def test_empty_rows_of_spreadsheets_are_passed_over(self):
         self.write("t.csv", 'id,parent,name,value\nr,,root,\n,,,\na,r,"an ""a""",1\nb,r,b,2\n,,,\n')
         self.good("t.csv", "-o", "t.json")
