@@ -11,6 +11,7 @@
 #include "apps/bench/run.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/number_checks.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -90,7 +91,8 @@ constexpr const char* examples =
     "not\n"
     "sum to the domain's are a failure.\n"
     "Examples:\n"
-    "  powercell bench                                      every device and precision, in under two minutes\n"
+    "  powercell bench                                      every device and precision, in under two "
+    "minutes\n"
     "  powercell bench --device gpu --json gpu.json\n"
     "  powercell bench --quick --domain cube --domain part.mesh --precision float\n"
     "  powercell bench --json new.json --compare old.json --fail-below 0.9";
@@ -112,7 +114,7 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
                   "Seeds; else those of --compare, else as many as a run of a second takes")
       ->check(CLI::Range(std::size_t{1}, std::size_t{0x7ffffffe}));
   command.add_option("--repeat", arguments.repeat, "Runs of each kind; the best counts")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_flag("--quick", arguments.quick, "Few seeds, in about ten seconds: rates are lower and vary");
   command.add_flag(
@@ -128,7 +130,7 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
       .add_option("--fail-below", arguments.fail_below,
                   "With --compare: exit with 1 if a rate is below this part of the earlier one")
       ->type_name("RATIO")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->needs(compare);
   add_engine_options(command, arguments);
   command.add_flag("--quiet", arguments.quiet, "No table; errors are still told");

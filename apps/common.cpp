@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "apps/interrupt.hpp"
+#include "apps/io/read_seeds.hpp"
 #include "apps/progress.hpp"
 
 namespace powercell::app {
@@ -17,6 +18,16 @@ const std::map<std::string, Precision> precisions = {
     {"auto", Precision::automatic}, {"double", Precision::float64}, {"float", Precision::float32}};
 const std::map<std::string, Neighbors> providers = {
     {"auto", Neighbors::automatic}, {"tree", Neighbors::tree}, {"flann", Neighbors::flann}};
+
+/// What is wrong with an argument of --seeds, as far as it can be told without a file.
+std::string wrong_seeds(const std::string& spec) {
+  try {
+    if (io::is_random_spec(spec)) io::parse_random_spec(spec);
+    return {};
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
 
 }  // namespace
 
@@ -59,9 +70,11 @@ void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& k
           "square, cube, disk, ball, sphere, torus (with :N for resolution)")
       ->required(required);
   command
-      .add_option("--seeds", seeds,
-                  "Rows 'x y [z] w' as text or CSV, in any order under a header with these names (or lon, lat, "
-                  "weight), an .npy file, or random:N[:LO:HI[:SEED]] with weights from LO to HI")
+      .add_option(
+          "--seeds", seeds,
+          "Rows 'x y [z] w' as text or CSV, in any order under a header with these names (or lon, lat, "
+          "weight), an .npy file, or random:N[:LO:HI[:SEED]] with weights from LO to HI")
+      ->check(wrong_seeds)
       ->required(required);
   command
       .add_option("--kind", kind, "What a file is that could be more than one: polygon, surface or volume")

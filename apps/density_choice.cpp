@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/common.hpp"
 #include "apps/io/read_density.hpp"
 #include "apps/io/read_image.hpp"
 
@@ -30,8 +31,8 @@ void add_density_options(CLI::App& command, DensityArguments& arguments) {
 
 void check(const DensityArguments& arguments) {
   if (!arguments.density.empty() && !arguments.image.empty())
-    refuse("--density and --image exclude each other");
-  if (arguments.bright && arguments.image.empty()) refuse("--bright needs an --image");
+    throw WrongUsage("--density and --image exclude each other");
+  if (arguments.bright && arguments.image.empty()) throw WrongUsage("--bright needs an --image");
 }
 
 Ink read_ink(const DensityArguments& arguments) {

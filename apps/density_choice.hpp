@@ -20,7 +20,7 @@ struct DensityArguments {
 
 void add_density_options(CLI::App& command, DensityArguments& arguments);
 
-/// \throw Error invalid_argument for arguments that contradict each other
+/// \throw WrongUsage for arguments that contradict each other
 void check(const DensityArguments& arguments);
 
 /// What the pixels of the image weigh: 0 to 1, rows from the top.

@@ -10,6 +10,7 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/read_file.hpp"
 
 namespace {
 
@@ -17,7 +18,8 @@ enum ExitCode { done = 0, failed = 1, wrong_usage = 2, was_interrupted = 130 };
 
 int report(int code, std::string message) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  fmt::print(stderr, "powercell: error: {}\n", message);
+  // Names of files are in messages as they were given.
+  fmt::print(stderr, "powercell: error: {}\n", powercell::io::one_line(std::move(message)));
   return code;
 }
 
@@ -25,7 +27,11 @@ int report(int code, std::string message) {
 int report_usage(const CLI::App& app, const std::exception& error) {
   std::string command = "powercell";
   for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
-  return report(wrong_usage, fmt::format("{} (see '{} --help')", error.what(), command));
+  std::string what = error.what();
+  // CLI11 says that a subcommand is missing where there is a word that is none.
+  if (const auto words = app.remaining(); app.get_subcommands().empty() && !words.empty())
+    what = fmt::format("there is no {} '{}'", words[0].starts_with('-') ? "option" : "command", words[0]);
+  return report(wrong_usage, fmt::format("{} (see '{} --help')", what, command));
 }
 
 int run(int argc, char** argv) {
@@ -48,10 +54,8 @@ int run(int argc, char** argv) {
   const std::map<std::string, powercell::app::Command> commands = {
       {"devices", powercell::app::add_devices(app)}, {"diagram", powercell::app::add_diagram(app)},
       {"verify", powercell::app::add_verify(app)},   {"demo", powercell::app::add_demo(app)},
-      {"bench", powercell::app::add_bench(app)},
-      {"transport", powercell::app::add_transport(app)},
-      {"treemap", powercell::app::add_treemap(app)},
-      {"remesh", powercell::app::add_remesh(app)},
+      {"bench", powercell::app::add_bench(app)},     {"transport", powercell::app::add_transport(app)},
+      {"treemap", powercell::app::add_treemap(app)}, {"remesh", powercell::app::add_remesh(app)},
       {"sample", powercell::app::add_sample(app)},
   };
   try {

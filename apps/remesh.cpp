@@ -14,6 +14,7 @@
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/write_triangles.hpp"
+#include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
 #include "apps/report.hpp"
 
@@ -229,7 +230,7 @@ Command add_remesh(CLI::App& app) {
   command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
   command->add_option("--device", arguments->device, "For transport: as 'powercell diagram' takes it");
   command->add_option("--threads", arguments->threads, "For transport: on the host and of PoCL; 0 means all")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_below_zero());
   add_output_options(*command, *arguments);
   command->footer(examples);
   return [arguments] { return run(*arguments); };

@@ -162,7 +162,8 @@ void add_source(CLI::App& command, SourceArguments& source) {
   command
       .add_option("--dot-contrast", source.dot_contrast,
                   "Image: 0 for equal dots, towards 1 for ever more different ones; ink is the same")
-      ->check(CLI::Range(0.0, 0.9));
+      ->check(CLI::Range(0.0, 0.9))
+      ->needs("--image");
   command
       .add_option("--paper", source.paper,
                   "The experiment of Xiao et al. 2023 in 2 or 3 dimensions: 1,000 points, "

@@ -16,6 +16,7 @@
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/io/write_transport.hpp"
+#include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
@@ -146,11 +147,13 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 }
 
 [[noreturn]] void refuse_unconverged(const TransportResult& result, const RunReport& report) {
+  std::vector<double> target(result.target.size());  // of a cell: that of all seeds merged in it
+  for (std::size_t i = 0; i < target.size(); ++i) target[result.merged_with[i]] += result.target[i];
   std::size_t worst = 0;
   double error = -1;
   for (std::size_t i = 0; i < result.mass.size(); ++i) {
     if (result.merged_with[i] != i) continue;
-    const double here = std::abs(result.mass[i] / result.target[i] - 1);
+    const double here = std::abs(result.mass[i] / target[i] - 1);
     if (here > error) {
       error = here;
       worst = i;
@@ -160,7 +163,7 @@ std::string result_line(const TransportReport& report, const TransportResult& re
               fmt::format("not converged: after {} the masses are met to {:.1e}, not {:.1e} (seed {}: {:.6g} "
                           "for {:.6g}){}; try --max-steps, --tolerance or --precision double",
                           counted(result.newton_steps(), "step"), result.error, result.tolerance, worst,
-                          result.mass[worst], result.target[worst],
+                          result.mass[worst], target[worst],
                           report.files.empty() ? "" : "; the files hold the best weights found"));
 }
 
@@ -232,8 +235,8 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
   command
       .add_option("--tolerance", arguments.tolerance,
                   "Largest relative error of a mass; 1e-6 (single precision: 1e-3) if not given")
-      ->check(CLI::PositiveNumber & CLI::Range(1e-16, 0.999));
-  command.add_option("--max-steps", arguments.most_steps, "Steps at most")->check(CLI::NonNegativeNumber);
+      ->check(between(1e-16, 0.999));
+  command.add_option("--max-steps", arguments.most_steps, "Steps at most")->check(not_below_zero());
   command
       .add_option("--linear", arguments.linear,
                   "What solves the linear systems: auto, dense, direct or multilevel")

@@ -10,6 +10,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/read_tree.hpp"
 #include "apps/io/write_treemap.hpp"
+#include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
@@ -165,21 +166,21 @@ Command add_treemap(CLI::App& app) {
       ->type_name("FILE.json");
   command
       ->add_option("--rounds", arguments->rounds, "Rounds of moving cells at most; more makes them rounder")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_below_zero())
       ->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "Largest relative error of an area")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--seed", arguments->random_seed, "Where cells start: another number, another layout")
       ->capture_default_str();
   command->add_option("--size", arguments->size, "Long side of the picture in pixels")
-      ->check(CLI::Range(64.0, 20000.0))
+      ->check(between(64, 20000))
       ->capture_default_str();
   command->add_flag("--no-labels", arguments->no_labels, "No names in the picture");
   command->add_option("--device", arguments->device,
                       "For groups of thousands: part of a device's name, P:D, cpu or gpu");
   command->add_option("--threads", arguments->threads, "Threads on the host; 0 means all")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_below_zero());
   add_output_options(*command, *arguments);
   command->footer(examples);
   return [arguments] { return run(*arguments); };

@@ -12,6 +12,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
+#include "apps/number_checks.hpp"
 #include "apps/report.hpp"
 #include "apps/saved.hpp"
 
@@ -143,12 +144,12 @@ int conclude(const VerifyArguments& arguments, const std::string& subject, const
 }
 
 int run(const VerifyArguments& arguments) {
-  if (!arguments.file.empty() && !arguments.domain.empty())
-    throw Error(ErrorCode::invalid_argument, "give a saved diagram, or --domain and --seeds, not both");
+  if (!arguments.file.empty() && !(arguments.domain + arguments.seeds).empty())
+    throw WrongUsage("give a saved diagram, or --domain and --seeds, not both");
   if (arguments.domain.empty() != arguments.seeds.empty())
-    throw Error(ErrorCode::invalid_argument,
-                "--domain and --seeds go together: give both, or neither to check "
-                "the device");
+    throw WrongUsage(
+        "--domain and --seeds go together: give both, or neither to check "
+        "the device");
   if (!arguments.file.empty()) return conclude(arguments, arguments.file, check_saved_file(arguments));
   const Device device = open_device(arguments);
   return conclude(
@@ -166,7 +167,7 @@ Command add_verify(CLI::App& app) {
                       "A diagram saved by 'diagram -o FILE.json'; its precision by --precision");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, false);
   command->add_option("--count", arguments->count, "Random seeds of each diagram that checks a device")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command
       ->add_option("--samples", arguments->samples, "Random points whose owner is sought by trying all seeds")

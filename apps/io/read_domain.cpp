@@ -24,7 +24,8 @@ constexpr MeshFormat kMeshFormats[] = {{".off", parse_off}, {".obj", parse_obj},
 DomainArrays polygon_arrays(std::vector<PolygonPart> parts, std::optional<DomainKind> kind,
                             const std::string& name) {
   if (kind.value_or(DomainKind::polygon) != DomainKind::polygon) {
-    fail_file(name, fmt::format("holds a polygon, not a {}; leave out --kind", kind_name(*kind)));
+    fail_file(name, fmt::format("holds a polygon, not a {} as is asked for; name another domain or kind",
+                                kind_name(*kind)));
   }
   DomainArrays arrays;
   arrays.parts = std::move(parts);
@@ -91,8 +92,9 @@ LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind
   if (builtin) {
     arrays = builtin_domain(spec);
     if (kind.value_or(arrays.kind) != arrays.kind) {
-      throw Error(ErrorCode::invalid_argument, fmt::format("domain {} is a {}, not a {}; leave out --kind",
-                                                           spec, kind_name(arrays.kind), kind_name(*kind)));
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("domain {} is a {}, not a {} as is asked for; name another domain or kind",
+                              spec, kind_name(arrays.kind), kind_name(*kind)));
     }
   } else {
     const std::string extension = lower_extension(spec);

@@ -13,14 +13,18 @@
 
 namespace powercell::io {
 
-std::string readable(std::string what) {
-  constexpr std::size_t most = 400;
-  if (what.size() > most) what = what.substr(0, most) + "...";
-  for (char& c : what) {
+std::string one_line(std::string text) {
+  for (char& c : text) {
     const auto code = static_cast<unsigned char>(c);
     if (code < ' ' || code == 0x7f) c = '?';
   }
-  return what;
+  return text;
+}
+
+std::string readable(std::string what) {
+  constexpr std::size_t most = 400;
+  if (what.size() > most) what = what.substr(0, most) + "...";
+  return one_line(std::move(what));
 }
 
 void fail_file(const std::string& name, const std::string& what) {

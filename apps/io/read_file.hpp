@@ -15,8 +15,11 @@ std::string read_file(const std::string& path);
 /// ".off" for "a/b/Mesh.OFF"; empty where the name has none.
 std::string lower_extension(const std::string& path);
 
-/// `what` for a message, which may quote a file or its parser: without control characters, so that it stays
-/// on one line and leaves the terminal alone, and cut off where it would fill the terminal.
+/// Without control characters, so that it stays on one line and leaves the terminal alone.
+std::string one_line(std::string text);
+
+/// `what` for a message, which may quote a file or its parser: on one line, and cut
+/// off where it would fill the terminal.
 std::string readable(std::string what);
 
 /// \throw Error invalid_file, always: "NAME: what".

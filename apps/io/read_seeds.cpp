@@ -6,8 +6,12 @@
 
 namespace powercell::io {
 
+bool is_random_spec(const std::string& spec) {
+  return spec.starts_with("random:") || spec == "random";
+}
+
 SeedTable read_seeds(const std::string& spec, const Domain& domain) {
-  if (spec.starts_with("random:") || spec == "random") return random_seeds(parse_random_spec(spec), domain);
+  if (is_random_spec(spec)) return random_seeds(parse_random_spec(spec), domain);
   const std::string extension = lower_extension(spec);
   if (extension == ".npz") fail_file(spec, "is an archive of arrays; save one array as .npy");
   const std::string bytes = read_file(spec);

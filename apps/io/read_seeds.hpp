@@ -40,6 +40,8 @@ struct RandomSeeds {
   double low = 0, high = 0;
   std::uint64_t seed = 1;
 };
+bool is_random_spec(const std::string& spec);
+/// \throw Error invalid_argument
 RandomSeeds parse_random_spec(const std::string& spec);
 
 /// Seeds uniform by measure in the domain (on it, where it is a surface), weights uniform in [low, high].

@@ -258,6 +258,37 @@ class Names(ToolTest):
         self.assertTrue(self.report("demo", "-o", name[0])["open"].startswith("\ufffd"))
 
 
+    def test_line_ends_in_names_leave_messages_on_one_line(self):
+        self.bad(1, r"no\?such\.csv", "diagram", "--domain", "square", "--seeds", "no\nsuch.csv")
+
+
+class WrongUsage(ToolTest):
+    """What no file can make right exits with 2."""
+
+    def test_words_that_are_no_commands(self):
+        self.bad(2, "there is no command 'diagramm'", "diagramm")
+        self.bad(2, "there is no option '--domain'", "--domain", "square")
+
+    def test_numbers_out_of_range_are_told_in_few_digits(self):
+        treemap = ("treemap", "t.csv", "-o", "t.svg")
+        for says, arguments in ((r"--tolerance: 0 is not above 0 ", (*treemap, "--tolerance", "0")),
+                                (r"--size: 1e9 is not from 64 to 20000 ", (*treemap, "--size", "1e9")),
+                                (r"--size: 'x' is not a number ", (*treemap, "--size", "x")),
+                                (r"--repeat: -1 is not above 0 ", ("bench", "--repeat", "-1")),
+                                (r"--tolerance: 1 is not from 1e-16 to 0\.999 ",
+                                 ("transport", "--domain", "square", "--seeds", "random:9", "--tolerance", "1"))):
+            with self.subTest(arguments=arguments):
+                self.bad(2, says, *arguments)
+
+    def test_options_that_need_others(self):
+        self.bad(2, "dot-contrast requires --image", "sample", "--dot-contrast", "0.5")
+        self.bad(2, "not both", "verify", "a.json", "--seeds", "random:9")
+
+    def test_kinds_that_a_domain_is_not(self):
+        self.bad(1, "domain square is a polygon, not a surface as is asked for", "remesh", "square",
+                 "--count", "9", "-o", "m.off")
+
+
 class DiagramErrors(ToolTest):
     def diagram(self, *arguments):
         return ("diagram", "--domain", "square", "--seeds", "random:20", *arguments)
@@ -272,7 +303,7 @@ class DiagramErrors(ToolTest):
         self.bad(1, r"s\.txt:2", "diagram", "--domain", "square", "--seeds", self.write("s.txt", "0 0 0\n0 nan 0\n"))
         self.bad(1, r"s\.txt:3", "diagram", "--domain", "square",
                  "--seeds", self.write("s.txt", "0 0 0\n.5 .5 0\n0 zero 0\n"))
-        self.bad(1, "random", "diagram", "--domain", "square", "--seeds", "random:many")
+        self.bad(2, "random", "diagram", "--domain", "square", "--seeds", "random:many")
 
     def test_bad_domains_name_the_element(self):
         self.write("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
@@ -298,7 +329,7 @@ class DiagramErrors(ToolTest):
                                  ("l.off", "OFF\n1099511627776 1 0\n0 0 0\n", "l.off:2: 1099511627776 vertices")):
             with self.subTest(domain=text):
                 self.bad(1, says, "diagram", "--domain", self.write(name, text), "--seeds", "random:5")
-        self.bad(1, "N is above 2147483646", "diagram", "--domain", "square", "--seeds", "random:2147483647")
+        self.bad(2, "N is above 2147483646", "diagram", "--domain", "square", "--seeds", "random:2147483647")
 
     def test_outputs_are_refused_before_anything_is_computed(self):
         self.bad(2, r"a\.xyz: unknown extension.*--help", *self.diagram("-o", "a.xyz", "-o", "a.svg"))
@@ -378,7 +409,7 @@ class Verify(ToolTest):
     def test_files(self):
         out = self.good("verify", "--domain", DATA / "italy.geojson", "--seeds", "random:300:0:500").stdout
         self.assertIn("all laws hold", out)
-        self.bad(1, "together", "verify", "--domain", "square")
+        self.bad(2, "together", "verify", "--domain", "square")
 
     def saved(self, shape):
         self.good("diagram", "--domain", shape, "--seeds", "random:80:0:0.02:5", "-o", "a.json", "--quiet")
@@ -434,6 +465,12 @@ class Verify(ToolTest):
         self.bad(1, "a.json", "verify", self.write("a.json", '{"cells": []}'))
         self.bad(1, "cell 0", "verify", self.write(
             "a.json", '{"domain": {"kind": "polygon", "measure": 1}, "cells": [{"seed": 0}]}'))
+        for place in (1e80, -1, 0.5):
+            for says, key in (("is no count", "faces"), ("is no integer", "borders")):
+                saved = self.saved("square")
+                saved["cells"][0][key][0][0] = place
+                if key == "faces" or place != -1:
+                    self.bad(1, f"cell 0: .*({says})", "verify", self.write("a.json", json.dumps(saved)))
 
 
 class Demo(ToolTest):

@@ -88,7 +88,7 @@ class Sample(ToolTest):
                 (1, "polygon", ["--image", "ink.png", "--domain", "sphere"]),
                 (1, "formula", ["--density", "1 +"]),
                 (1, "x = ", ["--density", "x - 0.5"]),
-                (1, "exclude", ["--density", "x", "--image", "ink.png"]),
+                (2, "exclude", ["--density", "x", "--image", "ink.png"]),
                 (1, "constant", ["--density", "1+x", "--periodic"]),
                 (1, "box", ["--domain", "disk", "--periodic"]),
                 (1, "--cells", ["--periodic", "--cells", "cells.json"]),

@@ -71,8 +71,8 @@ class Transport(ToolTest):
                     self.assertAlmostEqual(float(row["mass"]) * 60 / report["total_mass"], 1, delta=2e-6)
                 moment = sum(float(row["mass"]) * float(row["cx"]) for row in rows)
                 self.assertAlmostEqual(moment, left / 8 + right * 3 / 8, delta=1e-4)
-        self.bad(1, "exclude", *self.square, "random:9", "--image", "i.png", "--density", "x")
-        self.bad(1, "--bright needs", *self.square, "random:9", "--bright")
+        self.bad(2, "exclude", *self.square, "random:9", "--image", "i.png", "--density", "x")
+        self.bad(2, "--bright needs", *self.square, "random:9", "--bright")
         self.bad(1, "polygon", "transport", "--domain", "cube", "--seeds", "random:9", "--image", "i.png")
         self.bad(1, "blank", *self.square, "random:9", "--image", self.image("white.png", [[255] * 4] * 4))
 
