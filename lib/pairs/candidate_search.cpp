@@ -9,6 +9,9 @@ namespace {
 
 // At most this many seeds in question are put in a list, all of which is tested at once.
 constexpr std::uint64_t few_seeds = 2048;
+// Where splitting does not thin them out even so many are: there weights vary with the position, as those of
+// seeds far outside whose cells lie in the domain, so that all nodes of the tree are too coarse.
+constexpr std::uint64_t few_after_failures = std::uint64_t{1} << 18;
 // Entries a frontier is expanded to. Coarser ones test worse, finer ones cost each part more.
 constexpr std::size_t enough_for_part = 32;
 constexpr std::size_t enough_for_box = 64;
@@ -117,7 +120,8 @@ void CandidateSearch<D>::search(const Frontier& from) {
 template <int D>
 void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
   if (step.open == 0) return;
-  if (step.open <= few_seeds || depth == most_splits || failures == most_failures || steps_left_ < 2)
+  if (step.open <= (failures < 2 ? few_seeds : few_after_failures) || depth == most_splits ||
+      failures == most_failures || steps_left_ < 2)
     return finish(step);
   steps_left_ -= 2;
   if (halves_.size() == depth) halves_.emplace_back();
@@ -208,7 +212,7 @@ void CandidateSearch<D>::expand(Step& step, std::size_t enough, bool settle) {
 /// Emits the seeds that the testers leave, and of few ones those that no other excludes.
 template <int D>
 void CandidateSearch<D>::finish(Step& step) {
-  if (step.open <= few_seeds) {
+  if (step.open <= few_after_failures) {
     gather(step.frontier, few_);
     testers_.clear();
     for (const Tester& t : step.testers) testers_.push_back(t.upper);

@@ -13,7 +13,10 @@ namespace {
 constexpr std::size_t few_seeds = 32;
 // All against all is also the last resort where splitting does not help, up to this many.
 constexpr std::size_t most_seeds = 128;
-constexpr std::size_t most_depth = 12;
+// Splits in all; of long lists, which come from splits that failed on the tree, there may be clusters far
+// below the size of the part.
+constexpr std::size_t most_depth = 12, most_depth_of_long = 64;
+constexpr std::size_t long_list = 2048;
 // Splits in a row that may fail to thin out the seeds before splitting is given up.
 constexpr int most_failures = 3;
 
@@ -118,7 +121,8 @@ void ListSearch<D>::take_marked(std::vector<std::uint32_t>& ranks) const {
 
 template <int D>
 void ListSearch<D>::visit(Level& level, std::size_t depth, int failures) {
-  if (level.count() <= few_seeds || depth == most_depth || failures == most_failures) return finish(level);
+  const std::size_t most = seeds_->size() > long_list ? most_depth_of_long : most_depth;
+  if (level.count() <= few_seeds || depth == most || failures == most_failures) return finish(level);
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
   std::tie(halves.first.part, halves.second.part) = split(level.part);
