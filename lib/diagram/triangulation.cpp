@@ -11,6 +11,7 @@
 #include "lib/clip/scene.hpp"
 #include "lib/collect/dual.hpp"
 #include "lib/diagram/state.hpp"
+#include "lib/digits.hpp"
 #include "lib/neighbors/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
 #include "lib/seeds/threads.hpp"
@@ -40,6 +41,21 @@ struct Extent {
     }
   }
 
+  /// Of the boxes around the seeds measures would leave the range of doubles.
+  void check() const {
+    double near = 0, far = 0;
+    for (const double x : middle) {
+      near = std::max(near, std::abs(x) + near_room * size);
+      far = std::max(far, std::abs(x) + far_room * size);
+    }
+    if (near >= 1e-100 && far <= 1e100) return;
+    throw Error(
+        ErrorCode::invalid_argument,
+        "the seeds extend over " + digits(size, 3) +
+            ": a triangulation is made of those with coordinates from 1e-100 to 1e100 that extend over 8e75 "
+            "at most; scale them");
+  }
+
   Domain box(double room) const {
     std::vector<double> low, high;
     for (const double x : middle) {
@@ -50,8 +66,8 @@ struct Extent {
   }
 };
 
-/// Seeds as the frame of the far box has them: its scale takes numbers that are some 280 orders of magnitude below
-/// the extent beyond the range of doubles, where the near box still tells them apart.
+/// Seeds as the frame of the far box has them: its scale takes numbers that are some 280 orders of magnitude
+/// below the extent beyond the range of doubles, where the near box still tells them apart.
 struct FarSeeds {
   std::vector<double> positions, weights;
 
@@ -171,6 +187,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   if (seeds.size() < static_cast<std::size_t>(none.corners)) return none;
   const Extent extent(seeds);
   if (!(extent.size > 0)) return none;
+  extent.check();
   const FarSeeds far(seeds, extent);
   const SeedsView rounded{seeds.dimension, far.positions, far.weights};
   Options exact = options;

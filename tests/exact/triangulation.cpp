@@ -102,6 +102,16 @@ TEST_CASE("coordinates hundreds of orders of magnitude below the extent are the 
   }
 }
 
+TEST_CASE("seeds too far apart, or too small, are refused by their size") {
+  const auto triangulate = [](double size) {
+    const std::vector<double> positions{0, 0, size, 0, 0, size, size, size};
+    return regular_triangulation(Device::choose(), {2, positions, {}}).size();
+  };
+  for (const double size : {1e-99, 1e75}) CHECK(triangulate(size) == 2);
+  for (const double size : {1e-101, 1e90, 1e308})
+    CHECK_THROWS_WITH_AS(triangulate(size), doctest::Contains("a triangulation is made of those"), Error);
+}
+
 TEST_CASE("seeds that do not span the space have no simplices; too few neither") {
   for (const int dimension : {2, 3}) {
     const Device device = Device::choose();
