@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <mutex>
 #include <string>
 
 #include "lib/cl/buffer.hpp"
@@ -19,14 +21,16 @@ class Program {
   cl_program handle() const { return program_; }
   cl_device_id device() const { return device_; }
 
-  /// True once the program has computed a known answer on its device (lib/clip/golden.hpp).
-  bool trusted() const { return trusted_; }
-  void trust(bool yes = true) const { trusted_ = yes; }
+  /// Runs `test`, unless it has succeeded before: whether the program computes a known answer on its device
+  /// (lib/clip/golden.hpp). Other threads wait for it; where `test` itself calls this, nothing is done.
+  void trust_after(const std::function<void()>& test) const;
 
  private:
   cl_program program_;
   cl_device_id device_;
   mutable std::atomic<bool> trusted_{false};
+  mutable std::recursive_mutex testing_;
+  mutable bool under_test_ = false;  // guarded by testing_
 };
 
 /// One kernel object: set arguments, launch. Not thread-safe; make one per call or per diagram.
@@ -58,11 +62,13 @@ class Kernel {
 
  private:
   template <class T>
-  void set(cl_uint index, const Buffer<T>& b) { set_memory(index, b.handle()); }
+  void set(cl_uint index, const Buffer<T>& b) {
+    set_memory(index, b.handle());
+  }
   void set(cl_uint index, const RawBuffer& b) { set_memory(index, b.handle()); }
   void set(cl_uint index, cl_mem m) { set_memory(index, m); }
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void set(cl_uint index, T value) { set_bytes(index, sizeof(T), &value); }
   void set_memory(cl_uint index, cl_mem memory);
   void set_bytes(cl_uint index, std::size_t size, const void* value);

@@ -70,15 +70,7 @@ cl::Kernel& Clipper::kernel(std::size_t rung) {
   const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(),
                         capacities(mesh.cell_dimension)[rung], outputs_};
   auto program = scene_.context()->program(candidates_.file(), variant.defines());
-  if (!program->trusted()) {
-    program->trust();  // the golden test asks for this kernel again
-    try {
-      golden_test(scene_.context(), candidates_, variant, rung);
-    } catch (...) {
-      program->trust(false);
-      throw;
-    }
-  }
+  program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, rung); });
   return kernels_
       .emplace(rung, cl::Kernel(scene_.context(), std::move(program), std::string(candidates_.kernel())))
       .first->second;

@@ -99,15 +99,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
 void DeviceDiagram::State::add_rung(std::size_t rung) {
   const Variant rung_variant = variant(domain, precision, capacities(domain.cell_dimension())[rung]);
   auto program = device.context()->program(clip_file, rung_variant.defines());
-  if (!program->trusted()) {
-    program->trust();  // the diagram of the test asks for this program again
-    try {
-      test_rung(device, rung_variant, rung);
-    } catch (...) {
-      program->trust(false);
-      throw;
-    }
-  }
+  program->trust_after([&] { test_rung(device, rung_variant, rung); });
   clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
 }
 
