@@ -112,7 +112,7 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--n", arguments.n,
                   "Seeds; else those of --compare, else as many as a run of a second takes")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{0x7ffffffe}));
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30));
   command.add_option("--repeat", arguments.repeat, "Runs of each kind; the best counts")
       ->check(above_zero())
       ->capture_default_str();

@@ -160,7 +160,7 @@ RandomSeeds parse_random_spec(const std::string& spec) {
   };
   RandomSeeds what;
   what.count = whole(fields[1], "N is not a whole number");
-  if (what.count > 0x7ffffffe) fail_spec(spec, "N is above 2147483646");  // what a diagram can hold
+  if (what.count > std::size_t{1} << 30) fail_spec(spec, "N is above 1073741824");  // what a diagram can hold
   if (fields.size() >= 4) {
     if (parse_number(fields[2], what.low) != Parsed::ok) fail_spec(spec, "LO is not a number");
     if (parse_number(fields[3], what.high) != Parsed::ok) fail_spec(spec, "HI is not a number");

@@ -26,7 +26,7 @@ class POWERCELL_API Diagram {
   Diagram& operator=(Diagram&&) noexcept;
   ~Diagram();
 
-  /// Copies the seeds. At most 2^31 - 2 of them.
+  /// Copies the seeds. At most 2^30 of them.
   /// \throw Error invalid_argument (sizes), invalid_seed (which: NaN, infinity, or so large that
   /// its square is not finite in the precision)
   void set_seeds(const SeedsView& seeds);

@@ -68,7 +68,7 @@ class POWERCELL_API DeviceDiagram {
   /// caller's, of the context of the device, and must not change between the wait list and `done`.
   /// \param positions  read: n x d reals, row-major
   /// \param weights    read: n reals; null means all zero
-  /// \param n          at most 2^31 - 2; with 0 the buffers may be null
+  /// \param n          at most 2^30; with 0 the buffers may be null
   /// \param measures   written: n x (2 + d) reals, row-major: mass (length^d' for cells of dimension d'),
   ///   centroid (d coordinates; NaN without a cell), second moment about the seed (length^(d'+2)).
   ///   0, NaN..., 0 for hidden and duplicate seeds; all NaN for invalid and unfinished ones

@@ -2,11 +2,10 @@
 #include <powercell/opencl.hpp>
 
 #include "lib/diagram/device_diagram.hpp"
+#include "lib/seeds/validate.hpp"
 
 namespace powercell {
 namespace {
-
-constexpr std::uint32_t most_seeds = (std::uint32_t{1} << 31) - 2;
 
 template <class T>
 T memory_value(cl_mem memory, cl_mem_info which, const char* name) {
@@ -62,9 +61,10 @@ void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, c
                             cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
   State& s = *state_;
   const cl::Context& context = *s.device.context();
-  if (n > most_seeds)
+  if (n > most_seeds_of_diagram)
     throw Error(ErrorCode::invalid_argument, std::to_string(n) + " seeds are more than the " +
-                                                 std::to_string(most_seeds) + " that one diagram can have");
+                                                 std::to_string(most_seeds_of_diagram) +
+                                                 " that one diagram can have");
   if (n > 0) {
     const std::size_t real = s.precision == Precision::float32 ? sizeof(float) : sizeof(double);
     const auto d = static_cast<std::size_t>(s.domain.dimension());

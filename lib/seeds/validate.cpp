@@ -11,8 +11,6 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t most_seeds = (std::size_t{1} << 31) - 2;
-
 /// Index of the first value that is NaN or infinite, or values.size().
 std::size_t first_not_finite(std::span<const double> values, int threads) {
   return first_of(values.size(), threads, [&](std::size_t k) { return !std::isfinite(values[k]); });
@@ -34,9 +32,10 @@ void check_sizes(const SeedsView& seeds, int dimension) {
     throw Error(ErrorCode::invalid_argument, std::to_string(seeds.weights.size()) + " weights for " +
                                                  std::to_string(seeds.size()) +
                                                  " seeds; give one for each seed, or none for all zero");
-  if (seeds.size() > most_seeds)
+  if (seeds.size() > most_seeds_of_diagram)
     throw Error(ErrorCode::invalid_argument, std::to_string(seeds.size()) + " seeds are more than the " +
-                                                 std::to_string(most_seeds) + " that one diagram can have");
+                                                 std::to_string(most_seeds_of_diagram) +
+                                                 " that one diagram can have");
 }
 
 std::string spelled(double value) {

@@ -329,7 +329,7 @@ class DiagramErrors(ToolTest):
                                  ("l.off", "OFF\n1099511627776 1 0\n0 0 0\n", "l.off:2: 1099511627776 vertices")):
             with self.subTest(domain=text):
                 self.bad(1, says, "diagram", "--domain", self.write(name, text), "--seeds", "random:5")
-        self.bad(2, "N is above 2147483646", "diagram", "--domain", "square", "--seeds", "random:2147483647")
+        self.bad(2, "N is above 1073741824", "diagram", "--domain", "square", "--seeds", "random:1073741825")
 
     def test_outputs_are_refused_before_anything_is_computed(self):
         self.bad(2, r"a\.xyz: unknown extension.*--help", *self.diagram("-o", "a.xyz", "-o", "a.svg"))

@@ -48,11 +48,12 @@ Diagram square_diagram(const Options& options = {}) {
 }  // namespace
 
 TEST_CASE("more seeds than a diagram can hold") {
-  for (const std::size_t n : {std::size_t{2147483647}, std::size_t{1} << 32, std::size_t{1} << 40}) {
+  for (const std::size_t n :
+       {(std::size_t{1} << 30) + 1, std::size_t{2147483647}, std::size_t{1} << 32, std::size_t{1} << 40}) {
     const std::string message = refusal([&] { square_diagram().set_seeds({2, claimed(kFew, 2 * n), {}}); });
     CHECK_MESSAGE(mentions(message, "invalid_argument: " + std::to_string(n) + " seeds are more than"),
                   message);
-    CHECK_MESSAGE(mentions(message, "2147483646"), message);
+    CHECK_MESSAGE(mentions(message, "1073741824"), message);
   }
 }
 
