@@ -138,7 +138,7 @@ bool Diagram::State::cells_come_first(bool want_regions) const {
 
 void Diagram::State::find_pairs_by_cells() {
   Stopwatch watch;
-  const BoundaryRanks ranks = finder->at_boundary(contenders(), tree, not_whole);
+  const BoundaryRanks ranks = finder->at_boundary(contenders(), tree, not_whole, options.progress);
   const double boundary_seconds = watch.seconds(), built_before = device.build_seconds();
   Stopwatch neighbor_watch;
   auto cells_first = std::make_unique<CellCandidates>(scene, ranks.ranks);

@@ -64,14 +64,17 @@ Pairs PairFinder::all(const SeedSet& seeds, const PackedTree& tree,
 }
 
 BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tree,
-                                      std::span<const std::uint32_t> by_region) {
+                                      std::span<const std::uint32_t> by_region,
+                                      const std::function<bool(double)>& progress) {
   if (!boundary_) {
     boundary_ = std::make_unique<RegionMesh>(boundary_of(mesh_));
     boundary_groups_ = std::make_unique<RegionGroups>(*boundary_, threads_);
   }
   std::vector<bool> marked(seeds.size());
   for (const std::uint32_t rank : by_region) marked[rank] = true;
-  const RegionLists found = search_regions({*boundary_, *boundary_groups_, seeds, tree, threads_, {}});
+  std::function<bool(double)> asked;
+  if (progress) asked = [&](double) { return progress(0); };
+  const RegionLists found = search_regions({*boundary_, *boundary_groups_, seeds, tree, threads_, asked});
   for (const RankList& list : found.list)
     for (std::uint32_t k = 0; k < list.count; ++k) marked[list.first[k]] = true;
   BoundaryRanks all;
@@ -104,7 +107,7 @@ Pairs PairFinder::with_whole_cells(const SeedSet& seeds, const PackedTree& tree,
                                    const std::function<bool(double)>& progress) {
   if (!has_inside(mesh_)) return all(seeds, tree, progress);
   SeedMarks wanted(seeds.size()), whole(seeds.size());
-  for (const std::uint32_t rank : at_boundary(seeds, tree, not_whole).ranks) wanted.set(rank);
+  for (const std::uint32_t rank : at_boundary(seeds, tree, not_whole, progress).ranks) wanted.set(rank);
 
   const RegionLists found =
       search_regions({mesh_, *groups_, seeds, tree, threads_, progress}, &wanted, &whole);

@@ -67,8 +67,10 @@ class PairFinder {
                          const std::function<bool(double)>& progress = {});
 
   /// The ranks whose cells can meet the boundary of the domain, and those in `by_region`, in any order.
+  /// \param progress  is told 0: what takes longer follows
   BoundaryRanks at_boundary(const SeedSet& seeds, const PackedTree& tree,
-                            std::span<const std::uint32_t> by_region);
+                            std::span<const std::uint32_t> by_region,
+                            const std::function<bool(double)>& progress = {});
 
   /// As with_whole_cells, where the cells of at_boundary() are known by their walls and vertices: a region is
   /// left out only if one of these walls or one of its own facets parts it from the cell. Pairs have no lists

@@ -9,6 +9,7 @@
 #include "tests/pairs/region_meshes.hpp"
 #include "tests/pairs/true_pairs.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/domains.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
@@ -185,4 +186,20 @@ TEST_CASE("progress is told, and stops the work when asked") {
       CHECK(calls == 2);
     }
   }
+}
+
+TEST_CASE("the boundary is asked for progress too, and told none") {
+  const RegionMesh mesh = Domain::polygon(square_with_holes()).mesh();
+  Random random(1);
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 1000, 2, random);
+  const SeedSet set = make_seed_set(seeds.view(), 2, 1);
+  const PackedTree tree = build_packed_tree(set, 1);
+  PairFinder finder(mesh, 1);
+  int calls = 0;
+  finder.at_boundary(set, tree, {}, [&](double fraction) {
+    CHECK(fraction == 0);
+    return ++calls > 0;
+  });
+  CHECK(calls > 0);
+  CHECK_THROWS_AS(finder.at_boundary(set, tree, {}, [](double) { return false; }), Error);
 }
