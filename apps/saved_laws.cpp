@@ -51,6 +51,11 @@ Point area_vector(const SavedCell& cell, const SavedFace& face, int d) {
   return sum;
 }
 
+double edge_length(const SavedCell& cell, const SavedFace& face, std::size_t k, int d) {
+  return length(
+      minus(vertex_of(cell, face.loop[k], d), vertex_of(cell, face.loop[(k + 1) % face.loop.size()], d)));
+}
+
 // What the vertices of a cell say of it.
 struct Moments {
   double measure = 0;
@@ -86,7 +91,13 @@ Moments moments_from_vertices(const SavedCell& cell, const SavedDiagram& diagram
   return moments;
 }
 
-// Half-width of the box of all vertices: the scale that defects are compared with.
+// What defects are compared with.
+struct Scale {
+  double size;      // the diagonal of the box of all vertices
+  double rounding;  // how far a vertex may be off, as the file has absolute coordinates: some last places of
+                    // the largest
+};
+
 double extent(const SavedDiagram& diagram) {
   const auto d = static_cast<std::size_t>(diagram.dimension);
   double size = 0;
@@ -100,6 +111,19 @@ double extent(const SavedDiagram& diagram) {
     if (high > low) size = std::hypot(size, high - low);
   }
   return size;
+}
+
+Scale scale_of(const SavedDiagram& diagram) {
+  double largest = 0;
+  for (const SavedCell& cell : diagram.cells)
+    for (const double x : cell.vertices) largest = std::max(largest, std::abs(x));
+  return {std::max(extent(diagram), std::numeric_limits<double>::min()),
+          4 * std::numeric_limits<double>::epsilon() * largest};
+}
+
+// A defect without what rounding explains; what is not a number stays so.
+double above(double defect, double rounding) {
+  return defect <= rounding ? 0 : defect - rounding;
 }
 
 // How far `y` (seen from seed i) lies on the side of seed j, as a distance; rounding taken off.
@@ -171,13 +195,29 @@ double mean_measure(const SavedDiagram& diagram) {
   return diagram.domain_measure / static_cast<double>(std::max<std::size_t>(1, diagram.cells.size()));
 }
 
-LawCheck own_measure(const SavedDiagram& diagram, double tolerance) {
+// Lengths of the edges of a polygon or surface cell, or areas of the faces of a polyhedron: times a shift of
+// the vertices, what it changes of the measure at most.
+double boundary_of(const SavedCell& cell, const SavedDiagram& diagram) {
+  const int d = diagram.dimension;
+  double sum = 0;
+  for (const SavedFace& face : cell.faces) {
+    if (diagram.kind == DomainKind::volume) {
+      sum += length(area_vector(cell, face, d)) / 2;
+    } else {
+      for (std::size_t k = 0; k < face.loop.size(); ++k) sum += edge_length(cell, face, k, d);
+    }
+  }
+  return sum;
+}
+
+LawCheck own_measure(const SavedDiagram& diagram, const Scale& scale, double tolerance) {
   const double mean = mean_measure(diagram);
   Worst worst;
   for (std::size_t i = 0; i < diagram.cells.size(); ++i) {
     const SavedCell& cell = diagram.cells[i];
     const double again = moments_from_vertices(cell, diagram).measure;
-    worst.see(std::abs(again - cell.measure) / std::max(mean, cell.measure), [&] {
+    const double off = above(std::abs(again - cell.measure), scale.rounding * boundary_of(cell, diagram));
+    worst.see(off / std::max(mean, cell.measure), [&] {
       return fmt::format("seed {}: {:.17g} in the file, {:.17g} from its vertices", i, cell.measure, again);
     });
     const bool should_be_empty = cell.status != SeedStatus::ok;
@@ -187,9 +227,18 @@ LawCheck own_measure(const SavedDiagram& diagram, double tolerance) {
   return worst.law("geometry: each cell's vertices give its measure", tolerance);
 }
 
+// How far the vertices are from the first one.
+double reach(const SavedCell& cell, const SavedDiagram& diagram) {
+  const int d = diagram.dimension;
+  double most = 0;
+  for (std::size_t v = 0; v < cell.vertices.size() / static_cast<std::size_t>(d); ++v)
+    most = std::max(most, length(minus(vertex_of(cell, v, d), vertex_of(cell, 0, d))));
+  return most;
+}
+
 // Centroids of slivers are known to as many digits as their measures: a cell counts by its part of a mean
 // cell.
-LawCheck own_centroid(const SavedDiagram& diagram, double size, double tolerance) {
+LawCheck own_centroid(const SavedDiagram& diagram, const Scale& scale, double tolerance) {
   const double mean = mean_measure(diagram);
   Worst worst;
   for (std::size_t i = 0; i < diagram.cells.size(); ++i) {
@@ -201,46 +250,55 @@ LawCheck own_centroid(const SavedDiagram& diagram, double size, double tolerance
         minus(point(cell.centroid.data(), diagram.dimension), seed_of(cell, diagram.dimension));
     Point off{};
     for (int axis = 0; axis < 3; ++axis) off[axis] = again.first[axis] / again.measure - said[axis];
-    worst.see(length(off) / size * std::min(1.0, again.measure / mean),
+    const double rounding =
+        scale.rounding * (1 + boundary_of(cell, diagram) * reach(cell, diagram) / again.measure);
+    worst.see(above(length(off), rounding) / scale.size * std::min(1.0, again.measure / mean),
               [&] { return fmt::format("the centroid of seed {} is off by {:.3g}", i, length(off)); });
   }
   return worst.law("centroids: each cell's vertices give its centroid", tolerance);
 }
 
-// Wall measures as seen from each side.
-std::map<std::pair<std::size_t, std::size_t>, double> walls(const SavedDiagram& diagram) {
-  std::map<std::pair<std::size_t, std::size_t>, double> result;
+struct Wall {
+  double measure = 0, rim = 0;  // rim: times a shift of its vertices, what it changes of the measure at most
+};
+
+// As seen from each side.
+std::map<std::pair<std::size_t, std::size_t>, Wall> walls(const SavedDiagram& diagram) {
+  std::map<std::pair<std::size_t, std::size_t>, Wall> result;
   for (std::size_t i = 0; i < diagram.cells.size(); ++i)
     for (const SavedFace& face : diagram.cells[i].faces)
       for (std::size_t k = 0; k < face.border.size(); ++k) {
         if (!face.border[k] || *face.border[k] < 0) continue;
         const SavedCell& cell = diagram.cells[i];
-        const double measure =
-            diagram.kind == DomainKind::volume
-                ? length(area_vector(cell, face, 3)) / 2
-                : length(minus(vertex_of(cell, face.loop[k], diagram.dimension),
-                               vertex_of(cell, face.loop[(k + 1) % face.loop.size()], diagram.dimension)));
-        result[{i, static_cast<std::size_t>(*face.border[k])}] += measure;
+        Wall& wall = result[{i, static_cast<std::size_t>(*face.border[k])}];
+        if (diagram.kind == DomainKind::volume) {
+          wall.measure += length(area_vector(cell, face, 3)) / 2;
+          for (std::size_t e = 0; e < face.loop.size(); ++e) wall.rim += edge_length(cell, face, e, 3);
+        } else {
+          wall.measure += edge_length(cell, face, k, diagram.dimension);
+          wall.rim += 2;
+        }
       }
   return result;
 }
 
-LawCheck symmetry(const SavedDiagram& diagram, double size, double tolerance) {
+LawCheck symmetry(const SavedDiagram& diagram, const Scale& scale, double tolerance) {
   const auto all = walls(diagram);
-  const double unit = diagram.kind == DomainKind::volume ? size * size : size;
+  const double unit = diagram.kind == DomainKind::volume ? scale.size * scale.size : scale.size;
   Worst worst;
-  for (const auto& wall : all) {
-    const auto [i, j] = wall.first;
+  for (const auto& [seeds, here] : all) {
+    const auto [i, j] = seeds;
     const auto back = all.find({j, i});
-    const double here = wall.second, there = back == all.end() ? 0 : back->second;
-    worst.see(std::abs(here - there) / unit, [&, i = i, j = j] {
-      return fmt::format("wall of seeds {} and {}: {:.17g} and {:.17g}", i, j, here, there);
+    const Wall there = back == all.end() ? Wall{} : back->second;
+    const double off = above(std::abs(here.measure - there.measure), scale.rounding * (here.rim + there.rim));
+    worst.see(off / unit, [&, i = i, j = j, here = here] {
+      return fmt::format("wall of seeds {} and {}: {:.17g} and {:.17g}", i, j, here.measure, there.measure);
     });
   }
   return worst.law("symmetry: a wall measures the same from both sides", tolerance);
 }
 
-LawCheck on_bisectors(const SavedDiagram& diagram, double size, double tolerance) {
+LawCheck on_bisectors(const SavedDiagram& diagram, const Scale& scale, double tolerance) {
   Worst worst;
   for (std::size_t i = 0; i < diagram.cells.size(); ++i)
     for (const SavedFace& face : diagram.cells[i].faces)
@@ -250,15 +308,17 @@ LawCheck on_bisectors(const SavedDiagram& diagram, double size, double tolerance
         if (!face.border[here] || *face.border[here] < 0) continue;
         const auto j = static_cast<std::size_t>(*face.border[here]);
         for (const std::size_t v : {k, (k + 1) % face.loop.size()})
-          worst.see(
-              std::abs(beyond(diagram, i, j, vertex_of(diagram.cells[i], face.loop[v], diagram.dimension))) /
-                  size,
-              [&] { return fmt::format("a vertex of the wall of seeds {} and {}", i, j); });
+          worst.see(above(std::abs(beyond(diagram, i, j,
+                                          vertex_of(diagram.cells[i], face.loop[v], diagram.dimension))),
+                          scale.rounding) /
+                        scale.size,
+                    [&] { return fmt::format("a vertex of the wall of seeds {} and {}", i, j); });
       }
   return worst.law("bisectors: walls lie where two power distances agree", tolerance);
 }
 
-LawCheck ownership(const SavedDiagram& diagram, double size, const VerifyOptions& options, double tolerance) {
+LawCheck ownership(const SavedDiagram& diagram, const Scale& scale, const VerifyOptions& options,
+                   double tolerance) {
   std::vector<std::size_t> cells;
   for (std::size_t i = 0; i < diagram.cells.size(); ++i)
     if (!diagram.cells[i].vertices.empty()) cells.push_back(i);
@@ -270,7 +330,7 @@ LawCheck ownership(const SavedDiagram& diagram, double size, const VerifyOptions
     const std::size_t count = cell.vertices.size() / static_cast<std::size_t>(diagram.dimension);
     const Point y = vertex_of(cell, random() % count, diagram.dimension);
     for (std::size_t j = 0; j < diagram.cells.size(); ++j)
-      worst.see(beyond(diagram, i, j, y) / size,
+      worst.see(above(beyond(diagram, i, j, y), scale.rounding) / scale.size,
                 [&] { return fmt::format("a vertex of the cell of seed {} belongs to seed {}", i, j); });
   }
   return worst.law("ownership: no seed is nearer to a vertex than its cell's", tolerance);
@@ -283,12 +343,12 @@ std::vector<LawCheck> check_saved(const SavedDiagram& diagram, Precision precisi
   // Sums of measures are good to a few thousand roundings, positions of nearly parallel cuts to fewer digits.
   const bool single = precision == Precision::float32;
   const double sums = single ? 1e-4 : 1e-11, places = single ? 1e-4 : 1e-9;
-  const double size = std::max(extent(diagram), std::numeric_limits<double>::min());
+  const Scale scale = scale_of(diagram);
   std::vector<LawCheck> laws{partition(diagram, sums)};
   if (diagram.summary) laws.push_back(summary(diagram, *diagram.summary, sums));
-  laws.insert(laws.end(), {own_measure(diagram, places), own_centroid(diagram, size, places),
-                           symmetry(diagram, size, places), on_bisectors(diagram, size, places),
-                           ownership(diagram, size, options, places)});
+  laws.insert(laws.end(), {own_measure(diagram, scale, places), own_centroid(diagram, scale, places),
+                           symmetry(diagram, scale, places), on_bisectors(diagram, scale, places),
+                           ownership(diagram, scale, options, places)});
   return laws;
 }
 

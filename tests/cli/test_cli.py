@@ -459,6 +459,15 @@ class Verify(ToolTest):
         self.write("a.json", json.dumps(saved))
         self.assertIn("all laws hold", self.good("verify", "a.json").stdout)
 
+    def test_a_saved_diagram_far_from_the_origin(self):
+        self.write("far.wkt", "POLYGON((1000000 1000000, 1000001 1000000, 1000001.2 1000000.7, 1000000 1000000))")
+        self.good("diagram", "--domain", "far.wkt", "--seeds", "random:3000:0:0.0001", "-o", "far.json", "--quiet")
+        self.good("verify", "far.json")
+        saved = json.loads((self.folder / "far.json").read_text())
+        cell = next(c for c in saved["cells"] if c["status"] == "ok")
+        cell["vertices"][0][0] += 1e-7
+        self.broken(saved, "geometry")
+
     def test_what_is_no_saved_diagram(self):
         self.bad(1, "no such file", "verify", "none.json")
         self.bad(1, "not JSON", "verify", self.write("a.json", '{"domain": {'))
