@@ -66,6 +66,7 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
     for (std::size_t k = 0; k < d; ++k)
       result.centroid.push_back(m.mass > 0 ? seeds[i * d + k] + m.first[k] / m.mass
                                            : std::numeric_limits<double>::quiet_NaN());
+    result.mass_error.push_back(m.error);
     result.quadrature_error = std::max(result.quadrature_error, m.error);
   }
   if (options.walls && (!options.walls_if || options.walls_if(result.mass)))

@@ -35,6 +35,9 @@ double measure(const Simplex<3>& s) {
 /// than masses, within these bounds.
 constexpr double wall_slack = 1e3, least_wall_tolerance = 1e-6, most_wall_tolerance = 1e-4;
 
+/// What of a simplex lies nearer to a face than all points of the last rule, at most: 1 - (1 - 1/(9 + N))^N.
+constexpr double unseen = 0.25;
+
 /// Integrates by the rules of a simplex, going to the next until the error is within the tolerance, and then
 /// bisecting the longest edge.
 class SimplexIntegrator : public PieceIntegrator {
@@ -170,13 +173,13 @@ class SimplexIntegrator : public PieceIntegrator {
         const double density = std::max(std::abs(found.mass), negligible_), allowed = tolerance_ * density;
         if (depth == least_depth_) density_around_ = density;
         const bool end = s + 1 == SimplexRules::count;
-        const auto seen = std::span<const double>(value).first(rules.size[s]);
-        const bool good = left <= allowed && corners_fit<N>(simplex, found, seen, allowed);
-        if (good || (end && depth == depth_)) return take(found, local, size, good ? 0 : left, moments);
+        const double beside = misfit<N>(simplex, found, std::span(value).first(rules.size[s]));
+        const bool good = left <= allowed && beside <= allowed;
+        if (good || (end && depth == depth_))
+          return take(found, local, size, good ? 0 : std::max(left, unseen * beside), moments);
         if (depth < depth_ && change > before / 2) {
           const double at_jump = allowed_at_jump<N>(depth);
-          if (change <= at_jump && corners_fit<N>(simplex, found, seen, at_jump))
-            return take(found, local, size, change, moments);
+          if (change <= at_jump && beside <= at_jump) return take(found, local, size, change, moments);
           return bisect<N>(simplex, depth, moments);
         }
       }
@@ -195,10 +198,9 @@ class SimplexIntegrator : public PieceIntegrator {
 
   /// Points of rules lie inside, and a jump or a kink across a corner goes between them. What they bend,
   /// their way from the linear function of the same moments (32a), goes on to the corners, where polynomials
-  /// of the rules' degrees are farther from it by up to some twenty times.
+  /// of the rules' degrees are farther from it by up to some twenty times. \return what a corner is farther
   template <int N>
-  static bool corners_fit(const Simplex<N>& simplex, const Sums<N>& found, std::span<const double> value,
-                          double allowed) {
+  static double misfit(const Simplex<N>& simplex, const Sums<N>& found, std::span<const double> value) {
     constexpr double farther = 20;
     const SimplexRules& rules = simplex_rules(N);
     std::array<double, N + 1> linear;
@@ -209,9 +211,10 @@ class SimplexIntegrator : public PieceIntegrator {
       for (std::size_t c = 0; c <= N; ++c) fit += rules.point[q][c] * linear[c];
       bend = std::max(bend, std::abs(value[q] - fit));
     }
+    double most = 0;
     for (std::size_t c = 0; c <= N; ++c)
-      if (!(std::abs(simplex[c].value - linear[c]) <= farther * bend + allowed)) return false;
-    return true;
+      most = std::max(most, std::abs(simplex[c].value - linear[c]) - farther * bend);
+    return most;
   }
 
   template <int N>

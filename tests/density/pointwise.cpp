@@ -118,6 +118,22 @@ TEST_CASE("a jump is integrated as far as bisections go, and the rest is reporte
   CHECK(found.quadrature_error < 1e-3);
 }
 
+TEST_CASE("a jump nearer to a wall than any point of a rule is in the error that is told") {
+  for (const double strip : {1e-3, 1e-5, 1e-7}) {
+    CAPTURE(strip);
+    const DensityCase one{"square", unit_box(2), {2, {0, 0.5, 0.5, 0.5}, {0, 0}}};  // a wall at x = 0.25
+    Diagram diagram = diagram_of(one);
+    const Density jump = Density::function(
+        [strip](const std::array<double, 3>& x) { return x[0] < 0.25 - strip ? 1.0 : 5.0; });
+    const DensityIntegrals found = integrate(diagram, jump, false);
+    REQUIRE(found.mass_error.size() == 2);
+    CHECK(std::abs(found.mass[0] - (0.25 + 4 * strip)) < found.mass_error[0]);
+    CHECK(found.mass_error[0] < 1e-2);
+    CHECK(found.mass_error[1] == 0);
+    CHECK(found.quadrature_error == found.mass_error[0]);
+  }
+}
+
 TEST_CASE("no rule has more points than are made room for") {
   for (const int n : {1, 2, 3}) CHECK(simplex_rules(n).size.back() <= SimplexRules::most_points);
   CHECK(simplex_rules(3).size.back() == SimplexRules::most_points);
