@@ -65,4 +65,8 @@ Density read_density(const DensityArguments& arguments, const Domain& domain) {
   return Density::constant(1);
 }
 
+std::string integrals_are_right_to(double quadrature_error) {
+  return fmt::format("the integrals of the density are right to {:.1e} of a mass", quadrature_error);
+}
+
 }  // namespace powercell::app

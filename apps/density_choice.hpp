@@ -36,6 +36,11 @@ Ink read_ink(const DensityArguments& arguments);
 /// \throw Error invalid_argument unless the domain is a polygon
 Density image_density(const Domain& domain, const Ink& ink, std::span<const double> values);
 
+/// "the integrals of the density are right to 1e-3 of a mass", and what the user may do about it.
+std::string integrals_are_right_to(double quadrature_error);
+inline constexpr const char* remedy_of_integrals =
+    "--density jumps or has kinks: give it as --image, which is exact, or a looser --tolerance";
+
 /// By the arguments; 1 everywhere if there are none. \throw as the functions above and read_density
 Density read_density(const DensityArguments& arguments, const Domain& domain);
 

@@ -98,15 +98,19 @@ void tell(const SampleArguments& arguments, const Source& source, const Study& s
   }
 }
 
-/// What was asked for and not reached, of a run that did not converge.
+/// What was asked for and not reached, of a run that did not converge, and what may help.
 std::string shortfall(const SamplingResult& points, const SamplingOptions& options) {
+  constexpr const char* more = "; allow more with --iterations";
   const SamplingStep& last = points.steps.back();
   if (!(points.capacity_error < options.capacity_tolerance))
-    return fmt::format("the masses are equal to {:.1e}, not {:.1e}", points.capacity_error,
-                       options.capacity_tolerance);
+    return fmt::format("the masses are equal to {:.1e}, not {:.1e}{}", points.capacity_error,
+                       options.capacity_tolerance, more);
+  if (!(points.quadrature_error < options.capacity_tolerance))
+    return fmt::format("{}, not {:.1e}; {}", integrals_are_right_to(points.quadrature_error),
+                       options.capacity_tolerance, remedy_of_integrals);
   if (std::isfinite(last.hexatic))
-    return fmt::format("the hexatic order is {:.3f}, not {:.3f}", last.hexatic, options.hexatic);
-  return fmt::format("the mean move is {:.1e}", last.gradient);
+    return fmt::format("the hexatic order is {:.3f}, not {:.3f}{}", last.hexatic, options.hexatic, more);
+  return fmt::format("the mean move is {:.1e}{}", last.gradient, more);
 }
 
 /// Spectra take the square of the number of points: they are told where they take no time, or are asked for.
@@ -134,11 +138,9 @@ int run(const SampleArguments& arguments) {
   tell(arguments, source, study, write_files(arguments, device, source, study));
   for (const Run& one : study.runs)
     if (!one.points.converged)
-      throw Error(
-          ErrorCode::not_converged,
-          fmt::format("not converged after {} iterations: {}; the best points are kept; allow more with "
-                      "--iterations",
-                      one.points.steps.back().iteration, shortfall(one.points, options)));
+      throw Error(ErrorCode::not_converged,
+                  fmt::format("not converged after {} iterations, the best points are kept: {}",
+                              one.points.steps.back().iteration, shortfall(one.points, options)));
   return 0;
 }
 

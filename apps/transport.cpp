@@ -108,6 +108,7 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
           {"merged", result.merged},
           {"converged", result.converged},
           {"error", result.error},
+          {"quadrature_error", result.quadrature_error},
           {"tolerance", result.tolerance},
           {"steps", result.newton_steps()},
           {"diagrams", result.diagrams},
@@ -159,12 +160,19 @@ std::string result_line(const TransportReport& report, const TransportResult& re
       worst = i;
     }
   }
-  throw Error(ErrorCode::not_converged,
-              fmt::format("not converged: after {} the masses are met to {:.1e}, not {:.1e} (seed {}: {:.6g} "
-                          "for {:.6g}){}; try --max-steps, --tolerance or --precision double",
-                          counted(result.newton_steps(), "step"), result.error, result.tolerance, worst,
-                          result.mass[worst], target[worst],
-                          report.files.empty() ? "" : "; the files hold the best weights found"));
+  const bool integrals = !(result.quadrature_error < result.tolerance);
+  std::string why;
+  if (!(result.error < result.tolerance))
+    why = fmt::format("the masses are met to {:.1e}, not {:.1e} (seed {}: {:.6g} for {:.6g})", result.error,
+                      result.tolerance, worst, result.mass[worst], target[worst]);
+  if (integrals)
+    why += fmt::format("{}{}, not {:.1e}", why.empty() ? "" : "; ",
+                       integrals_are_right_to(result.quadrature_error), result.tolerance);
+  throw Error(
+      ErrorCode::not_converged,
+      fmt::format("not converged: after {} {}{}; {}", counted(result.newton_steps(), "step"), why,
+                  report.files.empty() ? "" : "; the files hold the best weights found",
+                  integrals ? remedy_of_integrals : "try --max-steps, --tolerance or --precision double"));
 }
 
 int run(const TransportArguments& arguments) {

@@ -45,6 +45,7 @@ nlohmann::json as_json(const Run& run) {
   return {{"converged", run.points.converged},
           {"iterations", run.points.steps.back().iteration},
           {"capacity_error", run.points.capacity_error},
+          {"quadrature_error", run.points.quadrature_error},
           {"energy", run.points.energy},
           {"relative_energy", run.points.relative_energy},
           {"least_distance", number(run.spacing.least)},

@@ -46,8 +46,9 @@ struct SamplingOptions {
   bool periodic = false;
   /// Moves at most. 0: 100 for blue in the plane, 20 for blue elsewhere, 1000 for quantise.
   int iterations = 0;
-  /// Blue in the plane ends at this hexatic order, after a move at least; of less than 50 points, or where they have less
-  /// than five neighbours on average, as in a row, the order says nothing, and it ends after 20 moves.
+  /// Blue in the plane ends at this hexatic order, after a move at least; of less than 50 points, or where
+  /// they have less than five neighbours on average, as in a row, the order says nothing, and it ends after
+  /// 20 moves.
   double hexatic = 0.61;
   /// Quantise, and blue in the plane, end when the gradient is below this fraction of the spacing
   /// (M's measure / n)^(1/d'); with 0 quantise ends after `iterations` moves, or where rounding allows none.
@@ -62,12 +63,14 @@ struct SamplingOptions {
 
 /// Points in the order of those at the start.
 struct SamplingResult {
-  bool converged = false;  ///< capacity met, and by mode: hexatic order or movement reached, or all
-                           ///< iterations done where that was asked (elsewhere than in the plane; movement 0)
+  /// Both errors below the tolerance of the capacities, and by mode: hexatic order or movement reached, or
+  /// all iterations done where that was asked (elsewhere than in the plane; movement 0).
+  bool converged = false;
   std::vector<double> positions;  ///< n x d, row-major, in the domain (on a surface: on it)
   std::vector<double> weights;    ///< n, length^2: of the cells of equal mass
   std::vector<double> mass;       ///< n
   double capacity_error = 0;      ///< max |m_i / (M/n) - 1|
+  double quadrature_error = 0;    ///< of these masses, over M/n: see TransportResult
   double energy = 0;              ///< of the positions and weights
   /// Energy over that of the best lattice with cells of the same measures: hexagonal (5 / (18 sqrt 3)) on
   /// polygons and surfaces, body-centred cubic in volumes. 1 is the least possible for many points.

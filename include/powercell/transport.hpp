@@ -59,7 +59,8 @@ struct TransportOptions {
   /// The domain is a box of the plane with its opposite sides identified; the density must be constant. Seeds
   /// outside stand for their copies inside, and centroids are near the seeds as given.
   bool periodic = false;
-  /// Converged when max |m_i / v_i - 1| is below. 0 means 1e-6, in single precision 1e-3.
+  /// Converged when max |m_i / v_i - 1|, and the errors of these integrals, are below. 0 means 1e-6, in
+  /// single precision 1e-3.
   double tolerance = 0;
   /// Steps of all phases together.
   int max_steps = 500;
@@ -77,10 +78,13 @@ struct TransportOptions {
 
 /// What a solve came to. Arrays are in the order of the seeds given.
 struct POWERCELL_API TransportResult {
-  /// max |m_i / v_i - 1| < tolerance. If not, what follows is the best iterate: no empty cell if there was
-  /// one without, and of those the one of least error.
+  /// error < tolerance and quadrature_error < tolerance. If not, what follows is the best iterate: no empty
+  /// cell if there was one without, and of those the one of least error.
   bool converged = false;
-  double error = 0;      ///< max |m_i / v_i - 1|
+  double error = 0;  ///< max |m_i / v_i - 1|
+  /// The largest estimate of what the integral m_i is off by, over v_i: above 0 where a formula or function
+  /// has jumps or kinks. The masses are met to `error` and this together.
+  double quadrature_error = 0;
   double tolerance = 0;  ///< as used
   /// n, length²: of mean 0 over the seeds that are not merged.
   std::vector<double> weights;
@@ -112,8 +116,8 @@ struct POWERCELL_API TransportResult {
 /// empty at the start, seeds outside the domain, masses over many orders of magnitude, seeds at one position.
 class POWERCELL_API TransportSolver {
  public:
-  /// \throw Error invalid_argument (an option out of its range), no_fp64, unsupported (periodic, and no box of the
-  /// plane or a density that is not constant)
+  /// \throw Error invalid_argument (an option out of its range), no_fp64, unsupported (periodic, and no box
+  /// of the plane or a density that is not constant)
   TransportSolver(Device device, Domain domain, TransportOptions options = {});
   TransportSolver(TransportSolver&&) noexcept;
   TransportSolver& operator=(TransportSolver&&) noexcept;
@@ -142,8 +146,8 @@ class POWERCELL_API TransportSolver {
   /// Of the last solve.
   const TransportResult& result() const;
 
-  /// The diagram of all seeds with the weights of the last solve. \throw Error invalid_argument before it, also
-  /// where seeds were set or moved since; unsupported for a periodic box
+  /// The diagram of all seeds with the weights of the last solve. \throw Error invalid_argument before it,
+  /// also where seeds were set or moved since; unsupported for a periodic box
   Diagram& diagram();
 
   struct State;  ///< library-internal

@@ -148,6 +148,7 @@ class Sampler {
     result_.weights = cells.weights;
     result_.mass = cells.mass;
     result_.capacity_error = state_.capacity_error();
+    result_.quadrature_error = cells.quadrature_error;
     result_.energy = cells.primal;
     result_.relative_energy = state_.relative_energy();
   }

@@ -9,6 +9,12 @@ double Iterate::error(const Vector& target) const {
   return (mass().array() / target.array() - 1).abs().maxCoeff();
 }
 
+double Iterate::quadrature_error(const Vector& target) const {
+  if (cells.mass_error.empty()) return 0;
+  return (Eigen::Map<const Vector>(cells.mass_error.data(), target.size()).array() / target.array())
+      .maxCoeff();
+}
+
 double Iterate::least(const Vector& target) const {
   return (mass().array() / target.array()).minCoeff();
 }

@@ -22,6 +22,8 @@ struct Iterate {
   }
   /// max |m_i / v_i - 1|
   double error(const Vector& target) const;
+  /// The largest error of a cell's integral over v_i.
+  double quadrature_error(const Vector& target) const;
   /// min m_i / v_i
   double least(const Vector& target) const;
   /// v - m, the gradient of the dual

@@ -122,7 +122,8 @@ const TransportResult& TransportSolver::State::solve() {
   next.steps = course.steps();
   next.diagrams = cells->count();
   next.error = at.error(course.target());
-  next.converged = next.error < next.tolerance;
+  next.quadrature_error = at.quadrature_error(course.target());
+  next.converged = next.error < next.tolerance && next.quadrature_error < next.tolerance;
   next.primal = at.primal();
   next.dual = at.dual(course.target());
   result = std::move(next);

@@ -76,6 +76,19 @@ class Transport(ToolTest):
         self.bad(1, "polygon", "transport", "--domain", "cube", "--seeds", "random:9", "--image", "i.png")
         self.bad(1, "blank", *self.square, "random:9", "--image", self.image("white.png", [[255] * 4] * 4))
 
+    def test_what_integrals_of_a_jump_leave_is_told(self):
+        arguments = (*self.square, "random:10", "--density", "x<0.37?1:5", "--tolerance", "1e-4", "--max-steps", "20")
+        done = run(*arguments, "--json", cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "integrals of the density are right to .* of a mass, not 1.0e-04; .*--image")
+        report = json.loads(done.stdout)
+        self.assertFalse(report["converged"])
+        self.assertGreater(report["quadrature_error"], 1e-4)
+        report = self.report(*arguments[:-3], "1e-1")
+        self.assertTrue(report["converged"])
+        self.assertLess(report["quadrature_error"], 1e-1)
+        self.assertEqual(self.report(*self.square, "random:10", "--density", "1+x*y")["quadrature_error"], 0)
+
     def test_duplicates_are_merged_and_said(self):
         self.write("s.csv", "x,y\n0.2,0.2\n0.7,0.7\n0.2,0.2\n")
         done = self.good(*self.square, "s.csv", "--table", "t.csv")

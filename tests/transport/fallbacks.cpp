@@ -131,6 +131,44 @@ TEST_CASE("no convergence is said, and the best weights are kept") {
   CHECK(!solve(unit_box(2), seeds.view(), {}, options).converged);
 }
 
+TEST_CASE("a density that jumps: masses are said to be met no closer than they are integrated") {
+  // 1 to the left of x = 0.37 and 5 to the right, as a function and as an image, whose integrals are exact.
+  const auto value = [](const std::array<double, 3>& x) { return x[0] < 0.37 ? 1.0 : 5.0; };
+  std::vector<double> pixels(100, 5.0);
+  std::fill_n(pixels.begin(), 37, 1.0);
+  const Density exact = Density::image({100, 1, pixels});
+  TransportOptions options = transport_options();
+  options.density = Density::function(value);
+  options.max_steps = 20;
+  int converged = 0, refused = 0;
+  for (const std::uint64_t which : {1u, 3u})
+    for (const double tolerance : {1e-5, 1e-1}) {
+      INFO("seeds " << which << ", tolerance " << tolerance);
+      Random random(which);
+      const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 24, 2, random);
+      options.tolerance = tolerance;
+      TransportSolver solver(transport_device(), unit_box(2), options);
+      solver.set_seeds(seeds.view());
+      const TransportResult& found = solver.solve();
+      const std::vector<double> mass = integrate(solver.diagram(), exact, false).mass;
+      double off = 0;
+      for (std::size_t i = 0; i < mass.size(); ++i)
+        off = std::max(off, std::abs(mass[i] / found.target[i] - 1));
+      INFO("masses are off by " << off << ", said are " << found.error << " and " << found.quadrature_error);
+      CHECK(off < found.error + found.quadrature_error);
+      CHECK(found.converged == (found.error < tolerance && found.quadrature_error < tolerance));
+      (found.converged ? converged : refused) += 1;
+      if (tolerance == 1e-1) CHECK(found.converged);
+    }
+  CHECK(converged > 0);
+  CHECK(refused > 0);
+  options.density = exact;
+  options.tolerance = 0;
+  const TransportResult found = solve(unit_box(2), white(24).view(), {}, options);
+  CHECK(found.converged);
+  CHECK(found.quadrature_error == 0);
+}
+
 TEST_CASE("the diagram is that of the result, whatever was tried last") {
   INFO(replay_hint());
   Random random(test_seed());
