@@ -19,7 +19,10 @@ Domain grown(const Domain& box) {
   return Domain::box(low, high);
 }
 
-constexpr double spacings_at_first = 3;  // that the margin has
+/// That the margin has. In single precision cells must prove that they are whole, which takes a wider one.
+double spacings_at_first(Precision precision) {
+  return precision == Precision::float64 ? 3 : 6;
+}
 
 }  // namespace
 
@@ -39,7 +42,7 @@ void PeriodicDiagram::set_seeds(std::span<const double> positions, std::span<con
   weights_.resize(n);
   inside_ = inside(positions);
   if (margin_ == 0)
-    margin_ = spacings_at_first *
+    margin_ = spacings_at_first(diagram_.precision()) *
               std::sqrt(size_[0] * size_[1] / static_cast<double>(std::max<std::size_t>(n, 1))) /
               std::min(size_[0], size_[1]);
   margin_ = std::min(margin_, 1.0);
@@ -91,14 +94,39 @@ void PeriodicDiagram::place_copies() {
       }
 }
 
-/// Missing copies make cells larger and never smaller, so the areas tell (mathematics, (34)).
+/// Missing copies make cells larger and never smaller, so the areas tell (mathematics, (34)); in single
+/// precision their rounding may hide what is missing.
 bool PeriodicDiagram::covers() const {
   if (margin_ >= 1) return true;
+  if (diagram_.precision() == Precision::float32) return missing_copies_are_far();
   double sum = 0;
   const Measures& all = *measures_;
   for (std::size_t i = 0; i < weights_.size(); ++i) sum += all.mass[i];
-  const double rounding = diagram_.precision() == Precision::float64 ? 1e-12 : 1e-5;
-  return std::abs(sum / box_.measure() - 1) <= rounding;
+  return std::abs(sum / box_.measure() - 1) <= 1e-12;
+}
+
+/// (34a): within the reach of each cell, (34b), its seed is nearer, in power, than the heaviest seed could be
+/// from outside the margin.
+bool PeriodicDiagram::missing_copies_are_far() const {
+  constexpr double rounding = 1e-5;  // of mean squares of distances from the seed
+  // Area over that mean square; narrower cells may be what rounding made.
+  constexpr double narrowest = 1e-3;
+  const double most = *std::max_element(weights_.begin(), weights_.end());
+  const Measures& all = *measures_;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    if (all.status[i] != SeedStatus::ok) continue;
+    const double square = all.second_moment[i] / all.mass[i];
+    if (!(all.mass[i] >= narrowest * square)) return false;
+    const double x = all.centroid[2 * i], y = all.centroid[2 * i + 1];
+    const double to_seed = std::hypot(x - placed_[i][0], y - placed_[i][1]);
+    const double reach = std::sqrt(8 * (std::max(square - to_seed * to_seed, 0.0) + rounding * square));
+    const double left = low_[0] - margin_ * size_[0], bottom = low_[1] - margin_ * size_[1];
+    const double right = low_[0] + (1 + margin_) * size_[0], top = low_[1] + (1 + margin_) * size_[1];
+    const double to_border = std::max(std::min({x - left, right - x, y - bottom, top - y}) - reach, 0.0);
+    const double farthest = to_seed + reach;
+    if (!(to_border * to_border - most >= farthest * farthest - weights_[i])) return false;
+  }
+  return true;
 }
 
 void PeriodicDiagram::compute(bool walls) {

@@ -13,7 +13,7 @@ namespace powercell {
 
 /// A box of the plane with its opposite sides identified, density 1. Copies of the seeds near the sides are
 /// put around it, and the cells of the seeds themselves are taken; that there are enough copies is known from
-/// the sum of their areas (mathematics, (34)).
+/// the sum of their areas, or in single precision from how far they reach (mathematics, (34) and (34a)).
 class PeriodicDiagram {
  public:
   /// What a seed meets: a copy of `seed`, at `step` from it.
@@ -45,6 +45,7 @@ class PeriodicDiagram {
   void compute(bool walls);
   void place_copies();
   bool covers() const;
+  bool missing_copies_are_far() const;
   void gather_walls();
 
   Domain box_;
