@@ -1,10 +1,12 @@
 #include "lib/remeshing/dual.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 #include "lib/remeshing/cell_parts.hpp"
 #include "lib/remeshing/mesh_check.hpp"
+#include "lib/remeshing/triangle.hpp"
 
 namespace powercell::remeshing {
 namespace {
@@ -47,6 +49,45 @@ std::vector<Row> corners_of_three(const LocalDiagram& diagram, std::vector<std::
   return triangles;
 }
 
+/// The reflection of a place on one sheet of the surface to another one: cells of seeds at both meet half
+/// way, and neither reaches through. The foot is that for parallel sheets alone.
+Vec opposite(const Surface& surface, const Place& place, std::uint32_t triangle) {
+  const Vec normal = surface.normal(triangle), across = surface.normal(place.triangle) - normal;
+  const double slope = dot(across, normal);
+  if (slope > -0.1) return place.at;  // the sheets are nearly one
+  return place.at - across * (dot(place.at - surface.corner(triangle, 0), normal) / slope);
+}
+
+/// Of a part of a cell the place nearest to opposite to its seed.
+Place place_opposite(const Sampling& sampling, const CellParts& parts, std::uint32_t part) {
+  const LocalDiagram& diagram = sampling.diagram();
+  const std::uint32_t seed = parts.seed[part];
+  Place nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t p : diagram.pieces(seed)) {
+    if (parts.part[p] != part) continue;
+    const Piece& piece = diagram.piece(p);
+    const Vec to = opposite(diagram.surface(), sampling.hold(seed).place, piece.triangle);
+    for (std::size_t v = 1; v + 1 < piece.ring.size(); ++v) {
+      const Vec at = nearest_in_triangle(to, piece.ring[0].at, piece.ring[v].at, piece.ring[v + 1].at);
+      if (norm2(at - to) >= least) continue;
+      least = norm2(at - to);
+      nearest = {piece.triangle, at};
+    }
+  }
+  return nearest;
+}
+
+/// Cells that meet along more than one wall.
+void find_double_walls(const MeshCheck& check, Defects& defects) {
+  for (std::size_t k = 1; k < check.edges.size(); ++k)
+    if (check.edges[k] == check.edges[k - 1]) {
+      const auto from = static_cast<std::uint32_t>(check.edges[k] >> 32),
+                 to = static_cast<std::uint32_t>(check.edges[k]);
+      defects.twice.push_back(std::minmax(from, to));
+    }
+}
+
 /// Parts of cells without their seed, and parts that are no discs.
 void find_part_defects(const Sampling& sampling, Defects& defects) {
   const LocalDiagram& diagram = sampling.diagram();
@@ -58,25 +99,16 @@ void find_part_defects(const Sampling& sampling, Defects& defects) {
   std::vector<bool> told(parts.seed.size(), false);
   for (std::uint32_t i = 0; i < diagram.size(); ++i) {
     if (!diagram.seed(i).alive) continue;
-    if (own[i] == nothing) defects.seeds.push_back(i);  // the seed is outside its own cell
+    if (own[i] == nothing) defects.outside.push_back(i);
     for (const std::uint32_t p : diagram.pieces(i)) {
       const std::uint32_t part = parts.part[p];
       if (told[part]) continue;
       told[part] = true;
       if (part == own[i]) {
-        if (parts.euler[part] != 1) defects.seeds.push_back(i);
+        if (parts.euler[part] != 1) defects.not_discs.push_back(i);
         continue;
       }
-      FarPoint far;
-      for (const std::uint32_t q : diagram.pieces(i)) {
-        if (parts.part[q] != part) continue;
-        const Piece& piece = diagram.piece(q);
-        Vec centre;
-        for (const Corner& c : piece.ring) centre += c.at * (1.0 / static_cast<double>(piece.ring.size()));
-        if (diagram.power(i, centre) > far.priority)
-          far = {{piece.triangle, centre}, diagram.power(i, centre)};
-      }
-      defects.fragments.push_back(far);
+      defects.fragments.push_back(place_opposite(sampling, parts, part));
     }
   }
 }
@@ -170,10 +202,12 @@ DualMesh dual_of(const Sampling& sampling, Defects& defects) {
   find_intruders(sampling, defects);
   const MeshCheck check = check_mesh(dual.triangle, diagram.size());
   defects.seeds.insert(defects.seeds.end(), check.not_manifold.begin(), check.not_manifold.end());
+  find_double_walls(check, defects);
   find_edge_defects(sampling, check, defects);
   for (std::uint32_t i = 0; i < diagram.size(); ++i)
     if (diagram.seed(i).alive && !check.used[i]) defects.seeds.push_back(i);
   keep_distinct(defects.seeds);
+  keep_distinct(defects.twice);
   keep_distinct(defects.chords);
   return dual;
 }

@@ -18,13 +18,20 @@ struct DualMesh {
 
 /// Where the dual cannot be a mesh like the surface (docs/mathematics.md, "Remeshing").
 struct Defects {
-  std::vector<FarPoint> fragments;   ///< a point of each part of a cell that its seed is not in
-  std::vector<std::uint32_t> seeds;  ///< whose cells are no discs or meet others more than once
+  /// A place in each part of a cell that its seed is not in, opposite to the seed.
+  std::vector<Place> fragments;
+  std::vector<std::uint32_t> outside;                          ///< seeds that are not in their own cells
+  std::vector<std::uint32_t> not_discs;                        ///< seeds whose cells go around something
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> twice;  ///< seeds whose cells meet more than once
+  std::vector<std::uint32_t> seeds;  ///< at which the dual is no manifold for another reason
   /// Places of curves that belong to cells of other seeds, and chords that are no edge: a curve and the
   /// rank of the seed before.
   std::vector<std::pair<std::uint32_t, std::size_t>> chords;
 
-  bool none() const { return fragments.empty() && seeds.empty() && chords.empty(); }
+  bool none() const {
+    return fragments.empty() && outside.empty() && not_discs.empty() && twice.empty() && seeds.empty() &&
+           chords.empty();
+  }
 };
 
 /// The dual of the cells as they are, and what is wrong with it.

@@ -201,6 +201,7 @@ void LocalDiagram::remove(std::uint32_t seed) {
 std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
                                                const std::vector<std::uint32_t>& pieces) const {
   const std::vector<std::uint32_t> beside = neighbors(seed);
+  std::vector<std::uint32_t> result = beside;  // whatever rounding makes of their distances
   Vec low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   double bound = -infinity;
   for (const std::uint32_t p : pieces)
@@ -214,7 +215,6 @@ std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
     }
   const Vec centre = (low + high) * 0.5;
   const double radius = norm(high - centre);
-  std::vector<std::uint32_t> result;
   grid_.near(
       centre, [&](double w) { return radius + root(bound + w); },
       [&](std::uint32_t j) {
@@ -224,6 +224,7 @@ std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
         if (norm2(seeds_[j].at - centre) <= distance * distance) result.push_back(j);
       });
   std::sort(result.begin(), result.end());  // the same order every time
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

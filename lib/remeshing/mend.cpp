@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <powercell/error.hpp>
 #include <string>
 
+#include "lib/remeshing/cell_loop.hpp"
 #include "lib/remeshing/dual.hpp"
 #include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/mesh_check.hpp"
@@ -33,11 +33,11 @@ bool longest_chord(const Sampling& sampling, std::uint32_t seed,
   return longest > 0;
 }
 
-/// A seed more in a cell that is no disc or meets another twice.
+/// A seed more in a cell.
 void add_in_cell(Sampling& sampling, std::uint32_t seed) {
   const FarPoint far = sampling.farthest_of(seed);
   if (far.place.triangle != nothing) {
-    sampling.add_free(far.place);
+    sampling.add_between(far.place);
     return;
   }
   std::pair<std::uint32_t, std::size_t> chord;
@@ -47,9 +47,50 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
   }
   for (const std::uint32_t j : sampling.diagram().neighbors(seed))
     if (const FarPoint other = sampling.farthest_of(j); other.place.triangle != nothing) {
-      sampling.add_free(other.place);
+      sampling.add_between(other.place);
       return;
     }
+}
+
+/// What two cells that meet twice go around together, or a cell on its own, gets seeds around it. At a tip
+/// seeds at the farthest vertices would go nearer and nearer to it instead.
+void add_around(Sampling& sampling, const Defects& defects) {
+  const LocalDiagram& diagram = sampling.diagram();
+  for (const std::uint32_t i : defects.not_discs)
+    for (const Place& place : points_around(diagram, i, sampling.hold(i).place)) sampling.add_between(place);
+  if (!defects.not_discs.empty()) return;
+  for (const auto& [a, b] : defects.twice) {
+    const Place place = point_between(diagram, a, b, sampling.hold(a).place);
+    if (place.triangle != nothing) sampling.add_between(place);
+  }
+}
+
+/// One seed for a defect that several cells share; the next round tells what is left.
+void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds) {
+  std::vector<char> treated(sampling.diagram().size(), 0);
+  for (const std::uint32_t i : seeds) {
+    if (treated[i]) continue;
+    treated[i] = 1;
+    for (const std::uint32_t j : sampling.diagram().neighbors(i))
+      if (j < treated.size()) treated[j] = 1;
+    add_in_cell(sampling, i);
+  }
+}
+
+/// Treats the defects of the first kind that there is: those of later kinds may be gone with them. Returns
+/// whether anything changed.
+bool treat(Sampling& sampling, const Defects& defects) {
+  const std::size_t before = sampling.diagram().alive();
+  bool changed = false;
+  for (const std::uint32_t i : defects.outside) changed |= sampling.give_cell(i);
+  if (changed) return true;
+  // Later ranks of a curve first: they do not move the earlier ones.
+  for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
+    sampling.split(chord->first, chord->second);
+  for (const Place& fragment : defects.fragments) sampling.add_between(fragment);
+  if (sampling.diagram().alive() == before) add_around(sampling, defects);
+  if (sampling.diagram().alive() == before) add_in_cells(sampling, defects.seeds);
+  return sampling.diagram().alive() > before;
 }
 
 }  // namespace
@@ -66,22 +107,7 @@ DualMesh mend(Sampling& sampling, std::size_t most, const std::function<bool(dou
         throw Error(ErrorCode::internal, "the dual is a manifold of another topology than the surface");
       return dual;
     }
-    const std::size_t before = sampling.diagram().alive();
-    // Later ranks of a curve first: they do not move the earlier ones.
-    for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
-      sampling.split(chord->first, chord->second);
-    for (const FarPoint& fragment : defects.fragments) sampling.add_free(fragment.place);
-    // One seed for a defect that several cells share; the next round tells what is left.
-    std::vector<char> treated(sampling.diagram().size(), 0);
-    for (const std::uint32_t i :
-         sampling.diagram().alive() > before ? std::vector<std::uint32_t>{} : defects.seeds) {
-      if (treated[i]) continue;
-      treated[i] = 1;
-      for (const std::uint32_t j : sampling.diagram().neighbors(i))
-        if (j < treated.size()) treated[j] = 1;
-      add_in_cell(sampling, i);
-    }
-    if (sampling.diagram().alive() == before || sampling.diagram().alive() > most) too_few(most);
+    if (!treat(sampling, defects) || sampling.diagram().alive() > most) too_few(most);
   }
 }
 

@@ -18,18 +18,46 @@ Sampling::Sampling(const Surface& surface, const Sizing& sizing, std::vector<Cur
       random_(random_seed) {}
 
 std::uint32_t Sampling::add(const Hold& hold) {
-  const double h = sizing_.at(surface_, hold.place);
-  const double jitter = static_cast<double>(random_() >> 11) * 0x1p-53;
-  const std::uint32_t id = diagram_.insert(hold.place.at, weight_share * h * h * (1 + 1e-7 * jitter), h);
+  const double h = sizing_at(hold.place);
+  return add(hold, weight_share * h * h * (1 + 1e-7 * jitter()), h);
+}
+
+std::uint32_t Sampling::add(const Hold& hold, double weight, double h) {
+  const std::uint32_t id = diagram_.insert(hold.place.at, weight, h);
   if (id >= hold_.size()) {
     hold_.resize(id + 1);
     chord_.resize(id + 1);
     far_.resize(id + 1);
   }
   hold_[id] = hold;
-  chord_[id].clear();
   measure_changed();
   return id;
+}
+
+std::uint32_t Sampling::add_between(const Hold& hold) {
+  constexpr double least_share = 1e-13;  // of a weight: a bisector is off by some 1e-16 of it
+  const std::uint32_t in = owner(hold.place);
+  if (in == nothing) return add(hold);  // rounding left nobody the triangle
+  const Seed of = diagram_.seed(in);
+  const double distance2 = norm2(of.at - hold.place.at);
+  if (!(distance2 > least_share * of.weight))
+    throw Error(
+        ErrorCode::invalid_argument,
+        "the surface is too sharp or too thin for so few points: to tell its sides apart some would be as "
+        "near to each other as rounding errors; ask for more, or cut the tip or the thin part off");
+  // The distance is what tells the two apart, however small it is beside the weight.
+  return add(hold, of.weight + 1e-7 * jitter() * distance2, of.size);
+}
+
+double Sampling::jitter() {
+  return static_cast<double>(random_() >> 11) * 0x1p-53;
+}
+
+bool Sampling::give_cell(std::uint32_t seed) {
+  const Hold hold = hold_[seed];
+  remove(seed);
+  add_between(hold);  // under the same number, that of the last to go
+  return owner(hold.place) == seed;
 }
 
 void Sampling::remove(std::uint32_t seed) {
@@ -147,7 +175,7 @@ std::uint32_t Sampling::split(std::uint32_t c, std::size_t rank) {
     return end ? curves_[c].length() : 0.0;
   };
   const double s = (along(a, false) + along(b, true)) / 2;
-  const std::uint32_t id = add({Hold::Kind::curve, c, s, curves_[c].at(surface_, s)});
+  const std::uint32_t id = add_between({Hold::Kind::curve, c, s, curves_[c].at(surface_, s)});
   seeds.insert(seeds.begin() + static_cast<std::ptrdiff_t>(rank) + 1, id);
   std::replace(chord_[a].begin(), chord_[a].end(), b, id);
   std::replace(chord_[b].begin(), chord_[b].end(), a, id);

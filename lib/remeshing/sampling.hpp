@@ -43,8 +43,13 @@ class Sampling {
   void place_on_curves(std::size_t most);
 
   std::uint32_t add_free(const Place& place) { return add({Hold::Kind::free, nothing, 0, place}); }
+  /// With the weight of the seed whose cell the place is in: neither hides the other, however near they are.
+  std::uint32_t add_between(const Place& place) { return add_between({Hold::Kind::free, nothing, 0, place}); }
+  /// Gives a seed that is outside its own cell the weight of the seed in whose cell it is. Returns whether it
+  /// is in its own then.
+  bool give_cell(std::uint32_t seed);
   void remove(std::uint32_t seed);
-  /// A seed in the middle between two neighbours on a curve (by rank in `on_curve`).
+  /// A seed in the middle between two neighbours on a curve (by rank in `on_curve`), weighed as add_between.
   std::uint32_t split(std::uint32_t curve, std::size_t rank);
 
   /// The vertex of the cells that is farthest from its seed, of those outside the balls around neighbours
@@ -69,6 +74,9 @@ class Sampling {
 
  private:
   std::uint32_t add(const Hold& hold);
+  std::uint32_t add(const Hold& hold, double weight, double h);
+  std::uint32_t add_between(const Hold& hold);
+  double jitter();  ///< random, from 0 to 1
   std::uint32_t corner_seed(std::uint32_t vertex, const Place& place);
   void measure_changed();
   void link_curve(std::uint32_t c);

@@ -40,7 +40,7 @@ WorkMesh::WorkMesh(const Sampling& sampling, const DualMesh& dual) {
     if (!diagram.seed(i).alive) continue;
     number[i] = static_cast<std::uint32_t>(vertex_.size());
     const Hold& hold = sampling.hold(i);
-    vertex_.push_back({hold.place, diagram.seed(i).size, hold.kind, false});
+    vertex_.push_back({hold.place, sampling.sizing_at(hold.place), hold.kind, false});
   }
   alive_ = vertex_.size();
   chord_.resize(alive_);

@@ -22,6 +22,17 @@ TriangleMesh cube_of_12() {
   return plate(1);
 }
 
+TriangleMesh cone(std::uint32_t sides, double radius) {
+  TriangleMesh mesh{{0, 0, 1, 0, 0, 0}, {}};
+  for (std::uint32_t k = 0; k < sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    mesh.vertices.insert(mesh.vertices.end(), {radius * std::cos(angle), radius * std::sin(angle), 0});
+    const std::uint32_t a = 2 + k, b = 2 + (k + 1) % sides;
+    mesh.triangles.insert(mesh.triangles.end(), {0, a, b, 1, b, a});
+  }
+  return mesh;
+}
+
 TriangleMesh bumpy_ball() {
   TriangleMesh mesh = sphere(10);
   for (std::size_t k = 0; k < mesh.vertices.size(); k += 3) {

@@ -2,17 +2,19 @@
 /// Surfaces for the tests of remeshing.
 #pragma once
 
+#include <cstdint>
 #include <powercell/shapes.hpp>
 #include <string>
 #include <vector>
 
 namespace powercell::test {
 
-TriangleMesh cube_of_12();             ///< the unit cube, two triangles a side
-TriangleMesh plate(double thickness);  ///< the unit square of that thickness, 12 triangles
-TriangleMesh bumpy_ball();             ///< closed, an uneven radius
-TriangleMesh wavy_sheet();             ///< open, one boundary loop with four corners
-TriangleMesh tube();                   ///< open at both ends, two boundary loops
+TriangleMesh cube_of_12();                              ///< the unit cube, two triangles a side
+TriangleMesh plate(double thickness);                   ///< the unit square of that thickness, 12 triangles
+TriangleMesh cone(std::uint32_t sides, double radius);  ///< of height 1, closed by its base
+TriangleMesh bumpy_ball();                              ///< closed, an uneven radius
+TriangleMesh wavy_sheet();                              ///< open, one boundary loop with four corners
+TriangleMesh tube();                                    ///< open at both ends, two boundary loops
 TriangleMesh small_torus();
 
 struct NamedMesh {
