@@ -5,34 +5,31 @@
 #include <tuple>
 
 #include "lib/remeshing/relax.hpp"
+#include "lib/remeshing/star.hpp"
 
 namespace powercell::remeshing {
 namespace {
 
 using Row = WorkMesh::Row;
 
-Vec triangle_normal(const WorkMesh& mesh, const Row& row) {
-  return unit(normal_of(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])));
-}
-
 double relative_length(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b) {
   return norm(mesh.at(a) - mesh.at(b)) * 2 / (mesh.vertex(a).h + mesh.vertex(b).h);
 }
 
 /// Whether the triangles that vertex a leaves behind when it goes into b keep their side.
-bool keeps_sides(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b) {
+bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, std::uint32_t b) {
   for (const std::uint32_t t : mesh.around(a)) {
-    Row row = mesh.triangle(t);
+    const Row& row = mesh.triangle(t);
     if (std::find(row.begin(), row.end(), b) != row.end()) continue;
-    const Vec before = triangle_normal(mesh, row);
-    std::replace(row.begin(), row.end(), a, b);
-    if (dot(before, triangle_normal(mesh, row)) < 0.5) return false;
+    Row after = row;
+    std::replace(after.begin(), after.end(), a, b);
+    if (turns_over(mesh, surface, row, after)) return false;
   }
   return true;
 }
 
 /// Collapses edges, the relatively shortest first, until `count` vertices are left or none may be.
-void collapse_shortest(WorkMesh& mesh, std::size_t count) {
+void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count) {
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto offer = [&](std::uint32_t a) {
@@ -48,7 +45,8 @@ void collapse_shortest(WorkMesh& mesh, std::size_t count) {
     const auto [length, a, b] = queue.top();
     queue.pop();
     // What was collapsed or could not be then is left; a collapse near by offers it again.
-    if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b) || !keeps_sides(mesh, a, b))
+    if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b) ||
+        !keeps_sides(mesh, surface, a, b))
       continue;
     mesh.collapse(a, b);
     offer(b);
@@ -81,7 +79,7 @@ void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   // Vertices that crowd make shapes that cannot be collapsed: flips in between help.
   for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
     before = mesh.alive();
-    collapse_shortest(mesh, count + (mesh.alive() - count) / 2);
+    collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2);
     flip_edges(mesh, surface);
   }
   if (mesh.alive() > count)

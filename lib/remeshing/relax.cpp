@@ -104,7 +104,7 @@ double distortion_around(const WorkMesh& mesh, const Surface& surface, std::uint
     const Row& row = mesh.triangle(t);
     const std::size_t k = row[0] == v ? 0 : row[1] == v ? 1 : 2;
     const Vec b = mesh.at(row[(k + 1) % 3]), c = mesh.at(row[(k + 2) % 3]);
-    if (turns_over(mesh, surface, t, v, to)) return worst;
+    if (turns_over(mesh, surface, row, row, v, to)) return worst;
     const double area = norm(normal_of(to.at, b, c));
     const double d = (norm2(b - to.at) + norm2(c - to.at) + norm2(c - b)) / area;
     sum += d * d;

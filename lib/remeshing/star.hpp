@@ -30,16 +30,15 @@ inline bool faces_inwards(const WorkMesh& mesh, const Surface& surface, const Wo
   return !(dot(normal_of(corner[0], corner[1], corner[2]), outwards) > 0);
 }
 
-/// Whether triangle t turns over when its corner v goes to `to`: by much at once, or, as many small turns
-/// add up, away from the surface.
-inline bool turns_over(const WorkMesh& mesh, const Surface& surface, std::uint32_t t, std::uint32_t v,
-                       const Place& to) {
-  const WorkMesh::Row& row = mesh.triangle(t);
-  const std::size_t k = row[0] == v ? 0 : row[1] == v ? 1 : 2;
-  const Vec b = mesh.at(row[(k + 1) % 3]), c = mesh.at(row[(k + 2) % 3]);
-  const Vec before = normal_of(mesh.at(v), b, c), after = normal_of(to.at, b, c);
-  if (!(dot(before, after) > 0.5 * norm(before) * norm(after))) return true;
-  return faces_inwards(mesh, surface, row, v, to) && !faces_inwards(mesh, surface, row);
+/// Whether a triangle turns over when it becomes `after`, with corner v at `to`: by much at once, or, as many
+/// small turns add up, away from the surface.
+inline bool turns_over(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Row& row,
+                       const WorkMesh::Row& after, std::uint32_t v = nothing, const Place& to = {}) {
+  const auto at = [&](std::size_t k) { return after[k] == v ? to.at : mesh.at(after[k]); };
+  const Vec old = normal_of(mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2]));
+  const Vec normal = normal_of(at(0), at(1), at(2));
+  if (!(dot(old, normal) > 0.5 * norm(old) * norm(normal))) return true;
+  return faces_inwards(mesh, surface, after, v, to) && !faces_inwards(mesh, surface, row);
 }
 
 /// Whether a flip makes a triangle that faces inwards of two that do not.
@@ -61,7 +60,7 @@ double cost_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v
     std::array<Vec, 3> corner{mesh.at(row[0]), mesh.at(row[1]), mesh.at(row[2])};
     for (std::size_t k = 0; k < 3; ++k)
       if (row[k] == v) corner[k] = to.at;
-    if (turns_over(mesh, surface, t, v, to)) return worst;
+    if (turns_over(mesh, surface, row, row, v, to)) return worst;
     most = std::max(most, cost(corner[0], corner[1], corner[2]));
     if (most == worst) return worst;
   }
