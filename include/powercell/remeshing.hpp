@@ -35,7 +35,8 @@ struct RemeshOptions {
   std::uint64_t random_seed = 1;  ///< the same seed gives the same mesh
   /// For transport; nothing: as Device::choose() does.
   std::optional<Device> device;
-  /// Called with the fraction done; returning false stops with Error interrupted.
+  /// Called with the fraction done, which never falls, some times a second up to meshes of 10^5 triangles;
+  /// returning false stops with Error interrupted.
   std::function<bool(double)> progress;
 };
 

@@ -194,14 +194,18 @@ void keep_distinct(std::vector<T>& list) {
 
 }  // namespace
 
-DualMesh dual_of(const Sampling& sampling, Defects& defects) {
+DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress) {
   DualMesh dual;
   const LocalDiagram& diagram = sampling.diagram();
   dual.triangle = corners_of_three(diagram, defects.seeds);
+  progress.at(0);
   find_part_defects(sampling, defects);
+  progress.at(0);
   find_intruders(sampling, defects);
+  progress.at(0);
   const MeshCheck check = check_mesh(dual.triangle, diagram.size());
   defects.seeds.insert(defects.seeds.end(), check.not_manifold.begin(), check.not_manifold.end());
+  progress.at(0);
   find_double_walls(check, defects);
   find_edge_defects(sampling, check, defects);
   for (std::uint32_t i = 0; i < diagram.size(); ++i)

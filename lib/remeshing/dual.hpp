@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/sampling.hpp"
 
 namespace powercell::remeshing {
@@ -35,12 +35,11 @@ struct Defects {
 };
 
 /// The dual of the cells as they are, and what is wrong with it.
-DualMesh dual_of(const Sampling& sampling, Defects& defects);
+DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress = {});
 
 /// Adds seeds where there are defects until there are none.
 /// \param most      seeds there may be in the end
-/// \param progress  called with 1 before each round, as the points are spread; false stops
 /// \throw Error invalid_argument when they do not suffice; interrupted
-DualMesh mend(Sampling& sampling, std::size_t most, const std::function<bool(double)>& progress);
+DualMesh mend(Sampling& sampling, std::size_t most, Progress progress = {});
 
 }  // namespace powercell::remeshing

@@ -6,7 +6,6 @@
 #include <powercell/transport.hpp>
 #include <string>
 
-#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/work_mesh.hpp"
 
 namespace powercell::remeshing {
@@ -103,7 +102,7 @@ double move_to_centroids(const Sampling& sampling, const Sizing& sizing, const s
 }  // namespace
 
 std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing, const Device& device,
-                                 int rounds, const std::function<bool(double)>& progress) {
+                                 int rounds, Progress progress) {
   constexpr double at_rest = 0.03;
   Points points = points_of(sampling);
   std::vector<double> density;
@@ -112,8 +111,7 @@ std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing,
   options.density = Density::nodal(density);
   options.tolerance = 0.02;  // the next round moves the cells by more
   options.rescale = true;
-  options.diagram.progress =
-      progress ? [&progress](double) { return progress(0); } : options.diagram.progress;
+  if (progress.is_told()) options.diagram.progress = [&progress](double) { return progress.goes_on(); };
   TransportSolver solver(device, domain_of(sampling.diagram().surface()), options);
   solver.set_seeds({3, points.positions(), {}});
   solver.set_masses(points.share);
@@ -123,7 +121,7 @@ std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing,
       throw Error(ErrorCode::not_converged, "the masses of the cells could not be made equal: " +
                                                 std::to_string(result.error) + " is left");
     const double moved = move_to_centroids(sampling, sizing, result.centroid, points);
-    tell(progress, static_cast<double>(round + 1) / rounds);
+    progress.at(static_cast<double>(round + 1) / rounds);
     if (moved < at_rest) break;
     solver.move_seeds(points.positions());
   }

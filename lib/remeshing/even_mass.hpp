@@ -2,9 +2,9 @@
 /// Seeds whose cells have equal mass: the transport variant.
 #pragma once
 
-#include <functional>
 #include <powercell/device.hpp>
 
+#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/sampling.hpp"
 
 namespace powercell::remeshing {
@@ -15,6 +15,6 @@ namespace powercell::remeshing {
 /// \return the places of the free seeds
 /// \throw Error not_converged, interrupted, and what TransportSolver throws
 std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing, const Device& device,
-                                 int rounds, const std::function<bool(double)>& progress);
+                                 int rounds, Progress progress = {});
 
 }  // namespace powercell::remeshing

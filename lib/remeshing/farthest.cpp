@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <powercell/error.hpp>
 
-#include "lib/remeshing/interrupt.hpp"
-
 namespace powercell::remeshing {
 namespace {
-
-constexpr std::size_t steps_between_calls = 256;  // added or moved seeds
 
 /// A shuffle that is the same on every machine.
 void shuffle(std::vector<std::uint32_t>& ids, std::mt19937_64& random) {
@@ -17,24 +13,26 @@ void shuffle(std::vector<std::uint32_t>& ids, std::mt19937_64& random) {
 
 }  // namespace
 
-void fill_farthest(Sampling& sampling, std::size_t count, const std::function<bool(double)>& progress) {
+void fill_farthest(Sampling& sampling, std::size_t count, Progress progress) {
+  constexpr std::size_t pieces_a_tick = 100;
   if (sampling.diagram().alive() == 0 && count > 0) {
     const Surface& surface = sampling.diagram().surface();
     sampling.add_free({0, surface.corner(0, 0)});
   }
-  for (std::size_t added = 0; sampling.diagram().alive() < count; ++added) {
-    if (added % steps_between_calls == 0) tell(progress, 0);
+  progress.at(0);
+  while (sampling.diagram().alive() < count) {
     const FarPoint far = sampling.farthest();
     if (far.place.triangle == nothing)
       throw Error(ErrorCode::invalid_argument,
                   "too many points: there is no room between the seeds of the kept edges for more than " +
                       std::to_string(sampling.diagram().alive()));
-    sampling.add_free(far.place);
+    const std::uint32_t seed = sampling.add_free(far.place);
+    // The first cells are as large as the surface.
+    progress.tick(1 + sampling.diagram().pieces(seed).size() / pieces_a_tick);
   }
 }
 
-std::vector<double> optimise_farthest(Sampling& sampling, int rounds,
-                                      const std::function<bool(double)>& progress) {
+std::vector<double> optimise_farthest(Sampling& sampling, int rounds, Progress progress) {
   constexpr double at_rest = 1.001;
   constexpr int patience = 3;  // rounds without gain: the least of many spacings goes up and down
   std::vector<double> history;
@@ -49,10 +47,10 @@ std::vector<double> optimise_farthest(Sampling& sampling, int rounds,
       sampling.remove(seed);
       const FarPoint far = sampling.farthest();
       sampling.add_free(far.place.triangle == nothing ? old : far.place);
-      if (++done % steps_between_calls == 0)
-        tell(progress, (round + static_cast<double>(done) / static_cast<double>(order.size())) / rounds);
+      if (++done % 256 == 0)
+        progress.at((round + static_cast<double>(done) / static_cast<double>(order.size())) / rounds);
     }
-    tell(progress, (round + 1.0) / rounds);
+    progress.at((round + 1.0) / rounds);
     history.push_back(sampling.least_spacing());
     without_gain = history.back() > best * at_rest ? 0 : without_gain + 1;
     best = std::max(best, history.back());

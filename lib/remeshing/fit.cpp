@@ -26,13 +26,14 @@ double shape_cost(Vec a, Vec b, Vec c) {
 
 class Fit {
  public:
-  Fit(WorkMesh& mesh, const Surface& surface, const Sizing& sizing)
-      : mesh_(mesh), surface_(surface), sizing_(sizing), nearest_(corners_of(surface)) {}
+  Fit(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress& progress)
+      : mesh_(mesh), surface_(surface), sizing_(sizing), progress_(progress), nearest_(corners_of(surface)) {}
 
   /// Returns whether anything changed.
   bool pass() {
     bool any = false;
     for (const std::uint32_t v : far_vertices()) {
+      progress_.tick();
       any |= flip_around(v);
       if (mesh_.vertex(v).kind == Hold::Kind::free) any |= move(v);
     }
@@ -50,9 +51,11 @@ class Fit {
   std::vector<std::uint32_t> far_vertices() const {
     const std::vector<WorkMesh::Row>& rows = mesh_.triangles();
     std::vector<double> distance(rows.size());
-    for (std::size_t t = 0; t < rows.size(); ++t)
-      if (rows[t][0] != rows[t][1])
-        distance[t] = distance2(mesh_.at(rows[t][0]), mesh_.at(rows[t][1]), mesh_.at(rows[t][2]));
+    for (std::size_t t = 0; t < rows.size(); ++t) {
+      if (rows[t][0] == rows[t][1]) continue;
+      progress_.tick();
+      distance[t] = distance2(mesh_.at(rows[t][0]), mesh_.at(rows[t][1]), mesh_.at(rows[t][2]));
+    }
     std::vector<double> sorted = distance;
     const auto far =
         sorted.begin() + static_cast<std::ptrdiff_t>((1 - share) * static_cast<double>(rows.size()));
@@ -115,15 +118,19 @@ class Fit {
   WorkMesh& mesh_;
   const Surface& surface_;
   const Sizing& sizing_;
+  Progress& progress_;
   NearestPoint nearest_;
 };
 
 }  // namespace
 
-void fit(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes) {
-  Fit fit(mesh, surface, sizing);
-  for (int pass = 0; pass < passes; ++pass)
+void fit(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes, Progress progress) {
+  progress.at(0);
+  Fit fit(mesh, surface, sizing, progress);
+  for (int pass = 0; pass < passes; ++pass) {
+    progress.at(static_cast<double>(pass) / passes);
     if (!fit.pass()) return;
+  }
 }
 
 }  // namespace powercell::remeshing

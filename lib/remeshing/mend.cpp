@@ -3,7 +3,6 @@
 
 #include "lib/remeshing/cell_loop.hpp"
 #include "lib/remeshing/dual.hpp"
-#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/mesh_check.hpp"
 
 namespace powercell::remeshing {
@@ -54,22 +53,27 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
 
 /// What two cells that meet twice go around together, or a cell on its own, gets seeds around it. At a tip
 /// seeds at the farthest vertices would go nearer and nearer to it instead.
-void add_around(Sampling& sampling, const Defects& defects) {
+void add_around(Sampling& sampling, const Defects& defects, Progress& progress) {
   const LocalDiagram& diagram = sampling.diagram();
   for (const std::uint32_t i : defects.not_discs)
-    for (const Place& place : points_around(diagram, i, sampling.hold(i).place)) sampling.add_between(place);
+    for (const Place& place : points_around(diagram, i, sampling.hold(i).place)) {
+      progress.tick();
+      sampling.add_between(place);
+    }
   if (!defects.not_discs.empty()) return;
   for (const auto& [a, b] : defects.twice) {
+    progress.tick();
     const Place place = point_between(diagram, a, b, sampling.hold(a).place);
     if (place.triangle != nothing) sampling.add_between(place);
   }
 }
 
 /// One seed for a defect that several cells share; the next round tells what is left.
-void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds) {
+void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds, Progress& progress) {
   std::vector<char> treated(sampling.diagram().size(), 0);
   for (const std::uint32_t i : seeds) {
     if (treated[i]) continue;
+    progress.tick();
     treated[i] = 1;
     for (const std::uint32_t j : sampling.diagram().neighbors(i))
       if (j < treated.size()) treated[j] = 1;
@@ -79,35 +83,42 @@ void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds) {
 
 /// Treats the defects of the first kind that there is: those of later kinds may be gone with them. Returns
 /// whether anything changed.
-bool treat(Sampling& sampling, const Defects& defects) {
+bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   const std::size_t before = sampling.diagram().alive();
   bool changed = false;
-  for (const std::uint32_t i : defects.outside) changed |= sampling.give_cell(i);
+  for (const std::uint32_t i : defects.outside) {
+    progress.tick();
+    changed |= sampling.give_cell(i);
+  }
   if (changed) return true;
   // Later ranks of a curve first: they do not move the earlier ones.
   for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
     sampling.split(chord->first, chord->second);
-  for (const Place& fragment : defects.fragments) sampling.add_between(fragment);
-  if (sampling.diagram().alive() == before) add_around(sampling, defects);
-  if (sampling.diagram().alive() == before) add_in_cells(sampling, defects.seeds);
+  for (const Place& fragment : defects.fragments) {
+    progress.tick();
+    sampling.add_between(fragment);
+  }
+  if (sampling.diagram().alive() == before) add_around(sampling, defects, progress);
+  if (sampling.diagram().alive() == before) add_in_cells(sampling, defects.seeds, progress);
   return sampling.diagram().alive() > before;
 }
 
 }  // namespace
 
-DualMesh mend(Sampling& sampling, std::size_t most, const std::function<bool(double)>& progress) {
+DualMesh mend(Sampling& sampling, std::size_t most, Progress progress) {
   const Surface& surface = sampling.diagram().surface();
   while (true) {
-    tell(progress, 1);
+    progress.at(0);
     Defects defects;
-    DualMesh dual = dual_of(sampling, defects);
+    DualMesh dual = dual_of(sampling, defects, progress);
+    progress.at(0);
     if (defects.none()) {
       const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
       if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))
         throw Error(ErrorCode::internal, "the dual is a manifold of another topology than the surface");
       return dual;
     }
-    if (!treat(sampling, defects) || sampling.diagram().alive() > most) too_few(most);
+    if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) too_few(most);
   }
 }
 

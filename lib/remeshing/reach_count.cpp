@@ -29,7 +29,7 @@ bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, 
 }
 
 /// Collapses edges, the relatively shortest first, until `count` vertices are left or none may be.
-void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count) {
+void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count, Progress progress) {
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto offer = [&](std::uint32_t a) {
@@ -40,10 +40,14 @@ void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count
     }
   };
   for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a)
-    if (mesh.is_alive(a)) offer(a);
+    if (mesh.is_alive(a)) {
+      progress.tick();
+      offer(a);
+    }
   while (mesh.alive() > count && !queue.empty()) {
     const auto [length, a, b] = queue.top();
     queue.pop();
+    progress.tick();
     // What was collapsed or could not be then is left; a collapse near by offers it again.
     if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b) ||
         !keeps_sides(mesh, surface, a, b))
@@ -53,11 +57,12 @@ void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count
   }
 }
 
-bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
+bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress) {
   double longest = 0;
   std::optional<WorkMesh::Edge> found;
   for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a) {
     if (!mesh.is_alive(a)) continue;
+    progress.tick();
     for (const std::uint32_t b : mesh.neighbors(a)) {
       if (b < a || mesh.kept(a, b) || relative_length(mesh, a, b) <= longest) continue;
       if (const auto e = mesh.edge(a, b)) {
@@ -75,21 +80,22 @@ bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing)
 
 }  // namespace
 
-void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count) {
+void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
+                 Progress progress) {
   // Vertices that crowd make shapes that cannot be collapsed: flips in between help.
   for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
     before = mesh.alive();
-    collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2);
-    flip_edges(mesh, surface);
+    collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2, progress);
+    flip_edges(mesh, surface, progress);
   }
   if (mesh.alive() > count)
     throw Error(ErrorCode::invalid_argument,
                 "too few points for the topology of the surface: " + std::to_string(count) +
                     " could not be reached from a mesh of " + std::to_string(mesh.alive()) + " points");
   while (mesh.alive() < count) {
-    if (!split_longest(mesh, surface, sizing))
+    if (!split_longest(mesh, surface, sizing, progress))
       throw Error(ErrorCode::invalid_argument, "too many points: there is no edge left to split");
-    flip_edges(mesh, surface);
+    flip_edges(mesh, surface, progress);
   }
 }
 

@@ -75,10 +75,11 @@ bool try_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std:
   return true;
 }
 
-void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing) {
+void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress) {
   const double well = std::cos(40 * std::numbers::pi / 180);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
+    progress.tick();
     const double before = cost_around(mesh, surface, v, mesh.vertex(v).place, largest_cosine);
     try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, well),
              largest_cosine);
@@ -113,9 +114,10 @@ double distortion_around(const WorkMesh& mesh, const Surface& surface, std::uint
 }
 
 /// Moves each vertex where that makes the distortion around it less.
-void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, double step) {
+void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress, double step) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
+    progress.tick();
     const double before = distortion_around(mesh, surface, v, mesh.vertex(v).place);
     const auto best = best_around(mesh, surface, v, step * mesh.vertex(v).h, before,
                                   [&](const Place& to) { return distortion_around(mesh, surface, v, to); });
@@ -126,7 +128,7 @@ void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, doubl
 }
 
 /// Works on the vertices of the triangles whose shape cost is above 1.
-void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes) {
+void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes, Progress progress) {
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<std::uint32_t> bad;
     for (const Row& row : mesh.triangles())
@@ -136,6 +138,7 @@ void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, in
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     bool any = false;
     for (const std::uint32_t v : bad) {
+      progress.tick();
       for (const std::uint32_t u : mesh.neighbors(v)) {
         const auto e = mesh.edge(v, u);
         if (!e || !mesh.can_flip(*e)) continue;
@@ -151,11 +154,12 @@ void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, in
 
 }  // namespace
 
-std::size_t flip_edges(WorkMesh& mesh, const Surface& surface) {
+std::size_t flip_edges(WorkMesh& mesh, const Surface& surface, Progress progress) {
   const double well = std::cos(30 * std::numbers::pi / 180);
   std::size_t flips = 0;
   for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a) {
     if (!mesh.is_alive(a)) continue;
+    progress.tick();
     for (const std::uint32_t b : mesh.neighbors(a)) {
       if (b < a) continue;
       const auto e = mesh.edge(a, b);
@@ -172,17 +176,19 @@ std::size_t flip_edges(WorkMesh& mesh, const Surface& surface) {
   return flips;
 }
 
-void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rounds) {
+void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rounds, Progress progress) {
   constexpr int spreading = 5;  // first rounds, which even out sizes; the others see to shapes
   constexpr std::array<double, 3> steps = {0.1, 0.05, 0.025};  // of h
   for (int round = 0; round < rounds; ++round) {
-    flip_edges(mesh, surface);
+    progress.at(round / (rounds + 1.0));
+    flip_edges(mesh, surface, progress);
     if (round < spreading)
-      smooth(mesh, surface, sizing);
+      smooth(mesh, surface, sizing, progress);
     else
-      improve(mesh, surface, sizing, steps[static_cast<std::size_t>(round) % steps.size()]);
+      improve(mesh, surface, sizing, progress, steps[static_cast<std::size_t>(round) % steps.size()]);
   }
-  if (rounds > 0) mend_worst(mesh, surface, sizing, 30);
+  progress.at(rounds / (rounds + 1.0));
+  if (rounds > 0) mend_worst(mesh, surface, sizing, 30, progress);
 }
 
 }  // namespace powercell::remeshing

@@ -75,21 +75,24 @@ void store(const WorkMesh& mesh, const Frame& frame, RemeshResult& result) {
 }
 
 std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing, const RemeshOptions& options,
-                                 RemeshResult& result) {
+                                 RemeshResult& result, Progress progress) {
   const std::vector<Curve> curves = kept_curves(surface, options.sharp_angle);
   auto sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
   sampling->place_on_curves(options.count);
-  fill_farthest(*sampling, options.count, options.progress);
+  fill_farthest(*sampling, options.count, progress);
   if (options.method == RemeshMethod::farthest_point) {
-    result.least_spacing = optimise_farthest(*sampling, options.rounds, options.progress);
+    result.least_spacing = optimise_farthest(*sampling, options.rounds, progress);
     return sampling;
   }
   const Device device = options.device ? *options.device : Device::choose();
-  const std::vector<Place> places =
-      spread_evenly(*sampling, sizing, device, options.rounds, options.progress);
+  const std::vector<Place> places = spread_evenly(*sampling, sizing, device, options.rounds, progress);
   sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
   sampling->place_on_curves(options.count);
-  for (const Place& place : places) sampling->add_free(place);
+  progress.at(1);
+  for (const Place& place : places) {
+    progress.tick();
+    sampling->add_free(place);
+  }
   result.least_spacing = {sampling->least_spacing()};
   return sampling;
 }
@@ -101,26 +104,30 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   check(options);
   RemeshResult result;
   Watch watch;
+  const Progress all(options.progress);
+  all.part(0, 0).at(0);
   check_triangles(vertices, triangles);
   const Frame frame = frame_of(vertices, triangles);
   const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
   const double spacing = even_spacing(input, options.count);
   check_thinness(input, spacing, options.count);
-  std::vector<double> shape = relative_sizing(input, spacing, options.contrast);
+  std::vector<double> shape = relative_sizing(input, spacing, options.contrast, all.part(0, 0.01));
   const Surface surface = refined(input, spacing, shape);
-  const Sizing sizing = scaled_sizing(surface, shape, options.gradation, options.count);
+  const Sizing sizing = scaled_sizing(surface, shape, options.gradation, options.count, all.part(0.01, 0.02));
 
-  const std::unique_ptr<Sampling> sampling = sample(surface, sizing, options, result);
+  const std::unique_ptr<Sampling> sampling = sample(surface, sizing, options, result, all.part(0.02, 0.9));
   result.seconds_sample = watch.lap();
 
-  const DualMesh dual = mend(*sampling, 2 * options.count + 200, options.progress);
+  const DualMesh dual = mend(*sampling, 2 * options.count + 200, all.part(0.9, 0.9));
   result.added = sampling->diagram().alive() - options.count;
+  all.part(0.9, 0.9).at(0);
   WorkMesh mesh(*sampling, dual);
   result.seconds_dual = watch.lap();
 
-  reach_count(mesh, surface, sizing, options.count);
-  relax(mesh, surface, sizing, options.relaxations);
-  if (options.relaxations > 0) fit(mesh, surface, sizing, fit_passes);
+  reach_count(mesh, surface, sizing, options.count, all.part(0.9, 0.9));
+  relax(mesh, surface, sizing, options.relaxations, all.part(0.9, 0.97));
+  if (options.relaxations > 0) fit(mesh, surface, sizing, fit_passes, all.part(0.97, 1));
+  all.part(1, 1).at(0);
   store(mesh, frame, result);
   result.seconds_relax = watch.lap();
   return result;

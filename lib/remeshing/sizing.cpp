@@ -178,13 +178,17 @@ Curvature curvature(const Surface& surface) {
   return result;
 }
 
-std::vector<double> relative_sizing(const Surface& surface, double reach, double contrast) {
+std::vector<double> relative_sizing(const Surface& surface, double reach, double contrast,
+                                    Progress progress) {
   std::vector<double> value = curvature(surface).largest;
   const std::vector<double> area = vertex_areas(surface);
   // Diffusion over k steps reaches about sqrt(k) edges.
   const double edges = reach / mean_edge(surface);
   const int steps = static_cast<int>(std::clamp(edges * edges, 3.0, 60.0));
-  for (int step = 0; step < steps; ++step) smooth(surface, area, value);
+  for (int step = 0; step < steps; ++step) {
+    progress.at(static_cast<double>(step) / steps);
+    smooth(surface, area, value);
+  }
   auto [low, high] = percentiles(value, area, 0.05, 0.95);
   low = std::max(low, high / (contrast * contrast));
   // What is flat to rounding has no curvature to follow.
@@ -236,12 +240,13 @@ double Sizing::at(const Surface& surface, const Place& place) const {
 }
 
 Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, double gradation,
-                     std::size_t count) {
+                     std::size_t count, Progress progress) {
   const double wanted = static_cast<double>(count);
   Sizing sizing{shape, gradation};
   double factor = even_spacing(surface, count), low = 0, high = 0;
   // The number of vertices falls with the factor; limiting h makes it fall more slowly.
   for (int step = 0; step < 40; ++step) {
+    progress.at(step / 40.0);
     for (std::size_t v = 0; v < shape.size(); ++v) sizing.h[v] = factor * shape[v];
     limit(surface, gradation, sizing.h);
     const double got = vertices_for(surface, sizing.h);

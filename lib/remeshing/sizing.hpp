@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "lib/remeshing/interrupt.hpp"
 #include "lib/remeshing/surface.hpp"
 
 namespace powercell::remeshing {
@@ -20,7 +21,8 @@ Curvature curvature(const Surface& surface);
 /// The shape of the sizing, up to a factor: the larger principal curvature, smoothed over `reach`, clamped at
 /// its 5th and 95th percentile by area, to the power -1/2, which makes chords miss the surface by the same
 /// everywhere. |H| alone is blind to saddles. `contrast` is the largest ratio of two values.
-std::vector<double> relative_sizing(const Surface& surface, double reach, double contrast);
+std::vector<double> relative_sizing(const Surface& surface, double reach, double contrast,
+                                    Progress progress = {});
 
 /// Edge lengths h at the vertices of a surface.
 struct Sizing {
@@ -37,7 +39,7 @@ double even_spacing(const Surface& surface, std::size_t count);
 /// The factor on `shape` with which a mesh of edge length h has `count` vertices (docs/mathematics.md (62)),
 /// h limited to grow by `gradation` a unit of length. \throw Error invalid_argument
 Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, double gradation,
-                     std::size_t count);
+                     std::size_t count, Progress progress = {});
 
 /// Number of vertices that a mesh of edge length h has.
 double vertices_for(const Surface& surface, const std::vector<double>& h);

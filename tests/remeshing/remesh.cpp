@@ -201,7 +201,7 @@ TEST_CASE("transport spreads the masses and can be interrupted") {
   CHECK(code_of(ring, options) == ErrorCode::interrupted);
 }
 
-TEST_CASE("progress is told from the first seeds to the dual, of few points too, and can stop at each call") {
+TEST_CASE("progress is told from the input to the last move, of few points too, and can stop at each call") {
   const TriangleMesh ring = small_torus();
   RemeshOptions options;
   options.count = 60;
@@ -215,13 +215,38 @@ TEST_CASE("progress is told from the first seeds to the dual, of few points too,
   REQUIRE(told.size() > 4);
   CHECK(std::is_sorted(told.begin(), told.end()));
   CHECK(told.front() == 0);
-  CHECK(std::count(told.begin(), told.end(), 0.25) == 1);
+  const auto between = [&](double low, double high) {
+    return std::count_if(told.begin(), told.end(), [&](double done) { return low < done && done < high; });
+  };
+  CHECK(between(0.02, 0.9) >= 3);   // the rounds
+  CHECK(between(0.9, 0.97) >= 15);  // the relaxations
+  CHECK(between(0.97, 1) >= 1);
   CHECK(told.back() == 1);
   for (std::size_t call = 0; call < told.size(); ++call) {
     std::size_t calls = 0;
     options.progress = [&](double) { return calls++ < call; };
     CHECK(code_of(ring, options) == ErrorCode::interrupted);
     CHECK(calls == call + 1);
+  }
+}
+
+TEST_CASE("progress is told within each step of many points") {
+  const TriangleMesh ring = small_torus();
+  RemeshOptions options;
+  options.count = 4000;
+  options.rounds = 0;
+  std::vector<double> told;
+  options.progress = [&](double done) {
+    told.push_back(done);
+    return true;
+  };
+  remesh(ring.vertices, ring.triangles, options);
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  for (const double from : {0.02, 0.9, 0.97}) {  // the first points, the count and the relaxation, the fit
+    CAPTURE(from);
+    const auto calls = std::count_if(told.begin(), told.end(),
+                                     [&](double done) { return from <= done && done < from + 0.03; });
+    CHECK(calls > 15);
   }
 }
 
