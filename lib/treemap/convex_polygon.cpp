@@ -115,8 +115,13 @@ PolygonMoments moments(std::span<const double> vertices) {
 }
 
 double aspect(const PolygonMoments& m) {
-  const double mean = 0.5 * (m.xx + m.yy), half = std::hypot(0.5 * (m.xx - m.yy), m.xy);
-  return std::sqrt((mean + half) / (mean - half));
+  // Of a thin cell the lesser moment is lost in the difference to the greater; the product of both is not:
+  // over the fourth power of the area, of convex cells, it is between that of ellipses and of triangles.
+  constexpr double least = 1 / (16 * std::numbers::pi * std::numbers::pi), most = 1.0 / 108;
+  const double unit = m.area * m.area;
+  const double xx = m.xx / unit, yy = m.yy / unit, xy = m.xy / unit;
+  const double greater = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  return greater / std::sqrt(std::clamp(xx * yy - xy * xy, least, most));
 }
 
 std::vector<double> convex_outline(const Ring& ring) {

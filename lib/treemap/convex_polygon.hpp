@@ -17,7 +17,8 @@ struct PolygonMoments {
 /// \param vertices  x, y pairs, counter-clockwise
 PolygonMoments moments(std::span<const double> vertices);
 
-/// Ratio of the longer to the shorter principal axis: 1 for a square and a regular hexagon.
+/// Ratio of the longer to the shorter principal axis of a convex polygon with an area: 1 for a square and a
+/// regular hexagon. Above 10^7 off by up to a tenth where the axes are not those of x and y.
 double aspect(const PolygonMoments& moments);
 
 /// The outline as x, y pairs, counter-clockwise, without repeated and collinear points.
