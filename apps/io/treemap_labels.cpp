@@ -184,8 +184,10 @@ class Labels {
     const TreemapScene::Cell& cell = scene_.cells[k];
     const std::uint32_t depth = output_.map.depth[cell.node];
     if (parent_[k] != k && scene_.below[parent_[k]] == scene_.below[k] + 1 && depth > 1 &&
-        blockers_[parent_[k]].half_width > 0)
-      return;  // an only child: its parent's label says enough
+        blockers_[parent_[k]].half_width > 0) {
+      blockers_[k] = blockers_[parent_[k]];  // an only child: its parent's label says enough, also of its own
+      return;
+    }
     const Limits allowed = limits(depth, cell.leaf, std::max(scene_.width, scene_.height) / 1600);
     const std::string text = printable(output_.tree.name[cell.node]);
     const bool bold = !cell.leaf;

@@ -8,6 +8,7 @@ exit:  0 all right, 1 something is wrong, 77 shapely is missing
 import json
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -120,6 +121,14 @@ class Treemap(unittest.TestCase):
         self.good("scan", "-o", "s.json")
         values = {row["id"]: row["value"] for row in json.loads((self.folder / "s.json").read_text())}
         self.assertEqual(values, {".": 4500, "a.bin": 1000, "sub": 3500, "sub/b.bin": 3000, "sub/c.bin": 500})
+
+    def test_a_chain_of_only_children_has_one_label(self):
+        chain = {"name": "gamma", "children": [{"name": "delta", "value": 1}]}
+        chain = {"name": "alpha", "children": [{"name": "beta", "children": [chain]}]}
+        self.write("t.json", json.dumps({"name": "top", "children": [chain, {"name": "other", "value": 1}]}))
+        self.good("t.json", "-o", "t.svg")
+        labels = re.findall(r"<text[^>]*>([^<]*)</text>", (self.folder / "t.svg").read_text(encoding="utf-8"))
+        self.assertEqual(sorted(labels), ["alpha", "other"])
 
     def test_update_stays_close(self):
         rows = made_rows(300)
