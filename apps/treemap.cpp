@@ -40,7 +40,9 @@ std::vector<std::string> dropped_ids(const io::NamedTree& tree, const Treemap& m
   return ids;
 }
 
-Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, const Ring& outline) {
+/// \param hue  gets the numbers of the branches for their hues
+Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, const Ring& outline,
+                std::vector<std::int64_t>& hue) {
   TreemapOptions options;
   options.tolerance = arguments.tolerance;
   options.rounds = arguments.rounds;
@@ -52,6 +54,7 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
     const io::EarlierLayout earlier = io::read_earlier_layout(arguments.previous, tree);
     start = relative_positions(earlier.parent, earlier.seeds, earlier.vertex_offset, earlier.vertices);
     options.start = start;
+    hue = earlier.hue;
   }
   // A device is opened only for groups that need one.
   std::vector<std::size_t> children(tree.size());
@@ -66,6 +69,7 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
   };
   Treemap map;
   compute([&] { map = treemap({tree.parent, tree.value}, outline, options); });
+  hue = io::number_branches(map, hue);
   return map;
 }
 
@@ -115,10 +119,11 @@ int run(const TreemapArguments& arguments) {
   const Ring outline = treemap_shape(arguments.shape);
   const io::NamedTree tree = io::read_tree(arguments.tree);
   seconds.read = watch.lap();
-  const Treemap map = lay_out(arguments, tree, outline);
+  std::vector<std::int64_t> hue;
+  const Treemap map = lay_out(arguments, tree, outline, hue);
   seconds.layout = watch.lap();
   for (const std::string& path : arguments.outputs)
-    io::write_treemap(path, {tree, map}, {arguments.size, !arguments.no_labels});
+    io::write_treemap(path, {tree, map, hue}, {arguments.size, !arguments.no_labels});
   seconds.write = watch.lap();
   if (arguments.json)
     tell_json(tree, map, arguments.outputs, seconds);
@@ -162,7 +167,7 @@ Command add_treemap(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--previous", arguments->previous,
-                   "An earlier layout (.json) to stay close to, matched by id")
+                   "An earlier layout (.json) to stay close to, in its colours, matched by id")
       ->type_name("FILE.json");
   command
       ->add_option("--rounds", arguments->rounds, "Rounds of moving cells at most; more makes them rounder")

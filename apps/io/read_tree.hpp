@@ -17,8 +17,8 @@ struct NamedTree {
   std::vector<double> value;         ///< n; 0 where the input has none
   std::vector<std::string> notes;    ///< what was left out on the way, e.g. folders that could not be read
 
-  /// Where rows are numbered: what the number follows, "sales.csv:" or "list.json: element ", and n numbers, 0
-  /// for a row that was only implied. Else empty: ids are paths.
+  /// Where rows are numbered: what the number follows, "sales.csv:" or "list.json: element ", and n numbers,
+  /// 0 for a row that was only implied. Else empty: ids are paths.
   std::string rows;
   std::vector<std::size_t> row;
 
@@ -49,7 +49,8 @@ struct EarlierLayout {
   std::vector<double> seeds;         ///< n x 2; NaN where there is none
   std::vector<std::uint64_t> vertex_offset;  ///< n + 1; no vertices where the node was not there
   std::vector<double> vertices;
-  std::size_t known = 0;  ///< nodes that were there
+  std::vector<std::int64_t> hue;  ///< n: of number_branches; -1 where there is none
+  std::size_t known = 0;          ///< nodes that were there
 };
 /// \throw Error invalid_file if it is no layout that `write_treemap` wrote (which element)
 EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree);

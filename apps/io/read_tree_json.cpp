@@ -152,6 +152,15 @@ void add_polygon(const json& element, EarlierLayout& layout, std::size_t place, 
   }
 }
 
+/// What earlier versions wrote has none.
+std::int64_t hue_of(const json& element) {
+  constexpr std::int64_t most = 1'000'000'000;  // more branches have no colours of their own
+  const json* hue = member(element, {"hue"});
+  if (!hue || !hue->is_number_integer()) return -1;
+  const auto number = hue->get<std::int64_t>();
+  return number >= 0 && number <= most ? number : -1;
+}
+
 }  // namespace
 
 NamedTree parse_tree_json(std::string_view text, const std::string& name) {
@@ -174,6 +183,7 @@ EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree
   EarlierLayout layout;
   layout.vertex_offset.assign(1, 0);
   layout.seeds.assign(2 * tree.size(), std::nan(""));
+  layout.hue.assign(tree.size(), -1);
   for (std::size_t i = 0; i < tree.size(); ++i) {
     std::int64_t parent = tree.parent[i];
     const auto found = at.find(tree.id[i]);
@@ -182,6 +192,7 @@ EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree
       add_polygon(element, layout, found->second + 1, name);
       ++layout.known;
       if (parent >= 0 && id_of(element, "parent") != tree.id[static_cast<std::size_t>(parent)]) parent = -1;
+      layout.hue[i] = hue_of(element);
       const json* seed = member(element, {"seed"});
       if (seed && seed->is_array() && seed->size() == 2 && (*seed)[0].is_number() && (*seed)[1].is_number()) {
         layout.seeds[2 * i] = (*seed)[0].get<double>();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "apps/io/treemap_scene.hpp"
 
@@ -40,22 +41,41 @@ double jitter(std::uint32_t node, std::uint32_t salt) {
 
 }  // namespace
 
+std::vector<std::int64_t> number_branches(const Treemap& map, std::span<const std::int64_t> earlier) {
+  const std::size_t n = map.kind.size();
+  std::vector<std::int64_t> number(n, -1);
+  std::vector<std::size_t> fresh;
+  std::set<std::int64_t> taken;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (map.depth[i] != 1 || map.kind[i] == TreeNode::dropped) continue;
+    if (!earlier.empty() && earlier[i] >= 0 && taken.insert(earlier[i]).second)
+      number[i] = earlier[i];
+    else
+      fresh.push_back(i);
+  }
+  std::stable_sort(fresh.begin(), fresh.end(),
+                   [&](std::size_t a, std::size_t b) { return map.value[a] > map.value[b]; });
+  std::int64_t next = 0;
+  for (const std::size_t i : fresh) {
+    while (taken.contains(next)) ++next;
+    number[i] = next++;
+  }
+  return number;
+}
+
 std::vector<Colour> treemap_colours(const TreemapOutput& output) {
   const Treemap& map = output.map;
   const std::size_t n = output.tree.size();
-  std::vector<std::uint32_t> order(n), branches;
+  std::vector<std::uint32_t> order(n);
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return map.depth[a] < map.depth[b]; });
-  for (const std::uint32_t i : order)
-    if (map.depth[i] == 1 && map.kind[i] != TreeNode::dropped) branches.push_back(i);
-  std::stable_sort(branches.begin(), branches.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return map.value[a] > map.value[b]; });
   std::vector<Lch> lch(n, {0.86, 0.03, 0.68});
-  // The largest branches get the hues farthest apart: steps of the golden section.
-  for (std::size_t k = 0; k < branches.size(); ++k)
-    lch[branches[k]] = {0.80 - 0.05 * static_cast<double>(k % 3), 0.105,
-                        0.70 + 0.6180339887 * static_cast<double>(k)};
+  // Numbers that are near get hues far apart: steps of the golden section.
+  for (std::size_t i = 0; i < n; ++i)
+    if (const std::int64_t k = output.hue[i]; k >= 0)
+      lch[i] = {0.80 - 0.05 * static_cast<double>(k % 3), 0.105,
+                std::fmod(0.70 + 0.6180339887 * static_cast<double>(k), 1.0)};
   for (const std::uint32_t i : order) {
     if (map.depth[i] < 2) continue;
     const Lch& above = lch[static_cast<std::size_t>(output.tree.parent[i])];

@@ -38,6 +38,7 @@ void write_json(const std::string& path, const TreemapOutput& output) {
                            parent < 0 ? "null" : quoted(output.tree.id[static_cast<std::size_t>(parent)]),
                            quoted(output.tree.name[i])));
     file.number(map.value[i]);
+    if (output.hue[i] >= 0) file.write(fmt::format(",\"hue\":{}", output.hue[i]));
     file.write(",\"seed\":");
     write_point(file, &map.seeds[2 * i]);
     file.write(",\"polygon\":[");

@@ -149,6 +149,28 @@ class Treemap(unittest.TestCase):
         self.assertLess(moved(seeds[1]), 0.02)
         self.assertLess(moved(seeds[2]), 0.15 * moved(seeds[3]))
 
+    def test_update_keeps_the_colours_of_branches(self):
+        def drawn(name, values, *previous):
+            rows = [("r", "", "root", "")] + [(i, "r", i, repr(v)) for i, v in values.items()]
+            self.table(f"{name}.csv", rows)
+            self.good(f"{name}.csv", *previous, "-o", f"{name}.svg", "-o", f"{name}.json")
+            text = (self.folder / f"{name}.svg").read_text(encoding="utf-8")
+            return {i: re.search(rf'<path[^>]*data-id="{i}"[^>]*fill="([^"]+)"', text).group(1) for i in values}
+
+        first = drawn("first", {"a": 5, "b": 4, "c": 3, "d": 2})
+        # Another order of values, one branch gone, one new that is the largest.
+        second = drawn("second", {"a": 2, "b": 5, "d": 4, "e": 9}, "--previous", "first.json")
+        third = drawn("third", {"e": 1, "d": 2, "b": 3, "a": 4}, "--previous", "second.json")
+        self.assertEqual(len(set(first.values())), 4)
+        self.assertEqual({i: second[i] for i in "abd"}, {i: first[i] for i in "abd"})
+        self.assertEqual(third, second)
+        self.assertEqual(len(set(second.values())), 4)
+        # A layout without them is one of an earlier version.
+        rows = json.loads((self.folder / "first.json").read_text())
+        self.assertEqual([row.pop("hue", None) for row in rows], [None, 0, 1, 2, 3])
+        self.write("old.json", json.dumps(rows))
+        self.assertEqual(drawn("again", {"a": 5, "b": 4, "c": 3, "d": 2}, "--previous", "old.json"), first)
+
     def test_refusals_name_the_place_and_leave_nothing(self):
         head = "id,parent,name,value\nr,,root,\n"
         cases = {
