@@ -46,6 +46,15 @@ double GeometricDensity::total(const Domain& domain, int threads) const {
   return total;
 }
 
+std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& cells,
+                                             const Accuracy& accuracy, int threads) const {
+  std::vector<double> result;
+  for (const Moments& m : cell_moments(
+           cells, {}, [&] { return integrator(domain, accuracy); }, threads))
+    result.push_back(m.mass);
+  return result;
+}
+
 DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const IntegrationOptions& options) const {
   const Domain& domain = diagram.domain();
   const double negligible = negligible_share * total(domain, options.threads) / domain.measure();

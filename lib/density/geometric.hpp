@@ -32,6 +32,11 @@ class GeometricDensity : public DensityModel {
  public:
   double total(const Domain& domain, int threads) const override;
   DensityIntegrals integrate(Diagram& diagram, const IntegrationOptions& options) const override;
+  /// The integrals over cells of one's own, with the regions of the domain.
+  std::vector<double> masses(const Domain& domain, const Cells& cells, const Accuracy& accuracy,
+                             int threads) const;
+  /// Whether integrals are exact but for rounding.
+  virtual bool exact() const { return false; }
 
  protected:
   /// \throw Error unsupported, invalid_argument if the density does not go with the domain

@@ -178,6 +178,7 @@ class Image : public GeometricDensity {
     require_plane(domain);
     return std::make_unique<PixelSource>(pixels_);
   }
+  bool exact() const override { return true; }
 
  protected:
   std::unique_ptr<PieceIntegrator> integrator(const Domain& domain, const Accuracy&) const override {

@@ -7,6 +7,9 @@
 namespace powercell {
 
 class PointwiseDensity : public GeometricDensity {
+ public:
+  bool exact() const override { return linear(); }
+
  protected:
   /// \param tolerance  relative, of the mass of a simplex
   explicit PointwiseDensity(double tolerance) : tolerance_(tolerance) {}

@@ -1,28 +1,32 @@
 #include "lib/domain/random_points.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <powercell/point_sets.hpp>
 #include <random>
 
-#include "lib/density/model.hpp"
+#include "lib/density/parts.hpp"
 
 namespace powercell {
+namespace {
+
+double uniform(std::mt19937_64& engine) {
+  return static_cast<double>(engine() >> 11) * 0x1p-53;
+}
 
 /// Rejection: a point of the domain stays with a probability that goes with the density. The largest density
-/// is that of the points seen; should a larger one come, all begins again.
-std::vector<double> random_points(const Domain& domain, const Density& density, std::size_t n,
-                                  std::uint64_t random_seed) {
-  constexpr std::size_t batch = 4096, most_batches_a_point = 1;
+/// is that of the points seen; should a larger one come, all begins again. \return none if too few stay
+std::optional<std::vector<double>> points_by_rejection(const Domain& domain, const Density& density,
+                                                       std::size_t n, std::uint64_t random_seed) {
+  constexpr std::size_t batch = 4096, batches_at_least = 64, most_draws_a_point = 4096;
   const std::unique_ptr<PointSource> source = density.model().source(domain);
   const auto d = static_cast<std::size_t>(domain.dimension());
   std::mt19937_64 engine(random_seed);
   std::vector<double> points;
   double largest = 0;
+  std::size_t draws = 0;  // with the largest as it is
   for (std::size_t round = 0; points.size() < n * d; ++round) {
-    if (round > 1000 + most_batches_a_point * n)
-      throw Error(ErrorCode::invalid_argument,
-                  "the density is positive in too small a part of the domain for random points: " +
-                      std::to_string(points.size() / d) + " of " + std::to_string(n) + " were found");
+    if (round >= batches_at_least && points.size() / d * most_draws_a_point < draws) return std::nullopt;
     const std::vector<Sample> drawn = random_points(domain.mesh(), batch, engine());
     std::vector<double> value(batch);
     for (std::size_t k = 0; k < batch; ++k) {
@@ -34,14 +38,78 @@ std::vector<double> random_points(const Domain& domain, const Density& density, 
     if (top > largest) {
       largest = 1.2 * top;  // so that a little more does not begin it all again
       points.clear();
+      draws = 0;
     }
+    draws += batch;
     for (std::size_t k = 0; k < batch && points.size() < n * d; ++k) {
-      const double uniform = static_cast<double>(engine() >> 11) * 0x1p-53;
-      if (!(uniform * largest < value[k])) continue;
+      if (!(uniform(engine) * largest < value[k])) continue;
       for (std::size_t c = 0; c < d; ++c) points.push_back(static_cast<double>(drawn[k].point[c]));
     }
   }
   return points;
+}
+
+/// Sorted uniform numbers part [0, 1] into lengths that are uniform barycentric coordinates.
+Point point_in(const Part& part, std::mt19937_64& engine) {
+  std::array<double, 5> cut{0, 1, 1, 1, 1};
+  for (std::size_t k = 1; k < part.corners; ++k) cut[k] = uniform(engine);
+  std::sort(cut.begin(), cut.end());
+  Point x{};
+  for (std::size_t c = 0; c < part.corners; ++c)
+    for (std::size_t k = 0; k < 3; ++k) x[k] += (cut[c + 1] - cut[c]) * part.corner[c][k];
+  return x;
+}
+
+/// n points of a part by rejection, all anew whenever a density comes that is larger than any seen.
+std::vector<Point> points_in(const Part& part, std::size_t n, PointSource& source, std::mt19937_64& engine) {
+  constexpr std::size_t most_draws = 1000000;
+  std::vector<Point> points;
+  double largest = 1.2 * part.most;
+  for (std::size_t draws = 0; points.size() < n; ++draws) {
+    if (draws > most_draws * (points.size() + 1))
+      refuse_too_small_a_part("none was kept of " + std::to_string(draws) + " in a part of it");
+    const Point x = point_in(part, engine);
+    double value = 0;
+    source.evaluate({&x, 1}, part.region, {&value, 1});
+    if (value > largest) {
+      largest = 1.2 * value;
+      points.clear();
+    }
+    if (uniform(engine) * largest < value) points.push_back(x);
+  }
+  return points;
+}
+
+/// Parts of the domain are drawn by their masses, then points in each.
+std::vector<double> points_by_parts(const Domain& domain, const Density& density, std::size_t n,
+                                    std::uint64_t random_seed) {
+  const std::vector<Part> parts = parts_by_density(domain, density.model());
+  const std::unique_ptr<PointSource> source = density.model().source(domain);
+  std::vector<double> up_to;
+  double sum = 0;
+  for (const Part& part : parts) up_to.push_back(sum += part.mass);
+  std::mt19937_64 engine(random_seed);
+  std::vector<std::vector<std::size_t>> drawn(parts.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto at = std::upper_bound(up_to.begin(), up_to.end() - 1, uniform(engine) * sum);
+    drawn[static_cast<std::size_t>(at - up_to.begin())].push_back(i);
+  }
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  std::vector<double> result(n * d);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const std::vector<Point> points = points_in(parts[p], drawn[p].size(), *source, engine);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      std::copy_n(points[k].begin(), d, &result[drawn[p][k] * d]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> random_points(const Domain& domain, const Density& density, std::size_t n,
+                                  std::uint64_t random_seed) {
+  if (auto points = points_by_rejection(domain, density, n, random_seed)) return std::move(*points);
+  return points_by_parts(domain, density, n, random_seed);
 }
 
 }  // namespace powercell
