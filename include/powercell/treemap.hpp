@@ -79,14 +79,15 @@ struct Treemap {
 /// so the areas are exact to `tolerance` for any values. Same input, same bits.
 /// \param outline  convex, in either orientation
 /// \throw Error invalid_argument (sizes; a parent out of range; no root or two; a cycle; a value that is not
-///   finite: which node; nothing left to lay out), invalid_domain (an outline that is not convex: where; one so
-///   thin or far off that rounding moves its area by a millionth),
-///   interrupted; as Diagram, with a large group
+///   finite: which node; nothing left to lay out), invalid_domain (an outline that is not convex: where; one
+///   so thin or far off that rounding moves its area by a millionth), interrupted; as Diagram, with a large
+///   group
 POWERCELL_API Treemap treemap(const TreeView& tree, const Ring& outline, const TreemapOptions& options = {});
 
 /// Where each node lies in its parent, in a form that a later, changed layout can start from: its seed, from
 /// the centroid of the parent, in units of the square root of the parent's area. An unchanged tree gets the
-/// same layout.
+/// same layout: seeds stay (measured for values over 14 orders of magnitude), polygons are the same to the
+/// tolerance.
 /// \param seeds  as in Treemap; the centroid stands in where there are none (NaN)
 /// \param vertex_offset, vertices  polygons of nodes as in Treemap; an empty one for a node without
 /// \return n x 2; NaN where a node or its parent has no polygon

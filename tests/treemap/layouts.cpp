@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <powercell/shapes.hpp>
 
 #include "tests/support/setups.hpp"
@@ -201,6 +202,31 @@ TEST_CASE("an update stays close to the layout it starts from") {
   const Treemap updated = treemap(tree.view(), square, stable), fresh = treemap(tree.view(), square);
   check_layout(tree, updated, square);
   CHECK(moved(first, updated) < 0.1 * moved(first, fresh));
+}
+
+TEST_CASE("an update of an unchanged tree with steep values stays where it is") {
+  for (const double orders : {6, 10, 14})
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      CAPTURE(orders);
+      CAPTURE(seed);
+      std::vector<std::int64_t> parent{TreeView::no_parent};
+      std::vector<double> value{0};
+      Random random(seed);
+      for (int k = 0; k < 40; ++k) {
+        parent.push_back(0);
+        value.push_back(std::pow(10, random.uniform(0, orders)));
+      }
+      const Treemap first = treemap({parent, value}, square);
+      const std::vector<double> start =
+          relative_positions(parent, first.seeds, first.vertex_offset, first.vertices);
+      TreemapOptions again;
+      again.start = start;
+      const Treemap same = treemap({parent, value}, square, again);
+      double most = 0;  // of seeds: polygons are the same to the tolerance
+      for (std::size_t k = 0; k < first.seeds.size(); ++k)
+        most = std::max(most, std::fabs(first.seeds[k] - same.seeds[k]));
+      CHECK(most < 1e-12);
+    }
 }
 
 TEST_CASE("an update from a layout with all seeds at one place") {
