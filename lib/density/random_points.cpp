@@ -1,6 +1,7 @@
 #include "lib/domain/random_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <powercell/point_sets.hpp>
 #include <random>
@@ -9,10 +10,6 @@
 
 namespace powercell {
 namespace {
-
-double uniform(std::mt19937_64& engine) {
-  return static_cast<double>(engine() >> 11) * 0x1p-53;
-}
 
 /// Rejection: a point of the domain stays with a probability that goes with the density. The largest density
 /// is that of the points seen; should a larger one come, all begins again. \return none if too few stay
@@ -49,14 +46,11 @@ std::optional<std::vector<double>> points_by_rejection(const Domain& domain, con
   return points;
 }
 
-/// Sorted uniform numbers part [0, 1] into lengths that are uniform barycentric coordinates.
 Point point_in(const Part& part, std::mt19937_64& engine) {
-  std::array<double, 5> cut{0, 1, 1, 1, 1};
-  for (std::size_t k = 1; k < part.corners; ++k) cut[k] = uniform(engine);
-  std::sort(cut.begin(), cut.end());
+  const std::array<long double, 4> share = uniform_barycentric(part.corners, engine);
   Point x{};
   for (std::size_t c = 0; c < part.corners; ++c)
-    for (std::size_t k = 0; k < 3; ++k) x[k] += (cut[c + 1] - cut[c]) * part.corner[c][k];
+    for (std::size_t k = 0; k < 3; ++k) x[k] += static_cast<double>(share[c]) * part.corner[c][k];
   return x;
 }
 

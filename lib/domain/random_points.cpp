@@ -46,39 +46,42 @@ double measure_of(const RegionMesh& mesh, const Simplex& simplex) {
   return static_cast<double>(std::fabs(dot(minus(vertex(mesh, simplex.vertex[3]), a), normal)) / 6);
 }
 
-class Uniform {
- public:
-  explicit Uniform(std::uint64_t seed) : engine_(seed) {}
-  double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  // in [0, 1)
-
- private:
-  std::mt19937_64 engine_;
-};
-
-/// Sorted uniform numbers part [0, 1] into lengths that are uniform barycentric coordinates.
-Vector point_in(const RegionMesh& mesh, const Simplex& simplex, Uniform& uniform) {
-  std::array<double, 5> cut{0, 1, 1, 1, 1};
-  for (std::size_t k = 1; k < simplex.corners; ++k) cut[k] = uniform();
-  std::sort(cut.begin(), cut.end());
+Vector point_in(const RegionMesh& mesh, const Simplex& simplex, std::mt19937_64& engine) {
+  const std::array<long double, 4> share = uniform_barycentric(simplex.corners, engine);
   const Vector origin = vertex(mesh, simplex.vertex[0]);
   Vector point = origin;
   for (std::size_t c = 1; c < simplex.corners; ++c) {
     const Vector edge = minus(vertex(mesh, simplex.vertex[c]), origin);
-    for (std::size_t k = 0; k < 3; ++k) point[k] += (static_cast<long double>(cut[c + 1]) - cut[c]) * edge[k];
+    for (std::size_t k = 0; k < 3; ++k) point[k] += share[c] * edge[k];
   }
   return point;
 }
 
 }  // namespace
 
+double uniform(std::mt19937_64& engine) {
+  return static_cast<double>(engine() >> 11) * 0x1p-53;
+}
+
+/// Sorted uniform numbers part [0, 1] into such lengths.
+std::array<long double, 4> uniform_barycentric(std::size_t corners, std::mt19937_64& engine) {
+  std::array<double, 5> cut{0, 1, 1, 1, 1};
+  for (std::size_t k = 1; k < corners; ++k) cut[k] = uniform(engine);
+  std::sort(cut.begin(), cut.end());
+  std::array<long double, 4> share;
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] = static_cast<long double>(cut[k + 1]) - cut[k];
+  return share;
+}
+
 std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std::uint64_t random_seed) {
-  Uniform uniform(random_seed);
+  std::mt19937_64 engine(random_seed);
   std::vector<Sample> samples(count);
   if (mesh.shape == RegionShape::box) {
     for (Sample& sample : samples) {
       sample = {0, {}};
       for (std::size_t k = 0; k < 3; ++k)
-        sample.point[k] = mesh.low[k] + (static_cast<long double>(mesh.high[k]) - mesh.low[k]) * uniform();
+        sample.point[k] =
+            mesh.low[k] + (static_cast<long double>(mesh.high[k]) - mesh.low[k]) * uniform(engine);
     }
     return samples;
   }
@@ -88,9 +91,9 @@ std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std
   double sum = 0;
   for (const Simplex& simplex : simplices) up_to.push_back(sum += measure_of(mesh, simplex));
   for (Sample& sample : samples) {
-    const auto at = std::upper_bound(up_to.begin(), up_to.end() - 1, uniform() * sum);
+    const auto at = std::upper_bound(up_to.begin(), up_to.end() - 1, uniform(engine) * sum);
     const Simplex& simplex = simplices[static_cast<std::size_t>(at - up_to.begin())];
-    sample = {simplex.region, point_in(mesh, simplex, uniform)};
+    sample = {simplex.region, point_in(mesh, simplex, engine)};
   }
   return samples;
 }
