@@ -11,6 +11,7 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/write_points.hpp"
+#include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
 #include "apps/report.hpp"
 #include "apps/sampling/study.hpp"
@@ -164,7 +165,7 @@ void add_source(CLI::App& command, SourceArguments& source) {
   command
       .add_option("--dot-contrast", source.dot_contrast,
                   "Image: 0 for equal dots, towards 1 for ever more different ones; ink is the same")
-      ->check(CLI::Range(0.0, 0.9))
+      ->check(between(0, 0.9))
       ->needs("--image");
   command
       .add_option("--paper", source.paper,
@@ -189,15 +190,15 @@ Command add_sample(CLI::App& app) {
   command->add_flag("--periodic", arguments->periodic,
                     "Opposite sides of the box are one; uniform density only");
   command->add_option("--iterations", arguments->iterations, "Moves at most; 0: by the mode")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_below_zero());
   command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at")
-      ->check(CLI::Range(0.4, 0.99));
+      ->check(between(0.4, 0.99));
   command
       ->add_option("--movement", arguments->movement,
                    "quantise: end below this move over the spacing; 0: never")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_below_zero());
   command->add_option("--tolerance", arguments->tolerance, "Of the masses, relative")
-      ->check(CLI::Range(1e-12, 0.1));
+      ->check(between(1e-12, 0.1));
   command->add_option("--random", arguments->random_seed, "Seed of the points to start from");
   command
       ->add_option("--runs", arguments->runs,
