@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <powercell/seeds.hpp>
 
 #include "apps/bench/run.hpp"
 #include "apps/bench/table.hpp"
@@ -112,7 +113,7 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--n", arguments.n,
                   "Seeds; else those of --compare, else as many as a run of a second takes")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30));
+      ->check(CLI::Range(std::size_t{1}, most_seeds_of_diagram));
   command.add_option("--repeat", arguments.repeat, "Runs of each kind; the best counts")
       ->check(above_zero())
       ->capture_default_str();

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <powercell/seeds.hpp>
 
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_seeds.hpp"
@@ -133,7 +134,7 @@ Vec point_in(const RegionMesh& mesh, const std::array<std::uint32_t, 4>& corners
   return p;
 }
 
-[[noreturn]] void fail_spec(const std::string& spec, const char* what) {
+[[noreturn]] void fail_spec(const std::string& spec, const std::string& what) {
   throw Error(ErrorCode::invalid_argument,
               fmt::format("seeds '{}': {}; write random:N[:LO:HI[:SEED]], e.g. random:1000:0:0.01:7",
                           readable(spec), what));
@@ -160,7 +161,8 @@ RandomSeeds parse_random_spec(const std::string& spec) {
   };
   RandomSeeds what;
   what.count = whole(fields[1], "N is not a whole number");
-  if (what.count > std::size_t{1} << 30) fail_spec(spec, "N is above 1073741824");  // what a diagram can hold
+  if (what.count > most_seeds_of_diagram)
+    fail_spec(spec, fmt::format("N is above {}", most_seeds_of_diagram));  // what a diagram can hold
   if (fields.size() >= 4) {
     if (parse_number(fields[2], what.low) != Parsed::ok) fail_spec(spec, "LO is not a number");
     if (parse_number(fields[3], what.high) != Parsed::ok) fail_spec(spec, "HI is not a number");

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <powercell/opencl.hpp>
+#include <powercell/seeds.hpp>
 
 #include "lib/diagram/device_diagram.hpp"
-#include "lib/seeds/validate.hpp"
 
 namespace powercell {
 namespace {

@@ -6,10 +6,14 @@
 #include <powercell/error.hpp>
 #include <string>
 
+#include "kernels/layout.h"
 #include "lib/seeds/threads.hpp"
 
 namespace powercell {
 namespace {
+
+static_assert(most_seeds_of_diagram <= BORDER_PLANE,
+              "ranks of neighbours are borders of cells below that of planes");
 
 /// Index of the first value that is NaN or infinite, or values.size().
 std::size_t first_not_finite(std::span<const double> values, int threads) {

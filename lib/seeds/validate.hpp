@@ -6,9 +6,6 @@
 
 namespace powercell {
 
-/// Ranks of seeds are borders of cells, below BORDER_PLANE (kernels/layout.h).
-inline constexpr std::size_t most_seeds_of_diagram = std::size_t{1} << 30;
-
 /// \throw Error invalid_argument (dimension and sizes), invalid_seed (the first seed with a NaN or an
 /// infinity)
 void validate_seeds(const SeedsView& seeds, int dimension, int threads);
