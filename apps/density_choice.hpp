@@ -36,8 +36,9 @@ Ink read_ink(const DensityArguments& arguments);
 /// \throw Error invalid_argument unless the domain is a polygon
 Density image_density(const Domain& domain, const Ink& ink, std::span<const double> values);
 
-/// "the integrals of the density are right to 1e-3 of a mass", and what the user may do about it.
+/// "the integrals of the density are right to 1e-3 of a mass". \param quadrature_error  of TransportResult
 std::string integrals_are_right_to(double quadrature_error);
+/// What the user may do where that is not enough.
 inline constexpr const char* remedy_of_integrals =
     "--density jumps or has kinks: give it as --image, which is exact, or a looser --tolerance";
 
