@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from test_cli import DATA, TOOL, ToolTest, run
+from tool import DATA, TOOL, ToolTest, run
 
 
 class Bench(ToolTest):

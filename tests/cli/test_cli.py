@@ -4,80 +4,15 @@
 usage: test_cli.py PATH_OF_POWERCELL [unittest options]
 """
 
-import csv
 import json
 import os
-import pathlib
 import re
 import signal
-import struct
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
-import zlib
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
-DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
-SHAPES = {"italy.geojson": 2, "pretzel.off": 3, "bracket.mesh": 3}
-
-
-def run(*arguments, cwd=None, env=None, timeout=300):
-    return subprocess.run([TOOL, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
-                          stdin=subprocess.DEVNULL, capture_output=True,
-                          env={**os.environ, **(env or {})})
-
-
-def png(rows, bits=8):
-    """A gray picture; the numbers are those of the file."""
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    code = ">H" if bits == 16 else ">B"
-    data = b"".join(b"\0" + b"".join(struct.pack(code, v) for v in row) for row in rows)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
-
-
-class ToolTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def good(self, *arguments, **options):
-        done = run(*arguments, cwd=self.folder, **options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done
-
-    def report(self, *arguments, **options):
-        return json.loads(self.good(*arguments, "--json", **options).stdout)
-
-    def bad(self, code, pattern, *arguments, **options):
-        """Fails with `code` and says `pattern`; one line that a terminal can show, and no file left."""
-        before = sorted(self.folder.rglob("*"))
-        done = run(*arguments, cwd=self.folder, **options)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        self.assertTrue(done.stderr.startswith("powercell: error: "), done.stderr)
-        self.assertRegex(done.stderr, pattern)
-        self.assertTrue(done.stderr[:-1].isprintable() and done.stderr.endswith("\n"), repr(done.stderr))
-        self.assertLess(len(done.stderr), 1000)
-        self.assertEqual(done.stdout, "")
-        self.assertEqual(sorted(self.folder.rglob("*")), before)
-        return done
-
-    def rows(self, name):
-        with (self.folder / name).open() as file:
-            return list(csv.DictReader(file))
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-        return name
-
-    def image(self, name, rows, bits=8):
-        (self.folder / name).write_bytes(png(rows, bits))
-        return name
+from tool import DATA, SHAPES, TOOL, ToolTest
 
 
 class Usage(ToolTest):
@@ -393,93 +328,6 @@ class DiagramErrors(ToolTest):
             self.assertEqual(error.count("powercell: error"), 1, error)
             self.assertEqual(out, "")
             self.assertEqual(list(self.folder.iterdir()), [])
-
-
-class Verify(ToolTest):
-    def test_a_device(self):
-        report = self.report("verify", "--count", 300, "--samples", 200)
-        self.assertTrue(report["passed"])
-        self.assertEqual(len(report["checks"]), 9)
-        for check in report["checks"]:
-            self.assertGreaterEqual(len(check["laws"]), 3)
-            for law in check["laws"]:
-                self.assertTrue(law["passed"])
-                self.assertLessEqual(law["value"], law["tolerance"])
-
-    def test_files(self):
-        out = self.good("verify", "--domain", DATA / "italy.geojson", "--seeds", "random:300:0:500").stdout
-        self.assertIn("all laws hold", out)
-        self.bad(2, "together", "verify", "--domain", "square")
-
-    def saved(self, shape):
-        self.good("diagram", "--domain", shape, "--seeds", "random:80:0:0.02:5", "-o", "a.json", "--quiet")
-        return json.loads((self.folder / "a.json").read_text())
-
-    def test_a_saved_diagram(self):
-        for shape in ("square", "disk", "cube", "sphere"):
-            with self.subTest(shape=shape):
-                self.saved(shape)
-                out = self.good("verify", "a.json").stdout
-                self.assertEqual(out.count("  ok "), 7, out)
-
-    def broken(self, saved, law):
-        self.write("a.json", json.dumps(saved))
-        done = run("verify", "a.json", cwd=self.folder)
-        self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stdout, "FAIL *" + law)
-
-    def test_a_tampered_one_is_found_out(self):
-        saved = self.saved("square")
-        cell = next(c for c in saved["cells"] if c["status"] == "ok")
-        cell["measure"] *= 1.001
-        self.broken(saved, "partition")
-        self.broken(saved, "geometry")
-        saved = self.saved("square")
-        cell = next(c for c in saved["cells"] if any(b is not None and b >= 0 for f in c["borders"] for b in f))
-        cell["weight"] += 0.01
-        self.broken(saved, "bisectors")
-        self.broken(saved, "ownership")
-
-    def test_tampered_heads_and_centroids_are_found_out(self):
-        for shape in ("square", "cube", "sphere"):
-            saved = self.saved(shape)
-            cell = next(c for c in saved["cells"] if c["status"] == "ok")
-            cell["centroid"][1] += 0.001
-            with self.subTest(shape=shape):
-                self.broken(saved, "centroids")
-        saved = self.saved("square")
-        for key in saved["check"].keys() - {"relative_error"}:
-            with self.subTest(key=key):
-                self.broken(saved | {"check": saved["check"] | {key: 7}}, "summary")
-        self.broken(saved | {"cells": []}, "partition")
-        self.broken({"domain": saved["domain"], "cells": []}, "partition")
-        del saved["check"]
-        for cell in saved["cells"]:
-            del cell["centroid"]
-        self.write("a.json", json.dumps(saved))
-        self.assertIn("all laws hold", self.good("verify", "a.json").stdout)
-
-    def test_a_saved_diagram_far_from_the_origin(self):
-        self.write("far.wkt", "POLYGON((1000000 1000000, 1000001 1000000, 1000001.2 1000000.7, 1000000 1000000))")
-        self.good("diagram", "--domain", "far.wkt", "--seeds", "random:3000:0:0.0001", "-o", "far.json", "--quiet")
-        self.good("verify", "far.json")
-        saved = json.loads((self.folder / "far.json").read_text())
-        cell = next(c for c in saved["cells"] if c["status"] == "ok")
-        cell["vertices"][0][0] += 1e-7
-        self.broken(saved, "geometry")
-
-    def test_what_is_no_saved_diagram(self):
-        self.bad(1, "no such file", "verify", "none.json")
-        self.bad(1, "not JSON", "verify", self.write("a.json", '{"domain": {'))
-        self.bad(1, "a.json", "verify", self.write("a.json", '{"cells": []}'))
-        self.bad(1, "cell 0", "verify", self.write(
-            "a.json", '{"domain": {"kind": "polygon", "measure": 1}, "cells": [{"seed": 0}]}'))
-        for place in (1e80, -1, 0.5):
-            for says, key in (("is no count", "faces"), ("is no integer", "borders")):
-                saved = self.saved("square")
-                saved["cells"][0][key][0][0] = place
-                if key == "faces" or place != -1:
-                    self.bad(1, f"cell 0: .*({says})", "verify", self.write("a.json", json.dumps(saved)))
 
 
 class Demo(ToolTest):

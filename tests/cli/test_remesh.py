@@ -7,7 +7,7 @@ usage: test_remesh.py PATH_OF_POWERCELL [unittest options]
 import json
 import unittest
 
-from test_cli import DATA, ToolTest
+from tool import DATA, ToolTest
 
 
 class Remesh(ToolTest):

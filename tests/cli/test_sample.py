@@ -9,7 +9,7 @@ import math
 import re
 import unittest
 
-from test_cli import ToolTest, png, run
+from tool import ToolTest, png, run
 
 
 class Sample(ToolTest):

@@ -8,7 +8,7 @@ import json
 import math
 import unittest
 
-from test_cli import DATA, ToolTest, run
+from tool import DATA, ToolTest, run
 
 
 class Transport(ToolTest):

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""`powercell verify`: of devices, of seeds in a domain, of saved diagrams right and broken.
+
+usage: test_verify.py PATH_OF_POWERCELL [unittest options]
+"""
+
+import json
+import unittest
+
+from tool import DATA, ToolTest, run
+
+
+class Verify(ToolTest):
+    def test_a_device(self):
+        report = self.report("verify", "--count", 300, "--samples", 200)
+        self.assertTrue(report["passed"])
+        self.assertEqual(len(report["checks"]), 9)
+        for check in report["checks"]:
+            self.assertGreaterEqual(len(check["laws"]), 3)
+            for law in check["laws"]:
+                self.assertTrue(law["passed"])
+                self.assertLessEqual(law["value"], law["tolerance"])
+
+    def test_files(self):
+        out = self.good("verify", "--domain", DATA / "italy.geojson", "--seeds", "random:300:0:500").stdout
+        self.assertIn("all laws hold", out)
+        self.bad(2, "together", "verify", "--domain", "square")
+
+    def saved(self, shape):
+        self.good("diagram", "--domain", shape, "--seeds", "random:80:0:0.02:5", "-o", "a.json", "--quiet")
+        return json.loads((self.folder / "a.json").read_text())
+
+    def test_a_saved_diagram(self):
+        for shape in ("square", "disk", "cube", "sphere"):
+            with self.subTest(shape=shape):
+                self.saved(shape)
+                out = self.good("verify", "a.json").stdout
+                self.assertEqual(out.count("  ok "), 7, out)
+
+    def broken(self, saved, law):
+        self.write("a.json", json.dumps(saved))
+        done = run("verify", "a.json", cwd=self.folder)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, "FAIL *" + law)
+
+    def test_a_tampered_one_is_found_out(self):
+        saved = self.saved("square")
+        cell = next(c for c in saved["cells"] if c["status"] == "ok")
+        cell["measure"] *= 1.001
+        self.broken(saved, "partition")
+        self.broken(saved, "geometry")
+        saved = self.saved("square")
+        cell = next(c for c in saved["cells"] if any(b is not None and b >= 0 for f in c["borders"] for b in f))
+        cell["weight"] += 0.01
+        self.broken(saved, "bisectors")
+        self.broken(saved, "ownership")
+
+    def test_tampered_heads_and_centroids_are_found_out(self):
+        for shape in ("square", "cube", "sphere"):
+            saved = self.saved(shape)
+            cell = next(c for c in saved["cells"] if c["status"] == "ok")
+            cell["centroid"][1] += 0.001
+            with self.subTest(shape=shape):
+                self.broken(saved, "centroids")
+        saved = self.saved("square")
+        for key in saved["check"].keys() - {"relative_error"}:
+            with self.subTest(key=key):
+                self.broken(saved | {"check": saved["check"] | {key: 7}}, "summary")
+        self.broken(saved | {"cells": []}, "partition")
+        self.broken({"domain": saved["domain"], "cells": []}, "partition")
+        del saved["check"]
+        for cell in saved["cells"]:
+            del cell["centroid"]
+        self.write("a.json", json.dumps(saved))
+        self.assertIn("all laws hold", self.good("verify", "a.json").stdout)
+
+    def test_a_saved_diagram_far_from_the_origin(self):
+        self.write("far.wkt", "POLYGON((1000000 1000000, 1000001 1000000, 1000001.2 1000000.7, 1000000 1000000))")
+        self.good("diagram", "--domain", "far.wkt", "--seeds", "random:3000:0:0.0001", "-o", "far.json", "--quiet")
+        self.good("verify", "far.json")
+        saved = json.loads((self.folder / "far.json").read_text())
+        cell = next(c for c in saved["cells"] if c["status"] == "ok")
+        cell["vertices"][0][0] += 1e-7
+        self.broken(saved, "geometry")
+
+    def test_what_is_no_saved_diagram(self):
+        self.bad(1, "no such file", "verify", "none.json")
+        self.bad(1, "not JSON", "verify", self.write("a.json", '{"domain": {'))
+        self.bad(1, "a.json", "verify", self.write("a.json", '{"cells": []}'))
+        self.bad(1, "cell 0", "verify", self.write(
+            "a.json", '{"domain": {"kind": "polygon", "measure": 1}, "cells": [{"seed": 0}]}'))
+        for place in (1e80, -1, 0.5):
+            for says, key in (("is no count", "faces"), ("is no integer", "borders")):
+                saved = self.saved("square")
+                saved["cells"][0][key][0][0] = place
+                if key == "faces" or place != -1:
+                    self.bad(1, f"cell 0: .*({says})", "verify", self.write("a.json", json.dumps(saved)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,76 @@
+"""What the tests of the tool share: running it in a folder of its own, and what a refusal looks like.
+
+A script that imports this has the path of the tool as its first argument.
+"""
+
+import csv
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
+SHAPES = {"italy.geojson": 2, "pretzel.off": 3, "bracket.mesh": 3}
+
+
+def run(*arguments, cwd=None, env=None, timeout=300):
+    return subprocess.run([TOOL, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
+                          stdin=subprocess.DEVNULL, capture_output=True,
+                          env={**os.environ, **(env or {})})
+
+
+def png(rows, bits=8):
+    """A gray picture; the numbers are those of the file."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    code = ">H" if bits == 16 else ">B"
+    data = b"".join(b"\0" + b"".join(struct.pack(code, v) for v in row) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+
+
+class ToolTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def good(self, *arguments, **options):
+        done = run(*arguments, cwd=self.folder, **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def report(self, *arguments, **options):
+        return json.loads(self.good(*arguments, "--json", **options).stdout)
+
+    def bad(self, code, pattern, *arguments, **options):
+        """Fails with `code` and says `pattern`; one line that a terminal can show, and no file left."""
+        before = sorted(self.folder.rglob("*"))
+        done = run(*arguments, cwd=self.folder, **options)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertTrue(done.stderr.startswith("powercell: error: "), done.stderr)
+        self.assertRegex(done.stderr, pattern)
+        self.assertTrue(done.stderr[:-1].isprintable() and done.stderr.endswith("\n"), repr(done.stderr))
+        self.assertLess(len(done.stderr), 1000)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
+        return done
+
+    def rows(self, name):
+        with (self.folder / name).open() as file:
+            return list(csv.DictReader(file))
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+    def image(self, name, rows, bits=8):
+        (self.folder / name).write_bytes(png(rows, bits))
+        return name
