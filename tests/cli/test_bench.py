@@ -132,7 +132,8 @@ class Bench(ToolTest):
         process.send_signal(signal.SIGINT)
         _, error = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, error)
-        self.assertEqual(error, "powercell: error: interrupted\n")
+        # What the driver's compiler says when it is disturbed comes before.
+        self.assertTrue(error.endswith("powercell: error: interrupted\n"), error)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["a.json"])
         self.assertEqual((self.folder / "a.json").read_text(), "older")
 
