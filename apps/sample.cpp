@@ -57,8 +57,8 @@ void write_cells(const std::string& path, const SampleArguments& arguments, cons
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
   const JoinedCells joined = join(source.domain, diagram.cells());
-  io::write_output(path,
-                   {source.domain, seeds, diagram.measures(), diagram.cells(), joined, diagram.adjacency()});
+  io::write_output(
+      path, {source.domain, seeds, diagram.measures(), diagram.cells(), joined, diagram.adjacency(), false});
 }
 
 std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,

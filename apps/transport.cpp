@@ -74,8 +74,8 @@ void write_files(const TransportArguments& arguments, TransportSolver& solver, c
   if (!arguments.outputs.empty()) {
     Diagram& diagram = solver.diagram();
     const JoinedCells joined = join(diagram.domain(), diagram.cells());
-    const io::DiagramOutput output{diagram.domain(), seeds,  diagram.measures(),
-                                   diagram.cells(),  joined, diagram.adjacency()};
+    const io::DiagramOutput output{diagram.domain(),    seeds, diagram.measures(), diagram.cells(), joined,
+                                   diagram.adjacency(), false};
     for (const std::string& path : arguments.outputs) {
       io::write_output(path, output);
       written(path);

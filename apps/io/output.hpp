@@ -18,6 +18,9 @@ struct DiagramOutput {
   const Cells& cells;
   const JoinedCells& joined;
   const Adjacency& adjacency;
+  /// Whether flat pictures show a weight as the disc of radius sqrt(w). Not where only the differences of
+  /// weights mean something, as of those that were solved for.
+  bool weights_as_discs = true;
 };
 
 /// Extensions that `write_output` knows, for messages: ".svg .png ...".

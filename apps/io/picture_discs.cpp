@@ -33,7 +33,8 @@ std::vector<Scene::Disc> make_discs(const DiagramOutput& output, const Placement
     }
     if (status != SeedStatus::ok) continue;
     dots.push_back({Scene::Mark::dot, seed, x, y, dot});
-    const double w = output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i];
+    if (!output.weights_as_discs || output.seeds.weights.empty()) continue;
+    const double w = output.seeds.weights[i];
     const double radius = std::sqrt(std::abs(w)) * magnification * placement.scale;
     if (radius < 1.3 * dot) continue;
     weights.push_back({w > 0 ? Scene::Mark::positive : Scene::Mark::negative, seed, x, y, radius});

@@ -60,10 +60,11 @@ void describe(Scene& scene, const DiagramOutput& output, double magnification, b
   scene.description = fmt::format("{} cells, {} hidden seeds, {} duplicate seeds.", scene.cells.size(),
                                   measures.count(SeedStatus::hidden), measures.count(SeedStatus::duplicate));
   if (!discs) return;
-  scene.description +=
-      " A disc around a seed has the radius sqrt(weight); a dashed ring stands for a negative weight, a "
-      "hollow dot for a hidden seed, a cross for a duplicate.";
-  if (magnification != 1) {
+  if (output.weights_as_discs)
+    scene.description +=
+        " A disc around a seed has the radius sqrt(weight); a dashed ring stands for a negative weight.";
+  scene.description += " A hollow dot stands for a hidden seed, a cross for a duplicate.";
+  if (output.weights_as_discs && magnification != 1) {
     scene.description += fmt::format(" Radii are drawn {:.4g} times their size.", magnification);
   }
 }

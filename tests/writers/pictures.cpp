@@ -1,6 +1,7 @@
 #include <cairo.h>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -115,6 +116,22 @@ TEST_CASE("discs show signs, hidden seeds and duplicates") {
   CHECK(positive > 0);
   CHECK(negative > 0);
   CHECK(duplicates == 1);
+}
+
+TEST_CASE("weights that are no radii are not drawn as discs") {
+  const MadeDiagram made = polygon_diagram(80);
+  io::DiagramOutput output = made.output();
+  output.weights_as_discs = false;
+  const io::Scene with = io::make_scene(made.output()), without = io::make_scene(output);
+  const auto of_weights = [](const io::Scene::Disc& disc) {
+    return disc.mark == io::Scene::Mark::positive || disc.mark == io::Scene::Mark::negative;
+  };
+  const auto drawn = std::count_if(with.discs.begin(), with.discs.end(), of_weights);
+  CHECK(drawn > 0);
+  CHECK(std::none_of(without.discs.begin(), without.discs.end(), of_weights));
+  CHECK(without.discs.size() + static_cast<std::size_t>(drawn) == with.discs.size());
+  CHECK(with.description.find("sqrt(weight)") != std::string::npos);
+  CHECK(without.description.find("sqrt(weight)") == std::string::npos);
 }
 
 TEST_CASE("cells with a common wall differ in colour") {
