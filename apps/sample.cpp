@@ -164,7 +164,7 @@ void add_source(CLI::App& command, SourceArguments& source) {
   add_density_options(command, source);
   command
       .add_option("--dot-contrast", source.dot_contrast,
-                  "Image: 0 for equal dots, towards 1 for ever more different ones; ink is the same")
+                  "Image: 0 for equal dots, up to 0.9 for ever more different ones; ink is the same")
       ->check(between(0, 0.9))
       ->needs("--image");
   command
@@ -191,13 +191,13 @@ Command add_sample(CLI::App& app) {
                     "Opposite sides of the box are one; uniform density only");
   command->add_option("--iterations", arguments->iterations, "Moves at most; 0: by the mode")
       ->check(not_below_zero());
-  command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at")
+  command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at, 0.4 to 0.99")
       ->check(between(0.4, 0.99));
   command
       ->add_option("--movement", arguments->movement,
                    "quantise: end below this move over the spacing; 0: never")
       ->check(not_below_zero());
-  command->add_option("--tolerance", arguments->tolerance, "Of the masses, relative")
+  command->add_option("--tolerance", arguments->tolerance, "Of the masses, relative, 1e-12 to 0.1")
       ->check(between(1e-12, 0.1));
   command->add_option("--random", arguments->random_seed, "Seed of the points to start from");
   command
