@@ -18,6 +18,7 @@ nlohmann::ordered_json as_json(const TransportStep& step) {
   return {{"step", step.step},
           {"phase", name(step.phase)},
           {"exponent", step.exponent},
+          {"spread", step.spread},
           {"error", step.error},
           {"gradient", step.gradient},
           {"least", step.least},

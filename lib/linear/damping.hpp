@@ -17,10 +17,11 @@ inline bool falls_enough(double reached, double before, double length) {
   return reached <= (1 - length / 2) * before;
 }
 
-/// The first of the lengths 1, 1/2, 1/4, ... down to `shortest` that `accepted(length)` takes; 0 if none.
+/// The first of the lengths `longest`, half of it, a quarter, ... down to `shortest` that `accepted(length)`
+/// takes; 0 if none.
 template <class Accepted>
-double damped_length(double shortest, const Accepted& accepted) {
-  for (double length = 1; length >= shortest; length /= 2)
+double damped_length(double shortest, const Accepted& accepted, double longest = 1) {
+  for (double length = longest; length >= shortest; length /= 2)
     if (accepted(length)) return length;
   return 0;
 }

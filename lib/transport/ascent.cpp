@@ -46,7 +46,8 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
       direction = course.solve(
           make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, span_of(shifts)),
           gradient);
-      if (!direction.linear.broke_down) {
+      if (!direction.linear.broke_down &&
+          course.evaluator().possible(at.weights + direction.linear.solution, at.weights)) {
         next = course.evaluator().evaluate(at.weights + direction.linear.solution);
         // The dual is concave: any rise leads up. Where rises drown in rounding the gradient tells.
         rise = next.dual(target) - value;

@@ -3,9 +3,18 @@
 #include <chrono>
 
 namespace powercell {
+namespace {
+
+constexpr double rough = 0.1;  // tolerance for blended densities
+
+}  // namespace
 
 Course::Course(Evaluator& evaluator, const TransportOptions& options, double tolerance, Vector target)
     : evaluator_(evaluator), options_(options), tolerance_(tolerance), target_(std::move(target)) {}
+
+double Course::tolerance() const {
+  return evaluator_.spread() > 0 ? rough : tolerance_;
+}
 
 Direction Course::solve(const Laplacian& system, const Vector& right) {
   const auto start = std::chrono::steady_clock::now();
@@ -28,18 +37,19 @@ void Course::accept(TransportStep step, const Iterate& at, const Vector& target)
   step.diagram_seconds = evaluator_.seconds() - timed_;
   counted_ = evaluator_.count();
   timed_ = evaluator_.seconds();
+  step.spread = evaluator_.spread();
   steps_.push_back(step);
+  if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
+  if (step.spread > 0) return;
   const double error = at.error(target_);
   if (best_.size() == 0 || at.empty < best_empty_ || (at.empty == best_empty_ && error < best_error_)) {
     best_ = at.weights;
     best_empty_ = at.empty;
     best_error_ = error;
   }
-  if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
 }
 
-Iterate run_course(Course& course, const Vector& weights) {
-  Iterate at = find_start(course, weights);
+PhaseEnd solve_as_it_is(Course& course, Iterate& at) {
   const auto to_the_end = [&] {
     return newton(course, at, course.target(), course.tolerance(), TransportPhase::newton, 1);
   };
@@ -48,6 +58,14 @@ Iterate run_course(Course& course, const Vector& weights) {
   if (end != PhaseEnd::converged && at.empty == 0) end = to_the_end();
   if (end == PhaseEnd::stalled && at.empty == 0) end = ramp(course, at);
   if (end == PhaseEnd::stalled || end == PhaseEnd::disconnected) end = ascend(course, at, false);
+  return end;
+}
+
+Iterate run_course(Course& course, const Vector& weights) {
+  Iterate at = find_start(course, weights);
+  // A cell with next to nothing of its mass tells no more of where to go than an empty one.
+  if (course.evaluator().uneven() && at.least(course.target()) < hopeless_share) blend(course, weights, at);
+  const PhaseEnd end = solve_as_it_is(course, at);
   if (end == PhaseEnd::converged || at.weights == course.best()) return at;
   return course.evaluator().evaluate(course.best());
 }

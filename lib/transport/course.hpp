@@ -6,6 +6,11 @@
 
 namespace powercell {
 
+/// min m_i / v_i below which another start is looked for.
+inline constexpr double poor_share = 0.01;
+/// And below which the density is blended with a constant.
+inline constexpr double hopeless_share = 1e-4;
+
 /// How a phase ended.
 enum class PhaseEnd {
   converged,
@@ -27,10 +32,11 @@ class Course {
 
   Evaluator& evaluator() { return evaluator_; }
   const Vector& target() const { return target_; }
-  double tolerance() const { return tolerance_; }
+  /// A rough one while the density is blended.
+  double tolerance() const;
   bool at_limit() const { return solved_ >= options_.max_steps; }
   /// The masses are those asked for: nothing is left to do, and walls may be missing.
-  bool reached(const Iterate& at) const { return at.empty == 0 && at.error(target_) < tolerance_; }
+  bool reached(const Iterate& at) const { return at.empty == 0 && at.error(target_) < tolerance(); }
   const std::vector<TransportStep>& steps() const { return steps_; }
 
   /// Solves (L + shift) x = right. An empty shift asks for a connected system.
@@ -57,7 +63,8 @@ class Course {
 };
 
 /// An iterate to start from: the weights given if no cell is empty, else fractions of them, else 0, else
-/// seeds moved into the domain as one; of all tried the one with the fewest empty cells.
+/// seeds moved into the domain as one; of all tried the one with the fewest empty cells. Where a cell has
+/// nearly nothing of its mass, seeds moved onto the density as one if that is better.
 Iterate find_start(Course& course, const Vector& weights);
 /// Damped Newton for a target of its own; (27)-(29).
 PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolerance, TransportPhase phase,
@@ -66,6 +73,12 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
 PhaseEnd ramp(Course& course, Iterate& at);
 /// Regularised Newton on the dual, (30). \param repair  ends as soon as damped Newton can go on
 PhaseEnd ascend(Course& course, Iterate& at, bool repair);
+/// Those three as needed, for the density as the evaluator has it.
+PhaseEnd solve_as_it_is(Course& course, Iterate& at);
+/// Where nearly nothing of the density lies in some cells: solves for blends of it with a constant, (31c),
+/// with ever less of the latter. \param at  the start, then where damped Newton can go on \return false, with
+/// `at` as it was, if that fails
+bool blend(Course& course, const Vector& weights, Iterate& at);
 /// All of them, as needed. Returns an iterate; converged or not shows in its error.
 Iterate run_course(Course& course, const Vector& weights);
 

@@ -2,6 +2,7 @@
 /// Weights with the masses of their cells: where the solver stands. Internal.
 #pragma once
 
+#include <optional>
 #include <powercell/transport.hpp>
 
 #include "lib/linear/laplacian.hpp"
@@ -45,6 +46,18 @@ class Evaluator {
   /// The diagram keeps these weights. Their mean is taken off first.
   Iterate evaluate(Vector weights);
 
+  /// From now on this share of the domain's mass is spread evenly over it: the density is (31c). Not for
+  /// constants.
+  void spread(double share);
+  double spread() const { return spread_; }
+  bool uneven() const { return !density_.is_constant(); }
+
+  /// Whether weights may have cells that are not empty: of two of those the weights differ by no more than
+  /// the square of the way from a seed to the farthest point. Generous, and for weights that differ more than
+  /// is possible already, as given ones may, no more than four times as much. \param before  where the step
+  /// starts
+  bool possible(const Vector& weights, const Vector& before) const;
+
   std::size_t size() const { return positions_.size() / dimension_; }
   std::span<const double> positions() const { return positions_; }
   Diagram& diagram() { return diagram_; }
@@ -62,6 +75,8 @@ class Evaluator {
   std::span<const double> positions_;
   std::size_t dimension_;
   IntegrationOptions options_;
+  double spread_ = 0;
+  std::optional<Density> even_;  // constant, of the same mass
   Vector last_;
   std::size_t count_ = 0;
   double seconds_ = 0;

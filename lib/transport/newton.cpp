@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lib/linear/damping.hpp"
 #include "lib/transport/course.hpp"
 
@@ -13,7 +15,10 @@ constexpr int most_short_steps = 8;      // in a row
 PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolerance, TransportPhase phase,
                 double exponent) {
   const double least = kept_share(at.least(target));
+  const double spread = course.evaluator().spread();
+  const int patience = spread > 0 && spread < 1 ? 1 : most_short_steps;
   int short_steps = 0;
+  double longest = 1;
   while (true) {
     if (at.error(target) < tolerance || course.reached(at)) return PhaseEnd::converged;
     if (course.at_limit()) return PhaseEnd::step_limit;
@@ -24,11 +29,16 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
     const Direction direction = course.solve(system, gradient);
     if (direction.linear.broke_down) return PhaseEnd::stalled;
     Iterate next;
-    const double length = damped_length(shortest, [&](double trial) {
-      next = course.evaluator().evaluate(at.weights + trial * direction.linear.solution);
-      return next.empty == 0 && next.least(target) >= least &&
-             falls_enough(next.gradient(target).norm(), gradient.norm(), trial);
-    });
+    const double length = damped_length(
+        shortest,
+        [&](double trial) {
+          Vector weights = at.weights + trial * direction.linear.solution;
+          if (!course.evaluator().possible(weights, at.weights)) return false;
+          next = course.evaluator().evaluate(std::move(weights));
+          return next.empty == 0 && next.least(target) >= least &&
+                 falls_enough(next.gradient(target).norm(), gradient.norm(), trial);
+        },
+        longest);
     if (length == 0) return PhaseEnd::stalled;
     at = std::move(next);
     TransportStep step;
@@ -40,8 +50,9 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
     step.linear_residual = direction.linear.residual;
     step.linear_seconds = direction.seconds;
     course.accept(step, at, target);
+    longest = std::min(1.0, 4 * length);
     short_steps = length <= short_step ? short_steps + 1 : 0;
-    if (short_steps == most_short_steps) return PhaseEnd::stalled;
+    if (short_steps == patience) return PhaseEnd::stalled;
   }
 }
 
