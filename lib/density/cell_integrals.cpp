@@ -8,12 +8,15 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t cells_a_task = 64;
+constexpr std::size_t most_cells_a_task = 64;
 
 /// `body(integrator, i)` for every cell i; cells of a task by one thread.
 template <class Body>
 void for_cells(std::size_t count, const MakeIntegrator& make, int threads, const Body& body) {
-  std::vector<std::unique_ptr<PieceIntegrator>> integrators(static_cast<std::size_t>(std::max(threads, 1)));
+  const auto workers = static_cast<std::size_t>(std::max(threads, 1));
+  std::vector<std::unique_ptr<PieceIntegrator>> integrators(workers);
+  // Few cells may take long, each.
+  const std::size_t cells_a_task = std::clamp<std::size_t>(count / (8 * workers), 1, most_cells_a_task);
   parallel_tasks(threads, (count + cells_a_task - 1) / cells_a_task, [&](int worker, std::size_t task) {
     std::unique_ptr<PieceIntegrator>& own = integrators[static_cast<std::size_t>(worker)];
     if (!own) own = make();

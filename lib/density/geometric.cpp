@@ -1,5 +1,6 @@
 #include "lib/density/geometric.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,16 @@ double sum_of(const std::vector<Moments>& moments) {
 
 constexpr double negligible_share = 1e-3;  // of the mean density
 
+/// Of the parts that show where a density lies: some thousand in a domain about as long as wide, and never
+/// more than 128 one behind the other.
+double longest_edge(const Domain& domain) {
+  const int d = domain.cell_dimension();
+  double square = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(domain.dimension()); ++c)
+    square += (domain.high()[c] - domain.low()[c]) * (domain.high()[c] - domain.low()[c]);
+  return std::max(std::pow(domain.measure(), 1.0 / d) / (d == 3 ? 8 : 16), std::sqrt(square) / 128);
+}
+
 }  // namespace
 
 double GeometricDensity::total(const Domain& domain, int threads) const {
@@ -29,10 +40,8 @@ double GeometricDensity::total(const Domain& domain, int threads) const {
   const Cells regions = region_cells(domain.mesh());
   // Regions may be many times as large as cells, and as what the density has in them.
   constexpr int more_depth = 10;
-  int least_depth = 0;
-  while ((domain.region_count() << least_depth) < 1000) ++least_depth;
   const auto sum = [&](double negligible) {
-    const auto make = [&] { return integrator(domain, {0, negligible, least_depth, more_depth}); };
+    const auto make = [&] { return integrator(domain, {0, negligible, longest_edge(domain), more_depth}); };
     return sum_of(cell_moments(regions, {}, make, threads));
   };
   // What is negligible beside the mean is known once the sum is, roughly.
@@ -58,7 +67,9 @@ std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& 
 DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const IntegrationOptions& options) const {
   const Domain& domain = diagram.domain();
   const double negligible = negligible_share * total(domain, options.threads) / domain.measure();
-  const auto make = [&] { return integrator(domain, {options.tolerance, negligible, 0, 0}); };
+  const auto make = [&] {
+    return integrator(domain, {options.tolerance, negligible, longest_edge(domain), 0});
+  };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
   const std::vector<Moments> moments = cell_moments(cells, seeds, make, options.threads);

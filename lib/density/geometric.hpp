@@ -2,6 +2,7 @@
 /// Densities that are integrated over the geometry of the cells. Internal.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,8 +25,9 @@ struct PieceIntegrator {
 struct Accuracy {
   double tolerance = 0;           ///< of masses, where it is looser than the integrator's own
   double negligible_density = 0;  ///< errors of the tolerance times this, times the volume, don't count
-  int least_depth = 0;            ///< bisections before any estimate is believed
-  int more_depth = 0;             ///< further bisections, for pieces that are large
+  /// Of no longer edges an estimate is believed; pieces are divided until they have none.
+  double longest_edge = std::numeric_limits<double>::infinity();
+  int more_depth = 0;  ///< further bisections, for pieces that are large
 };
 
 class GeometricDensity : public DensityModel {

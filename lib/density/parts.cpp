@@ -201,7 +201,7 @@ class Division {
     const std::span<Part> fresh = std::span(parts_).subspan(first);
     const std::vector<double> masses =
         density_.masses(domain_, cells_of(fresh, domain_.dimension()),
-                        {tolerance, negligible_share * mass / domain_.measure(), 0, 0}, thread_count(0));
+                        {tolerance, negligible_share * mass / domain_.measure()}, thread_count(0));
     for (std::size_t k = 0; k < fresh.size(); ++k) {
       fresh[k].mass = std::max(masses[k], 0.0);
       set_waste(fresh[k], mass);

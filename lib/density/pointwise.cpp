@@ -48,7 +48,7 @@ class SimplexIntegrator : public PieceIntegrator {
         linear_(linear),
         cell_tolerance_(std::max(tolerance, accuracy.tolerance)),
         negligible_(accuracy.negligible_density),
-        least_depth_(accuracy.least_depth),
+        longest_(accuracy.longest_edge),
         more_depth_(accuracy.more_depth) {}
 
   void add(const Piece& piece, const Point& seed, Moments& moments) override {
@@ -62,16 +62,15 @@ class SimplexIntegrator : public PieceIntegrator {
     set_corners();
     if (!piece.solid()) {
       for (std::size_t k = 2; k < count; ++k)
-        add_simplex<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
+        add_parts<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
       return;
     }
     const Corner& apex = corners_[count];
     for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f) {
       const std::uint64_t first = piece.corner(f, 0), end = piece.corner_count(f);
       for (std::uint64_t k = 2; k < end; ++k)
-        add_simplex<3>(
-            {apex, corners_[first], corners_[piece.corner(f, k - 1)], corners_[piece.corner(f, k)]}, 0,
-            moments);
+        add_parts<3>({apex, corners_[first], corners_[piece.corner(f, k - 1)], corners_[piece.corner(f, k)]},
+                     0, moments);
     }
   }
 
@@ -85,11 +84,11 @@ class SimplexIntegrator : public PieceIntegrator {
     set_corners();
     Moments moments;
     if (!piece.solid()) {
-      add_simplex<1>({corners_[0], corners_[1]}, 0, moments);
+      add_parts<1>({corners_[0], corners_[1]}, 0, moments);
       return moments.mass;
     }
     for (std::size_t k = 2; k < count; ++k)
-      add_simplex<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
+      add_parts<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
     return moments.mass;
   }
 
@@ -155,7 +154,6 @@ class SimplexIntegrator : public PieceIntegrator {
   void add_simplex(const Simplex<N>& simplex, int depth, Moments& moments) {
     const double size = measure(simplex);
     if (size == 0) return;
-    if (depth < least_depth_) return bisect<N>(simplex, depth, moments);
     const SimplexRules& rules = simplex_rules(N);
     const Local<N> local(simplex);
     std::array<Sums<N>, SimplexRules::count> part;
@@ -171,7 +169,7 @@ class SimplexIntegrator : public PieceIntegrator {
         // Where changes shrink they go on shrinking; a factor of 4 is for safety.
         const double left = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
         const double density = std::max(std::abs(found.mass), negligible_), allowed = tolerance_ * density;
-        if (depth == least_depth_) density_around_ = density;
+        if (depth == part_depth_) density_around_ = density;
         const bool end = s + 1 == SimplexRules::count;
         const double beside = misfit<N>(simplex, found, std::span(value).first(rules.size[s]));
         const bool good = left <= allowed && beside <= allowed;
@@ -193,7 +191,7 @@ class SimplexIntegrator : public PieceIntegrator {
   /// 2^depth simplices meet: each may be off by its part of what all may (docs/mathematics.md, below (32a)).
   template <int N>
   double allowed_at_jump(int depth) const {
-    return tolerance_ * density_around_ * std::exp2(static_cast<double>(depth - least_depth_) / N);
+    return tolerance_ * density_around_ * std::exp2(static_cast<double>(depth) / N);
   }
 
   /// Points of rules lie inside, and a jump or a kink across a corner goes between them. What they bend,
@@ -217,26 +215,50 @@ class SimplexIntegrator : public PieceIntegrator {
     return most;
   }
 
-  template <int N>
-  void bisect(const Simplex<N>& simplex, int depth, Moments& moments) {
+  struct Edge {
     std::size_t from = 0, to = 1;
-    double longest = -1;
+    double square = -1;  // of its length
+  };
+
+  template <int N>
+  static Edge longest_edge(const Simplex<N>& simplex) {
+    Edge longest;
     for (std::size_t a = 0; a <= N; ++a)
       for (std::size_t b = a + 1; b <= N; ++b) {
         const Point e = minus(simplex[a].at, simplex[b].at);
-        if (dot(e, e) > longest) {
-          longest = dot(e, e);
-          from = a;
-          to = b;
-        }
+        if (dot(e, e) > longest.square) longest = {a, b, dot(e, e)};
       }
+    return longest;
+  }
+
+  /// A simplex in parts small enough that no peak worth telling falls between the points of a rule.
+  template <int N>
+  void add_parts(const Simplex<N>& simplex, int depth, Moments& moments) {
+    const Edge longest = longest_edge<N>(simplex);
+    if (linear_ || depth == depth_ || !(longest.square > longest_ * longest_)) {
+      part_depth_ = depth;
+      return add_simplex<N>(simplex, depth, moments);
+    }
+    if (measure(simplex) == 0) return;
+    halve<N>(simplex, longest, [&](const Simplex<N>& half) { add_parts<N>(half, depth + 1, moments); });
+  }
+
+  template <int N>
+  void bisect(const Simplex<N>& simplex, int depth, Moments& moments) {
+    halve<N>(simplex, longest_edge<N>(simplex),
+             [&](const Simplex<N>& half) { add_simplex<N>(half, depth + 1, moments); });
+  }
+
+  template <int N, class Each>
+  void halve(const Simplex<N>& simplex, const Edge& edge, const Each& each) {
     Corner middle;
-    for (std::size_t k = 0; k < 3; ++k) middle.at[k] = (simplex[from].at[k] + simplex[to].at[k]) / 2;
+    for (std::size_t k = 0; k < 3; ++k)
+      middle.at[k] = (simplex[edge.from].at[k] + simplex[edge.to].at[k]) / 2;
     if (!linear_) evaluate({&middle.at, 1}, {&middle.value, 1});
-    for (const std::size_t replaced : {from, to}) {
+    for (const std::size_t replaced : {edge.from, edge.to}) {
       Simplex<N> half = simplex;
       half[replaced] = middle;
-      add_simplex<N>(half, depth + 1, moments);
+      each(half);
     }
   }
 
@@ -299,7 +321,9 @@ class SimplexIntegrator : public PieceIntegrator {
   std::unique_ptr<PointSource> source_;
   bool linear_;
   double cell_tolerance_, negligible_;
-  int least_depth_, more_depth_;
+  double longest_;
+  int more_depth_;
+  int part_depth_ = 0;  // of the part that is integrated
   double tolerance_ = 0, density_around_ = 0;
   Point seed_{};
   std::uint32_t region_ = 0;

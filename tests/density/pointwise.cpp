@@ -104,6 +104,36 @@ TEST_CASE("adaptive rules reach their tolerance where a density has a peak") {
   }
 }
 
+TEST_CASE("a peak in cells much larger than it is found, and in columns much longer") {
+  const double pi = std::acos(-1.0);
+  std::vector<double> columns;
+  for (int k = 0; k < 60; ++k) columns.insert(columns.end(), {(k + 0.5) / 60, 0.5});
+  for (const double width : {0.03, 0.01, 0.005})
+    for (const std::vector<double>& positions :
+         {std::vector<double>{0.9, 0.2}, {0.1, 0.1, 0.8, 0.3}, columns}) {
+      const DensityCase one{"square", unit_box(2), {2, positions, std::vector<double>(positions.size() / 2)}};
+      CAPTURE(width);
+      CAPTURE(positions.size() / 2);
+      const Density peak = Density::function([width](const std::array<double, 3>& x) {
+        const double u = (x[0] - 0.413) / width, v = (x[1] - 0.631) / width;
+        return std::exp(-(u * u + v * v) / 2);
+      });
+      Diagram diagram = diagram_of(one);
+      const DensityIntegrals found = integrate(diagram, peak, false);
+      CHECK(std::abs(found.total() / (2 * pi * width * width) - 1) < 1e-6);
+      CHECK(found.relative_error() < 1e-6);
+    }
+  const DensityCase one{"cube", unit_box(3), {3, {0.2, 0.3, 0.4, 0.9, 0.1, 0.5}, {0, 0}}};
+  const Density peak = Density::function(
+      [](const std::array<double, 3>& x) {
+        const double u = (x[0] - 0.413) / 0.04, v = (x[1] - 0.631) / 0.04, w = (x[2] - 0.52) / 0.04;
+        return std::exp(-(u * u + v * v + w * w) / 2);
+      },
+      1e-5);
+  Diagram diagram = diagram_of(one);
+  CHECK(std::abs(integrate(diagram, peak, false).total() / std::pow(2 * pi * 0.04 * 0.04, 1.5) - 1) < 1e-4);
+}
+
 TEST_CASE("a jump is integrated as far as bisections go, and the rest is reported") {
   DensityCase one{"square", unit_box(2), {2, {}, {}}};
   Random random(test_seed());
