@@ -112,9 +112,10 @@ struct POWERCELL_API TransportResult {
 /// Finds weights for seeds and masses, again and again as they change. Not thread-safe; different solvers may
 /// run in different threads, also on one device. If a call throws, what was set before stays.
 ///
-/// Damped Newton on the concave dual (Kitagawa, Mérigot, Thibert 2019; mathematics, (25)-(30)). It starts
+/// Damped Newton on the concave dual (Kitagawa, Mérigot, Thibert 2019; mathematics, (25)-(31c)). It starts
 /// from the weights of the last solve, moved with the seeds. What stops others is dealt with: cells that are
-/// empty at the start, seeds outside the domain, masses over many orders of magnitude, seeds at one position.
+/// empty at the start, seeds outside the domain, masses over many orders of magnitude, densities with peaks,
+/// seeds at one position.
 class POWERCELL_API TransportSolver {
  public:
   /// \throw Error invalid_argument (an option out of its range), no_fp64, unsupported (periodic, and no box

@@ -11,7 +11,8 @@ constexpr double first_ratio = 0.01, least_first_ratio = 1e-12;
 constexpr double first_factor = 4, most_factor = 16, least_factor = 1.1;
 constexpr std::size_t few_diagrams = 8, many_diagrams = 16;  // for a step of the ratio
 constexpr double ready = 0.1;                                // min m_i / v_i from where damped Newton goes on
-constexpr double of_smallest = 1e-3;  // share of the smallest mass below which nothing is changed any more
+// Shares of the constant below which nothing is changed any more: of the smallest mass, and at all.
+constexpr double of_smallest = 1e-3, least_share = 1e-30;
 
 double share_of_constant(double ratio) {
   return 1 / (1 + ratio);
@@ -47,7 +48,8 @@ bool drop_constant(Course& course, const Vector& weights, double ratio, Iterate&
   course.evaluator().spread(0);
   Iterate plain = course.evaluator().evaluate(weights);
   const bool good = plain.empty == 0 && plain.least(target) >= ready;
-  if (good || share_of_constant(ratio) < of_smallest * target.minCoeff() / target.sum()) {
+  if (good ||
+      share_of_constant(ratio) < std::max(least_share, of_smallest * target.minCoeff() / target.sum())) {
     at = std::move(plain);
     return true;
   }
