@@ -57,7 +57,8 @@ TransportOptions solver_options(const TransportArguments& arguments, const Domai
   const double tolerance = arguments.tolerance > 0 ? arguments.tolerance : 1e-6;
   options.progress = [bar, tolerance, first = 0.0](const TransportStep& step) mutable {
     first = std::max(first, step.error);
-    bar->update(fraction_done(step, first, tolerance));
+    // Steps towards blends of the density say nothing of what is left.
+    if (step.spread == 0) bar->update(fraction_done(step, first, tolerance));
     return !interrupted();
   };
   return options;

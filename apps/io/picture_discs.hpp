@@ -21,8 +21,8 @@ struct Placement {
 /// that the larger ones fill about half of a cell. `spacing` is the width of a mean cell.
 double disc_magnification(const SeedsView& seeds, double spacing);
 
-/// Discs of the weights, if they are wanted, largest first, then the dots of the seeds, then those without a cell. Seeds outside the
-/// picture are left out.
+/// Discs of the weights, if they are wanted, largest first, then the dots of the seeds, then those without a
+/// cell. Seeds outside the picture are left out.
 std::vector<Scene::Disc> make_discs(const DiagramOutput& output, const Placement& placement, double width,
                                     double height, double spacing, double magnification);
 

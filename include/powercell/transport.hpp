@@ -39,7 +39,7 @@ struct TransportStep {
   int step = 0;  ///< from 0, counted through all phases
   TransportPhase phase = TransportPhase::start;
   double exponent = 1;    ///< ramp: v is proportional to this power of the masses
-  double spread = 0;      ///< share of the domain's mass that is spread evenly over it, on the way to the density
+  double spread = 0;      ///< share of the domain's mass that is spread evenly over it; 0 at the end
   double error = 0;       ///< max |m_i / v_i - 1|
   double gradient = 0;    ///< |v - m|, Euclidean
   double least = 0;       ///< min m_i / v_i

@@ -76,8 +76,8 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair);
 /// Those three as needed, for the density as the evaluator has it.
 PhaseEnd solve_as_it_is(Course& course, Iterate& at);
 /// Where nearly nothing of the density lies in some cells: solves for blends of it with a constant, (31c),
-/// with ever less of the latter. \param at  the start, then where damped Newton can go on \return false, with
-/// `at` as it was, if that fails
+/// with ever less of the latter. \param weights  as given, from where the constant alone is solved
+/// \param at  the start, then where damped Newton can go on \return false, with `at` as it was, if that fails
 bool blend(Course& course, const Vector& weights, Iterate& at);
 /// All of them, as needed. Returns an iterate; converged or not shows in its error.
 Iterate run_course(Course& course, const Vector& weights);

@@ -15,6 +15,7 @@ constexpr int most_short_steps = 8;      // in a row
 PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolerance, TransportPhase phase,
                 double exponent) {
   const double least = kept_share(at.least(target));
+  // A blend that takes short steps is too far from the one before: one between them comes first.
   const double spread = course.evaluator().spread();
   const int patience = spread > 0 && spread < 1 ? 1 : most_short_steps;
   int short_steps = 0;
