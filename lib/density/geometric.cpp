@@ -21,13 +21,14 @@ double sum_of(const std::vector<Moments>& moments) {
 constexpr double negligible_share = 1e-3;  // of the mean density
 
 /// Of the parts that show where a density lies: some thousand in a domain about as long as wide, and never
-/// more than 128 one behind the other.
+/// more than 128 one behind the other. In space smaller ones find no more of peaks from 1/300 of a cube on,
+/// and cost up to twice as much for eighths where all of the domain is hard.
 double longest_edge(const Domain& domain) {
   const int d = domain.cell_dimension();
   double square = 0;
   for (std::size_t c = 0; c < static_cast<std::size_t>(domain.dimension()); ++c)
     square += (domain.high()[c] - domain.low()[c]) * (domain.high()[c] - domain.low()[c]);
-  return std::max(std::pow(domain.measure(), 1.0 / d) / (d == 3 ? 8 : 16), std::sqrt(square) / 128);
+  return std::max(std::pow(domain.measure(), 1.0 / d) / (d == 3 ? 4 : 16), std::sqrt(square) / 128);
 }
 
 }  // namespace
