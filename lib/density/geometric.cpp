@@ -12,12 +12,6 @@
 namespace powercell {
 namespace {
 
-double sum_of(const std::vector<Moments>& moments) {
-  CompensatedSum sum;
-  for (const Moments& m : moments) sum.add(m.mass);
-  return sum.value();
-}
-
 constexpr double negligible_share = 1e-3;  // of the mean density
 
 /// Of the parts that show where a density lies: some thousand in a domain about as long as wide, and never
@@ -31,29 +25,66 @@ double longest_edge(const Domain& domain) {
   return std::max(std::pow(domain.measure(), 1.0 / d) / (d == 3 ? 4 : 16), std::sqrt(square) / 128);
 }
 
+double mass_of(std::span<const Moments> moments) {
+  CompensatedSum sum;
+  for (const Moments& m : moments) sum.add(m.mass);
+  return sum.value();
+}
+
+/// Edges as long, beside the width of where the density is, as longest_edge() has them beside the domain's:
+/// the root mean square of the way from the middle is 1/√6 of the width of a square, 1/2 of that of a cube.
+/// \param moments  of the regions, about their first vertices
+Grain grain_of(const Domain& domain, const Cells& regions, std::span<const Moments> moments) {
+  Grain grain{longest_edge(domain), longest_edge(domain)};
+  const double mass = mass_of(moments);
+  if (!(mass > 0) || !std::isfinite(mass)) return grain;
+  const auto about = [&](std::size_t r) { return Piece(regions, r).vertex(0); };
+  for (std::size_t r = 0; r < moments.size(); ++r)
+    for (std::size_t k = 0; k < 3; ++k)
+      grain.center[k] += (moments[r].first[k] + moments[r].mass * about(r)[k]) / mass;
+  double square = 0;
+  for (std::size_t r = 0; r < moments.size(); ++r) {
+    const Point way = minus(grain.center, about(r));
+    square += (moments[r].second - 2 * dot(moments[r].first, way) + moments[r].mass * dot(way, way)) / mass;
+  }
+  constexpr double reach = 3;  // times that: beyond lies a ninth at most, whatever the density
+  const double spread = std::sqrt(std::max(square, 0.0));
+  const double dense = spread * (domain.cell_dimension() == 3 ? 0.5 : 0.15);
+  if (!(dense < grain.dense) || !(dense > 0)) return grain;
+  grain.dense = dense;
+  grain.radius = reach * spread;
+  return grain;
+}
+
 }  // namespace
 
-double GeometricDensity::total(const Domain& domain, int threads) const {
+GeometricDensity::Known GeometricDensity::known(const Domain& domain, int threads) const {
   {
     const std::lock_guard lock(mutex_);
-    if (known_ && &known_->domain.mesh() == &domain.mesh()) return known_->total;
+    if (last_known_ && &last_known_->domain.mesh() == &domain.mesh()) return *last_known_;
   }
   const Cells regions = region_cells(domain.mesh());
   // Regions may be many times as large as cells, and as what the density has in them.
   constexpr int more_depth = 10;
-  const auto sum = [&](double negligible) {
-    const auto make = [&] { return integrator(domain, {0, negligible, longest_edge(domain), more_depth}); };
-    return sum_of(cell_moments(regions, {}, make, threads));
+  const auto moments = [&](double negligible, const Grain& grain) {
+    const auto make = [&] { return integrator(domain, {0, negligible, grain, more_depth}); };
+    return cell_moments(regions, {}, make, threads);
   };
-  // What is negligible beside the mean is known once the sum is, roughly.
-  const double rough = sum(std::numeric_limits<double>::infinity());
-  const double total = sum(negligible_share * std::abs(rough) / domain.measure());
+  // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies.
+  std::vector<Moments> found = moments(std::numeric_limits<double>::infinity(), {longest_edge(domain)});
+  found = moments(negligible_share * std::abs(mass_of(found)) / domain.measure(),
+                  grain_of(domain, regions, found));
+  const double total = mass_of(found);
   if (!(total > 0) || !std::isfinite(total))
     throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total) +
                                                  " over the domain; it must be positive somewhere");
   const std::lock_guard lock(mutex_);
-  known_.emplace(Known{domain, total});
-  return total;
+  last_known_.emplace(Known{domain, total, grain_of(domain, regions, found)});
+  return *last_known_;
+}
+
+double GeometricDensity::total(const Domain& domain, int threads) const {
+  return known(domain, threads).total;
 }
 
 std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& cells,
@@ -67,10 +98,9 @@ std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& 
 
 DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const IntegrationOptions& options) const {
   const Domain& domain = diagram.domain();
-  const double negligible = negligible_share * total(domain, options.threads) / domain.measure();
-  const auto make = [&] {
-    return integrator(domain, {options.tolerance, negligible, longest_edge(domain), 0});
-  };
+  const Known about = known(domain, options.threads);
+  const double negligible = negligible_share * about.total / domain.measure();
+  const auto make = [&] { return integrator(domain, {options.tolerance, negligible, about.grain, 0}); };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
   const std::vector<Moments> moments = cell_moments(cells, seeds, make, options.threads);

@@ -21,12 +21,20 @@ struct PieceIntegrator {
   virtual double over_face(const Piece& piece, std::uint64_t face) = 0;
 };
 
+/// How finely pieces are divided before an estimate is believed. (docs/mathematics.md, below (32))
+struct Grain {
+  double anywhere = std::numeric_limits<double>::infinity();  ///< longest edge
+  /// In the ball that has most of a density that lies in a small part of the domain.
+  double dense = std::numeric_limits<double>::infinity();
+  Point center{};
+  double radius = 0;
+};
+
 /// What adaptive integrators need to know.
 struct Accuracy {
   double tolerance = 0;           ///< of masses, where it is looser than the integrator's own
   double negligible_density = 0;  ///< errors of the tolerance times this, times the volume, don't count
-  /// Of no longer edges an estimate is believed; pieces are divided until they have none.
-  double longest_edge = std::numeric_limits<double>::infinity();
+  Grain grain{};
   int more_depth = 0;  ///< further bisections, for pieces that are large
 };
 
@@ -37,8 +45,6 @@ class GeometricDensity : public DensityModel {
   /// The integrals over cells of one's own, with the regions of the domain.
   std::vector<double> masses(const Domain& domain, const Cells& cells, const Accuracy& accuracy,
                              int threads) const;
-  /// Whether integrals are exact but for rounding.
-  virtual bool exact() const { return false; }
 
  protected:
   /// \throw Error unsupported, invalid_argument if the density does not go with the domain
@@ -49,9 +55,12 @@ class GeometricDensity : public DensityModel {
   struct Known {
     Domain domain;
     double total;
+    Grain grain;
   };
+  Known known(const Domain& domain, int threads) const;
+
   mutable std::mutex mutex_;
-  mutable std::optional<Known> known_;  // the last domain asked for
+  mutable std::optional<Known> last_known_;  // the last domain asked for
 };
 
 }  // namespace powercell

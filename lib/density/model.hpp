@@ -24,6 +24,8 @@ struct DensityModel {
   /// \throw Error unsupported, invalid_argument if the density does not go with the domain
   virtual std::unique_ptr<PointSource> source(const Domain& domain) const = 0;
   virtual bool is_constant() const { return false; }
+  /// Whether integrals are exact but for rounding, whatever the tolerance.
+  virtual bool exact() const { return is_constant(); }
 };
 
 }  // namespace powercell

@@ -7,6 +7,7 @@
 
 #include "lib/density/geometric.hpp"
 #include "lib/density/region_cells.hpp"
+#include "lib/density/simplex.hpp"
 #include "lib/density/simplex_rule.hpp"
 #include "lib/domain/measure.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -26,40 +27,27 @@ constexpr int most_rounds = 500;
 constexpr double enough = 4, too_much = 1000;  // measure times most of all parts, over the mass
 
 double measure_of(const Part& part) {
-  const Point a = minus(part.corner[1], part.corner[0]), b = minus(part.corner[2], part.corner[0]);
-  const Point normal = cross(a, b);
-  if (part.corners == 3) return std::hypot(normal[0], normal[1], normal[2]) / 2;
-  return dot(minus(part.corner[3], part.corner[0]), normal) / 6;
+  const auto& c = part.corner;
+  return part.corners == 3 ? measure_of_triangle(c[0], c[1], c[2])
+                           : measure_of_tetrahedron(c[0], c[1], c[2], c[3]);
 }
 
-double squared_distance(const Point& a, const Point& b) {
-  const Point e = minus(a, b);
-  return dot(e, e);
-}
-
-/// The two corners that are farthest apart.
-std::array<std::size_t, 2> longest_edge(const Part& part) {
-  std::array<std::size_t, 2> edge{0, 1};
-  for (std::size_t a = 0; a < part.corners; ++a)
-    for (std::size_t b = a + 1; b < part.corners; ++b)
-      if (squared_distance(part.corner[a], part.corner[b]) >
-          squared_distance(part.corner[edge[0]], part.corner[edge[1]]))
-        edge = {a, b};
-  return edge;
+SimplexEdge longest_edge_of(const Part& part) {
+  return longest_edge(part.corners, [&](std::size_t c) -> const Point& { return part.corner[c]; });
 }
 
 void set_size(Part& part) {
-  const auto [from, to] = longest_edge(part);
-  part.longest = std::sqrt(squared_distance(part.corner[from], part.corner[to]));
+  part.longest = std::sqrt(longest_edge_of(part).square);
   part.measure = measure_of(part);
 }
 
 /// Halves of the longest edge; tetrahedra keep their orientation.
 std::array<Part, 2> halves(const Part& part) {
-  const auto [from, to] = longest_edge(part);
+  const SimplexEdge edge = longest_edge_of(part);
   std::array<Part, 2> half{part, part};
   for (std::size_t k = 0; k < 3; ++k)
-    half[0].corner[from][k] = half[1].corner[to][k] = part.corner[from][k] / 2 + part.corner[to][k] / 2;
+    half[0].corner[edge.from][k] = half[1].corner[edge.to][k] =
+        part.corner[edge.from][k] / 2 + part.corner[edge.to][k] / 2;
   for (Part& one : half) set_size(one);
   return half;
 }
@@ -175,7 +163,7 @@ class Division {
         [&](const Part& part) {
           return part.waste > share || std::any_of(dense.begin(), dense.end(), [&](const Part& one) {
                    return part.longest > 2 * one.longest &&
-                          squared_distance(part.corner[0], one.at_most) < 4 * part.longest * part.longest;
+                          measure_of_segment(part.corner[0], one.at_most) < 2 * part.longest;
                  });
         },
         0);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/density/simplex.hpp"
 #include "lib/density/simplex_rule.hpp"
 
 namespace powercell {
@@ -19,16 +20,18 @@ template <int N>
 using Simplex = std::array<Corner, N + 1>;
 
 double measure(const Simplex<1>& s) {
-  const Point e = minus(s[1].at, s[0].at);
-  return std::sqrt(dot(e, e));
+  return measure_of_segment(s[0].at, s[1].at);
 }
 double measure(const Simplex<2>& s) {
-  const Point normal = cross(minus(s[1].at, s[0].at), minus(s[2].at, s[0].at));
-  return std::hypot(normal[0], normal[1], normal[2]) / 2;  // squares of areas may be beyond range
+  return measure_of_triangle(s[0].at, s[1].at, s[2].at);
 }
-/// Signed: fans of solids that rounding has bent cancel.
 double measure(const Simplex<3>& s) {
-  return dot(minus(s[1].at, s[0].at), cross(minus(s[2].at, s[0].at), minus(s[3].at, s[0].at))) / 6;
+  return measure_of_tetrahedron(s[0].at, s[1].at, s[2].at, s[3].at);
+}
+
+template <std::size_t Corners>
+SimplexEdge longest_edge_of(const std::array<Corner, Corners>& simplex) {
+  return longest_edge(Corners, [&](std::size_t c) -> const Point& { return simplex[c].at; });
 }
 
 /// Walls make the matrix of an iteration, whose result they do not change: they may be off by so much more
@@ -48,8 +51,8 @@ class SimplexIntegrator : public PieceIntegrator {
         linear_(linear),
         cell_tolerance_(std::max(tolerance, accuracy.tolerance)),
         negligible_(accuracy.negligible_density),
-        longest_(accuracy.longest_edge),
-        more_depth_(accuracy.more_depth) {}
+        grain_(accuracy.grain),
+        more_depth_(accuracy.more_depth + deeper(accuracy.grain)) {}
 
   void add(const Piece& piece, const Point& seed, Moments& moments) override {
     begin(piece, seed);
@@ -60,18 +63,10 @@ class SimplexIntegrator : public PieceIntegrator {
     for (std::size_t v = 0; v < count; ++v) places_[v] = minus(piece.vertex(v), seed);
     if (piece.solid()) places_.push_back(middle_of(places_));
     set_corners();
-    if (!piece.solid()) {
-      for (std::size_t k = 2; k < count; ++k)
-        add_parts<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
-      return;
-    }
-    const Corner& apex = corners_[count];
-    for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f) {
-      const std::uint64_t first = piece.corner(f, 0), end = piece.corner_count(f);
-      for (std::uint64_t k = 2; k < end; ++k)
-        add_parts<3>({apex, corners_[first], corners_[piece.corner(f, k - 1)], corners_[piece.corner(f, k)]},
-                     0, moments);
-    }
+    if (piece.solid())
+      integrate<3>([&](const auto& each) { for_fan_of_solid(piece, count, each); }, moments);
+    else
+      integrate<2>([&](const auto& each) { for_fan(each); }, moments);
   }
 
   double over_face(const Piece& piece, std::uint64_t face) override {
@@ -83,12 +78,10 @@ class SimplexIntegrator : public PieceIntegrator {
     for (std::size_t k = 0; k < count; ++k) places_[k] = minus(piece.vertex(piece.corner(face, k)), seed_);
     set_corners();
     Moments moments;
-    if (!piece.solid()) {
-      add_parts<1>({corners_[0], corners_[1]}, 0, moments);
-      return moments.mass;
-    }
-    for (std::size_t k = 2; k < count; ++k)
-      add_parts<2>({corners_[0], corners_[k - 1], corners_[k]}, 0, moments);
+    if (piece.solid())
+      integrate<2>([&](const auto& each) { for_fan(each); }, moments);
+    else
+      integrate<1>([&](const auto& each) { each({corners_[0], corners_[1]}); }, moments);
     return moments.mass;
   }
 
@@ -105,6 +98,25 @@ class SimplexIntegrator : public PieceIntegrator {
       for (std::size_t k = 0; k < 3; ++k) sum[k] += v[k];
     for (double& x : sum) x /= static_cast<double>(vertices.size());
     return sum;
+  }
+
+  /// The triangles of the polygon of corners_.
+  template <class Each>
+  void for_fan(const Each& each) {
+    for (std::size_t k = 2; k < corners_.size(); ++k)
+      each(Simplex<2>{corners_[0], corners_[k - 1], corners_[k]});
+  }
+
+  /// The tetrahedra between the faces and the corner behind the vertices.
+  template <class Each>
+  void for_fan_of_solid(const Piece& piece, std::size_t vertices, const Each& each) {
+    const Corner& apex = corners_[vertices];
+    for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f) {
+      const std::uint64_t first = piece.corner(f, 0), end = piece.corner_count(f);
+      for (std::uint64_t k = 2; k < end; ++k)
+        each(Simplex<3>{apex, corners_[first], corners_[piece.corner(f, k - 1)],
+                        corners_[piece.corner(f, k)]});
+    }
   }
 
   void evaluate(std::span<const Point> places, std::span<double> values) {
@@ -150,8 +162,40 @@ class SimplexIntegrator : public PieceIntegrator {
     }
   };
 
+  /// A part whose estimate is not good enough by itself.
   template <int N>
-  void add_simplex(const Simplex<N>& simplex, int depth, Moments& moments) {
+  struct Rest {
+    Simplex<N> simplex;
+    int depth = 0;
+    double size = 0;
+    Sums<N> found;
+    double left = 0, beside = 0, change = 0;
+    bool at_jump = false;
+  };
+
+  /// Simplices that for_simplices(each) makes. Errors count beside the mean density over all of them: what
+  /// is sure of that is known when each has been looked at once, and then parts are refined that need it.
+  template <int N, class ForSimplices>
+  void integrate(const ForSimplices& for_simplices, Moments& moments) {
+    floor_ = negligible_;
+    std::vector<Rest<N>> rests;
+    double size = 0, sure = -moments.mass;
+    for_simplices([&](const Simplex<N>& simplex) {
+      size += std::abs(measure(simplex));
+      add_parts<N>(simplex, 0, moments, rests);
+    });
+    sure += moments.mass;
+    for (const Rest<N>& rest : rests)
+      sure += std::abs(rest.size) * std::max(0.0, rest.found.mass - std::max(rest.left, rest.beside));
+    if (sure > 0) floor_ = std::max(floor_, sure / size);
+    for (const Rest<N>& rest : rests) {
+      part_depth_ = rest.depth;
+      finish<N>(rest, moments);
+    }
+  }
+
+  template <int N>
+  void add_simplex(const Simplex<N>& simplex, int depth, Moments& moments, std::vector<Rest<N>>* later) {
     const double size = measure(simplex);
     if (size == 0) return;
     const SimplexRules& rules = simplex_rules(N);
@@ -168,23 +212,34 @@ class SimplexIntegrator : public PieceIntegrator {
       if (s > 1) {
         // Where changes shrink they go on shrinking; a factor of 4 is for safety.
         const double left = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
-        const double density = std::max(std::abs(found.mass), negligible_), allowed = tolerance_ * density;
-        if (depth == part_depth_) density_around_ = density;
-        const bool end = s + 1 == SimplexRules::count;
         const double beside = misfit<N>(simplex, found, std::span(value).first(rules.size[s]));
-        const bool good = left <= allowed && beside <= allowed;
-        if (good || (end && depth == depth_))
-          return take(found, local, size, good ? 0 : std::max(left, unseen * beside), moments);
-        if (depth < depth_ && change > before / 2) {
-          const double at_jump = allowed_at_jump<N>(depth);
-          if (change <= at_jump && beside <= at_jump) return take(found, local, size, change, moments);
-          return bisect<N>(simplex, depth, moments);
+        const bool end = s + 1 == SimplexRules::count, at_jump = change > before / 2;
+        const double allowed = tolerance_ * std::max(std::abs(found.mass), floor_);
+        if (left <= allowed && beside <= allowed) return take(found, local, size, 0, moments);
+        if (end || (at_jump && depth < depth_)) {
+          const Rest<N> rest{simplex, depth, size, found, left, beside, change, at_jump};
+          if (later && depth < depth_) return later->push_back(rest);
+          return finish<N>(rest, moments);
         }
       }
       before = change;
       last = found;
     }
-    bisect<N>(simplex, depth, moments);
+  }
+
+  /// Takes what is good enough, and what has no depth left; halves others.
+  template <int N>
+  void finish(const Rest<N>& rest, Moments& moments) {
+    const double density = std::max(std::abs(rest.found.mass), floor_), allowed = tolerance_ * density;
+    const auto accept = [&](double error) {
+      take(rest.found, Local<N>(rest.simplex), rest.size, error, moments);
+    };
+    if (rest.depth == part_depth_) density_around_ = density;
+    if (rest.left <= allowed && rest.beside <= allowed) return accept(0);
+    if (rest.depth == depth_) return accept(std::max(rest.left, unseen * rest.beside));
+    const double at_jump = rest.at_jump ? allowed_at_jump<N>(rest.depth) : 0;
+    if (rest.change <= at_jump && rest.beside <= at_jump) return accept(rest.change);
+    bisect<N>(rest.simplex, rest.depth, moments);
   }
 
   /// Where higher rules bring nothing there is a jump or a kink, a surface that 2^((N - 1) depth / N) of the
@@ -215,42 +270,43 @@ class SimplexIntegrator : public PieceIntegrator {
     return most;
   }
 
-  struct Edge {
-    std::size_t from = 0, to = 1;
-    double square = -1;  // of its length
-  };
-
-  template <int N>
-  static Edge longest_edge(const Simplex<N>& simplex) {
-    Edge longest;
-    for (std::size_t a = 0; a <= N; ++a)
-      for (std::size_t b = a + 1; b <= N; ++b) {
-        const Point e = minus(simplex[a].at, simplex[b].at);
-        if (dot(e, e) > longest.square) longest = {a, b, dot(e, e)};
-      }
-    return longest;
+  /// Bisections that take an edge of the domain's grain to that of where the density is, in space as in the
+  /// plane: fewer than there would be, and no more simplices than a density all over the domain has.
+  static int deeper(const Grain& grain) {
+    constexpr double most = 20;
+    return grain.radius > 0 ? static_cast<int>(std::min(most, 2 * std::log2(grain.anywhere / grain.dense)))
+                            : 0;
   }
 
-  /// A simplex in parts small enough that no peak worth telling falls between the points of a rule.
+  /// Whether no peak worth telling falls between the points of a rule.
   template <int N>
-  void add_parts(const Simplex<N>& simplex, int depth, Moments& moments) {
-    const Edge longest = longest_edge<N>(simplex);
-    if (linear_ || depth == depth_ || !(longest.square > longest_ * longest_)) {
-      part_depth_ = depth;
-      return add_simplex<N>(simplex, depth, moments);
-    }
+  bool small_enough(const Simplex<N>& simplex, double square) const {
+    if (square > grain_.anywhere * grain_.anywhere) return false;
+    if (!(square > grain_.dense * grain_.dense)) return true;
+    Point way = minus(simplex[0].at, grain_.center);
+    for (std::size_t k = 0; k < 3; ++k) way[k] += seed_[k];
+    return std::sqrt(dot(way, way)) > grain_.radius + std::sqrt(square);
+  }
+
+  /// A simplex in parts that are small enough.
+  template <int N>
+  void add_parts(const Simplex<N>& simplex, int depth, Moments& moments, std::vector<Rest<N>>& rests) {
+    const SimplexEdge longest = longest_edge_of(simplex);
+    if (linear_ || depth == depth_ || small_enough<N>(simplex, longest.square))
+      return add_simplex<N>(simplex, depth, moments, &rests);
     if (measure(simplex) == 0) return;
-    halve<N>(simplex, longest, [&](const Simplex<N>& half) { add_parts<N>(half, depth + 1, moments); });
+    halve<N>(simplex, longest,
+             [&](const Simplex<N>& half) { add_parts<N>(half, depth + 1, moments, rests); });
   }
 
   template <int N>
   void bisect(const Simplex<N>& simplex, int depth, Moments& moments) {
-    halve<N>(simplex, longest_edge<N>(simplex),
-             [&](const Simplex<N>& half) { add_simplex<N>(half, depth + 1, moments); });
+    halve<N>(simplex, longest_edge_of(simplex),
+             [&](const Simplex<N>& half) { add_simplex<N>(half, depth + 1, moments, nullptr); });
   }
 
   template <int N, class Each>
-  void halve(const Simplex<N>& simplex, const Edge& edge, const Each& each) {
+  void halve(const Simplex<N>& simplex, const SimplexEdge& edge, const Each& each) {
     Corner middle;
     for (std::size_t k = 0; k < 3; ++k)
       middle.at[k] = (simplex[edge.from].at[k] + simplex[edge.to].at[k]) / 2;
@@ -321,10 +377,10 @@ class SimplexIntegrator : public PieceIntegrator {
   std::unique_ptr<PointSource> source_;
   bool linear_;
   double cell_tolerance_, negligible_;
-  double longest_;
+  Grain grain_;
   int more_depth_;
   int part_depth_ = 0;  // of the part that is integrated
-  double tolerance_ = 0, density_around_ = 0;
+  double tolerance_ = 0, floor_ = 0, density_around_ = 0;
   Point seed_{};
   std::uint32_t region_ = 0;
   int depth_ = 0;

@@ -108,7 +108,7 @@ TEST_CASE("a peak in cells much larger than it is found, and in columns much lon
   const double pi = std::acos(-1.0);
   std::vector<double> columns;
   for (int k = 0; k < 60; ++k) columns.insert(columns.end(), {(k + 0.5) / 60, 0.5});
-  for (const double width : {0.03, 0.01, 0.005})
+  for (const double width : {0.03, 0.01, 0.005, 0.002})
     for (const std::vector<double>& positions :
          {std::vector<double>{0.9, 0.2}, {0.1, 0.1, 0.8, 0.3}, columns}) {
       const DensityCase one{"square", unit_box(2), {2, positions, std::vector<double>(positions.size() / 2)}};
@@ -123,15 +123,36 @@ TEST_CASE("a peak in cells much larger than it is found, and in columns much lon
       CHECK(std::abs(found.total() / (2 * pi * width * width) - 1) < 1e-6);
       CHECK(found.relative_error() < 1e-6);
     }
-  const DensityCase one{"cube", unit_box(3), {3, {0.2, 0.3, 0.4, 0.9, 0.1, 0.5}, {0, 0}}};
-  const Density peak = Density::function(
-      [](const std::array<double, 3>& x) {
-        const double u = (x[0] - 0.413) / 0.04, v = (x[1] - 0.631) / 0.04, w = (x[2] - 0.52) / 0.04;
-        return std::exp(-(u * u + v * v + w * w) / 2);
+  for (const double width : {0.04, 0.005}) {
+    CAPTURE(width);
+    const DensityCase one{"cube", unit_box(3), {3, {0.2, 0.3, 0.4, 0.9, 0.1, 0.5}, {0, 0}}};
+    const Density peak = Density::function(
+        [width](const std::array<double, 3>& x) {
+          const double u = (x[0] - 0.413) / width, v = (x[1] - 0.631) / width, w = (x[2] - 0.52) / width;
+          return std::exp(-(u * u + v * v + w * w) / 2);
+        },
+        1e-5);
+    Diagram diagram = diagram_of(one);
+    const double expected = std::pow(2 * pi * width * width, 1.5);
+    CHECK(std::abs(integrate(diagram, peak, false).total() / expected - 1) < 1e-4);
+  }
+}
+
+TEST_CASE("slivers of a density that ends at an edge are found in cells that reach far beyond") {
+  // Seeds about the middle of a paraboloid on a disc: cells that go on to the sides of the square.
+  const double radius = 0.1;
+  std::vector<double> positions;
+  Random random(test_seed());
+  for (int k = 0; k < 60; ++k) positions.push_back(0.5 + 0.14 * (random.uniform() - 0.5));
+  const DensityCase one{"square", unit_box(2), {2, positions, std::vector<double>(30)}};
+  const Density density = Density::function(
+      [radius](const std::array<double, 3>& x) {
+        return std::max(0.0, radius * radius - (x[0] - 0.5) * (x[0] - 0.5) - (x[1] - 0.5) * (x[1] - 0.5));
       },
-      1e-5);
+      1e-6);
   Diagram diagram = diagram_of(one);
-  CHECK(std::abs(integrate(diagram, peak, false).total() / std::pow(2 * pi * 0.04 * 0.04, 1.5) - 1) < 1e-4);
+  const DensityIntegrals found = integrate(diagram, density, false);
+  CHECK(std::abs(found.total() / (std::acos(-1.0) * std::pow(radius, 4) / 2) - 1) < 1e-6);
 }
 
 TEST_CASE("a jump is integrated as far as bisections go, and the rest is reported") {
