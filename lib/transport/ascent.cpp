@@ -26,9 +26,7 @@ bool damped_newton_can_go_on(const Iterate& at, const Vector& target) {
              make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, {}).matrix) == 1;
 }
 
-}  // namespace
-
-PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
+PhaseEnd climb(Course& course, Iterate& at, bool repair) {
   const Vector& target = course.target();
   const Vector typical = typical_derivative(target, course.evaluator().diagram().domain());
   double shift = first_shift;
@@ -73,6 +71,17 @@ PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
     step.linear_seconds = direction.seconds;
     course.accept(step, at, target);
   }
+}
+
+}  // namespace
+
+PhaseEnd ascend(Course& course, Iterate& at, bool repair) {
+  Evaluator& evaluator = course.evaluator();
+  evaluator.precise(true);
+  if (evaluator.uneven() && evaluator.spread() == 0) at = evaluator.evaluate(at.weights);
+  const PhaseEnd end = climb(course, at, repair);
+  evaluator.precise(false);
+  return end;
 }
 
 }  // namespace powercell

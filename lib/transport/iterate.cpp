@@ -4,8 +4,15 @@
 #include <chrono>
 #include <cmath>
 
+#include "lib/density/model.hpp"
+
 namespace powercell {
 namespace {
+
+/// What integrals may be off by, of what masses are: the value of the dual is off by about the square of the
+/// latter. More is good enough for the first steps.
+constexpr double least_share = 1e-4, most_share = 3e-3;
+constexpr double rather_again = 4;  // times the tolerance needed
 
 /// (1 - share) of a and share of b, entry by entry.
 void blend(std::vector<double>& a, const std::vector<double>& b, double share) {
@@ -59,12 +66,13 @@ double Iterate::dual(const Vector& target) const {
 }
 
 Evaluator::Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions,
-                     IntegrationOptions options)
+                     const Goal& goal, int threads)
     : diagram_(diagram),
       density_(density),
       positions_(positions),
       dimension_(static_cast<std::size_t>(diagram.domain().dimension())),
-      options_(std::move(options)) {}
+      goal_(goal),
+      threads_(threads) {}
 
 bool Evaluator::possible(const Vector& weights, const Vector& before) const {
   const auto range = [](const Vector& w) { return w.maxCoeff() - w.minCoeff(); };
@@ -85,25 +93,57 @@ void Evaluator::spread(double share) {
   spread_ = share;
   if (share > 0 && !even_) {
     const Domain& domain = diagram_.domain();
-    even_ = Density::constant(density_.total(domain, options_.threads) / domain.measure());
+    even_ = Density::constant(density_.total(domain, threads_) / domain.measure());
   }
+}
+
+/// What integrals may be off by where masses are off by `error`.
+double Evaluator::needed(double error) const {
+  if (precise_) return least_share * goal_.tolerance;
+  const double off = std::max(goal_.tolerance, std::min(1.0, error));
+  return off * std::max(least_share, most_share * off);
+}
+
+/// Where the error turns out to be much less than was expected they are looked at again: formulas with kinks
+/// cost ten times as much for two more digits.
+DensityIntegrals Evaluator::integrate_as_needed() {
+  IntegrationOptions options;
+  options.walls = true;
+  options.threads = threads_;
+  options.tolerance = needed(density_.model().exact() ? 0 : expected_);
+  while (true) {
+    double error = 0;
+    bool enough = true;
+    options.walls_if = [&](std::span<const double> mass) {
+      const Eigen::Map<const Vector> found(mass.data(), goal_.target.size());
+      error = (found.array() / goal_.target.array() - 1).abs().maxCoeff();
+      const bool met = error < goal_.tolerance;
+      enough = options.tolerance <= (met ? 1 : rather_again) * needed(error);
+      return enough && !met;
+    };
+    DensityIntegrals found = integrate(diagram_, density_, options);
+    expected_ = error * error;
+    if (enough) return found;
+    options.tolerance = needed(error);
+  }
+}
+
+DensityIntegrals Evaluator::integrate_blend() {
+  IntegrationOptions options;
+  options.walls = true;
+  options.threads = threads_;
+  options.tolerance = most_share;
+  DensityIntegrals even = integrate(diagram_, *even_, options);
+  if (spread_ == 1) return even;
+  DensityIntegrals result = integrate(diagram_, density_, options);
+  blend(result, std::move(even), spread_);
+  return result;
 }
 
 void Evaluator::measure(Iterate& at) {
   diagram_.set_weights({at.weights.data(), static_cast<std::size_t>(at.weights.size())});
   if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
-  if (spread_ > 0) {
-    IntegrationOptions with_walls = options_;
-    with_walls.walls_if = nullptr;
-    if (spread_ < 1) at.cells = integrate(diagram_, density_, with_walls);
-    DensityIntegrals even = integrate(diagram_, *even_, with_walls);
-    if (spread_ < 1)
-      blend(at.cells, std::move(even), spread_);
-    else
-      at.cells = std::move(even);
-  } else {
-    at.cells = integrate(diagram_, density_, options_);
-  }
+  at.cells = spread_ > 0 ? integrate_blend() : integrate_as_needed();
   if (!at.cells.walls.offset.empty()) at.conductance = conductances(diagram_, at.cells.walls, positions_);
 }
 

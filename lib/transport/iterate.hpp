@@ -9,6 +9,9 @@
 
 namespace powercell {
 
+/// To what masses of blended densities are met.
+inline constexpr double blended_tolerance = 0.1;
+
 /// A point of the course, evaluated.
 struct Iterate {
   Vector weights;  // of mean 0
@@ -34,13 +37,19 @@ struct Iterate {
   double dual(const Vector& target) const;
 };
 
+/// What a solve is after. Kept by reference.
+struct Goal {
+  const Vector& target;
+  double tolerance;
+};
+
 /// Evaluates weights of the seeds that a diagram has.
 class Evaluator {
  public:
   /// The first three are kept by reference. \param positions  n x d, those of the diagram
-  /// \param options  of the integrals; with walls, but where walls_if says no
-  Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions,
-            IntegrationOptions options);
+  /// \param threads  for the integrals; 0 means all
+  Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, const Goal& goal,
+            int threads);
   virtual ~Evaluator() = default;
 
   /// The diagram keeps these weights. Their mean is taken off first.
@@ -50,6 +59,9 @@ class Evaluator {
   /// constants.
   void spread(double share);
   double spread() const { return spread_; }
+  /// From now on integrals are good enough for the result, whatever the error: for what looks at the dual,
+  /// whose rise may be small beside it.
+  void precise(bool on) { precise_ = on; }
   bool uneven() const { return !density_.is_constant(); }
 
   /// Whether weights may have cells that are not empty: of two of those the weights differ by no more than
@@ -70,11 +82,18 @@ class Evaluator {
   virtual void measure(Iterate& at);
 
  private:
+  double needed(double error) const;
+  DensityIntegrals integrate_as_needed();
+  DensityIntegrals integrate_blend();
+
   Diagram& diagram_;
   const Density& density_;
   std::span<const double> positions_;
   std::size_t dimension_;
-  IntegrationOptions options_;
+  Goal goal_;
+  int threads_;
+  double expected_ = 1;  // error of the next weights
+  bool precise_ = false;
   double spread_ = 0;
   std::optional<Density> even_;  // constant, of the same mass
   Vector last_;

@@ -51,10 +51,10 @@ void make_rows(const std::vector<std::vector<Entry>>& rows, double density, Iter
 }  // namespace
 
 PeriodicEvaluator::PeriodicEvaluator(Diagram& diagram, PeriodicDiagram& periodic, const Density& density,
-                                     std::span<const double> positions, const IntegrationOptions& options)
-    : Evaluator(diagram, density, positions, options),
+                                     std::span<const double> positions, const Goal& goal, int threads)
+    : Evaluator(diagram, density, positions, goal, threads),
       periodic_(periodic),
-      density_value_(density.total(diagram.domain(), options.threads) / diagram.domain().measure()) {
+      density_value_(density.total(diagram.domain(), threads) / diagram.domain().measure()) {
   periodic_.set_seeds(positions, {});
 }
 

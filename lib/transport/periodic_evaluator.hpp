@@ -12,7 +12,7 @@ class PeriodicEvaluator : public Evaluator {
  public:
   /// All are kept by reference; `diagram` lends its domain. \param positions  n x 2
   PeriodicEvaluator(Diagram& diagram, PeriodicDiagram& periodic, const Density& density,
-                    std::span<const double> positions, const IntegrationOptions& options);
+                    std::span<const double> positions, const Goal& goal, int threads);
 
  private:
   void measure(Iterate& at) override;

@@ -9,6 +9,9 @@ namespace {
 
 constexpr double smallest_fraction = 1.0 / 16;  // of given weights that is tried
 constexpr double room = 0.9;                    // of the domain's box that seeds are moved into
+// Of the way of moved seeds from the mean of the density, from one attempt to the next.
+constexpr double nearer = 0.8;
+constexpr int most_nearer = 4;
 
 using Place = Eigen::Vector3d;  // third coordinate 0 in 2D
 
@@ -120,17 +123,20 @@ bool some_outside_box(const Domain& domain, std::span<const double> positions) {
   return false;
 }
 
-/// Keeps what is better.
+/// Keeps what is better. Where a density ends at an edge, seeds of another outline than its own lie beyond
+/// until they are moved nearer to its mean.
 void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
   const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
   const std::span<const double> positions = evaluator.positions();
-  const Move move = onto_density(normal_of(positions, d, target), normal_of(best, positions, d));
-  const Vector weights = weights_of_moved_seeds(positions, d, move);
-  if (!weights.allFinite()) return;  // the cells have no mass at all, or squares are beyond range
-  Iterate found = evaluator.evaluate(weights);
-  const bool better =
-      found.empty < best.empty || (found.empty == best.empty && found.least(target) > best.least(target));
-  if (better) best = std::move(found);
+  Move move = onto_density(normal_of(positions, d, target), normal_of(best, positions, d));
+  for (int k = 0; k < most_nearer && best.least(target) < poor_share; ++k, move.linear *= nearer) {
+    const Vector weights = weights_of_moved_seeds(positions, d, move);
+    if (!weights.allFinite()) return;  // the cells have no mass at all, or squares are beyond range
+    Iterate found = evaluator.evaluate(weights);
+    const bool better =
+        found.empty < best.empty || (found.empty == best.empty && found.least(target) > best.least(target));
+    if (better) best = std::move(found);
+  }
 }
 
 }  // namespace

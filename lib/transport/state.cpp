@@ -15,10 +15,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double sum_tolerance = 1e-9;  // of the masses' sum, relative
-/// What integrals may be off by, of what masses may: the value of the dual is off by about the square of the
-/// latter.
-constexpr double integral_share = 1e-4;
-
 /// Rows of `width` values, those of `kept`.
 std::vector<double> rows(std::span<const double> values, const std::vector<std::uint32_t>& kept,
                          std::size_t width) {
@@ -46,18 +42,11 @@ TransportSolver::State::State(Device device, Domain domain, TransportOptions giv
 
 std::unique_ptr<Evaluator> TransportSolver::State::evaluator(std::span<const double> kept_positions,
                                                              const Vector& target) {
-  IntegrationOptions integrals;
-  integrals.threads = options.diagram.threads;
-  integrals.tolerance = integral_share * used_tolerance();
-  integrals.walls = true;
-  integrals.walls_if = [&target, tolerance = used_tolerance()](std::span<const double> mass) {
-    const Eigen::Map<const Vector> found(mass.data(), target.size());
-    return !((found.array() / target.array() - 1).abs().maxCoeff() < tolerance);
-  };
+  const Goal goal{target, used_tolerance()};
   if (periodic)
-    return std::make_unique<PeriodicEvaluator>(diagram, *periodic, options.density, kept_positions,
-                                               integrals);
-  return std::make_unique<Evaluator>(diagram, options.density, kept_positions, integrals);
+    return std::make_unique<PeriodicEvaluator>(diagram, *periodic, options.density, kept_positions, goal,
+                                               options.diagram.threads);
+  return std::make_unique<Evaluator>(diagram, options.density, kept_positions, goal, options.diagram.threads);
 }
 
 double TransportSolver::State::used_tolerance() const {

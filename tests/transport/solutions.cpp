@@ -23,10 +23,8 @@ void check_derivatives(const TransportCase& one) {
   Diagram diagram(transport_device(), one.domain, transport_options().diagram);
   diagram.set_seeds(one.seeds.view());
   const Density density = Density::constant(1);
-  IntegrationOptions options;
-  options.walls = true;
-  Evaluator evaluator(diagram, density, one.seeds.positions, options);
   const Vector target = Eigen::Map<const Vector>(one.masses.data(), static_cast<Eigen::Index>(n));
+  Evaluator evaluator(diagram, density, one.seeds.positions, {target, 1e-6}, 0);
   const Vector at = Vector::Zero(static_cast<Eigen::Index>(n));
   const Iterate here = evaluator.evaluate(at);
   const Vector gradient = here.gradient(target);
