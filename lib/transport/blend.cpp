@@ -47,6 +47,7 @@ bool drop_constant(Course& course, const Vector& weights, double ratio, Iterate&
   const Vector& target = course.target();
   course.evaluator().spread(0);
   Iterate plain = course.evaluator().evaluate(weights);
+  course.remember(plain);
   const bool good = plain.empty == 0 && plain.least(target) >= ready;
   if (good ||
       share_of_constant(ratio) < std::max(least_share, of_smallest * target.minCoeff() / target.sum())) {

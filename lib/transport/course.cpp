@@ -45,7 +45,10 @@ void Course::accept(TransportStep step, const Iterate& at, const Vector& target)
   step.spread = evaluator_.spread();
   steps_.push_back(step);
   if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
-  if (step.spread > 0) return;
+  if (step.spread == 0) remember(at);
+}
+
+void Course::remember(const Iterate& at) {
   const double error = at.error(target_);
   if (best_.size() == 0 || at.empty < best_empty_ || (at.empty == best_empty_ && error < best_error_)) {
     best_ = at.weights;

@@ -41,9 +41,11 @@ class Course {
 
   /// Solves (L + shift) x = right. An empty shift asks for a connected system.
   Direction solve(const Laplacian& system, const Vector& right);
-  /// Logs an accepted step: fills in what follows from the iterate, keeps the best one.
+  /// Logs an accepted step: fills in what follows from the iterate, and remembers it.
   /// \param target  of the phase
   void accept(TransportStep step, const Iterate& at, const Vector& target);
+  /// Keeps the weights if they are the best so far. \param at  of the density as it is
+  void remember(const Iterate& at);
 
   /// The best weights so far: fewest empty cells, then least error.
   const Vector& best() const { return best_; }
