@@ -48,6 +48,8 @@ class POWERCELL_API Density {
   static Density nodal(std::span<const double> values);
 
   bool is_constant() const;
+  /// Whether integrals are exact but for rounding, whatever the tolerance: no formula and no function is.
+  bool is_exact() const;
   /// The integral over a domain, to the accuracy that integrate() has. \param threads 0 means all
   double total(const Domain& domain, int threads = 0) const;
 

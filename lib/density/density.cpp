@@ -33,6 +33,10 @@ bool Density::is_constant() const {
   return model_->is_constant();
 }
 
+bool Density::is_exact() const {
+  return model_->exact();
+}
+
 double Density::total(const Domain& domain, int threads) const {
   return model_->total(domain, thread_count(threads));
 }

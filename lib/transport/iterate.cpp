@@ -4,8 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "lib/density/model.hpp"
-
 namespace powercell {
 namespace {
 
@@ -110,7 +108,7 @@ DensityIntegrals Evaluator::integrate_as_needed() {
   IntegrationOptions options;
   options.walls = true;
   options.threads = threads_;
-  options.tolerance = needed(density_.model().exact() ? 0 : expected_);
+  options.tolerance = needed(density_.is_exact() ? 0 : expected_);
   while (true) {
     double error = 0;
     bool enough = true;

@@ -59,6 +59,7 @@ TEST_CASE("integrals of an image are those of its pixels") {
   }
   Diagram diagram = diagram_of(one);
   const Density density = Density::image(picture.view());
+  CHECK(density.is_exact());
   const DensityIntegrals found = integrate(diagram, density, true);
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -271,6 +271,24 @@ TEST_CASE("values at vertices are integrated exactly on meshes") {
   }
 }
 
+TEST_CASE("what says that its integrals are exact does not look at the tolerance") {
+  Random shape(7), random(test_seed());
+  const Mesh mesh = cube_tetrahedra(2, 0.15, shape);
+  std::vector<double> values(mesh.vertex_count());
+  for (double& value : values) value = random.uniform(0, 2);
+  const Density nodal = Density::nodal(values);
+  CHECK(Density::constant(2).is_exact());
+  CHECK(nodal.is_exact());
+  CHECK_FALSE(Density::formula("1 + x").is_exact());
+
+  DensityCase one{"cube", volume_of(mesh), {}};
+  one.seeds = seeds_for(one.domain, Distribution::white, WeightRange::W1, 50, random);
+  Diagram diagram = diagram_of(one);
+  IntegrationOptions loose;
+  loose.tolerance = 0.5;
+  CHECK(integrate(diagram, nodal, loose).mass == integrate(diagram, nodal, false).mass);
+}
+
 TEST_CASE("integrals in the smallest and largest domains that are taken") {
   for (const double unit : {1e-95, 1e-78, 1e78, 1e95}) {
     const std::array<double, 2> low{0, 0}, high{unit, unit};
