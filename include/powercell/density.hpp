@@ -31,7 +31,7 @@ class POWERCELL_API Density {
   /// abs, min, max and others, with pi and e. Best smooth at the size of the cells: integrals are adaptive,
   /// and what they could not reach is in DensityIntegrals::quadrature_error; much narrower peaks may be
   /// missed. \param tolerance  relative, of the masses \throw Error invalid_argument if it is no expression
-  /// (where); later, if a value is negative or not finite
+  /// (where); later, if a value in the domain, up to its boundary, is negative or not finite
   static Density formula(std::string_view expression, double tolerance = 1e-9);
 
   /// As formula, but a function of a point (third coordinate 0 in 2D), called by several threads at a time.

@@ -2,18 +2,14 @@
 
 #include <string_view>
 
+#include "lib/density/checked_source.hpp"
 #include "lib/density/make.hpp"
 #include "lib/density/pointwise.hpp"
-#include "lib/density/value.hpp"
 #include "lib/digits.hpp"
 #include "lib/readable.hpp"
 
 namespace powercell {
 namespace {
-
-std::string place(const Point& x) {
-  return "x = " + digits(x[0]) + ", y = " + digits(x[1]) + ", z = " + digits(x[2]);
-}
 
 void check_tolerance(double tolerance) {
   if (!(tolerance > 0 && tolerance < 1))
@@ -89,16 +85,13 @@ class Expression {
   mu::Parser parser_;
 };
 
-class FormulaSource : public PointSource {
+class FormulaSource : public CheckedSource {
  public:
-  explicit FormulaSource(const std::string& text) : expression_(text) {}
-  void evaluate(std::span<const Point> x, std::uint32_t, std::span<double> values) override {
-    expression_.evaluate(x, values);
-    for (std::size_t k = 0; k < x.size(); ++k)
-      if (!is_density(values[k])) refuse_density(values[k], place(x[k]));
-  }
+  FormulaSource(const Domain& domain, const std::string& text) : CheckedSource(domain), expression_(text) {}
 
  private:
+  void ask(std::span<const Point> x, std::span<double> values) override { expression_.evaluate(x, values); }
+
   Expression expression_;
 };
 
@@ -110,8 +103,8 @@ class Formula : public PointwiseDensity {
   }
 
  public:
-  std::unique_ptr<PointSource> source(const Domain&) const override {
-    return std::make_unique<FormulaSource>(text_);
+  std::unique_ptr<PointSource> source(const Domain& domain) const override {
+    return std::make_unique<FormulaSource>(domain, text_);
   }
 
  private:
@@ -120,17 +113,15 @@ class Formula : public PointwiseDensity {
 
 using Function = std::function<double(const std::array<double, 3>&)>;
 
-class FunctionSource : public PointSource {
+class FunctionSource : public CheckedSource {
  public:
-  explicit FunctionSource(const Function& value) : value_(value) {}
-  void evaluate(std::span<const Point> x, std::uint32_t, std::span<double> values) override {
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      values[k] = value_(x[k]);
-      if (!is_density(values[k])) refuse_density(values[k], place(x[k]));
-    }
-  }
+  FunctionSource(const Domain& domain, const Function& value) : CheckedSource(domain), value_(value) {}
 
  private:
+  void ask(std::span<const Point> x, std::span<double> values) override {
+    for (std::size_t k = 0; k < x.size(); ++k) values[k] = value_(x[k]);
+  }
+
   const Function& value_;
 };
 
@@ -142,8 +133,8 @@ class FunctionDensity : public PointwiseDensity {
   }
 
  public:
-  std::unique_ptr<PointSource> source(const Domain&) const override {
-    return std::make_unique<FunctionSource>(value_);
+  std::unique_ptr<PointSource> source(const Domain& domain) const override {
+    return std::make_unique<FunctionSource>(domain, value_);
   }
 
  private:
