@@ -69,7 +69,8 @@ struct POWERCELL_API DensityIntegrals {
   std::vector<double> second_moment;  ///< n: integral of rho |x - p_i|^2
   std::vector<SeedStatus> status;     ///< n: of the cells, whatever their mass
   double domain_mass = 0;             ///< Density::total of the domain
-  /// n: what adaptive rules may have left of a mass where they met their limit, else 0; empty for constants
+  /// n: what adaptive rules may have left of a mass where they met their limit, and what rounding left of it
+  /// below 0; empty for constants
   std::vector<double> mass_error;
   double quadrature_error = 0;  ///< the largest of mass_error
   /// Where asked for: integrals of rho over the walls, so that (15) of docs/mathematics.md gives the

@@ -112,13 +112,15 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
   result.centroid.reserve(moments.size() * d);
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const Moments& m = moments[i];
-    result.mass.push_back(m.mass);
-    result.second_moment.push_back(m.second);
+    // Rounding turns slivers of cells inside out where their seeds are very far away.
+    const double below = std::max(0.0, -m.mass), error = m.error + below;
+    result.mass.push_back(m.mass + below);
+    result.second_moment.push_back(std::max(m.second, 0.0));
     for (std::size_t k = 0; k < d; ++k)
       result.centroid.push_back(m.mass > 0 ? seeds[i * d + k] + m.first[k] / m.mass
                                            : std::numeric_limits<double>::quiet_NaN());
-    result.mass_error.push_back(m.error);
-    result.quadrature_error = std::max(result.quadrature_error, m.error);
+    result.mass_error.push_back(error);
+    result.quadrature_error = std::max(result.quadrature_error, error);
   }
   if (options.walls && (!options.walls_if || options.walls_if(result.mass)))
     result.walls = wall_integrals(cells, result.status, make, options.threads);
