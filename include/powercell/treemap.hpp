@@ -57,8 +57,10 @@ struct Treemap {
   std::vector<double> value;                 ///< n: of a group the sum of its leaves; 0 where dropped
   std::vector<std::uint32_t> depth;          ///< n: 0 for the root
   std::vector<std::uint64_t> vertex_offset;  ///< n + 1; node i has [vertex_offset[i], vertex_offset[i+1])
-  std::vector<double> vertices;              ///< x, y pairs; each polygon convex and counter-clockwise
-  std::vector<double> seeds;                 ///< n x 2, near the centroids; NaN where dropped
+  /// x, y pairs; each polygon convex and counter-clockwise. Dropped nodes have none, nor have nodes thinner
+  /// than the rounding of their corners, whose group is in not_converged.
+  std::vector<double> vertices;
+  std::vector<double> seeds;  ///< n x 2, near the centroids; NaN where dropped
 
   /// Largest |area / its share of the outline - 1| of a leaf, and whose: measured on the polygons as they
   /// are. Rounding of corners is part of it; where a leaf is tiny beside its coordinates that may be more

@@ -30,6 +30,12 @@ long double rounding(const double* points, std::size_t count) {
   return 4 * 0x1p-53L * far * length / std::fabs(area(points, count));
 }
 
+/// Whether areas of a group's children are told to be off by as much as a missing one is.
+bool told_off(const Treemap& map, std::int64_t group) {
+  return map.worst_error >= 1 &&
+         std::ranges::find(map.not_converged, static_cast<std::size_t>(group)) != map.not_converged.end();
+}
+
 }  // namespace
 
 void check_treemap(const Treemap& map, std::span<const std::int64_t> parent, double tolerance) {
@@ -42,8 +48,13 @@ void check_treemap(const Treemap& map, std::span<const std::int64_t> parent, dou
   std::size_t root = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t begin = map.vertex_offset[i], count = map.vertex_offset[i + 1] - begin;
-    require((count == 0) == (map.kind[i] == TreeNode::dropped), "dropped nodes and polygons do not agree");
-    if (count == 0) continue;
+    const bool dropped = map.kind[i] == TreeNode::dropped;
+    require(!dropped || count == 0, "a dropped node with a polygon");
+    if (count == 0) {
+      require(dropped || told_off(map, parent[i]),
+              "a node without a polygon that is neither dropped nor told");
+      continue;
+    }
     require(count >= 3, "a polygon of less than three corners");
     require(map.value[i] > 0 && std::isfinite(map.value[i]), "a node with a polygon and without a value");
     for (std::size_t k = 2 * begin; k < 2 * (begin + count); ++k)
@@ -61,6 +72,7 @@ void check_treemap(const Treemap& map, std::span<const std::int64_t> parent, dou
     if (map.kind[i] != TreeNode::leaf) continue;
     const double* const points = &map.vertices[2 * map.vertex_offset[i]];
     const std::size_t count = map.vertex_offset[i + 1] - map.vertex_offset[i];
+    if (count == 0) continue;
     const long double share = static_cast<long double>(map.value[i]) / map.value[root];
     const long double error = std::fabs(area(points, count) / outline / share - 1);
     const long double doubt =
