@@ -58,16 +58,17 @@ struct Treemap {
   std::vector<std::uint32_t> depth;          ///< n: 0 for the root
   std::vector<std::uint64_t> vertex_offset;  ///< n + 1; node i has [vertex_offset[i], vertex_offset[i+1])
   /// x, y pairs; each polygon convex and counter-clockwise. Dropped nodes have none, nor have nodes thinner
-  /// than the rounding of their corners, whose group is in not_converged.
+  /// than the rounding of their corners and what is below them; their groups are in not_converged.
   std::vector<double> vertices;
-  std::vector<double> seeds;  ///< n x 2, near the centroids; NaN where dropped
+  std::vector<double> seeds;  ///< n x 2, near the centroids; NaN where dropped or without a place
 
   /// Largest |area / its share of the outline - 1| of a leaf, and whose: measured on the polygons as they
   /// are. Rounding of corners is part of it; where a leaf is tiny beside its coordinates that may be more
   /// than the tolerance.
   double worst_error = 0;
   std::size_t worst_leaf = 0;
-  /// Mean over the leaves of the ratio of the longer to the shorter principal axis (of second moments).
+  /// Mean over the leaves that have an area of the ratio of the longer to the shorter principal axis (of
+  /// second moments).
   double mean_aspect = 1;
   std::size_t leaves = 0;
   /// Groups whose areas did not come within the tolerance; the best weights found were kept.

@@ -21,12 +21,14 @@ struct HostSolver {
   std::vector<double> weights;
   std::span<const double> target;
   std::uint64_t diagrams = 0, newton_steps = 0;
+  bool lost = false;
 
   void start(const Columns& seeds) {
     diagram.set_seeds(seeds, true);
     weights.assign(seeds.size(), 0);
   }
   bool voronoi() { return evaluate(weights, {}); }
+  bool has_lost_cells() const { return lost; }
   void move(const Columns& seeds) {
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const double x = seeds.x[i] - diagram.seeds().x[i], y = seeds.y[i] - diagram.seeds().y[i];
@@ -38,6 +40,7 @@ struct HostSolver {
     DampedNewton newton(*this, target, weights);
     const NewtonOutcome outcome = newton.solve({tolerance});
     newton_steps += static_cast<std::uint64_t>(outcome.steps);
+    lost = !std::isfinite(outcome.error);
     return outcome.converged;
   }
   const Columns& centroid() const { return diagram.centroid(); }
@@ -48,8 +51,8 @@ struct HostSolver {
     return diagram.compute(at, least);
   }
   const std::vector<double>& mass() const { return diagram.mass(); }
-  void step(std::span<const double> residual, std::vector<double>& delta) {
-    laplacian.solve(diagram.walls(), residual, delta);
+  bool step(std::span<const double> residual, std::vector<double>& delta) {
+    return laplacian.solve(diagram.walls(), residual, delta);
   }
 };
 

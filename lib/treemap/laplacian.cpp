@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <powercell/error.hpp>
 
 #include "lib/linear/laplacian.hpp"
 
@@ -23,10 +22,6 @@ void each_wall(const Walls& walls, const Add& add) {
     }
 }
 
-[[noreturn]] void fail() {
-  throw Error(ErrorCode::internal, "the derivative of the areas by the weights is singular; please report");
-}
-
 }  // namespace
 
 struct LaplacianSolver::Storage {
@@ -36,7 +31,7 @@ struct LaplacianSolver::Storage {
   Laplacian sparse;
 
   // The last unknown is 0, so its row and column are left out.
-  void solve_dense(const Walls& walls, std::span<const double> residual) {
+  bool solve_dense(const Walls& walls, std::span<const double> residual) {
     const auto m = static_cast<Eigen::Index>(walls.size() - 1);
     dense.setZero(m, m);
     each_wall(walls, [&](std::size_t i, std::size_t j, double half) {
@@ -48,13 +43,14 @@ struct LaplacianSolver::Storage {
     });
     unknown = Eigen::Map<const Eigen::VectorXd>(residual.data(), m + 1);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(dense);
-    if (factors.info() != Eigen::Success) fail();
+    if (factors.info() != Eigen::Success) return false;
     auto head = unknown.head(m);
     factors.solveInPlace(head);
     unknown[m] = 0;
+    return true;
   }
 
-  void solve_sparse(const Walls& walls, std::span<const double> residual) {
+  bool solve_sparse(const Walls& walls, std::span<const double> residual) {
     const auto n = static_cast<Eigen::Index>(walls.size());
     entries.clear();
     each_wall(walls, [&](std::size_t i, std::size_t j, double half) {
@@ -69,21 +65,20 @@ struct LaplacianSolver::Storage {
     const Eigen::VectorXd right = Eigen::Map<const Eigen::VectorXd>(residual.data(), n);
     constexpr double unused = 0;  // a tolerance: what is factorised needs none
     const LinearResult found = solve_laplacian(sparse, right, LinearSolver::direct, unused, 2);
-    if (found.broke_down) fail();
     unknown = found.solution;
+    return !found.broke_down;
   }
 };
 
 LaplacianSolver::LaplacianSolver() : storage_(std::make_unique<Storage>()) {}
 LaplacianSolver::~LaplacianSolver() = default;
 
-void LaplacianSolver::solve(const Walls& walls, std::span<const double> residual,
+bool LaplacianSolver::solve(const Walls& walls, std::span<const double> residual,
                             std::vector<double>& delta) {
-  if (walls.size() <= dense_unknowns + 1)
-    storage_->solve_dense(walls, residual);
-  else
-    storage_->solve_sparse(walls, residual);
-  delta.assign(storage_->unknown.begin(), storage_->unknown.end());
+  const bool solved = walls.size() <= dense_unknowns + 1 ? storage_->solve_dense(walls, residual)
+                                                         : storage_->solve_sparse(walls, residual);
+  if (solved) delta.assign(storage_->unknown.begin(), storage_->unknown.end());
+  return solved;
 }
 
 }  // namespace powercell::treemap_detail

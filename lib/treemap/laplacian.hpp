@@ -28,8 +28,8 @@ class LaplacianSolver {
   ~LaplacianSolver();
   LaplacianSolver(const LaplacianSolver&) = delete;
   LaplacianSolver& operator=(const LaplacianSolver&) = delete;
-  /// \throw Error internal if L is not positive definite, which no diagram of non-empty cells has
-  void solve(const Walls& walls, std::span<const double> residual, std::vector<double>& delta);
+  /// \return false if L is not positive definite to rounding: walls of needles may be lost beside others
+  bool solve(const Walls& walls, std::span<const double> residual, std::vector<double>& delta);
 
  private:
   struct Storage;

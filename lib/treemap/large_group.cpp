@@ -69,6 +69,7 @@ struct DeviceSolver {
     return result.converged;
   }
   const Columns& centroid() const { return centroids; }
+  bool has_lost_cells() const { return false; }  // its weights of seeds without a cell are solved for too
 };
 
 }  // namespace

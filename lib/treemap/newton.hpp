@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <powercell/error.hpp>
 #include <span>
 #include <vector>
 
@@ -21,15 +20,18 @@ struct NewtonOptions {
 
 struct NewtonOutcome {
   bool converged = false;
-  double error = std::numeric_limits<double>::infinity();  ///< largest |m_i / nu_i - 1| of the weights left
+  /// Largest |m_i / nu_i - 1| of the weights left; infinity where a cell is empty, even with equal weights.
+  double error = std::numeric_limits<double>::infinity();
   int steps = 0;
   int diagrams = 0;
 };
 
 /// Kitagawa, Merigot, Thibert 2019, mathematics (27)-(29). `System` has
 ///   bool evaluate(weights, least)   the diagram; false where a cell has less than `least` (empty: none) or
-///   nothing span mass()                     of the diagram last evaluated with true void step(residual,
-///   delta)      solves (15) with it: L delta = residual, the mean of delta free
+///                                   nothing
+///   span mass()                     of the diagram last evaluated with true
+///   bool step(residual, delta)      solves (15) with it: L delta = residual, the mean of delta free; false
+///                                   where rounding leaves no solution, which ends the iteration
 /// \param weights  where to start, and what was found
 template <class System>
 class DampedNewton {
@@ -46,7 +48,7 @@ class DampedNewton {
     double norm = take_residual();
     while (outcome_.error >= options.tolerance) {
       if (outcome_.steps == options.most_steps) return outcome_;
-      system_.step(residual_, delta_);
+      if (!system_.step(residual_, delta_)) return outcome_;
       ++outcome_.steps;
       if (!go(norm)) return outcome_;
     }
@@ -110,10 +112,13 @@ class DampedNewton {
       norm = reached;
       return true;
     }
-    // The system goes back to the diagram of these weights too.
+    // The system goes back to the diagram of these weights too; cells of needles may be empty this time, as
+    // rounding goes with the order of neighbours.
     weights_ = from_;
-    if (!evaluate({})) throw Error(ErrorCode::internal, "a diagram came out differently the second time");
-    take_residual();
+    if (evaluate({}))
+      take_residual();
+    else
+      outcome_.error = std::numeric_limits<double>::infinity();
     return false;
   }
 

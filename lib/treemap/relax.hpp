@@ -2,8 +2,6 @@
 /// Where the seeds of a group go: to the centroids of cells of the right areas. Internal.
 #pragma once
 
-#include <powercell/error.hpp>
-
 #include "lib/treemap/group.hpp"
 
 namespace powercell::treemap_detail {
@@ -20,10 +18,13 @@ Columns starting_seeds(const Group& group);
 /// many times their sizes from their seeds. So an update rests at once, too, where that mean, each cell
 /// weighted by its area, is below 15 %: finished layouts had 12 % at worst, of values over 14 orders.
 /// `Solver` has
-///   void start(seeds), bool voronoi()   new seeds with weights 0; their cells, false if one is empty
-///   void move(seeds)                    near the last ones; weights follow (docs/mathematics.md,
-///   "Transport") bool solve(tolerance)               whether the areas came within it const Columns&
-///   centroid()           of the last cells
+///   void start(seeds)         new seeds with weights 0
+///   bool voronoi()            their cells; false if one is empty
+///   void move(seeds)          near the last ones; weights follow (docs/mathematics.md, "Transport")
+///   bool solve(tolerance)     whether the areas came within it
+///   bool has_lost_cells()     whether that left cells empty, which have no centroids
+///   const Columns& centroid() of the last cells
+/// Only rounding leaves a cell empty, in polygons far longer than thick: seeds stay where they are then.
 template <class Solver>
 void relax(Solver& solver, const Group& group, const GroupSettings& settings, GroupLayout& layout) {
   constexpr int voronoi_rounds = 2;
@@ -35,14 +36,14 @@ void relax(Solver& solver, const Group& group, const GroupSettings& settings, Gr
   seeds = starting_seeds(group);
   solver.start(seeds);
   for (int k = 0; k < voronoi_rounds && fresh; ++k) {
-    if (!solver.voronoi())
-      throw Error(ErrorCode::internal, "a seed inside a convex polygon has no Voronoi cell; please report");
+    if (!solver.voronoi()) break;
     seeds = solver.centroid();
     solver.start(seeds);
   }
   const double at_rest = fresh ? fresh_rest : update_rest;
   for (int k = 0; k < settings.rounds; ++k) {
     solver.solve(loose);
+    if (solver.has_lost_cells()) break;
     const Columns& centre = solver.centroid();
     double unrest = 0, by_area = 0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -47,6 +47,10 @@ class Layout {
     for (std::size_t k = tree_.level[level]; k < tree_.level[level + 1]; ++k) {
       const std::uint32_t node = tree_.order[k];
       const std::size_t children = tree_.children(node).size();
+      if (children > 0 && !(moments(polygon_[node]).area > 0)) {
+        leave_without_place(node);
+        continue;
+      }
       if (children == 1) hand_down(node);
       if (children > 1) (children > options_.large_group ? large : groups).push_back(node);
     }
@@ -65,6 +69,12 @@ class Layout {
     });
   }
 
+  /// The children of a node that is thinner than the rounding of its corners have no polygons.
+  void leave_without_place(std::uint32_t node) {
+    result_.not_converged.push_back(node);
+    done(tree_.children(node).size());
+  }
+
   void hand_down(std::uint32_t node) {
     const std::uint32_t child = tree_.children(node)[0];
     polygon_[child] = polygon_[node];
@@ -78,11 +88,7 @@ class Layout {
   }
 
   Group make_group(std::uint32_t node) const {
-    const PolygonMoments parent = moments(polygon_[node]);
-    if (!(parent.area > 0))
-      throw Error(ErrorCode::not_converged,
-                  "treemap: node " + std::to_string(node) + " got no cell, so its children have no place");
-    const GroupFrame frame(parent);
+    const GroupFrame frame(moments(polygon_[node]));
     Group group;
     group.outline = frame.inside(polygon_[node]);
     bool started = false;
@@ -155,6 +161,7 @@ void measure_leaves(Treemap& map, std::size_t root) {
   };
   const double whole = moments(polygon(root)).area;
   double aspects = 0;
+  std::size_t with_area = 0;
   for (std::size_t i = 0; i < map.kind.size(); ++i) {
     if (map.kind[i] != TreeNode::leaf) continue;
     const PolygonMoments m = moments(polygon(i));
@@ -163,10 +170,12 @@ void measure_leaves(Treemap& map, std::size_t root) {
       map.worst_error = error;
       map.worst_leaf = i;
     }
-    aspects += aspect(m);
     ++map.leaves;
+    if (!(m.area > 0)) continue;
+    aspects += aspect(m);
+    ++with_area;
   }
-  map.mean_aspect = aspects / static_cast<double>(map.leaves);
+  map.mean_aspect = aspects / static_cast<double>(with_area);  // some have, as the outline has
 }
 
 }  // namespace

@@ -158,6 +158,35 @@ TEST_CASE("values of zero and below are dropped, and groups that hold nothing el
   check_layout(tree, map, square);
 }
 
+TEST_CASE("nodes thinner than rounding, and what is below them, are told of") {
+  // Of 10^9 by 7, shares of few square roundings at 10^9: a leaf, and a group of groups.
+  const double far = 1e9;
+  const Ring needle = {{far, far}, {2 * far, far}, {2 * far, far + 7}, {far, far + 7}};
+  const std::vector<std::int64_t> parent{-1, 0, 0, 0, 3, 3, 4, 4};
+  const std::vector<double> value{0, 1, 2e-16, 0, 0, 2e-16, 2e-16, 2e-16};
+  std::size_t without_place = 0;
+  for (const std::size_t large_group : {std::size_t{4096}, std::size_t{0}})
+    for (int seed = 0; seed < 20; ++seed) {
+      CAPTURE(large_group);
+      CAPTURE(seed);
+      TreemapOptions options;
+      options.large_group = large_group;
+      options.random_seed = static_cast<std::uint64_t>(seed);
+      const Treemap map = treemap({parent, value}, needle, options);
+      CHECK(map.leaves == 5);
+      CHECK(std::isfinite(map.mean_aspect));
+      for (std::size_t node = 1; node < parent.size(); ++node) {
+        if (!polygon(map, node).empty()) continue;
+        ++without_place;
+        CHECK(map.worst_error >= 1);
+        const auto group = static_cast<std::size_t>(parent[node]);
+        CHECK(std::ranges::find(map.not_converged, group) != map.not_converged.end());
+        if (polygon(map, group).empty()) CHECK(std::isnan(map.seeds[2 * node]));
+      }
+    }
+  CHECK(without_place > 0);
+}
+
 TEST_CASE("the same bits with any number of threads, another layout with another random seed") {
   Random random(test_seed());
   const MadeTree tree = random_tree(3000, 200, 100, random);
