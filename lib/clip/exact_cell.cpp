@@ -92,6 +92,7 @@ bool ExactCell::is_outside(const ExactVertex& vertex, std::int32_t other) {
     return with<0>(std::array{vertex[0], vertex[1], other}, [&](const auto&, const auto& a, const auto& b,
                                                                 const auto& p) {
       const auto factor = factors_in_plane(a, b, p);
+      if (sign_of(factor.back()) == 0) return is_corner_outside(corner_in_line(vertex), other);
       return side(factor, determinant_sign(a, b, p, factor), std::array{vertex[0], vertex[1], other});
     });
   const bool solid = scene_->mesh->cell_dimension == 3;
@@ -107,8 +108,10 @@ bool ExactCell::lies_in(const ExactVertex& vertex, std::int32_t border) {
   if (vertex[0] == border || vertex[1] == border) return true;
   if (scene_->mesh->dimension == 2)
     return with<0>(std::array{vertex[0], vertex[1], border},
-                   [](const auto&, const auto& a, const auto& b, const auto& p) {
-                     return determinant_sign(a, b, p, factors_in_plane(a, b, p)) == 0;
+                   [&](const auto&, const auto& a, const auto& b, const auto& p) {
+                     const auto factor = factors_in_plane(a, b, p);
+                     if (sign_of(factor.back()) == 0) return corner_lies_in(corner_in_line(vertex), border);
+                     return determinant_sign(a, b, p, factor) == 0;
                    });
   const bool solid = scene_->mesh->cell_dimension == 3;
   if (solid && vertex[2] == border) return true;
@@ -145,6 +148,22 @@ bool ExactCell::are_parallel(std::int32_t face, std::int32_t a, std::int32_t b) 
 bool ExactCell::is_corner_outside(std::uint32_t corner, std::int32_t other) const {
   const int side = corner_side(*scene_, rank_, corner, other);
   return side != 0 ? side > 0 : static_cast<std::uint32_t>(other) < rank_;
+}
+
+/// Polygons have corners within an edge where other pieces of the domain have theirs. \return the vertex of
+/// the domain
+std::uint32_t ExactCell::corner_in_line(const ExactVertex& vertex) const {
+  const RegionMesh& mesh = *scene_->mesh;
+  const auto first = static_cast<std::int32_t>(mesh.region_offset[region_]),
+             end = static_cast<std::int32_t>(mesh.region_offset[region_ + 1]);
+  const std::int32_t before = ~vertex[0], behind = ~vertex[1];  // facet f begins at corner f
+  const bool in_order = (before + 1) % (end - first) == behind;
+  return mesh.region_vertex[static_cast<std::size_t>(first + (in_order ? behind : before))];
+}
+
+bool ExactCell::corner_lies_in(std::uint32_t corner, std::int32_t border) const {
+  if (border >= 0) return corner_side(*scene_, rank_, corner, border) == 0;
+  return is_in_line_of_facet(*scene_, region_, corner, static_cast<std::uint32_t>(~border));
 }
 
 }  // namespace powercell

@@ -42,6 +42,8 @@ class ExactCell {
 
  private:
   struct Planes;
+  std::uint32_t corner_in_line(const ExactVertex& vertex) const;
+  bool corner_lies_in(std::uint32_t corner, std::int32_t border) const;
   void start_kind(std::size_t kind);
   template <std::size_t kind, std::size_t count, class Use>
   auto with(const std::array<std::int32_t, count>& borders, const Use& use);

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "lib/clip/host_clip.hpp"
+#include "lib/domain/orient2d.hpp"
 
 namespace powercell {
 namespace {
@@ -313,6 +314,16 @@ int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner
     side += n * (2 * integer<Unbounded>(y[k], unit) - n);
   }
   return side.sign();
+}
+
+bool is_in_line_of_facet(const HostScene& scene, std::uint32_t region, std::uint32_t corner,
+                         std::uint32_t facet) {
+  const RegionMesh& mesh = *scene.mesh;
+  const std::uint32_t first = mesh.region_offset[region], count = mesh.region_offset[region + 1] - first;
+  const auto at = [&](std::uint32_t vertex) { return packed(scene.corners, vertex); };
+  const auto from = at(mesh.region_vertex[first + facet]),
+             to = at(mesh.region_vertex[first + (facet + 1) % count]), point = at(corner);
+  return orient2d(from.data(), to.data(), point.data()) == 0;
 }
 
 }  // namespace powercell

@@ -63,4 +63,8 @@ class ExactPlanes {
 /// if on it.
 int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner, std::int32_t other);
 
+/// Whether vertex `corner` of a domain in the plane lies in the line of a facet.
+bool is_in_line_of_facet(const HostScene& scene, std::uint32_t region, std::uint32_t corner,
+                         std::uint32_t facet);
+
 }  // namespace powercell

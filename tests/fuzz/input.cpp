@@ -106,9 +106,23 @@ DomainInput any_domain(Input& input) {
   return domain;
 }
 
+/// A bar with teeth on both sides: pieces of it have corners in line.
+template <class Place>
+Ring comb(const Place& place) {
+  Ring ring;
+  const auto add = [&](double x, double y) { ring.push_back({place(x), place(y)}); };
+  for (const auto& [x, y] :
+       {std::pair{0, 0}, {1, 0}, {1, -1}, {2, -1}, {2, 0}, {3, 0}, {3, -1}, {4, -1}, {4, 0}})
+    add(x / 4.0, y / 4.0);
+  for (const auto& [x, y] : {std::pair{4, 1}, {4, 2}, {3, 2}, {3, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}})
+    add(x / 4.0, y / 4.0);
+  return ring;
+}
+
 DomainInput good_domain(Input& input) {
   DomainInput domain;
-  const std::size_t choice = input.below(5);
+  const std::uint8_t what = input.byte();
+  const std::size_t choice = what < 250 ? what % 5 : 5;
   constexpr double kScales[] = {1, 1, 1, 1e-6, 1e9}, kShifts[] = {0, 0, 0, 1e5, -1e9};
   const double scale = kScales[input.below(5)], shift = scale * kShifts[input.below(5)];
   const auto place = [&](double x) { return shift + scale * x; };
@@ -119,6 +133,9 @@ DomainInput good_domain(Input& input) {
   } else if (choice == 2) {
     domain.kind = DomainInput::Kind::polygon;
     domain.parts = {{rectangle(place(-1), place(2)), {rectangle(place(0), place(0.5))}}};
+  } else if (choice == 5) {
+    domain.kind = DomainInput::Kind::polygon;
+    domain.parts = {{comb(place), {}}};
   } else if (choice == 3) {
     domain.kind = DomainInput::Kind::surface;
     domain.vertices = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
