@@ -66,20 +66,25 @@ GeometricDensity::Known GeometricDensity::known(const Domain& domain, int thread
   const Cells regions = region_cells(domain.mesh());
   // Regions may be many times as large as cells, and as what the density has in them.
   constexpr int more_depth = 10;
-  const auto moments = [&](double negligible, const Grain& grain) {
-    const auto make = [&] { return integrator(domain, {0, negligible, grain, more_depth}); };
+  const auto moments = [&](double negligible, const Grain& grain, bool jumps) {
+    const auto make = [&] { return integrator(domain, {0, negligible, grain, more_depth, jumps}); };
     return cell_moments(regions, {}, make, threads);
   };
-  // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies.
-  std::vector<Moments> found = moments(std::numeric_limits<double>::infinity(), {longest_edge(domain)});
-  found = moments(negligible_share * std::abs(mass_of(found)) / domain.measure(),
-                  grain_of(domain, regions, found));
+  // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies;
+  // whether it has jumps, once it is integrated.
+  std::vector<Moments> found =
+      moments(std::numeric_limits<double>::infinity(), {longest_edge(domain)}, false);
+  const double negligible = negligible_share * std::abs(mass_of(found)) / domain.measure();
+  const Grain grain = grain_of(domain, regions, found);
+  found = moments(negligible, grain, false);
+  const bool jumps = std::ranges::any_of(found, &Moments::jump);
+  if (jumps) found = moments(negligible, grain, true);
   const double total = mass_of(found);
   if (!(total > 0) || !std::isfinite(total))
     throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total) +
                                                  " over the domain; it must be positive somewhere");
   const std::lock_guard lock(mutex_);
-  last_known_.emplace(Known{domain, total, grain_of(domain, regions, found)});
+  last_known_.emplace(Known{domain, total, grain_of(domain, regions, found), jumps});
   return *last_known_;
 }
 
@@ -100,7 +105,9 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
   const Domain& domain = diagram.domain();
   const Known about = known(domain, options.threads);
   const double negligible = negligible_share * about.total / domain.measure();
-  const auto make = [&] { return integrator(domain, {options.tolerance, negligible, about.grain, 0}); };
+  const auto make = [&] {
+    return integrator(domain, {options.tolerance, negligible, about.grain, 0, about.jumps});
+  };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
   const std::vector<Moments> moments = cell_moments(cells, seeds, make, options.threads);

@@ -36,6 +36,7 @@ struct Accuracy {
   double negligible_density = 0;  ///< errors of the tolerance times this, times the volume, don't count
   Grain grain{};
   int more_depth = 0;  ///< further bisections, for pieces that are large
+  bool jumps = false;  ///< the density has jumps: what passes between the points of a rule is looked for
 };
 
 class GeometricDensity : public DensityModel {
@@ -56,6 +57,7 @@ class GeometricDensity : public DensityModel {
     Domain domain;
     double total;
     Grain grain;
+    bool jumps;
   };
   Known known(const Domain& domain, int threads) const;
 

@@ -23,7 +23,8 @@ inline double dot(const Point& a, const Point& b) {
 struct Moments {
   double mass = 0, second = 0;
   Point first{};
-  double error = 0;  ///< estimate of what adaptive rules left in the mass
+  double error = 0;   ///< estimate of what adaptive rules left in the mass
+  bool jump = false;  ///< the density has a jump there, as far as was seen
 };
 
 /// View of piece `index` of some cells.

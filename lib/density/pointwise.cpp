@@ -4,39 +4,19 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/density/simplex.hpp"
-#include "lib/density/simplex_rule.hpp"
+#include "lib/density/jump_cut.hpp"
+#include "lib/density/simplex_sums.hpp"
 
 namespace powercell {
 namespace {
 
-/// A place about the seed, with the density there.
-struct Corner {
-  Point at{};
-  double value = 0;
-};
-
-template <int N>
-using Simplex = std::array<Corner, N + 1>;
-
-double measure(const Simplex<1>& s) {
-  return measure_of_segment(s[0].at, s[1].at);
-}
-double measure(const Simplex<2>& s) {
-  return measure_of_triangle(s[0].at, s[1].at, s[2].at);
-}
-double measure(const Simplex<3>& s) {
-  return measure_of_tetrahedron(s[0].at, s[1].at, s[2].at, s[3].at);
-}
-
-template <std::size_t Corners>
-SimplexEdge longest_edge_of(const std::array<Corner, Corners>& simplex) {
-  return longest_edge(Corners, [&](std::size_t c) -> const Point& { return simplex[c].at; });
-}
-
 /// Walls make the matrix of an iteration, whose result they do not change: they may be off by so much more
 /// than masses, within these bounds.
 constexpr double wall_slack = 1e3, least_wall_tolerance = 1e-6, most_wall_tolerance = 1e-4;
+
+/// Where jumps have corners few simplices are left at the last depth, and are halved on: in one piece as
+/// many.
+constexpr int most_spare = 200;
 
 /// What of a simplex lies nearer to a face than all points of the last rule, at most: 1 - (1 - 1/(9 + N))^N.
 constexpr double unseen = 0.25;
@@ -49,6 +29,7 @@ class SimplexIntegrator : public PieceIntegrator {
                     const Accuracy& accuracy)
       : source_(std::move(source)),
         linear_(linear),
+        jumps_(accuracy.jumps),
         cell_tolerance_(std::max(tolerance, accuracy.tolerance)),
         negligible_(accuracy.negligible_density),
         grain_(accuracy.grain),
@@ -134,34 +115,6 @@ class SimplexIntegrator : public PieceIntegrator {
     for (std::size_t c = 0; c < places_.size(); ++c) corners_[c] = {places_[c], values_[c]};
   }
 
-  /// A simplex about its middle, and what moments are compared by.
-  template <int N>
-  struct Local {
-    Point middle{}, reach{};
-    std::array<Point, N + 1> corner;
-    explicit Local(const Simplex<N>& simplex) {
-      for (const Corner& c : simplex)
-        for (std::size_t k = 0; k < 3; ++k) middle[k] += c.at[k] / (N + 1);
-      for (std::size_t c = 0; c <= N; ++c) corner[c] = minus(simplex[c].at, middle);
-      for (std::size_t k = 0; k < 3; ++k) reach[k] = corner[N][k] * 2 / (N + 3);  // to rule 1's first point
-    }
-  };
-
-  /// Integrals over a simplex of measure 1 about its middle, or the part of them that the points of a rule
-  /// make: of the density, its moment of inertia, and the density times each barycentric coordinate.
-  template <int N>
-  struct Sums {
-    double mass = 0, second = 0;
-    std::array<double, N + 1> at_corner{};
-
-    Point first(const Local<N>& local) const {
-      Point sum{};
-      for (std::size_t c = 0; c <= N; ++c)
-        for (std::size_t k = 0; k < 3; ++k) sum[k] += at_corner[c] * local.corner[c][k];
-      return sum;
-    }
-  };
-
   /// A part whose estimate is not good enough by itself.
   template <int N>
   struct Rest {
@@ -178,6 +131,7 @@ class SimplexIntegrator : public PieceIntegrator {
   template <int N, class ForSimplices>
   void integrate(const ForSimplices& for_simplices, Moments& moments) {
     floor_ = negligible_;
+    spare_ = most_spare;
     std::vector<Rest<N>> rests;
     double size = 0, sure = -moments.mass;
     for_simplices([&](const Simplex<N>& simplex) {
@@ -212,19 +166,41 @@ class SimplexIntegrator : public PieceIntegrator {
       if (s > 1) {
         // Where changes shrink they go on shrinking; a factor of 4 is for safety.
         const double left = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
-        const double beside = misfit<N>(simplex, found, std::span(value).first(rules.size[s]));
+        const LinearFit<N> fit(found, std::span(value).first(rules.size[s]));
+        double beside = fit.misfit_of_corners(simplex);
         const bool end = s + 1 == SimplexRules::count, at_jump = change > before / 2;
         const double allowed = tolerance_ * std::max(std::abs(found.mass), floor_);
+        if (jumps_ && left <= allowed && beside <= allowed) beside = misfit_of_boundary<N>(local, fit);
         if (left <= allowed && beside <= allowed) return take(found, local, size, 0, moments);
         if (end || (at_jump && depth < depth_)) {
           const Rest<N> rest{simplex, depth, size, found, left, beside, change, at_jump};
-          if (later && depth < depth_) return later->push_back(rest);
+          if (later) return later->push_back(rest);
           return finish<N>(rest, moments);
         }
       }
       before = change;
       last = found;
     }
+  }
+
+  template <int N>
+  double misfit_of_boundary(const Local<N>& local, const LinearFit<N>& fit) {
+    const std::vector<Barycentric>& points = boundary_points(N);
+    values_.resize(points.size());
+    evaluate_in<N>(local, points, values_);
+    double most = 0;
+    for (std::size_t q = 0; q < points.size(); ++q) most = std::max(most, fit.misfit(points[q], values_[q]));
+    return most;
+  }
+
+  template <int N>
+  void evaluate_in(const Local<N>& local, std::span<const Barycentric> points, std::span<double> values) {
+    places_.resize(points.size());
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      const Point y = local.place(points[q]);
+      for (std::size_t k = 0; k < 3; ++k) places_[q][k] = local.middle[k] + y[k];
+    }
+    evaluate(places_, values);
   }
 
   /// Takes what is good enough, and what has no depth left; halves others.
@@ -236,10 +212,40 @@ class SimplexIntegrator : public PieceIntegrator {
     };
     if (rest.depth == part_depth_) density_around_ = density;
     if (rest.left <= allowed && rest.beside <= allowed) return accept(0);
-    if (rest.depth == depth_) return accept(std::max(rest.left, unseen * rest.beside));
+    if (take_cut<N>(rest, moments)) return;
+    if (at_end(rest.depth)) return accept(std::max(rest.left, unseen * rest.beside));
     const double at_jump = rest.at_jump ? allowed_at_jump<N>(rest.depth) : 0;
     if (rest.change <= at_jump && rest.beside <= at_jump) return accept(rest.change);
+    if (rest.depth >= depth_) --spare_;
     bisect<N>(rest.simplex, rest.depth, moments);
+  }
+
+  bool at_end(int depth) const { return depth >= depth_ && spare_ == 0; }
+
+  /// Takes a simplex in the parts on both sides of a jump, if that is good enough, or better than what else
+  /// there is where no depth is left.
+  template <int N>
+  bool take_cut(const Rest<N>& rest, Moments& moments) {
+    const Local<N> local(rest.simplex);
+    std::array<double, N + 1> corner;
+    for (std::size_t c = 0; c <= N; ++c) corner[c] = rest.simplex[c].value;
+    const double allowed = allowed_at_jump<N>(rest.depth);
+    const auto values = [&](std::span<const Barycentric> points, std::span<double> at_points) {
+      evaluate_in<N>(local, points, at_points);
+    };
+    const double most = at_end(rest.depth) ? std::max(rest.left, unseen * rest.beside) : allowed;
+    if (!cut_at_jump(N, corner, values, allowed, most, cut_)) return false;
+    Sums<N> found, lower;
+    for (const JumpCut::Term& term : cut_.terms) {
+      const Point y = local.place(term.point);
+      found.add(term.mass, term.point, y);
+      lower.add(term.lower, term.point, y);
+    }
+    const double error = cut_.error + difference<N>(found, lower, local);
+    if (!(error <= most)) return false;
+    moments.jump = true;
+    take(found, local, rest.size, error, moments);
+    return true;
   }
 
   /// Where higher rules bring nothing there is a jump or a kink, a surface that 2^((N - 1) depth / N) of the
@@ -247,27 +253,6 @@ class SimplexIntegrator : public PieceIntegrator {
   template <int N>
   double allowed_at_jump(int depth) const {
     return tolerance_ * density_around_ * std::exp2(static_cast<double>(depth) / N);
-  }
-
-  /// Points of rules lie inside, and a jump or a kink across a corner goes between them. What they bend,
-  /// their way from the linear function of the same moments (32a), goes on to the corners, where polynomials
-  /// of the rules' degrees are farther from it by up to some twenty times. \return what a corner is farther
-  template <int N>
-  static double misfit(const Simplex<N>& simplex, const Sums<N>& found, std::span<const double> value) {
-    constexpr double farther = 20;
-    const SimplexRules& rules = simplex_rules(N);
-    std::array<double, N + 1> linear;
-    for (std::size_t c = 0; c <= N; ++c) linear[c] = (N + 1) * ((N + 2) * found.at_corner[c] - found.mass);
-    double bend = 0;
-    for (std::size_t q = 0; q < value.size(); ++q) {
-      double fit = 0;
-      for (std::size_t c = 0; c <= N; ++c) fit += rules.point[q][c] * linear[c];
-      bend = std::max(bend, std::abs(value[q] - fit));
-    }
-    double most = 0;
-    for (std::size_t c = 0; c <= N; ++c)
-      most = std::max(most, std::abs(simplex[c].value - linear[c]) - farther * bend);
-    return most;
   }
 
   /// Bisections that take an edge of the domain's grain to that of where the density is, in space as in the
@@ -326,20 +311,14 @@ class SimplexIntegrator : public PieceIntegrator {
     const Point middle{seed_[0] + local.middle[0], seed_[1] + local.middle[1], seed_[2] + local.middle[2]};
     std::array<Point, SimplexRules::most_points> place, at;
     for (std::size_t q = 0; q < count; ++q) {
-      Point y{};
-      for (std::size_t c = 0; c <= N; ++c)
-        for (std::size_t k = 0; k < 3; ++k) y[k] += rules.point[begin + q][c] * local.corner[c][k];
+      const Point y = local.place(rules.point[begin + q]);
       place[q] = y;
       at[q] = {middle[0] + y[0], middle[1] + y[1], middle[2] + y[2]};
     }
     const std::span<double> value = values.subspan(begin, count);
     source_->evaluate(std::span(at).first(count), region_, value);
     Sums<N> sums;
-    for (std::size_t q = 0; q < count; ++q) {
-      sums.mass += value[q];
-      for (std::size_t c = 0; c <= N; ++c) sums.at_corner[c] += value[q] * rules.point[begin + q][c];
-      sums.second += value[q] * dot(place[q], place[q]);
-    }
+    for (std::size_t q = 0; q < count; ++q) sums.add(value[q], rules.point[begin + q], place[q]);
     return sums;
   }
 
@@ -348,21 +327,8 @@ class SimplexIntegrator : public PieceIntegrator {
   static Sums<N> apply(const SimplexRules& rules, std::size_t s,
                        const std::array<Sums<N>, SimplexRules::count>& part) {
     Sums<N> sums;
-    for (std::size_t k = 0; k <= s; ++k) {
-      const double weight = rules.weight[s][k];
-      sums.mass += weight * part[k].mass;
-      for (std::size_t c = 0; c <= N; ++c) sums.at_corner[c] += weight * part[k].at_corner[c];
-      sums.second += weight * part[k].second;
-    }
+    for (std::size_t k = 0; k <= s; ++k) sums.add(rules.weight[s][k], part[k]);
     return sums;
-  }
-
-  /// How far apart two rules are, in the unit of the mass: moments over the way from the middle to the second
-  /// point.
-  template <int N>
-  static double difference(const Sums<N>& a, const Sums<N>& b, const Local<N>& local) {
-    const Point moved = minus(a.first(local), b.first(local));
-    return std::max(std::abs(a.mass - b.mass), std::sqrt(dot(moved, moved) / dot(local.reach, local.reach)));
   }
 
   template <int N>
@@ -375,11 +341,12 @@ class SimplexIntegrator : public PieceIntegrator {
   }
 
   std::unique_ptr<PointSource> source_;
-  bool linear_;
+  bool linear_, jumps_;
   double cell_tolerance_, negligible_;
   Grain grain_;
   int more_depth_;
   int part_depth_ = 0;  // of the part that is integrated
+  int spare_ = 0;       // simplices that may still be halved beyond the last depth
   double tolerance_ = 0, floor_ = 0, density_around_ = 0;
   Point seed_{};
   std::uint32_t region_ = 0;
@@ -387,6 +354,7 @@ class SimplexIntegrator : public PieceIntegrator {
   std::vector<Point> places_, at_;  // about the seed, and where that is
   std::vector<double> values_;
   std::vector<Corner> corners_;
+  JumpCut cut_;
 };
 
 }  // namespace

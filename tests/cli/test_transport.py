@@ -76,17 +76,22 @@ class Transport(ToolTest):
         self.bad(1, "polygon", "transport", "--domain", "cube", "--seeds", "random:9", "--image", "i.png")
         self.bad(1, "blank", *self.square, "random:9", "--image", self.image("white.png", [[255] * 4] * 4))
 
-    def test_what_integrals_of_a_jump_leave_is_told(self):
-        arguments = (*self.square, "random:10", "--density", "x<0.37?1:5", "--tolerance", "1e-4", "--max-steps", "20")
+    def test_a_jump_is_integrated(self):
+        report = self.report(*self.square, "random:10", "--density", "x<0.37 && y>0.2 ? 1 : 5")
+        self.assertAlmostEqual(report["total_mass"], 5 - 4 * 0.37 * 0.8, delta=1e-6)
+        self.assertLess(report["quadrature_error"], 1e-6)
+
+    def test_what_integrals_of_a_kink_leave_is_told(self):
+        arguments = (*self.square, "random:10", "--density", "abs(x-0.37)+0.1", "--max-steps", "20", "--tolerance", "1e-11")
         done = run(*arguments, "--json", cwd=self.folder)
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, "integrals of the density are right to .* of a mass, not 1.0e-04; .*--image")
+        self.assertRegex(done.stderr, "integrals of the density are right to .* of a mass, not 1.0e-11; .*--image")
         report = json.loads(done.stdout)
         self.assertFalse(report["converged"])
-        self.assertGreater(report["quadrature_error"], 1e-4)
-        report = self.report(*arguments[:-3], "1e-1")
+        self.assertGreater(report["quadrature_error"], 1e-11)
+        report = self.report(*arguments[:-1], "1e-5")
         self.assertTrue(report["converged"])
-        self.assertLess(report["quadrature_error"], 1e-1)
+        self.assertLess(report["quadrature_error"], 1e-5)
         self.assertEqual(self.report(*self.square, "random:10", "--density", "1+x*y")["quadrature_error"], 0)
 
     def test_duplicates_are_merged_and_said(self):
