@@ -3,8 +3,9 @@
 #
 #   tools/fuzz.sh TARGET MINUTES     e.g. tools/fuzz.sh meshes 60; "all" for every target, one after the other
 #
-# Builds the targets with clang in build/fuzz first. The growing corpus lies in build/fuzz/corpus/TARGET; a run
-# starts from 300 inputs of it, drawn at random, or a slow target would spend its time on those it has seen.
+# Builds the targets with clang in build/fuzz first. The growing corpus lies in build/fuzz/corpus/TARGET and begins
+# with what tools/keep_reached.sh kept of earlier ones. A run starts from 300 inputs of it, drawn at random, or a slow
+# target would spend its time on those it has seen.
 # Inputs that failed lie in build/fuzz/findings/TARGET. Once the cause is mended, keep such an input, made as small as
 # `build/fuzz/tests/fuzz_TARGET -minimize_crash=1` makes it, in tests/fuzz/corpus/TARGET under a name that says
 # what it was: ctest replays it. Exits 1 when something was found.
@@ -12,7 +13,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 all=$(ls tests/fuzz/corpus)
-[ $# -eq 2 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -eq 2 ] || { sed -n '2,13s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 targets=$1
 [ "$targets" = all ] && targets=$all
 seconds=$(($2 * 60))
@@ -34,6 +35,8 @@ for target in $targets; do
   new=build/fuzz/new/$target
   findings=build/fuzz/findings/$target
   mkdir -p "$corpus" "$new" "$findings"
+  reached=tests/fuzz/reached/$target.tar.xz
+  [ ! -e "$reached" ] || tar -xJf "$reached" -C "$corpus"
   keep_new  # of a run that was killed
   find "$corpus" -type f | shuf -n 300 | paste -s -d , | tr -d '\n' >"$new.starts"
   dictionary=tests/fuzz/dictionaries/$target.dict

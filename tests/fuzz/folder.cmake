@@ -3,6 +3,16 @@ set(library powercell_commands)  # files that commands read, and powercell_io
 find_package(OpenCL REQUIRED)  # device_diagrams.cpp has a context of its own
 target_link_libraries(test_fuzz PRIVATE OpenCL::OpenCL)
 target_compile_definitions(test_fuzz PRIVATE POWERCELL_FUZZ_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}/fuzz")
+# What tools/keep_reached.sh kept, unpacked beside the tests.
+set(reached ${CMAKE_CURRENT_BINARY_DIR}/fuzz_reached)
+target_compile_definitions(test_fuzz PRIVATE POWERCELL_FUZZ_REACHED="${reached}")
+file(REMOVE_RECURSE ${reached})
+file(GLOB archives CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/reached/*.tar.xz)
+foreach(archive IN LISTS archives)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${archive})
+  get_filename_component(target ${archive} NAME_WE)
+  file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${reached}/${target})
+endforeach()
 if(POWERCELL_FUZZ)
   file(GLOB fuzz_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cpp)
   list(FILTER fuzz_sources EXCLUDE REGEX "/replay\\.cpp$")
