@@ -34,13 +34,14 @@ Real distance(const SeedsView& seeds, std::size_t i, std::size_t j) {
   return std::sqrt(sum);
 }
 
-/// |x - p_i|^2 - w_i
-Real power(const SeedsView& seeds, std::size_t i, const std::vector<Real>& x) {
+/// (|x - p_i|^2 - w_i) - (|x - p_j|^2 - w_j): by differences, since weights may be beyond the digits of
+/// distances.
+Real power_beyond(const SeedsView& seeds, std::size_t i, std::size_t j, const std::vector<Real>& x) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
-  Real sum = -weight(seeds, i);
+  Real sum = weight(seeds, j) - weight(seeds, i);
   for (std::size_t k = 0; k < d; ++k) {
-    const Real y = x[k] - seeds.positions[i * d + k];
-    sum += y * y;
+    const Real p = seeds.positions[i * d + k], q = seeds.positions[j * d + k];
+    sum += (q - p) * ((x[k] - p) + (x[k] - q));
   }
   return sum;
 }
@@ -170,10 +171,9 @@ void check_cells(const Cells& cells, const Domain& domain, const SeedsView& seed
       for (std::uint64_t v = begin; v < end; ++v)
         for (std::size_t k = 0; k < d; ++k)
           middle[k] += static_cast<Real>(cells.vertices[v * d + k]) / static_cast<Real>(end - begin);
-      const Real own = power(seeds, i, middle);
       for (std::size_t j = 0; j < n; ++j) {
         const Real allowed = 2 * distance(seeds, i, j) * 4 * static_cast<Real>(error);
-        require(own <= power(seeds, j, middle) + allowed,
+        require(power_beyond(seeds, i, j, middle) <= allowed,
                 "a piece of seed " + std::to_string(i) + " lies in the cell of seed " + std::to_string(j));
       }
     }
