@@ -66,25 +66,27 @@ GeometricDensity::Known GeometricDensity::known(const Domain& domain, int thread
   const Cells regions = region_cells(domain.mesh());
   // Regions may be many times as large as cells, and as what the density has in them.
   constexpr int more_depth = 10;
-  const auto moments = [&](double negligible, const Grain& grain, bool jumps) {
-    const auto make = [&] { return integrator(domain, {0, negligible, grain, more_depth, jumps}); };
+  const auto moments = [&](double tolerance, double negligible, const Grain& grain, bool jumps) {
+    const auto make = [&] { return integrator(domain, {tolerance, negligible, grain, more_depth, jumps}); };
     return cell_moments(regions, {}, make, threads);
   };
-  // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies;
-  // whether it has jumps, once it is integrated.
+  // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies
+  // and whether it jumps; small jumps are seen with the others' tolerance.
+  constexpr double rough = 1e-2;
+  const auto jump_in = [](std::span<const Moments> all) { return std::ranges::any_of(all, &Moments::jump); };
   std::vector<Moments> found =
-      moments(std::numeric_limits<double>::infinity(), {longest_edge(domain)}, false);
+      moments(0, std::numeric_limits<double>::infinity(), {longest_edge(domain)}, false);
   const double negligible = negligible_share * std::abs(mass_of(found)) / domain.measure();
   const Grain grain = grain_of(domain, regions, found);
-  found = moments(negligible, grain, false);
-  const bool jumps = std::ranges::any_of(found, &Moments::jump);
-  if (jumps) found = moments(negligible, grain, true);
+  const bool jumps = jump_in(moments(rough, negligible, grain, false));
+  found = moments(0, negligible, grain, jumps);
+  if (!jumps && jump_in(found)) found = moments(0, negligible, grain, true);
   const double total = mass_of(found);
   if (!(total > 0) || !std::isfinite(total))
     throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total) +
                                                  " over the domain; it must be positive somewhere");
   const std::lock_guard lock(mutex_);
-  last_known_.emplace(Known{domain, total, grain_of(domain, regions, found), jumps});
+  last_known_.emplace(Known{domain, total, grain_of(domain, regions, found), jump_in(found)});
   return *last_known_;
 }
 

@@ -2,62 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
+
+#include "lib/density/barycentric.hpp"
 
 namespace powercell {
 namespace {
-
-constexpr std::size_t most_corners = 4;
-using Corners =
-    std::array<Barycentric, most_corners>;  // of a part of the simplex, of its dimension or one less
-
-Barycentric between(const Barycentric& a, const Barycentric& b, double at) {
-  Barycentric point;
-  for (std::size_t c = 0; c < point.size(); ++c) point[c] = (1 - at) * a[c] + at * b[c];
-  return point;
-}
-
-/// Of the first coordinates of the first rows.
-double determinant(std::size_t size, Corners row) {
-  double product = 1;
-  for (std::size_t k = 0; k < size; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t r = k + 1; r < size; ++r)
-      if (std::abs(row[r][k]) > std::abs(row[pivot][k])) pivot = r;
-    if (row[pivot][k] == 0) return 0;
-    if (pivot != k) {
-      std::swap(row[pivot], row[k]);
-      product = -product;
-    }
-    product *= row[k][k];
-    for (std::size_t r = k + 1; r < size; ++r) {
-      const double factor = row[r][k] / row[k][k];
-      for (std::size_t c = k; c < size; ++c) row[r][c] -= factor * row[k][c];
-    }
-  }
-  return product;
-}
-
-/// `body(path)` for each way through a grid from its first place to its last that goes down or right: the
-/// simplices of the product of two, whose corners are the rows and the columns.
-template <class Body>
-void for_paths(std::size_t rows, std::size_t columns, const Body& body) {
-  const std::size_t steps = rows + columns - 2;
-  for (unsigned down = 0; down < 1U << steps; ++down) {
-    if (static_cast<std::size_t>(std::popcount(down)) != rows - 1) continue;
-    std::array<std::pair<std::size_t, std::size_t>, most_corners> path{};
-    for (std::size_t k = 0; k < steps; ++k) {
-      path[k + 1] = path[k];
-      ++(down >> k & 1 ? path[k + 1].first : path[k + 1].second);
-    }
-    body(path);
-  }
-}
 
 /// Where a jump lies on the way between two points, and the density on both sides of it.
 struct Jump {
@@ -81,8 +34,8 @@ class Cutter {
   bool run() {
     if (!find_sides() || !edges_agree()) return false;
     if (!add_bends()) return false;
-    add_side(side_[0], [&](std::size_t i, std::size_t j) { return crossing_[i][j]; });
-    add_side(side_[1], [&](std::size_t j, std::size_t i) { return crossing_[i][j]; });
+    add_side(0, [&](std::size_t i, std::size_t j) { return crossing_[i][j]; });
+    add_side(1, [&](std::size_t j, std::size_t i) { return crossing_[i][j]; });
     cut_.error += static_cast<double>(n_) * unsure_;
     apply_rules();
     return true;
@@ -169,6 +122,9 @@ class Cutter {
     const double height = jump.before - jump.after;
     least_ = std::min(least_, height);
     most_ = std::max(most_, height);
+    sum_at_[0] += jump.before;
+    sum_at_[1] += jump.after;
+    ++found_;
   }
 
   /// Whether it is one jump, up or down all along.
@@ -323,7 +279,8 @@ class Cutter {
 
   /// The simplices between the corners of a side and the flat faces.
   template <class Crossing>
-  void add_side(const std::vector<std::size_t>& own, const Crossing& crossing) {
+  void add_side(std::size_t side, const Crossing& crossing) {
+    const std::vector<std::size_t>& own = side_[side];
     for_paths(own.size(), n_ + 2 - own.size(), [&](const auto& path) {
       Corners part{};
       for (std::size_t k = 0; k <= n_; ++k) {
@@ -331,7 +288,7 @@ class Cutter {
         part[k] = column == 0 ? corner_at(own[row]) : crossing(row, column - 1);
       }
       const double share = std::abs(determinant(n_ + 1, part));
-      if (share > 0) parts_.push_back({part, share});
+      if (share > 0) parts_.push_back({part, share, side});
     });
   }
 
@@ -339,32 +296,54 @@ class Cutter {
     const std::size_t last = n_ == 3 ? 2 : 3;  // of SimplexRules; in space the parts are many
     const SimplexRules& rules = simplex_rules(static_cast<int>(n_));
     std::vector<Barycentric> points;
-    for (const auto& [corners, share] : parts_)
+    for (const PartOfSide& part : parts_)
       for (std::size_t q = 0; q < rules.size[last]; ++q) {
         Barycentric point{};
         for (std::size_t k = 0; k <= n_; ++k)
-          for (std::size_t c = 0; c <= n_; ++c) point[c] += rules.point[q][k] * corners[k][c];
+          for (std::size_t c = 0; c <= n_; ++c) point[c] += rules.point[q][k] * part.corner[k][c];
         points.push_back(point);
       }
     std::vector<double> values(points.size());
     values_(points, values);
     std::size_t at = 0;
-    for (const auto& [corners, share] : parts_) {
-      add_error_of_stray_points(share, std::span(values).subspan(at, rules.size[last]));
+    for (const PartOfSide& one : parts_) {
+      keep_to_side(one, std::span(values).subspan(at, rules.size[last]));
       for (std::size_t s = 0, q = 0; s <= last; ++s)
         for (; q < rules.size[s]; ++q, ++at) {
-          const double part = share * values[at];
+          const double part = one.share * values[at];
           cut_.terms.push_back(
               {points[at], part * rules.weight[last][s], s < last ? part * rules.weight[last - 1][s] : 0.0});
         }
     }
   }
 
-  /// Points of a part that is thin beside the bend may lie beyond the jump.
-  void add_error_of_stray_points(double share, std::span<const double> values) {
-    const auto [least, most] = std::ranges::minmax(values);
-    const double apart = most - least, height = std::max(std::abs(least_), std::abs(most_));
-    if (apart > height / 2) cut_.error += share * apart;
+  struct PartOfSide {
+    Corners corner{};
+    double share = 0;  // of the simplex
+    std::size_t side = 0;
+  };
+
+  /// Points of a part that is thin beside the bend may lie beyond the jump. Where the sides are plainly
+  /// apart, the mean of the other points stands in.
+  void keep_to_side(const PartOfSide& part, std::span<double> values) {
+    const double height = std::max(std::abs(least_), std::abs(most_)),
+                 own = sum_at_[part.side] / static_cast<double>(found_);
+    const auto is_stray = [&](double value) { return std::abs(value - own) > height / 2; };
+    double sum = 0, least = std::numeric_limits<double>::infinity(), most = -least;
+    std::size_t kept = 0;
+    for (const double value : values) {
+      if (is_stray(value)) continue;
+      sum += value;
+      least = std::min(least, value);
+      most = std::max(most, value);
+      ++kept;
+    }
+    if (kept == values.size()) return;
+    const bool apart = kept > 0 && most - least < height / 8;
+    cut_.error += part.share * (apart ? most - least : std::ranges::max(values) - std::ranges::min(values));
+    if (!apart) return;
+    for (double& value : values)
+      if (is_stray(value)) value = sum / static_cast<double>(kept);
   }
 
   std::size_t n_;
@@ -377,8 +356,10 @@ class Cutter {
   std::array<std::vector<std::size_t>, 2> side_;                                // the corners on each
   std::array<std::array<Barycentric, most_corners>, most_corners> crossing_{};  // by their places in side_
   double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;     // heights of the jump
-  double unsure_ = 0;                              // of the mass, for how narrowly a crossing was sought
-  std::vector<std::pair<Corners, double>> parts_;  // with their shares of the simplex
+  double unsure_ = 0;               // of the mass, for how narrowly a crossing was sought
+  std::array<double, 2> sum_at_{};  // of the density beside the jump, where it was found
+  std::size_t found_ = 0;
+  std::vector<PartOfSide> parts_;
 };
 
 }  // namespace
