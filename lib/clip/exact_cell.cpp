@@ -150,6 +150,15 @@ bool ExactCell::is_corner_outside(std::uint32_t corner, std::int32_t other) cons
   return side != 0 ? side > 0 : static_cast<std::uint32_t>(other) < rank_;
 }
 
+bool ExactCell::is_facet_outside(std::uint32_t facet, std::int32_t other) const {
+  const RegionMesh& mesh = *scene_->mesh;
+  const std::uint32_t first = mesh.region_offset[region_], count = mesh.region_offset[region_ + 1] - first;
+  const auto side = [&](std::uint32_t corner) {
+    return corner_side(*scene_, rank_, mesh.region_vertex[first + corner % count], other);
+  };
+  return side(facet) >= 0 && side(facet + 1) >= 0;
+}
+
 /// Polygons have corners within an edge where other pieces of the domain have theirs. \return the vertex of
 /// the domain
 std::uint32_t ExactCell::corner_in_line(const ExactVertex& vertex) const {

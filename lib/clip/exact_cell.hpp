@@ -39,6 +39,9 @@ class ExactCell {
   bool are_parallel(std::int32_t face, std::int32_t a, std::int32_t b);
   /// Whether vertex `corner` of the domain is beyond the bisector with `other`.
   bool is_corner_outside(std::uint32_t corner, std::int32_t other) const;
+  /// Whether no point of a facet of the region but its ends is within the bisector with `other`. In the
+  /// plane.
+  bool is_facet_outside(std::uint32_t facet, std::int32_t other) const;
 
  private:
   struct Planes;

@@ -44,6 +44,14 @@ double little(Random& random) {
   return 0x1p-53 * static_cast<double>(random.index(9)) - 0x1p-51 + (random.index(3) == 0 ? 0x1p-51 : 0.0);
 }
 
+/// Lines where teeth stand, and by how much the bisector is moved down.
+std::vector<std::pair<double, double>> cases() {
+  std::vector<std::pair<double, double>> list;
+  for (const double line : {0.0, 1.0})
+    for (const double moved : {0.0, 0x1p-56, -0x1p-56, 0x1p-53, -0x1p-53}) list.emplace_back(line, moved);
+  return list;
+}
+
 }  // namespace
 
 TEST_CASE("a bisector in the line of many corners: exact masses, walls of the teeth or of the bar") {
@@ -51,14 +59,17 @@ TEST_CASE("a bisector in the line of many corners: exact masses, walls of the te
     INFO(setup.name);
     const double tolerance = 16 * unit_roundoff(setup.options.precision);
     for (const bool upright : {true, false})
-      for (const double moved : {0.0, 0x1p-56, -0x1p-56, 0x1p-53, -0x1p-53})
+      for (const auto& [line, moved] : cases())
         for (const bool swapped : {false, true}) {
           CAPTURE(upright);
+          CAPTURE(line);
           CAPTURE(moved);
           CAPTURE(swapped);
-          // The bisector of y = 3/4 and y = 5/4 with weights 0 and w is y = 1 - w: to the bit.
+          // The bisector of a quarter below and above with weights 0 and w is at -w from the line: to the
+          // bit.
           SeedArray seeds{2, {}, {0, 0}};
-          for (const double y : {0.75, 1.25}) seeds.positions.insert(seeds.positions.end(), {3.0, y});
+          for (const double y : {line - 0.25, line + 0.25})
+            seeds.positions.insert(seeds.positions.end(), {3.0, y});
           if (!upright)
             for (std::size_t k = 0; k < 4; k += 2) std::swap(seeds.positions[k], seeds.positions[k + 1]);
           seeds.weights[1] = moved;
@@ -70,15 +81,53 @@ TEST_CASE("a bisector in the line of many corners: exact masses, walls of the te
           diagram.set_seeds(seeds.view());
           const std::size_t low = swapped ? 1 : 0;
           const std::vector<double>& mass = diagram.measures().mass;
-          CHECK(std::abs(mass[low] - (all - teeth)) < tolerance * all);
-          CHECK(std::abs(mass[1 - low] - teeth) < tolerance * all);
+          const double below = line == 1 ? all - teeth : teeth;
+          CHECK(std::abs(mass[low] - below) < tolerance * all);
+          CHECK(std::abs(mass[1 - low] - (all - below)) < tolerance * all);
           const Adjacency& walls = diagram.adjacency();
           REQUIRE(walls.neighbor == std::vector<std::uint32_t>{1, 0});
-          // Below the line the wall goes through the bar, in it and above through the teeth.
-          const double expected = moved > 0 ? bar : teeth;
+          // In the line the wall ends where the teeth do; in the bar it goes through all of it.
+          const double expected = line == 1 ? (moved > 0 ? bar : teeth) : (moved < 0 ? bar : teeth);
           CHECK(walls.wall[0] == doctest::Approx(expected).epsilon(tolerance));
           CHECK(walls.wall[1] == doctest::Approx(expected).epsilon(tolerance));
         }
+  }
+}
+
+TEST_CASE("a grid whose cells end where the teeth do") {
+  for (const Setup& setup : all_setups()) {
+    INFO(setup.name);
+    const double tolerance = 16 * unit_roundoff(setup.options.precision);
+    for (const bool upright : {true, false})
+      for (const double line : {0.0, 1.0}) {
+        CAPTURE(upright);
+        CAPTURE(line);
+        SeedArray seeds{2, {}, {}};
+        const auto columns = static_cast<std::size_t>(bar);
+        for (const double y : {line - 0.25, line + 0.25})
+          for (std::size_t k = 0; k < columns; ++k) {
+            const double x = static_cast<double>(k) + 0.5;
+            seeds.positions.insert(seeds.positions.end(), {upright ? x : y, upright ? y : x});
+            seeds.weights.push_back(0);
+          }
+        Diagram diagram(setup.device, comb(upright), setup.options);
+        diagram.set_seeds(seeds.view());
+        const Measures& measures = diagram.measures();
+        const Adjacency& walls = diagram.adjacency();
+        for (std::size_t k = 0; k < columns; ++k) {
+          CAPTURE(k);
+          const bool tooth = k % 2 == 1;
+          const std::size_t out = line == 1 ? k + columns : k, in = line == 1 ? k : k + columns;
+          CHECK(std::abs(measures.mass[out] - (tooth ? 1 : 0)) < tolerance);
+          CHECK(measures.status[out] == (tooth ? SeedStatus::ok : SeedStatus::hidden));
+          CHECK(std::abs(measures.mass[in] - (tooth ? 2 : 1)) < 4 * tolerance);
+          const std::uint64_t begin = walls.offset[out], end = walls.offset[out + 1];
+          REQUIRE(end - begin == (tooth ? 1 : 0));
+          if (!tooth) continue;
+          CHECK(walls.neighbor[begin] == in);
+          CHECK(walls.wall[begin] == doctest::Approx(1).epsilon(tolerance));
+        }
+      }
   }
 }
 
