@@ -27,8 +27,12 @@ for target; do
     tail -n 5 "$work/log" >&2
     exit 1
   }
-  find "$work/$target" -type f | xargs "$fuzzer" -timeout=900 2>&1 |
-    awk -v longest="$longest" '/^Executed / && $4 > longest { print $2 }' | xargs -r rm
+  find "$work/$target" -type f -exec "$fuzzer" -timeout=900 {} + >"$work/log" 2>&1 || {
+    echo "keep_reached.sh: an input of $target fails; mend that first" >&2
+    tail -n 5 "$work/log" >&2
+    exit 1
+  }
+  awk -v longest="$longest" '/^Executed / && $4 > longest { print $2 }' "$work/log" | xargs -r rm
   tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cJf "$archive" -C "$work/$target" .
   echo "$target: $(find "$work/$target" -type f | wc -l) inputs, $(stat -c %s "$archive") bytes"
 done
