@@ -151,10 +151,8 @@ bool ExactCell::is_corner_outside(std::uint32_t corner, std::int32_t other) cons
 }
 
 bool ExactCell::is_facet_outside(std::uint32_t facet, std::int32_t other) const {
-  const RegionMesh& mesh = *scene_->mesh;
-  const std::uint32_t first = mesh.region_offset[region_], count = mesh.region_offset[region_ + 1] - first;
-  const auto side = [&](std::uint32_t corner) {
-    return corner_side(*scene_, rank_, mesh.region_vertex[first + corner % count], other);
+  const auto side = [&](std::uint32_t k) {
+    return corner_side(*scene_, rank_, corner_of_region(*scene_->mesh, region_, k), other);
   };
   return side(facet) >= 0 && side(facet + 1) >= 0;
 }
@@ -162,12 +160,11 @@ bool ExactCell::is_facet_outside(std::uint32_t facet, std::int32_t other) const 
 /// Polygons have corners within an edge where other pieces of the domain have theirs. \return the vertex of
 /// the domain
 std::uint32_t ExactCell::corner_in_line(const ExactVertex& vertex) const {
-  const RegionMesh& mesh = *scene_->mesh;
-  const auto first = static_cast<std::int32_t>(mesh.region_offset[region_]),
-             end = static_cast<std::int32_t>(mesh.region_offset[region_ + 1]);
-  const std::int32_t before = ~vertex[0], behind = ~vertex[1];  // facet f begins at corner f
-  const bool in_order = (before + 1) % (end - first) == behind;
-  return mesh.region_vertex[static_cast<std::size_t>(first + (in_order ? behind : before))];
+  const auto before = static_cast<std::uint32_t>(~vertex[0]), behind = static_cast<std::uint32_t>(~vertex[1]);
+  const RegionMesh& mesh = *scene_->mesh;  // facet f goes from corner f to the next
+  const std::uint32_t between = corner_of_region(mesh, region_, before + 1);
+  return between == corner_of_region(mesh, region_, behind) ? between
+                                                            : corner_of_region(mesh, region_, before);
 }
 
 bool ExactCell::corner_lies_in(std::uint32_t corner, std::int32_t border) const {

@@ -295,6 +295,11 @@ template class ExactPlanes<WideRow<2, 4>>;
 template class ExactPlanes<WideRow<3, 6>>;
 template class ExactPlanes<UnboundedRow>;
 
+std::uint32_t corner_of_region(const RegionMesh& mesh, std::uint32_t region, std::uint32_t k) {
+  const std::uint32_t first = mesh.region_offset[region], count = mesh.region_offset[region + 1] - first;
+  return mesh.region_vertex[first + k % count];
+}
+
 int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner, std::int32_t other) {
   const std::array<double, 4> here = packed(scene.points, rank),
                               there = packed(scene.points, static_cast<std::size_t>(other)),
@@ -318,11 +323,9 @@ int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner
 
 bool is_in_line_of_facet(const HostScene& scene, std::uint32_t region, std::uint32_t corner,
                          std::uint32_t facet) {
-  const RegionMesh& mesh = *scene.mesh;
-  const std::uint32_t first = mesh.region_offset[region], count = mesh.region_offset[region + 1] - first;
-  const auto at = [&](std::uint32_t vertex) { return packed(scene.corners, vertex); };
-  const auto from = at(mesh.region_vertex[first + facet]),
-             to = at(mesh.region_vertex[first + (facet + 1) % count]), point = at(corner);
+  const auto from = packed(scene.corners, corner_of_region(*scene.mesh, region, facet)),
+             to = packed(scene.corners, corner_of_region(*scene.mesh, region, facet + 1)),
+             point = packed(scene.corners, corner);
   return orient2d(from.data(), to.data(), point.data()) == 0;
 }
 

@@ -11,6 +11,7 @@
 namespace powercell {
 
 struct HostScene;
+struct RegionMesh;
 
 /// What stands for the plane of a surface's triangle among facets and seeds.
 constexpr std::int32_t ground_border = INT32_MIN;
@@ -58,6 +59,9 @@ class ExactPlanes {
   bool any_ = false;
   RowTable<Row> table_;
 };
+
+/// The vertex of the domain that is corner k of a region, counted around it.
+std::uint32_t corner_of_region(const RegionMesh& mesh, std::uint32_t region, std::uint32_t k);
 
 /// 1 if vertex `corner` of the domain is beyond the bisector of the seeds `rank` and `other`, -1 if within, 0
 /// if on it.

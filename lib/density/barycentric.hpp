@@ -15,6 +15,9 @@ namespace powercell {
 constexpr std::size_t most_corners = 4;
 /// Of a part of the simplex, of its dimension or one less.
 using Corners = std::array<Barycentric, most_corners>;
+/// What there is for each two corners.
+template <class T>
+using ByCorners = std::array<std::array<T, most_corners>, most_corners>;
 
 inline Barycentric between(const Barycentric& a, const Barycentric& b, double at) {
   Barycentric point;

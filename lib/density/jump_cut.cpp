@@ -85,8 +85,7 @@ class Cutter {
         jump_[a][b] = jump_between(corner_at(a), corner_at(b), corner_[a], corner_[b]);
         if (a == 0) side[b] = jump_[a][b] ? 1 : 0;
         if (jump_[a][b].has_value() != (side[a] != side[b])) return false;
-        if (a == 0 && b == n_ && std::ranges::none_of(side, [](std::size_t s) { return s == 1; }))
-          return false;
+        if (a == 0 && b == n_ && std::ranges::count(side, 1) == 0) return false;
       }
     for (std::size_t c = 0; c <= n_; ++c) side_[side[c]].push_back(c);
     for (std::size_t i = 0; i < side_[0].size(); ++i)
@@ -101,7 +100,6 @@ class Cutter {
 
   /// Whether edges cross the jump no more than once, as far as three points of each tell.
   bool edges_agree() const {
-    const double height = std::max(std::abs(least_), std::abs(most_));
     for (std::size_t a = 0; a < n_; ++a)
       for (std::size_t b = a + 1; b <= n_; ++b)
         for (const double at : {0.25, 0.5, 0.75}) {
@@ -112,7 +110,7 @@ class Cutter {
           else if (jump)
             expected = corner_[b] + (1 - at) / (1 - jump->at) * (jump->after - corner_[b]);
           const double found = value_at(between(corner_at(a), corner_at(b), at));
-          if (!(std::abs(found - expected) <= height / 2)) return false;
+          if (!(std::abs(found - expected) <= height() / 2)) return false;
         }
     return true;
   }
@@ -126,6 +124,8 @@ class Cutter {
     sum_at_[1] += jump.after;
     ++found_;
   }
+
+  double height() const { return std::max(std::abs(least_), std::abs(most_)); }
 
   /// Whether it is one jump, up or down all along.
   bool is_one() const {
@@ -187,8 +187,7 @@ class Cutter {
   /// A flat face and the quadratic one that goes through the jump at the middles of its edges too.
   struct Patch {
     Corners corner{};
-    std::array<std::array<Barycentric, most_corners>, most_corners>
-        moved{};  // the middle between two corners
+    ByCorners<Barycentric> moved{};  // the middle between two corners
   };
 
   /// A point of a patch, its derivatives, and its way from the flat face.
@@ -326,9 +325,8 @@ class Cutter {
   /// Points of a part that is thin beside the bend may lie beyond the jump. Where the sides are plainly
   /// apart, the mean of the other points stands in.
   void keep_to_side(const PartOfSide& part, std::span<double> values) {
-    const double height = std::max(std::abs(least_), std::abs(most_)),
-                 own = sum_at_[part.side] / static_cast<double>(found_);
-    const auto is_stray = [&](double value) { return std::abs(value - own) > height / 2; };
+    const double own = sum_at_[part.side] / static_cast<double>(found_);
+    const auto is_stray = [&](double value) { return std::abs(value - own) > height() / 2; };
     double sum = 0, least = std::numeric_limits<double>::infinity(), most = -least;
     std::size_t kept = 0;
     for (const double value : values) {
@@ -339,7 +337,7 @@ class Cutter {
       ++kept;
     }
     if (kept == values.size()) return;
-    const bool apart = kept > 0 && most - least < height / 8;
+    const bool apart = kept > 0 && most - least < height() / 8;
     cut_.error += part.share * (apart ? most - least : std::ranges::max(values) - std::ranges::min(values));
     if (!apart) return;
     for (double& value : values)
@@ -351,11 +349,10 @@ class Cutter {
   const ValuesAt& values_;
   double allowed_, most_error_;
   JumpCut& cut_;
-  std::array<std::array<std::optional<Jump>, most_corners>, most_corners>
-      jump_;                                                                    // from corners to later ones
-  std::array<std::vector<std::size_t>, 2> side_;                                // the corners on each
-  std::array<std::array<Barycentric, most_corners>, most_corners> crossing_{};  // by their places in side_
-  double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;     // heights of the jump
+  ByCorners<std::optional<Jump>> jump_;                                      // from corners to later ones
+  std::array<std::vector<std::size_t>, 2> side_;                             // the corners on each
+  ByCorners<Barycentric> crossing_{};                                        // by their places in side_
+  double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;  // heights of the jump
   double unsure_ = 0;               // of the mass, for how narrowly a crossing was sought
   std::array<double, 2> sum_at_{};  // of the density beside the jump, where it was found
   std::size_t found_ = 0;
