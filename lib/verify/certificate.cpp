@@ -11,6 +11,7 @@
 #include "lib/domain/random_points.hpp"
 #include "lib/seeds/threads.hpp"
 #include "lib/verify/laws.hpp"
+#include "lib/verify/partition.hpp"
 
 namespace powercell {
 namespace {
@@ -54,7 +55,10 @@ double farthest_outside(const Certified& r) {
 
 void require_partition(const Certified& r, double outside) {
   const double error = r.measures.mass.empty() ? 0 : r.measures.relative_error();
-  if (error <= (r.float32 ? partition_float : partition_double) * (1 + outside / extent_of(r.domain))) return;
+  const double usual = r.float32 ? partition_float : partition_double;
+  if (error <= usual) return;
+  const double reach = std::sqrt(3.0) * (extent_of(r.domain) + outside);
+  if (error <= partition_tolerance(r.domain.mesh(), usual, reach)) return;
   refuse("the cells measure " + digits(r.measures.total()) + " together, the domain " +
          digits(r.measures.domain_measure));
 }
@@ -82,10 +86,20 @@ void require_numbers(const Certified& r, double outside) {
            " or a centroid that no cell of the domain has");
 }
 
-void require_symmetry(const Certified& r) {
+/// Length of the edges of a wall of this area, which is at most as many times longer than wide as the domain;
+/// in two dimensions its two ends.
+double rim_of(double wall, const Domain& domain) {
+  if (domain.cell_dimension() == 2) return 2;
+  const double extent = extent_of(domain), slimness = extent * extent * extent / domain.measure();
+  return 4 * std::min(extent, std::sqrt(wall * slimness));
+}
+
+void require_symmetry(const Certified& r, double outside) {
   if (r.adjacency == nullptr || r.adjacency->wall.empty()) return;
   const double largest = *std::max_element(r.adjacency->wall.begin(), r.adjacency->wall.end());
-  if (r.adjacency->asymmetry <= largest * (r.float32 ? asymmetry_float : asymmetry_double)) return;
+  const double rounding =
+      place_roundings * unit_of(r) * (extent_of(r.domain) + outside) * rim_of(largest, r.domain);
+  if (r.adjacency->asymmetry <= largest * (r.float32 ? asymmetry_float : asymmetry_double) + rounding) return;
   refuse("the two sides of a wall differ by " + digits(r.adjacency->asymmetry, 3));
 }
 
@@ -167,7 +181,7 @@ void require_certificate(const Certified& result) {
   const double outside = farthest_outside(result);
   require_partition(result, outside);
   require_numbers(result, outside);
-  require_symmetry(result);
+  require_symmetry(result, outside);
   require_owners(result);
 }
 

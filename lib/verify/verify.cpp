@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <powercell/verify.hpp>
 
 #include "lib/digits.hpp"
 #include "lib/verify/laws.hpp"
+#include "lib/verify/partition.hpp"
 
 namespace powercell {
 namespace {
@@ -10,8 +12,13 @@ namespace {
 /// their number.
 constexpr double partition_double = 1e-12, partition_float = 1e-5;
 
-LawCheck check_partition(const Measures& measures, Precision precision) {
-  const double tolerance = precision == Precision::float32 ? partition_float : partition_double;
+LawCheck check_partition(const Measures& measures, const RegionMesh& mesh, const Rounding& rounding,
+                         Precision precision) {
+  double reach = 0;
+  for (std::size_t i = 0; i < measures.mass.size(); ++i)
+    if (measures.status[i] == SeedStatus::ok) reach = std::max(reach, rounding.reach(i));
+  const double usual = precision == Precision::float32 ? partition_float : partition_double;
+  const double tolerance = partition_tolerance(mesh, usual, reach);
   const bool covered = !measures.mass.empty();  // no seeds have no cells
   const double error = covered ? measures.relative_error() : 0;
   LawCheck check{
@@ -50,7 +57,7 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   const Measures& measures = diagram.measures();
 
   std::vector<LawCheck> checks;
-  checks.push_back(check_partition(measures, diagram.precision()));
+  checks.push_back(check_partition(measures, domain.mesh(), rounding, diagram.precision()));
   checks.push_back(check_statuses(measures, cells, seeds));
   checks.push_back(check_walls(diagram.adjacency(), domain.cell_dimension(), rounding));
   for (LawCheck& check : check_pieces(measures, cells, rounding)) checks.push_back(std::move(check));

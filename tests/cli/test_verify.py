@@ -37,6 +37,18 @@ class Verify(ToolTest):
                 out = self.good("verify", "a.json").stdout
                 self.assertEqual(out.count("  ok "), 7, out)
 
+    def test_domains_far_longer_than_thick(self):
+        # Tilted, so that rounding of the length is 4e-10 of the thickness; both sides of a wall differ by it too.
+        self.write("needle.wkt", "POLYGON((0 0, 0.9553364891256060 0.2955202066613396,"
+                                 " 0.9553364861704039 0.2955202162147045, -2.955202066613396e-9 9.55336489125606e-9, 0 0))")
+        self.write("seeds.csv", "x,y\n0.1,1.5\n" + "".join(f"{0.9553 * k / 9},{0.29552 * k / 9}\n" for k in range(10)))
+        self.good("diagram", "--domain", "needle.wkt", "--seeds", "seeds.csv", "--certify", "-o", "a.json")
+        self.good("verify", "a.json")
+        self.good("verify", "--domain", "needle.wkt", "--seeds", "seeds.csv")
+        saved = json.loads((self.folder / "a.json").read_text())
+        next(c for c in saved["cells"] if c["status"] == "ok")["measure"] *= 1 + 1e-6
+        self.broken(saved, "partition")
+
     def broken(self, saved, law):
         self.write("a.json", json.dumps(saved))
         done = run("verify", "a.json", cwd=self.folder)

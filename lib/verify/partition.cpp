@@ -1,0 +1,100 @@
+#include "lib/verify/partition.hpp"
+
+#include <algorithm>
+
+#include "lib/domain/measure.hpp"
+
+namespace powercell {
+namespace {
+
+/// Reach times gradient over measure of a cube seen from its corner.
+constexpr double usual_ratio = 6;
+
+/// Gradients by all corners, added up over the regions.
+class Gradients {
+ public:
+  explicit Gradients(const RegionMesh& mesh)
+      : mesh_(mesh), sums_(mesh.vertices.size() / static_cast<std::size_t>(mesh.dimension)) {
+    for (std::size_t r = 0; r < mesh.region_count(); ++r) add_region(r);
+  }
+
+  long double sum_of_lengths() const {
+    long double sum = 0;
+    for (const Vector& gradient : sums_) sum += std::sqrt(dot(gradient, gradient));
+    return sum;
+  }
+
+ private:
+  Vector edge(std::uint32_t from, std::uint32_t to) const {
+    const auto d = static_cast<std::size_t>(mesh_.dimension);
+    const double *a = &mesh_.vertices[from * d], *b = &mesh_.vertices[to * d];
+    if (d == 3) return difference(b, a);
+    return {static_cast<long double>(b[0]) - a[0], static_cast<long double>(b[1]) - a[1], 0};
+  }
+
+  void add(std::uint32_t vertex, long double factor, const Vector& part) {
+    for (std::size_t k = 0; k < 3; ++k) sums_[vertex][k] += factor * part[k];
+  }
+
+  void add_region(std::size_t r) {
+    const std::uint32_t* corner = &mesh_.region_vertex[mesh_.region_offset[r]];
+    if (mesh_.shape == RegionShape::polygon) {
+      add_polygon(corner, mesh_.region_offset[r + 1] - mesh_.region_offset[r]);
+    } else if (mesh_.shape == RegionShape::tetrahedron) {
+      add_tetrahedron(corner);
+    } else {
+      add_box(corner);
+    }
+  }
+
+  /// Half the edge between the neighbours, turned outwards in the plane.
+  void add_polygon(const std::uint32_t* corner, std::size_t count) {
+    Vector normal{};
+    for (std::size_t k = 2; k < count; ++k) {
+      const Vector area = cross(edge(corner[0], corner[k - 1]), edge(corner[0], corner[k]));
+      for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] += area[axis];
+    }
+    const long double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0)) return;
+    for (long double& x : normal) x /= length;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector across = edge(corner[(k + count - 1) % count], corner[(k + 1) % count]);
+      add(corner[k], 0.5L, cross(across, normal));
+    }
+  }
+
+  /// A third of the area vector of the facet opposite, turned towards the corner.
+  void add_tetrahedron(const std::uint32_t* corner) {
+    constexpr std::array<std::array<int, 3>, 4> opposite{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto [a, b, c] = opposite[k];
+      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[b]), edge(corner[a], corner[c])));
+    }
+  }
+
+  /// A corner takes a quarter of each of its three facets along.
+  void add_box(const std::uint32_t* corner) {
+    const Vector x = edge(corner[0], corner[1]), y = edge(corner[0], corner[2]),
+                 z = edge(corner[0], corner[4]);
+    const Vector area{y[1] * z[2], x[0] * z[2], x[0] * y[1]};
+    for (std::size_t k = 0; k < 8; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sums_[corner[k]][axis] += (k >> axis & 1 ? 0.25L : -0.25L) * area[axis];
+  }
+
+  const RegionMesh& mesh_;
+  std::vector<Vector> sums_;
+};
+
+}  // namespace
+
+long double measure_gradient(const RegionMesh& mesh) {
+  return Gradients(mesh).sum_of_lengths();
+}
+
+double partition_tolerance(const RegionMesh& mesh, double usual, double reach) {
+  const long double ratio = reach * measure_gradient(mesh) / mesh.measure;
+  return static_cast<double>(usual * std::max(1.0L, ratio / usual_ratio));
+}
+
+}  // namespace powercell
