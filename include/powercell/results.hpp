@@ -100,6 +100,7 @@ struct JoinedCells {
 /// The regular triangulation restricted to the domain: one simplex for each point of the domain in
 /// which d+1 cells meet (three on polygons and surfaces, four in volumes). With exact decisions more cells meet in no
 /// point: ties are broken by the order of their positions, so that the simplices form a triangulation for any seeds.
+/// Their corners have cells: a seed whose cell only touches the domain from outside is hidden, and none of them.
 struct Dual {
   int corners = 0;                      ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented

@@ -87,8 +87,19 @@ void corners_of_polyhedron(const Cells& cells, std::uint32_t cell, std::size_t p
   }
 }
 
+/// A hidden seed whose bisector holds a facet of the boundary still has edges of no length at corners there.
+template <std::size_t C>
+bool all_have_cells(const Cells& cells, const Row<C>& row) {
+  return std::all_of(row.begin(), row.end(), [&](std::uint32_t seed) {
+    return cells.cell_offset[seed] < cells.cell_offset[std::size_t{seed} + 1];
+  });
+}
+
 template <std::size_t C, class Found>
-void corners_of_cell(const Cells& cells, std::uint32_t cell, Incidence& around, const Found& found) {
+void corners_of_cell(const Cells& cells, std::uint32_t cell, Incidence& around, const Found& any) {
+  const auto found = [&](const Row<C>& row) {
+    if (all_have_cells(cells, row)) any(row);
+  };
   for (std::uint64_t p = cells.cell_offset[cell]; p < cells.cell_offset[cell + 1]; ++p) {
     if constexpr (C == 3) {
       corners_of_polygon(cells, cell, p, found);

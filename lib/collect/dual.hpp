@@ -7,7 +7,8 @@
 
 namespace powercell {
 
-/// The simplices of the points in which three (polygon, surface) or four (volume) cells meet.
+/// The simplices of the points in which three (polygon, surface) or four (volume) cells meet; seeds without
+/// pieces have none.
 /// Pieces are simple, as the clipper makes them: three faces meet at a vertex of a polyhedron.
 /// Each set of seeds gives one row, also where its cells meet in several points of a surface. A row starts
 /// with its smallest seed; in volumes the second smallest follows. Rows are oriented by the positions of

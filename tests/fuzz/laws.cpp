@@ -190,7 +190,7 @@ void check_dual(const Dual& dual, const Measures& measures) {
                                    dual.simplices.begin() + static_cast<std::ptrdiff_t>((s + 1) * corners));
     for (const std::uint32_t v : row) {
       require(v < measures.mass.size(), "a corner that is no seed");
-      require(measures.status[v] != SeedStatus::duplicate, "a corner that is a duplicate");
+      require(measures.status[v] == SeedStatus::ok, "a corner that is a seed without a cell");
     }
     std::ranges::sort(row);
     require(std::ranges::adjacent_find(row) == row.end(), "a simplex with a corner twice");
