@@ -33,10 +33,11 @@ static inline bool whole_is_certain(cell_t* cell) {
   return off < cell->at.closest_gap || closest_is_clear(&cell->at);
 }
 
-/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few digits. */
+/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few digits, and
+ * one that is small beside the domain moments below the range of numbers. */
 static inline bool measure_is_good(const cell_t* cell, real measure) {
   const real r = cell->at.radius;
-  return measure >= LEAST_FILLING * (CELL_DIMENSION == 3 ? r * r * r : r * r) || cell_goes_on(cell);
+  return measure >= fmax(REAL_LEAST, LEAST_FILLING * (CELL_DIMENSION == 3 ? r * r * r : r * r)) || cell_goes_on(cell);
 }
 
 /* Writes a piece that ended with `status`; returns the final status. */

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <numeric>
+#include <type_traits>
 
 #include "kernels/layout.h"
 #include "lib/clip/golden.hpp"
@@ -198,9 +200,15 @@ void Clipper::write_moments(const List& pairs, std::span<const double> moments) 
   const auto patch = [&](auto& all) {
     using Real = typename std::remove_reference_t<decltype(all)>::value_type;
     memory_.moments.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
-    for (std::size_t k = 0; k < pairs.size(); ++k)
+    // A measure above 0 says that there is a cell. In single precision, where devices may take numbers below
+    // 2^-126 for 0, it stays above 0, and so do the moments that go with it.
+    constexpr double least = std::is_same_v<Real, float> ? 0x1p-100 : std::numeric_limits<double>::min();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const double measure = moments[k * count],
+                   factor = measure > 0 && measure < least ? least / measure : 1;
       for (std::size_t m = 0; m < count; ++m)
-        all[(pairs[k] - first) * count + m] = static_cast<Real>(moments[k * count + m]);
+        all[(pairs[k] - first) * count + m] = static_cast<Real>(factor * moments[k * count + m]);
+    }
     memory_.moments.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
   };
   if (scene_.float32()) {
