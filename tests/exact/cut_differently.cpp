@@ -2,41 +2,13 @@
 // bisectors run along the cuts, through their corners and along the boundary.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <powercell/diagram.hpp>
-#include <set>
-#include <utility>
-
+#include "tests/exact/tied_seeds.hpp"
 #include "tests/support/domains.hpp"
-#include "tests/support/generators.hpp"
-#include "tests/support/setups.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
 
 namespace {
-
-/// At most n different places in eighths and weights in 64ths, so that powers are exact and ties are many.
-/// \param moved  in which half of the numbers is moved by a few last places
-SeedArray dyadic_seeds(std::size_t n, int dimension, bool moved, Random& random) {
-  SeedArray seeds{dimension, {}, {}};
-  const auto little = [&] {
-    return moved && random.index(2) == 0 ? 0x1p-55 * (static_cast<double>(random.index(17)) - 8) : 0.0;
-  };
-  const bool weighted = random.index(2) == 0;
-  std::set<std::vector<double>> places;
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> place;
-    for (int k = 0; k < dimension; ++k)
-      place.push_back((static_cast<double>(random.index(13)) - 2) / 8 + little());
-    if (!places.insert(place).second) continue;
-    seeds.positions.insert(seeds.positions.end(), place.begin(), place.end());
-    seeds.weights.push_back((weighted ? static_cast<double>(random.index(9)) / 64 : 0) + little());
-  }
-  return seeds;
-}
 
 /// Seeds beside the plane of a sheet with the same diagram on it as `flat`: the square of the distance from
 /// the plane goes into the weight. \param axis  normal of the plane
@@ -102,46 +74,6 @@ SeedArray scaled(SeedArray seeds, double scale) {
   return seeds;
 }
 
-struct Result {
-  Measures measures;
-  std::map<std::pair<std::size_t, std::size_t>, double> walls;
-  std::set<std::vector<std::uint32_t>> simplices;
-};
-
-Result result_of(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
-  Diagram diagram(setup.device, domain, setup.options);
-  diagram.set_seeds(seeds);
-  Result result{diagram.measures(), {}, {}};
-  const Adjacency& adjacency = diagram.adjacency();
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-    for (std::uint64_t k = adjacency.offset[i]; k < adjacency.offset[i + 1]; ++k)
-      result.walls[{i, adjacency.neighbor[k]}] = adjacency.wall[k];
-  const Dual& dual = diagram.dual();
-  const auto corners = static_cast<std::ptrdiff_t>(dual.corners);
-  for (auto at = dual.simplices.begin(); at != dual.simplices.end(); at += corners) {
-    std::vector<std::uint32_t> simplex(at, at + corners);
-    std::ranges::sort(simplex);
-    result.simplices.insert(simplex);
-  }
-  return result;
-}
-
-void expect_same(const Result& whole, const Result& pieces, double tolerance) {
-  CHECK(whole.measures.status == pieces.measures.status);
-  for (std::size_t i = 0; i < whole.measures.mass.size(); ++i) {
-    CAPTURE(i);
-    CHECK(std::abs(whole.measures.mass[i] - pieces.measures.mass[i]) <= tolerance);
-  }
-  for (const auto& [a, b] : {std::pair{&whole, &pieces}, {&pieces, &whole}})
-    for (const auto& [seeds, wall] : a->walls) {
-      const auto other = b->walls.find(seeds);
-      CAPTURE(seeds.first);
-      CAPTURE(seeds.second);
-      CAPTURE((a == &whole));
-      CHECK(std::abs(wall - (other == b->walls.end() ? 0 : other->second)) <= tolerance);
-    }
-}
-
 }  // namespace
 
 TEST_CASE("a cube in tetrahedra has the diagram of the cube") {
@@ -150,7 +82,7 @@ TEST_CASE("a cube in tetrahedra has the diagram of the cube") {
   for (const Setup& setup : all_setups())
     for (int trial = 0; trial < 30; ++trial) {
       INFO(setup.name << ", trial " << trial);
-      const SeedArray seeds = dyadic_seeds(2 + random.index(20), 3, trial % 2 == 1, random);
+      const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 3, trial % 2 == 1, random);
       const Result whole = result_of(setup, unit_box(3), seeds.view());
       const Result pieces = result_of(setup, block(1 + trial % 4, random), seeds.view());
       expect_same(whole, pieces, 1e3 * unit_roundoff(setup.options.precision));
@@ -167,7 +99,7 @@ TEST_CASE("a square in triangles in space has the diagram of the square") {
   for (const Setup& setup : all_setups())
     for (int trial = 0; trial < 30; ++trial) {
       INFO(setup.name << ", trial " << trial);
-      const SeedArray seeds = dyadic_seeds(2 + random.index(20), 2, false, random);
+      const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 2, false, random);
       const std::size_t axis = random.index(3);
       const Domain square = sheet(1 + random.index(4), axis, random);
       expect_same(result_of(setup, unit_box(2), seeds.view()),
@@ -182,7 +114,7 @@ TEST_CASE("a square in parts has the diagram of the square") {
   for (const Setup& setup : all_setups())
     for (int trial = 0; trial < 30; ++trial) {
       INFO(setup.name << ", trial " << trial);
-      const SeedArray seeds = dyadic_seeds(2 + random.index(20), 2, trial % 2 == 1, random);
+      const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 2, trial % 2 == 1, random);
       const double tolerance = 1e3 * unit_roundoff(setup.options.precision);
       const Result whole = result_of(setup, unit_box(2), seeds.view());
       const Result parts = result_of(setup, parted_square(), seeds.view());

@@ -1,0 +1,173 @@
+// Turned, mirrored, in another order, without the seeds that have no cells: the diagram is the same, where
+// bisectors run through corners and along facets of the domain too.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <numeric>
+
+#include "tests/exact/tied_seeds.hpp"
+#include "tests/support/domains.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+/// A symmetry of the cube about 0: axes in another order, some of them mirrored.
+struct Symmetry {
+  std::vector<std::size_t> axis;
+  std::vector<double> sign;
+
+  Symmetry(int dimension, Random& random)
+      : axis(static_cast<std::size_t>(dimension)), sign(static_cast<std::size_t>(dimension)) {
+    std::iota(axis.begin(), axis.end(), std::size_t{0});
+    for (std::size_t k = axis.size(); k > 1; --k) std::swap(axis[k - 1], axis[random.index(k)]);
+    for (double& s : sign) s = random.index(2) == 0 ? 1 : -1;
+  }
+};
+
+std::vector<std::size_t> any_order(std::size_t n, Random& random) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t k = n; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
+  return order;
+}
+
+/// Seed k is the image of seed from[k].
+SeedArray image(const SeedArray& seeds, const std::vector<std::size_t>& from, const Symmetry& symmetry) {
+  SeedArray result{seeds.dimension, {}, {}};
+  for (const std::size_t i : from) {
+    for (std::size_t k = 0; k < symmetry.axis.size(); ++k)
+      result.positions.push_back(symmetry.sign[k] *
+                                 seeds.positions[i * symmetry.axis.size() + symmetry.axis[k]]);
+    result.weights.push_back(seeds.weights[i]);
+  }
+  return result;
+}
+
+/// The result for n seeds, of which seed from[k] is k here; the others have no cells. Without simplices:
+/// which ones there are where more cells meet depends on the order of the places.
+Result brought_back(const Result& image, const std::vector<std::size_t>& from, std::size_t n) {
+  Result result;
+  result.measures.status.assign(n, SeedStatus::hidden);
+  result.measures.mass.assign(n, 0);
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    result.measures.status[from[k]] = image.measures.status[k];
+    result.measures.mass[from[k]] = image.measures.mass[k];
+  }
+  for (const auto& [seeds, wall] : image.walls) result.walls[{from[seeds.first], from[seeds.second]}] = wall;
+  return result;
+}
+
+/// With the six corners at distance 3/4 from 0: a surface, or in tetrahedra about 0.
+Domain octahedron(bool surface) {
+  std::vector<double> vertices;
+  for (std::size_t k = 0; k < 6; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      vertices.push_back(axis == k / 2 ? (k % 2 ? -0.75 : 0.75) : 0);
+  vertices.insert(vertices.end(), {0, 0, 0});
+  std::vector<std::uint32_t> elements;
+  for (std::uint32_t k = 0; k < 8; ++k) {
+    std::array<std::uint32_t, 3> corner{k & 1, 2 + (k >> 1 & 1), 4 + (k >> 2 & 1)};
+    if ((k ^ k >> 1 ^ k >> 2) & 1) std::swap(corner[0], corner[1]);
+    elements.insert(elements.end(), corner.begin(), corner.end());
+    if (!surface) elements.push_back(6);
+  }
+  return surface ? Domain::surface(vertices, elements) : Domain::volume(vertices, elements);
+}
+
+Domain centred_box(int dimension) {
+  const auto d = static_cast<std::size_t>(dimension);
+  return Domain::box(std::vector<double>(d, -0.5), std::vector<double>(d, 0.5));
+}
+
+Domain centred_block(Random& random) {
+  Mesh mesh = cube_tetrahedra(2, 0, random);
+  for (double& x : mesh.vertices) x -= 0.5;
+  return volume_of(mesh);
+}
+
+std::vector<NamedDomain> symmetric_domains(Random& random) {
+  return {{"square", centred_box(2)},
+          {"cube", centred_box(3)},
+          {"cube in tetrahedra", centred_block(random)},
+          {"octahedron in tetrahedra", octahedron(false)},
+          {"octahedron", octahedron(true)}};
+}
+
+/// Whether the bisector holds a triangle of the octahedron, which goes to the seed that is first in order.
+bool share_a_triangle(const SeedArray& seeds, std::size_t i, std::size_t j) {
+  std::array<long double, 3> q;
+  long double level = static_cast<long double>(seeds.weights[i]) - seeds.weights[j];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const long double a = seeds.positions[3 * i + k], b = seeds.positions[3 * j + k];
+    q[k] = std::fabs(b - a);
+    level += (b - a) * (b + a);
+  }
+  return q[0] == q[1] && q[1] == q[2] && std::fabs(level) == 1.5L * q[0];
+}
+
+SeedArray without_shared_triangles(const SeedArray& seeds) {
+  SeedArray kept{3, {}, {}};
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    kept.push({seeds.positions[3 * i], seeds.positions[3 * i + 1], seeds.positions[3 * i + 2]},
+              seeds.weights[i]);
+    bool shares = false;
+    for (std::size_t j = 0; j + 1 < kept.size(); ++j)
+      shares = shares || share_a_triangle(kept, j, kept.size() - 1);
+    if (!shares) continue;
+    kept.positions.resize(kept.positions.size() - 3);
+    kept.weights.pop_back();
+  }
+  return kept;
+}
+
+/// On a surface without the walls: a cell may have a piece of no thickness between two others, or not have
+/// it, as the order of the places has it (docs/mathematics.md, "Walls in facets").
+void expect_same_on(const Domain& domain, const Result& one, const Result& other, double tolerance) {
+  domain.kind() == DomainKind::surface ? expect_same_cells(one, other, tolerance)
+                                       : expect_same(one, other, tolerance);
+}
+
+template <class Check>
+void for_tied_seeds(int trials, const Check& check) {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const std::vector<NamedDomain> domains = symmetric_domains(random);
+  for (const Setup& setup : all_setups())
+    for (const NamedDomain& named : domains)
+      for (int trial = 0; trial < trials; ++trial) {
+        INFO(setup.name << ", " << named.name << ", trial " << trial);
+        SeedArray seeds =
+            tied_seeds(2 + random.index(20), 0, named.domain.dimension(), trial % 2 == 1, random);
+        if (named.domain.kind() == DomainKind::surface) seeds = without_shared_triangles(seeds);
+        check(setup, named.domain, seeds, random);
+      }
+}
+
+}  // namespace
+
+TEST_CASE("turned, mirrored and in another order the diagram is the same") {
+  for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
+    const std::vector<std::size_t> order = any_order(seeds.size(), random);
+    const SeedArray turned = image(seeds, order, Symmetry(seeds.dimension, random));
+    expect_same_on(domain, result_of(setup, domain, seeds.view()),
+                   brought_back(result_of(setup, domain, turned.view()), order, seeds.size()),
+                   1e3 * unit_roundoff(setup.options.precision));
+  });
+}
+
+TEST_CASE("without its hidden seeds the diagram is the same") {
+  for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
+    const Result all = result_of(setup, domain, seeds.view());
+    std::vector<std::size_t> with_cells;
+    for (const std::size_t i : any_order(seeds.size(), random))
+      if (all.measures.status[i] == SeedStatus::ok) with_cells.push_back(i);
+    Symmetry none(seeds.dimension, random);
+    std::iota(none.axis.begin(), none.axis.end(), std::size_t{0});
+    std::fill(none.sign.begin(), none.sign.end(), 1.0);
+    const Result rest = result_of(setup, domain, image(seeds, with_cells, none).view());
+    expect_same_on(domain, all, brought_back(rest, with_cells, seeds.size()),
+                   1e3 * unit_roundoff(setup.options.precision));
+  });
+}
