@@ -31,14 +31,6 @@ double unit_of(const Certified& r) {
   return r.float32 ? 0x1p-24 : 0x1p-53;
 }
 
-/// Edge of the domain's box.
-double extent_of(const Domain& domain) {
-  const std::array<double, 3> low = domain.low(), high = domain.high();
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
-  return extent;
-}
-
 /// How far outside of the domain's box seeds with cells are, along an axis: what these seeds see moves by the
 /// rounding of that distance.
 double farthest_outside(const Certified& r) {
@@ -84,14 +76,6 @@ void require_numbers(const Certified& r, double outside) {
   if (wrong < r.measures.mass.size())
     refuse("seed " + std::to_string(wrong) + " has the mass " + digits(r.measures.mass[wrong]) +
            " or a centroid that no cell of the domain has");
-}
-
-/// Length of the edges of a wall of this area, which is at most as many times longer than wide as the domain;
-/// in two dimensions its two ends.
-double rim_of(double wall, const Domain& domain) {
-  if (domain.cell_dimension() == 2) return 2;
-  const double extent = extent_of(domain), slimness = extent * extent * extent / domain.measure();
-  return 4 * std::min(extent, std::sqrt(wall * slimness));
 }
 
 void require_symmetry(const Certified& r, double outside) {

@@ -16,7 +16,7 @@ namespace powercell {
 LawCheck check_statuses(const Measures& measures, const Cells& cells, const SeedsView& seeds);
 
 /// Rows ascending and equal from both sides, and little asymmetry before the sides were averaged.
-LawCheck check_walls(const Adjacency& adjacency, int cell_dimension, const Rounding& rounding);
+LawCheck check_walls(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding);
 
 /// Each sample lies in a piece of the seed of least power, found by trying all seeds.
 LawCheck check_owners(const std::vector<Sample>& samples, const RegionMesh& mesh, const Cells& cells,

@@ -11,6 +11,19 @@ constexpr double roundings = 64;
 
 }  // namespace
 
+double extent_of(const Domain& domain) {
+  const std::array<double, 3> low = domain.low(), high = domain.high();
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
+  return extent;
+}
+
+double rim_of(double wall, const Domain& domain) {
+  if (domain.cell_dimension() == 2) return 2;
+  const double extent = extent_of(domain), slimness = extent * extent * extent / domain.measure();
+  return 4 * std::min(extent, std::sqrt(wall * slimness));
+}
+
 Rounding::Rounding(const Domain& domain, const SeedsView& seeds, Precision precision)
     : seeds_(seeds),
       low_(domain.low()),

@@ -11,6 +11,13 @@
 
 namespace powercell {
 
+/// Longest edge of the domain's box.
+double extent_of(const Domain& domain);
+
+/// Length of the edges of a wall of this area, which is at most as many times longer than wide as the domain;
+/// of a wall that is a line, its two ends.
+double rim_of(double wall, const Domain& domain);
+
 /// A cell computed with unit roundoff u is the exact one for planes moved by a few tens of u times the
 /// lengths that enter: how far the domain reaches from the seed, the distance |q| to the other seed, and the
 /// part of the bisector's offset that comes from the weights, |w_i - w_j| / |q|. Coordinates given back are

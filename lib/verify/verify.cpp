@@ -59,7 +59,7 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   std::vector<LawCheck> checks;
   checks.push_back(check_partition(measures, domain.mesh(), rounding, diagram.precision()));
   checks.push_back(check_statuses(measures, cells, seeds));
-  checks.push_back(check_walls(diagram.adjacency(), domain.cell_dimension(), rounding));
+  checks.push_back(check_walls(diagram.adjacency(), domain, rounding));
   for (LawCheck& check : check_pieces(measures, cells, rounding)) checks.push_back(std::move(check));
   const std::size_t samples = seeds.size() > 0 ? options.samples : 0;
   checks.push_back(check_owners(random_points(domain.mesh(), samples, options.random_seed), domain.mesh(),

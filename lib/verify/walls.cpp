@@ -30,16 +30,16 @@ std::string fault_of(const Adjacency& adjacency, std::size_t i) {
 
 }  // namespace
 
-LawCheck check_walls(const Adjacency& adjacency, int cell_dimension, const Rounding& rounding) {
+LawCheck check_walls(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding) {
   const std::size_t n = adjacency.offset.size() - 1;
   // The ends of a wall are where planes meet, and move by the planes' rounding over the sine of the angle
   // between them. Of many random angles the least is about one over their number. However many there are,
   // no large wall may lack a side.
   const double largest =
       adjacency.wall.empty() ? 0 : *std::max_element(adjacency.wall.begin(), adjacency.wall.end());
-  const double rim = cell_dimension == 3 ? 4 * std::sqrt(largest) : 2;
   const double tolerance =
-      std::min(largest / 2, rounding.unit() * rounding.diagonal() * rim * (1000 + static_cast<double>(n)));
+      std::min(largest / 2, rounding.unit() * rounding.diagonal() * rim_of(largest, domain) *
+                                (1000 + static_cast<double>(n)));
   LawCheck check{"symmetry: each wall is the same from both sides",
                  adjacency.asymmetry <= tolerance,
                  adjacency.asymmetry,

@@ -86,16 +86,16 @@ TEST_CASE("cells of seeds with other weights break the law of ownership") {
 
 TEST_CASE("one-sided and unequal walls break the law of symmetry") {
   const Results results(2);
-  CHECK(check_walls(results.adjacency, 2, results.rounding).passed);
+  CHECK(check_walls(results.adjacency, results.domain, results.rounding).passed);
   Adjacency uneven = results.adjacency;
   uneven.wall[3] *= 1 + 1e-3;
-  CHECK_FALSE(check_walls(uneven, 2, results.rounding).passed);
+  CHECK_FALSE(check_walls(uneven, results.domain, results.rounding).passed);
   Adjacency lopsided = results.adjacency;
   lopsided.asymmetry = 0.01;
-  CHECK_FALSE(check_walls(lopsided, 2, results.rounding).passed);
+  CHECK_FALSE(check_walls(lopsided, results.domain, results.rounding).passed);
   Adjacency descending = results.adjacency;
   std::swap(descending.neighbor[0], descending.neighbor[1]);
-  CHECK_FALSE(check_walls(descending, 2, results.rounding).passed);
+  CHECK_FALSE(check_walls(descending, results.domain, results.rounding).passed);
 }
 
 TEST_CASE("statuses that contradict the measures or positions are found") {
