@@ -1,7 +1,7 @@
 // The order of the seeds permutes the results and changes no bit of them.
 #include <doctest/doctest.h>
 
-#include "tests/determinism/permuted.hpp"
+#include "tests/support/permuted.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 

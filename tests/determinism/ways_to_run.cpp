@@ -10,7 +10,7 @@
 #include <powercell/opencl.hpp>
 
 #include "lib/cl/buffer.hpp"
-#include "tests/determinism/permuted.hpp"
+#include "tests/support/permuted.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/opencl_shim.hpp"
 #include "tests/support/setups.hpp"

@@ -3,51 +3,32 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <numeric>
 
 #include "tests/exact/tied_seeds.hpp"
 #include "tests/support/domains.hpp"
+#include "tests/support/permuted.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
 
 namespace {
 
-/// A symmetry of the cube about 0: axes in another order, some of them mirrored.
-struct Symmetry {
-  std::vector<std::size_t> axis;
-  std::vector<double> sign;
-
-  Symmetry(int dimension, Random& random)
-      : axis(static_cast<std::size_t>(dimension)), sign(static_cast<std::size_t>(dimension)) {
-    std::iota(axis.begin(), axis.end(), std::size_t{0});
-    for (std::size_t k = axis.size(); k > 1; --k) std::swap(axis[k - 1], axis[random.index(k)]);
-    for (double& s : sign) s = random.index(2) == 0 ? 1 : -1;
-  }
-};
-
-std::vector<std::size_t> any_order(std::size_t n, Random& random) {
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t k = n; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
-  return order;
-}
-
-/// Seed k is the image of seed from[k].
-SeedArray image(const SeedArray& seeds, const std::vector<std::size_t>& from, const Symmetry& symmetry) {
-  SeedArray result{seeds.dimension, {}, {}};
-  for (const std::size_t i : from) {
-    for (std::size_t k = 0; k < symmetry.axis.size(); ++k)
-      result.positions.push_back(symmetry.sign[k] *
-                                 seeds.positions[i * symmetry.axis.size() + symmetry.axis[k]]);
-    result.weights.push_back(seeds.weights[i]);
-  }
+/// The images under a symmetry of the cube about 0: axes in another order, some of them mirrored.
+SeedArray turned(const SeedArray& seeds, Random& random) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  const Permutation axis = random_permutation(d, random);
+  std::array<double, 3> sign;
+  for (double& s : sign) s = random.index(2) == 0 ? 1 : -1;
+  SeedArray result = seeds;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    for (std::size_t k = 0; k < d; ++k)
+      result.positions[i * d + k] = sign[k] * seeds.positions[i * d + axis[k]];
   return result;
 }
 
 /// The result for n seeds, of which seed from[k] is k here; the others have no cells. Without simplices:
 /// which ones there are where more cells meet depends on the order of the places.
-Result brought_back(const Result& image, const std::vector<std::size_t>& from, std::size_t n) {
+Result brought_back(const Result& image, const Permutation& from, std::size_t n) {
   Result result;
   result.measures.status.assign(n, SeedStatus::hidden);
   result.measures.mass.assign(n, 0);
@@ -149,10 +130,10 @@ void for_tied_seeds(int trials, const Check& check) {
 
 TEST_CASE("turned, mirrored and in another order the diagram is the same") {
   for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
-    const std::vector<std::size_t> order = any_order(seeds.size(), random);
-    const SeedArray turned = image(seeds, order, Symmetry(seeds.dimension, random));
+    const Permutation order = random_permutation(seeds.size(), random);
+    const SeedArray image = permuted(turned(seeds, random), order);
     expect_same_on(domain, result_of(setup, domain, seeds.view()),
-                   brought_back(result_of(setup, domain, turned.view()), order, seeds.size()),
+                   brought_back(result_of(setup, domain, image.view()), order, seeds.size()),
                    1e3 * unit_roundoff(setup.options.precision));
   });
 }
@@ -160,13 +141,9 @@ TEST_CASE("turned, mirrored and in another order the diagram is the same") {
 TEST_CASE("without its hidden seeds the diagram is the same") {
   for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
     const Result all = result_of(setup, domain, seeds.view());
-    std::vector<std::size_t> with_cells;
-    for (const std::size_t i : any_order(seeds.size(), random))
-      if (all.measures.status[i] == SeedStatus::ok) with_cells.push_back(i);
-    Symmetry none(seeds.dimension, random);
-    std::iota(none.axis.begin(), none.axis.end(), std::size_t{0});
-    std::fill(none.sign.begin(), none.sign.end(), 1.0);
-    const Result rest = result_of(setup, domain, image(seeds, with_cells, none).view());
+    Permutation with_cells = random_permutation(seeds.size(), random);
+    std::erase_if(with_cells, [&](std::uint32_t i) { return all.measures.status[i] != SeedStatus::ok; });
+    const Result rest = result_of(setup, domain, permuted(seeds, with_cells).view());
     expect_same_on(domain, all, brought_back(rest, with_cells, seeds.size()),
                    1e3 * unit_roundoff(setup.options.precision));
   });

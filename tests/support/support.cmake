@@ -7,7 +7,7 @@ if(NOT TARGET powercell_support)
   add_library(powercell_support STATIC EXCLUDE_FROM_ALL
     ${support}/generators.cpp ${support}/meshes.cpp ${support}/domains.cpp ${support}/polytope.cpp
     ${support}/brute_force.cpp ${support}/compare.cpp ${support}/compare_geometry.cpp ${support}/setups.cpp
-    ${support}/same_bits.cpp)
+    ${support}/same_bits.cpp ${support}/permuted.cpp)
   target_compile_options(powercell_support PRIVATE -Wall -Wextra)
   target_link_libraries(powercell_support PUBLIC powercell_test_lib)
 

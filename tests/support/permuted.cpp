@@ -1,4 +1,4 @@
-#include "tests/determinism/permuted.hpp"
+#include "tests/support/permuted.hpp"
 
 #include <algorithm>
 #include <array>
