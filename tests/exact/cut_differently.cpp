@@ -83,11 +83,11 @@ TEST_CASE("a cube in tetrahedra has the diagram of the cube") {
     for (int trial = 0; trial < 30; ++trial) {
       INFO(setup.name << ", trial " << trial);
       const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 3, trial % 2 == 1, random);
-      const Result whole = result_of(setup, unit_box(3), seeds.view());
-      const Result pieces = result_of(setup, block(1 + trial % 4, random), seeds.view());
+      const Outcome whole = outcome_of(setup, unit_box(3), seeds.view());
+      const Outcome pieces = outcome_of(setup, block(1 + trial % 4, random), seeds.view());
       expect_same(whole, pieces, 1e3 * unit_roundoff(setup.options.precision));
       CHECK(whole.simplices == pieces.simplices);
-      const Result small = result_of(setup, scaled_box(0x1p-40), scaled(seeds, 0x1p-40).view());
+      const Outcome small = outcome_of(setup, scaled_box(0x1p-40), scaled(seeds, 0x1p-40).view());
       CHECK(whole.measures.status == small.measures.status);
       CHECK(whole.simplices == small.simplices);
     }
@@ -102,8 +102,8 @@ TEST_CASE("a square in triangles in space has the diagram of the square") {
       const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 2, false, random);
       const std::size_t axis = random.index(3);
       const Domain square = sheet(1 + random.index(4), axis, random);
-      expect_same(result_of(setup, unit_box(2), seeds.view()),
-                  result_of(setup, square, lifted_off(seeds, axis, random).view()),
+      expect_same(outcome_of(setup, unit_box(2), seeds.view()),
+                  outcome_of(setup, square, lifted_off(seeds, axis, random).view()),
                   1e3 * unit_roundoff(setup.options.precision));
     }
 }
@@ -116,8 +116,8 @@ TEST_CASE("a square in parts has the diagram of the square") {
       INFO(setup.name << ", trial " << trial);
       const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 2, trial % 2 == 1, random);
       const double tolerance = 1e3 * unit_roundoff(setup.options.precision);
-      const Result whole = result_of(setup, unit_box(2), seeds.view());
-      const Result parts = result_of(setup, parted_square(), seeds.view());
+      const Outcome whole = outcome_of(setup, unit_box(2), seeds.view());
+      const Outcome parts = outcome_of(setup, parted_square(), seeds.view());
       expect_same(whole, parts, tolerance);
       CHECK(whole.simplices == parts.simplices);
     }

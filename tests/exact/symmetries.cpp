@@ -28,8 +28,8 @@ SeedArray turned(const SeedArray& seeds, Random& random) {
 
 /// The result for n seeds, of which seed from[k] is k here; the others have no cells. Without simplices:
 /// which ones there are where more cells meet depends on the order of the places.
-Result brought_back(const Result& image, const Permutation& from, std::size_t n) {
-  Result result;
+Outcome brought_back(const Outcome& image, const Permutation& from, std::size_t n) {
+  Outcome result;
   result.measures.status.assign(n, SeedStatus::hidden);
   result.measures.mass.assign(n, 0);
   for (std::size_t k = 0; k < from.size(); ++k) {
@@ -105,7 +105,7 @@ SeedArray without_shared_triangles(const SeedArray& seeds) {
 
 /// On a surface without the walls: a cell may have a piece of no thickness between two others, or not have
 /// it, as the order of the places has it (docs/mathematics.md, "Walls in facets").
-void expect_same_on(const Domain& domain, const Result& one, const Result& other, double tolerance) {
+void expect_same_on(const Domain& domain, const Outcome& one, const Outcome& other, double tolerance) {
   domain.kind() == DomainKind::surface ? expect_same_cells(one, other, tolerance)
                                        : expect_same(one, other, tolerance);
 }
@@ -132,18 +132,18 @@ TEST_CASE("turned, mirrored and in another order the diagram is the same") {
   for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
     const Permutation order = random_permutation(seeds.size(), random);
     const SeedArray image = permuted(turned(seeds, random), order);
-    expect_same_on(domain, result_of(setup, domain, seeds.view()),
-                   brought_back(result_of(setup, domain, image.view()), order, seeds.size()),
+    expect_same_on(domain, outcome_of(setup, domain, seeds.view()),
+                   brought_back(outcome_of(setup, domain, image.view()), order, seeds.size()),
                    1e3 * unit_roundoff(setup.options.precision));
   });
 }
 
 TEST_CASE("without its hidden seeds the diagram is the same") {
   for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
-    const Result all = result_of(setup, domain, seeds.view());
+    const Outcome all = outcome_of(setup, domain, seeds.view());
     Permutation with_cells = random_permutation(seeds.size(), random);
     std::erase_if(with_cells, [&](std::uint32_t i) { return all.measures.status[i] != SeedStatus::ok; });
-    const Result rest = result_of(setup, domain, permuted(seeds, with_cells).view());
+    const Outcome rest = outcome_of(setup, domain, permuted(seeds, with_cells).view());
     expect_same_on(domain, all, brought_back(rest, with_cells, seeds.size()),
                    1e3 * unit_roundoff(setup.options.precision));
   });

@@ -38,16 +38,17 @@ inline SeedArray tied_seeds(std::size_t n, double middle, int dimension, bool mo
   return seeds;
 }
 
-struct Result {
+/// What does not depend on where the domain is cut, by seeds, to be compared to a tolerance.
+struct Outcome {
   Measures measures;
   std::map<std::pair<std::size_t, std::size_t>, double> walls;
   std::set<std::vector<std::uint32_t>> simplices;
 };
 
-inline Result result_of(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
+inline Outcome outcome_of(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
   Diagram diagram(setup.device, domain, setup.options);
   diagram.set_seeds(seeds);
-  Result result{diagram.measures(), {}, {}};
+  Outcome result{diagram.measures(), {}, {}};
   const Adjacency& adjacency = diagram.adjacency();
   for (std::size_t i = 0; i < seeds.size(); ++i)
     for (std::uint64_t k = adjacency.offset[i]; k < adjacency.offset[i + 1]; ++k)
@@ -62,7 +63,7 @@ inline Result result_of(const Setup& setup, const Domain& domain, const SeedsVie
   return result;
 }
 
-inline void expect_same_cells(const Result& one, const Result& other, double tolerance) {
+inline void expect_same_cells(const Outcome& one, const Outcome& other, double tolerance) {
   CHECK(one.measures.status == other.measures.status);
   for (std::size_t i = 0; i < one.measures.mass.size(); ++i) {
     CAPTURE(i);
@@ -70,7 +71,7 @@ inline void expect_same_cells(const Result& one, const Result& other, double tol
   }
 }
 
-inline void expect_same(const Result& one, const Result& other, double tolerance) {
+inline void expect_same(const Outcome& one, const Outcome& other, double tolerance) {
   expect_same_cells(one, other, tolerance);
   for (const auto& [a, b] : {std::pair{&one, &other}, {&other, &one}})
     for (const auto& [seeds, wall] : a->walls) {
