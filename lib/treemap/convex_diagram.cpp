@@ -189,7 +189,9 @@ void ConvexDiagram::compute_vertices(std::span<const double> weights, std::vecto
   vertices.clear();
   for (std::size_t i = 0; i < size(); ++i) {
     clip(i, weights);
-    for (std::size_t v = 0; v < cell_.count; ++v) {
+    // A cell thinner than rounding may be left with the one or two corners that lie on a wall.
+    const std::size_t count = cell_.count < 3 ? 0 : cell_.count;
+    for (std::size_t v = 0; v < count; ++v) {
       vertices.push_back(seeds_.x[i] + cell_.x[v]);
       vertices.push_back(seeds_.y[i] + cell_.y[v]);
     }

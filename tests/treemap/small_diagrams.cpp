@@ -175,3 +175,16 @@ TEST_CASE("vertices of cells go around areas that are the masses") {
     CHECK(twice / 2 == doctest::Approx(diagram.mass()[i]).epsilon(1e-12));
   }
 }
+
+TEST_CASE("cells that are a corner or an edge of the outline have no vertices") {
+  for (const double y : {1.5, 0.5}) {  // the bisector meets the square in (1, 1), or in its right edge
+    ConvexDiagram diagram;
+    diagram.set_outline(columns(square));
+    const Columns seeds{{0.5, 1.5}, {0.5, y}};
+    diagram.set_seeds(seeds, false);
+    std::vector<std::uint64_t> offset;
+    std::vector<double> vertices;
+    diagram.compute_vertices(std::vector<double>{0, 0}, offset, vertices);
+    CHECK(offset == std::vector<std::uint64_t>{0, 4, 4});
+  }
+}
