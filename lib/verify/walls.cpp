@@ -34,12 +34,13 @@ LawCheck check_walls(const Adjacency& adjacency, const Domain& domain, const Rou
   const std::size_t n = adjacency.offset.size() - 1;
   // The ends of a wall are where planes meet, and move by the planes' rounding over the sine of the angle
   // between them. Of many random angles the least is about one over their number. However many there are,
-  // no large wall may lack a side.
+  // no large wall may lack a side; where planes meet at right angles, one of a few tens of roundings may.
+  constexpr double right_angles = 128;
   const double largest =
       adjacency.wall.empty() ? 0 : *std::max_element(adjacency.wall.begin(), adjacency.wall.end());
-  const double tolerance =
-      std::min(largest / 2, rounding.unit() * rounding.diagonal() * rim_of(largest, domain) *
-                                (1000 + static_cast<double>(n)));
+  const double rounded = rounding.unit() * rounding.diagonal() * rim_of(largest, domain);
+  const double tolerance = std::max(right_angles * rounded,
+                                    std::min(largest / 2, rounded * (1000 + static_cast<double>(n))));
   LawCheck check{"symmetry: each wall is the same from both sides",
                  adjacency.asymmetry <= tolerance,
                  adjacency.asymmetry,

@@ -57,6 +57,21 @@ TEST_CASE("degenerate seeds obey the laws") {
   }
 }
 
+TEST_CASE("diagrams all of whose walls are shorter than rounding obey the laws") {
+  // Bisectors that cut the corners (1, 1) or (1, 1, 1) off, by some roundings of the way from the seeds to
+  // it.
+  for (const Setup& setup : main_setups())
+    for (const int d : {2, 3})
+      for (int k = -8; k <= 16; ++k) {
+        INFO(setup.name << " in " << d << " dimensions, " << k << " roundings");
+        const double part[] = {0.3, 0.7, 0.4}, off = 1 + k * 0x1p-54;
+        SeedArray seeds{d, {}, {0, 0}};
+        for (int side = 0; side < 2; ++side)
+          for (int c = 0; c < d; ++c) seeds.positions.push_back(off + (side == 0 ? -part[c] : part[c]));
+        expect_laws(setup, unit_box(d), seeds.view());
+      }
+}
+
 TEST_CASE("other seeds than the diagram's are refused, or found out") {
   Random random(test_seed());
   const SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
