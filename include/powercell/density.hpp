@@ -20,37 +20,42 @@ struct ImageView {
   std::array<double, 2> high{1, 1};
 };
 
-/// An immutable density: mass for each unit of area or volume, nowhere negative. Copies share one state.
-/// Safe to share between threads.
+/// An immutable density: mass for each unit of area or volume, nowhere negative and nowhere above
+/// `largest_value`. Copies share one state. Safe to share between threads.
 class POWERCELL_API Density {
  public:
-  /// The same everywhere. \throw Error invalid_argument unless finite and positive
+  /// Products of densities with areas and with squares of distances are to stay in the range of numbers.
+  static constexpr double largest_value = 1e100;
+
+  /// The same everywhere. \throw Error invalid_argument unless positive and at most the largest value
   static Density constant(double value);
 
   /// An expression in x, y and z, evaluated by muparser: + - * / ^, comparisons, `a ? b : c`, sin, exp, sqrt,
   /// abs, min, max and others, with pi and e. Best smooth at the size of the cells: integrals are adaptive,
   /// and what they could not reach is in DensityIntegrals::quadrature_error; much narrower peaks may be
   /// missed. \param tolerance  relative, of the masses \throw Error invalid_argument if it is no expression
-  /// (where); later, if a value in the domain, up to its boundary, is negative or not finite
+  /// (where); later, if a value in the domain, up to its boundary, is negative or above the largest
   static Density formula(std::string_view expression, double tolerance = 1e-9);
 
   /// As formula, but a function of a point (third coordinate 0 in 2D), called by several threads at a time.
   static Density function(std::function<double(const std::array<double, 3>&)> value, double tolerance = 1e-9);
 
   /// Constant in each pixel of an image and 0 outside its rectangle; integrals are exact. For polygons only.
-  /// \throw Error invalid_argument (sizes; a value that is negative or not finite, which; all values 0)
+  /// \throw Error invalid_argument (sizes; a value that is negative or above the largest, which; all values
+  /// 0)
   static Density image(const ImageView& image);
 
   /// Linear in each triangle or tetrahedron, from values at the vertices that the domain was made of (as many
   /// and in the order of Domain::surface or Domain::volume); integrals are exact.
-  /// \throw Error invalid_argument (a value that is negative or not finite, which; all values 0); later,
-  /// if the domain is no mesh or has another number of vertices
+  /// \throw Error invalid_argument (a value that is negative or above the largest, which; all values 0);
+  /// later, if the domain is no mesh or has another number of vertices
   static Density nodal(std::span<const double> values);
 
   bool is_constant() const;
   /// Whether integrals are exact but for rounding, whatever the tolerance: no formula and no function is.
   bool is_exact() const;
   /// The integral over a domain, to the accuracy that integrate() has. \param threads 0 means all
+  /// \throw Error invalid_argument if it is 0 or above 1e300; as integrate()
   double total(const Domain& domain, int threads = 0) const;
 
   explicit Density(std::shared_ptr<const DensityModel> model) : model_(std::move(model)) {}

@@ -37,7 +37,7 @@ double CheckedSource::ask_inside(const Point& x, std::uint32_t region, double va
     middle_ = middle_of(domain_.mesh(), region);
     region_ = region;
   }
-  const bool infinite = value > std::numeric_limits<double>::max();  // at the boundary too
+  const bool infinite = value > Density::largest_value;  // at the boundary too
   for (const double part : inwards) {
     if (infinite) break;
     Point nearer{};

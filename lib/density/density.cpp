@@ -8,11 +8,17 @@
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
+namespace {
+
+/// Sums and products with small numbers of an integral are to stay in the range of numbers.
+constexpr double largest_integral = 1e300;
+
+}  // namespace
 
 Density Density::constant(double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw Error(ErrorCode::invalid_argument,
-                "a constant density must be positive and finite, got " + digits(value));
+  if (!(value > 0 && value <= largest_value))
+    throw Error(ErrorCode::invalid_argument, "a constant density must be positive and at most " +
+                                                 digits(largest_value) + ", got " + digits(value));
   return Density(std::make_shared<ConstantDensity>(value));
 }
 
@@ -38,7 +44,12 @@ bool Density::is_exact() const {
 }
 
 double Density::total(const Domain& domain, int threads) const {
-  return model_->total(domain, thread_count(threads));
+  const double total = model_->total(domain, thread_count(threads));
+  if (!(total <= largest_integral))
+    throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total, 3) +
+                                                 " over the domain; it must be at most " +
+                                                 digits(largest_integral));
+  return total;
 }
 
 DensityIntegrals integrate(Diagram& diagram, const Density& density, const IntegrationOptions& options) {

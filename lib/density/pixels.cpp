@@ -1,6 +1,7 @@
 #include "lib/density/pixels.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/density/value.hpp"
 

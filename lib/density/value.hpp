@@ -2,7 +2,7 @@
 /// Values of densities, checked. Internal.
 #pragma once
 
-#include <cmath>
+#include <powercell/density.hpp>
 #include <powercell/error.hpp>
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@
 namespace powercell {
 
 inline bool is_density(double value) {
-  return value >= 0 && std::isfinite(value);
+  return value >= 0 && value <= Density::largest_value;
 }
 
 /// \throw Error invalid_argument

@@ -91,7 +91,9 @@ void Evaluator::spread(double share) {
   spread_ = share;
   if (share > 0 && !even_) {
     const Domain& domain = diagram_.domain();
-    even_ = Density::constant(density_.total(domain, threads_) / domain.measure());
+    // Rounding may take the mean of values that are all the largest beyond it.
+    even_ = Density::constant(
+        std::min(density_.total(domain, threads_) / domain.measure(), Density::largest_value));
   }
 }
 

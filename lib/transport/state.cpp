@@ -79,7 +79,7 @@ const TransportResult& TransportSolver::State::solve() {
   if (positions.empty())
     throw Error(ErrorCode::invalid_argument, "solve before set_seeds: there are no seeds");
   const double total = options.density.total(diagram.domain(), options.diagram.threads);
-  if (!(total >= std::numeric_limits<double>::min()) || !std::isfinite(total))
+  if (!(total >= std::numeric_limits<double>::min()))
     throw Error(ErrorCode::invalid_argument,
                 "the mass of the domain is " + digits(total) + ": choose another unit for the density");
   const std::vector<double> target = targets(total);

@@ -62,13 +62,26 @@ TEST_CASE("a formula without a density where it is asked says where") {
             "positive somewhere"));
 }
 
+TEST_CASE("a density or an integral beyond range is refused") {
+  const double low[] = {0, 0, 0}, high[] = {1e67, 1e67, 1e67};
+  const Domain wide = Domain::box(low, high);
+  CHECK(Density::constant(1e98).total(wide) == doctest::Approx(1e299));
+  for (const Density& density : {Density::constant(1e100), Density::formula("1e100")})
+    CHECK(has(message(ErrorCode::invalid_argument, [&] { (void)density.total(wide); }), "1e+300"));
+  CHECK(
+      has(message(ErrorCode::invalid_argument, [&] { (void)Density::formula("1e160*x").total(unit_box(2)); }),
+          "x ="));
+}
+
 TEST_CASE("an image must have pixels, a rectangle and something in it") {
   const auto refused = [](const ImageView& image) {
     return message(ErrorCode::invalid_argument, [&] { Density::image(image); });
   };
   const std::vector<double> blank(6, 0.0), negative{1, 1, -1, 1, 1, 1}, good(6, 1.0);
+  const std::vector<double> vast{1, 1, 1, 1, 2e100, 1};
   CHECK(has(refused({3, 2, blank}), "blank"));
   CHECK(has(refused({3, 2, negative}), "pixel 2, 0"));
+  CHECK(has(refused({3, 2, vast}), "2e+100 at pixel 1, 1"));
   CHECK(has(refused({3, 3, good}), "values"));
   CHECK(has(refused({0, 3, {}}), "no density"));
   CHECK(has(refused({3, 2, good, {0, 0}, {0, 1}}), "rectangle"));
