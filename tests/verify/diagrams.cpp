@@ -72,6 +72,24 @@ TEST_CASE("diagrams all of whose walls are shorter than rounding obey the laws")
       }
 }
 
+TEST_CASE("seeds close together, whose bisectors with others are all but parallel, obey the laws") {
+  // Below some 1e-8 exact decisions take over, and the geometry is exact but for its last places.
+  for (const Setup& setup : main_setups())
+    for (const auto& list : {surface_domains(), volume_domains(), box_domains()})
+      for (const NamedDomain& named : list)
+        for (const double near : {1e-3, 1e-4, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9}) {
+          INFO("domain " << named.name << ", " << near << " apart");
+          const auto low = named.domain.low(), high = named.domain.high();
+          const double parts[][3] = {
+              {0.7, 0.55, 0.8}, {0.52, 0.6, near}, {near, near, near}, {near, 0, 0}, {}};
+          SeedArray seeds{named.domain.dimension(), {}, std::vector<double>(5, 0)};
+          for (const auto& part : parts)
+            for (std::size_t c = 0; c < static_cast<std::size_t>(seeds.dimension); ++c)
+              seeds.positions.push_back((low[c] + high[c]) / 2 + part[c] * (high[c] - low[c]) / 2);
+          expect_laws(setup, named.domain, seeds.view());
+        }
+}
+
 TEST_CASE("other seeds than the diagram's are refused, or found out") {
   Random random(test_seed());
   const SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
