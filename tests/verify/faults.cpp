@@ -76,7 +76,7 @@ TEST_CASE("cells of seeds with other weights break the law of ownership") {
   for (const int d : {2, 3}) {
     Results results(d);
     CHECK(results.owners().passed);
-    results.seeds.weights[5] += 0.02;
+    results.seeds.weights[5] += 0.1;
     const LawCheck check = results.owners();
     CHECK_FALSE(check.passed);
     CHECK(check.value > check.tolerance);
