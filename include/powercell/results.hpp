@@ -2,6 +2,7 @@
 /// What a diagram gives back. All arrays are owned by the struct; seeds keep their input order.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct Adjacency {
   std::vector<std::uint32_t> neighbor;  ///< ascending within a row
   std::vector<double> wall;             ///< length (polygon, surface) or area (volume) of the wall
   double asymmetry = 0;  ///< largest |a_ij - a_ji| seen before the two sides were averaged
+  std::array<std::uint32_t, 2> asymmetric{};  ///< i and j of that difference; equal where none was seen
 };
 
 /// What lies behind a face of a cell.

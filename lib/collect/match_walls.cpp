@@ -2,6 +2,7 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <tuple>
 
 #include "lib/collect/sort_row.hpp"
 #include "lib/collect/walls.hpp"
@@ -32,13 +33,25 @@ static_assert(WallRow::lanes == 8);
   return found == 0 ? count : found - 1;
 }
 
+/// The two sides of a wall, and by how much they differ.
+struct Difference {
+  double value = 0;
+  std::uint32_t from = 0, to = 0;  // ranks
+
+  /// Of equal ones the same is kept in whatever order they are seen.
+  void see(const Difference& other) {
+    const auto order = [](const Difference& d) { return std::tuple(-d.value, d.from, d.to); };
+    if (order(other) < order(*this)) *this = other;
+  }
+};
+
 /// Walls that both sides have get the mean, and the sign bit, which no measure has before. Each pair is met
 /// once, by its lower rank, so that threads write to different places, whatever rows those are in. Returns
-/// the largest difference.
+/// the largest difference; of equal ones that of the lowest rank, and there of the highest neighbour.
 POWERCELL_VECTOR_COPIES
-double average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std::uint32_t first,
-                    std::uint32_t last) {
-  double worst = 0;
+Difference average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std::uint32_t first,
+                        std::uint32_t last) {
+  Difference worst;
   for (std::uint32_t i = first; i < last; ++i) {
     if (!ok[i]) continue;
     const WallRow row = rows.row(i);
@@ -49,7 +62,8 @@ double average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std::ui
       const std::size_t back = find(other, i);
       if (back == other.count()) continue;
       double &here = row.measures()[k], &there = other.measures()[back];
-      worst = std::max(worst, std::abs(here - there));
+      const double difference = std::abs(here - there);
+      if (difference > worst.value) worst = {difference, i, j};
       here = there = -((here + there) / 2);
     }
   }
@@ -89,7 +103,8 @@ class WallMatcher {
     resize_populated(out_.wall, out_.offset.back(), threads_);
     parallel_for(threads_, seeds_.input_count,
                  [this](std::size_t begin, std::size_t end) { write(begin, end); });
-    out_.asymmetry = asymmetry_ * unit_;
+    out_.asymmetry = worst_.value * unit_;
+    if (worst_.value > 0) out_.asymmetric = {seeds_.input[worst_.from], seeds_.input[worst_.to]};
     return std::move(out_);
   }
 
@@ -114,9 +129,9 @@ class WallMatcher {
   }
 
   void average(std::uint32_t first, std::uint32_t last) {
-    const double worst = average_rows(rows_, ok_, first, last);
+    const Difference worst = average_rows(rows_, ok_, first, last);
     const std::lock_guard lock(mutex_);
-    asymmetry_ = std::max(asymmetry_, worst);
+    worst_.see(worst);
   }
 
   /// Brings rows into their final form where they are, but for the order: without what is dropped, by input
@@ -137,7 +152,7 @@ class WallMatcher {
     }
     const std::lock_guard lock(mutex_);
     one_sided_.insert(one_sided_.end(), alone.begin(), alone.end());
-    for (const OneSided& wall : alone) asymmetry_ = std::max(asymmetry_, wall.measure / unit_);
+    for (const OneSided& wall : alone) worst_.see({wall.measure / unit_, wall.from, wall.to});
   }
 
   /// Leaves in a row what stays of it, and notes what only this side has.
@@ -210,7 +225,7 @@ class WallMatcher {
   static constexpr std::uint32_t no_rank = ~std::uint32_t{0};
   std::vector<std::uint32_t> rank_;  // by input index, no_rank where the cell is empty
   std::mutex mutex_;                 // guards the two below while ranks are shared
-  double asymmetry_ = 0;
+  Difference worst_;
   std::vector<OneSided> one_sided_;
   Adjacency out_;
 };

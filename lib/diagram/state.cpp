@@ -236,7 +236,11 @@ void Diagram::State::certify() {
   Stopwatch certificate;
   try {
     require_certificate({domain, seeds, *measures, adjacency ? &*adjacency : nullptr,
-                         precision == Precision::float32, thread_count(options.threads)});
+                         precision == Precision::float32, thread_count(options.threads),
+                         [this]() -> const Cells& {
+                           if (!cells) pass(false, true);
+                           return *cells;
+                         }});
   } catch (...) {
     forget_results();
     throw;

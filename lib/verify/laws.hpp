@@ -2,6 +2,7 @@
 /// The laws, one function each. Internal.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ LawCheck check_owners(const std::vector<Sample>& samples, const RegionMesh& mesh
 
 /// The pieces of each cell sum to its measure, and their centroid is its centroid.
 std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells, const Rounding& rounding);
+
+/// The neighbours of seed i.
+inline std::span<const std::uint32_t> row_of(const Adjacency& adjacency, std::size_t i) {
+  return std::span(adjacency.neighbor)
+      .subspan(adjacency.offset[i], adjacency.offset[i + 1] - adjacency.offset[i]);
+}
 
 /// Vertex v of the cells' array.
 inline Vector cell_vertex(const Cells& cells, std::uint64_t v) {

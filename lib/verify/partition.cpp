@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/domain/measure.hpp"
+#include "lib/verify/angles.hpp"
 
 namespace powercell {
 namespace {
@@ -86,6 +87,23 @@ class Gradients {
   std::vector<Vector> sums_;
 };
 
+/// The same of one piece, at most its triangle for each of its walls.
+long double slanted_area(const Cells& cells, std::size_t seed, std::uint64_t piece, const Corners& triangle,
+                         const Rounding& rounding) {
+  const Vector normal = normal_of(triangle);
+  const long double most = length(normal) / 2;
+  long double sum = 0;
+  for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
+    if (cells.border[f].kind != Border::Kind::wall) continue;
+    const std::uint32_t other = cells.border[f].index;
+    const std::vector<Vector> end = face_corners(cells, piece, f);
+    const long double area = length(end[1] - end[0]) * rounding.wall_shift(seed, other);
+    const long double sine = sine_between(rounding.position(other) - rounding.position(seed), normal);
+    sum += area < most * sine ? area / sine : most;
+  }
+  return sum;
+}
+
 }  // namespace
 
 long double measure_gradient(const RegionMesh& mesh) {
@@ -95,6 +113,15 @@ long double measure_gradient(const RegionMesh& mesh) {
 double partition_tolerance(const RegionMesh& mesh, double usual, double reach) {
   const long double ratio = reach * measure_gradient(mesh) / mesh.measure;
   return static_cast<double>(usual * std::max(1.0L, ratio / usual_ratio));
+}
+
+long double slanted_area(const Cells& cells, const RegionMesh& mesh, const Rounding& rounding) {
+  long double sum = 0;
+  if (mesh.kind != DomainKind::surface) return sum;
+  for (std::size_t i = 0; i < cells.cell_count(); ++i)
+    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
+      sum += slanted_area(cells, i, p, corners_of(mesh, cells.region[p]), rounding);
+  return sum;
 }
 
 }  // namespace powercell

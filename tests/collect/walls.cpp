@@ -112,7 +112,9 @@ Adjacency by_definition(const Pieces& p) {
       const bool both = back != walls[j].end();
       if (!both && !(wall > negligible * std::max(largest(i), largest(j)))) continue;
       const double mean = both ? (wall + back->second) / 2 : wall;
-      a.asymmetry = std::max(a.asymmetry, (both ? std::abs(wall - back->second) : wall) * unit);
+      const double difference = (both ? std::abs(wall - back->second) : wall) * unit;
+      if (difference > a.asymmetry) a.asymmetric = {p.seeds.input[i], p.seeds.input[j]};
+      a.asymmetry = std::max(a.asymmetry, difference);
       result[p.seeds.input[i]][p.seeds.input[j]] = result[p.seeds.input[j]][p.seeds.input[i]] = mean * unit;
     }
   a.offset = {0};
@@ -144,6 +146,7 @@ TEST_CASE("walls are collected as defined, whatever the chunks and threads") {
         CHECK(got.neighbor == expected.neighbor);
         CHECK(got.wall == expected.wall);
         CHECK(got.asymmetry == expected.asymmetry);
+        CHECK(got.asymmetric == expected.asymmetric);
       }
   }
 }

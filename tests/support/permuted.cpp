@@ -62,6 +62,8 @@ Measures restored(const Measures& measures, const Permutation& from) {
 Adjacency restored(const Adjacency& adjacency, const Permutation& from) {
   Adjacency result;
   result.asymmetry = adjacency.asymmetry;
+  for (std::size_t side = 0; side < 2 && adjacency.asymmetry > 0; ++side)
+    result.asymmetric[side] = from[adjacency.asymmetric[side]];
   result.offset = {0};
   for (const std::uint32_t row : inverse(from)) {
     std::vector<std::pair<std::uint32_t, double>> entries;

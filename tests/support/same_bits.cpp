@@ -74,6 +74,8 @@ std::string bit_differences(const Adjacency& a, const Adjacency& b) {
       .of("neighbor", a.neighbor, b.neighbor)
       .of("wall", a.wall, b.wall)
       .of("asymmetry", a.asymmetry, b.asymmetry)
+      .of("first of asymmetric", a.asymmetric[0], b.asymmetric[0])
+      .of("second of asymmetric", a.asymmetric[1], b.asymmetric[1])
       .text();
 }
 

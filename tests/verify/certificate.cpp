@@ -111,6 +111,10 @@ TEST_CASE("a certificate is refused for what no diagram is, and names the seed")
   CHECK(refusal([](Measures& m, Adjacency&) { m.second_moment[5] = std::numeric_limits<double>::quiet_NaN(); })
             .find("seed 5 ") != std::string::npos);
   CHECK(refusal([](Measures&, Adjacency& a) { a.asymmetry = 0.01; }).find("two sides") != std::string::npos);
+  CHECK(refusal([](Measures&, Adjacency& a) {
+          a.asymmetry = 0.01;
+          a.asymmetric = {9, a.neighbor[a.offset[9]]};
+        }).find("of seeds 9 and ") != std::string::npos);
   // All but one seed said to be hidden: most points then have an owner without a cell.
   CHECK(refusal([](Measures& m, Adjacency&) {
           for (std::size_t i = 1; i < m.mass.size(); ++i) {

@@ -93,6 +93,13 @@ TEST_CASE("one-sided and unequal walls break the law of symmetry") {
   Adjacency lopsided = results.adjacency;
   lopsided.asymmetry = 0.01;
   CHECK_FALSE(check_walls(lopsided, results.domain, results.rounding).passed);
+  for (std::uint32_t i = 0; i + std::size_t{1} < lopsided.offset.size(); ++i)
+    for (std::uint64_t e = lopsided.offset[i]; e < lopsided.offset[i + 1]; ++e) {
+      lopsided.asymmetric = {i, lopsided.neighbor[e]};
+      const LawCheck check = check_walls(lopsided, results.domain, results.rounding);
+      CHECK_FALSE(check.passed);
+      CHECK(check.detail.find("of seeds " + std::to_string(i) + " and ") != std::string::npos);
+    }
   Adjacency descending = results.adjacency;
   std::swap(descending.neighbor[0], descending.neighbor[1]);
   CHECK_FALSE(check_walls(descending, results.domain, results.rounding).passed);
