@@ -14,14 +14,18 @@ namespace {
 class Session {
  public:
   Session(Input& input, const Domain& domain, const Options& options)
-      : input_(input), diagram_(shared_device(), domain, options) {}
+      : input_(input), diagram_(shared_device(), domain, options), decisions_(options.decisions) {}
 
   /// Calls something, and tells of the input when that finds something.
   void step() {
     try {
       any_step();
     } catch (const Finding& finding) {
+      if (decisions_ == Decisions::fast) return;  // rounding may have decided anything
       throw Finding(finding.what() + description());
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::internal) throw;
+      if (!beyond_rounding()) throw Finding(error.what() + description());
     }
   }
 
@@ -88,27 +92,34 @@ class Session {
     seeds_.weights = std::move(next);
   }
 
-  void check_verify() {
+  /// Seeds so far away, or a domain so long beside its width, that rounding leaves nothing of them: verify
+  /// and certificate may say so.
+  bool beyond_rounding() const {
     const auto low = diagram_.domain().low(), high = diagram_.domain().high();
     const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    return error() > 1e-9 * size || sum_doubt(diagram_.domain(), view().size(), error()) >= 0.01;
+  }
+
+  void check_verify() {
     const auto checks = verify(diagram_, view(), {20, input_.byte()});
-    // Its tolerances do not know such seeds, nor domains so long beside their width that rounding leaves
-    // nothing of them.
-    if (error() > 1e-9 * size || sum_doubt(diagram_.domain(), view().size(), error()) >= 0.01) return;
+    if (beyond_rounding()) return;
     for (const LawCheck& check : checks) require(check.passed, check.law + ": " + check.detail);
   }
 
   Input& input_;
   Diagram diagram_;
+  Decisions decisions_;
   SeedInput seeds_;
 };
 
 Options any_options(Input& input) {
   Options options;
-  const std::size_t choice = input.below(8);
+  const std::size_t choice = input.below(32);
   if (choice & 1) options.precision = Precision::float32;
   if (choice & 2) options.neighbors = Neighbors::flann;
   if (choice & 4) options.chunk_pairs = 1 + input.below(40);
+  options.certify = (choice & 8) != 0;
+  if ((choice & 24) == 16) options.decisions = Decisions::fast;
   options.threads = 1;
   if (input.below(32) == 31) {
     options.initial_neighbors = static_cast<int>(input.byte()) - 100;
