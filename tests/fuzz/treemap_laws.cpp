@@ -19,13 +19,20 @@ long double area(const double* points, std::size_t count) {
   return twice / 2;
 }
 
-/// By how much of its area a polygon may change as its corners are rounded.
-long double rounding(const double* points, std::size_t count) {
-  long double length = 0, far = 0;
+long double farthest(const double* points, std::size_t count) {
+  long double far = 0;
+  for (std::size_t k = 0; k < 2 * count; ++k) far = std::max<long double>(far, std::fabs(points[k]));
+  return far;
+}
+
+/// By how much of its area a polygon may change as its corners are rounded, which are computed in coordinates
+/// of the outline.
+/// \param far  of the outline's corners
+long double rounding(const double* points, std::size_t count, long double far) {
+  long double length = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double *const a = points + 2 * k, *const b = points + 2 * ((k + 1) % count);
     length += std::hypot(static_cast<long double>(b[0]) - a[0], static_cast<long double>(b[1]) - a[1]);
-    far = std::max<long double>({far, std::fabs(a[0]), std::fabs(a[1])});
   }
   return 4 * 0x1p-53L * far * length / std::fabs(area(points, count));
 }
@@ -68,6 +75,9 @@ void check_treemap(const Treemap& map, std::span<const std::int64_t> parent, dou
   }
   require(outline > 0, "an outline without area");
   require(std::fabs(leaves / outline - 1) < 1e-6L, "the leaves do not fill the outline");
+  const double* const corners = &map.vertices[2 * map.vertex_offset[root]];
+  const std::size_t corner_count = map.vertex_offset[root + 1] - map.vertex_offset[root];
+  const long double far = farthest(corners, corner_count);
   for (std::size_t i = 0; i < n; ++i) {
     if (map.kind[i] != TreeNode::leaf) continue;
     const double* const points = &map.vertices[2 * map.vertex_offset[i]];
@@ -75,9 +85,7 @@ void check_treemap(const Treemap& map, std::span<const std::int64_t> parent, dou
     if (count == 0) continue;
     const long double share = static_cast<long double>(map.value[i]) / map.value[root];
     const long double error = std::fabs(area(points, count) / outline / share - 1);
-    const long double doubt =
-        rounding(points, count) + rounding(&map.vertices[2 * map.vertex_offset[root]],
-                                           map.vertex_offset[root + 1] - map.vertex_offset[root]);
+    const long double doubt = rounding(points, count, far) + rounding(corners, corner_count, far);
     require(error <= map.worst_error * (1 + 1e-12) + doubt, "an area further off than the worst");
     require(error <= tolerance + doubt || !map.not_converged.empty(), "areas beyond the tolerance");
   }
