@@ -13,12 +13,15 @@ namespace {
 
 constexpr std::size_t kHuge = std::numeric_limits<std::size_t>::max() / 3 + 2;  // times 3 it is 3 again
 
-void check(pc_status status) {
+/// \param may_fail  whether a certificate may say that a result is none
+void check(pc_status status, bool may_fail = false) {
   require(status >= PC_OK && status <= PC_OUT_OF_MEMORY, "a status that is none");
   if (status == PC_OK) return;
   if (status != PC_DEVICE_NOT_FOUND) require_readable(pc_last_error());  // that one lists the devices
   require(status == PC_INVALID_ARGUMENT || status == PC_INVALID_SEED || status == PC_INVALID_DOMAIN ||
-              status == PC_DEVICE_NOT_FOUND || status == PC_UNSUPPORTED || status == PC_INTERRUPTED,
+              status == PC_DEVICE_NOT_FOUND || status == PC_UNSUPPORTED || status == PC_INTERRUPTED ||
+              (may_fail && status == PC_INTERNAL &&
+               std::strstr(pc_last_error(), "the certificate of the diagram")),
           std::string(pc_status_name(status)) + ": " + pc_last_error());
 }
 
@@ -77,9 +80,19 @@ class Session {
     diagram_ = nullptr;
     pc_options options;
     pc_options_init(&options);
-    options.precision = static_cast<pc_precision>(input_.below(3));
+    const std::size_t choice = input_.below(12), rare = input_.below(32);
+    options.precision = static_cast<pc_precision>(choice % 3);
+    options.certify = choice / 3 % 2 == 1;
+    options.decisions = choice / 6 == 1 ? PC_DECISIONS_FAST : PC_DECISIONS_EXACT;
     options.threads = 1;
-    if (input_.below(16) == 15) options.threads = static_cast<int>(input_.byte()) - 100;
+    if (rare % 16 == 15) options.threads = static_cast<int>(input_.byte()) - 100;
+    if (rare == 31) {
+      options.neighbors = static_cast<pc_neighbors>(input_.below(5));
+      options.decisions = static_cast<pc_decisions>(input_.below(4));
+      options.initial_neighbors = static_cast<int>(input_.byte()) - 100;
+      options.chunk_pairs = input_.below(40);
+    }
+    certified_ = options.certify != 0;
     if (input_.below(16) == 15) options.precision = static_cast<pc_precision>(3 + input_.below(4));
     if (input_.below(8) == 7) {
       options.progress = [](double, void* user) { return static_cast<int>(--*static_cast<int*>(user) > 0); };
@@ -166,14 +179,15 @@ class Session {
     std::vector<double> mass(n), centroid(3 * n), moment(n);
     std::vector<std::uint8_t> status(n);
     check(pc_diagram_measures(
-        diagram_, input_.flag() ? mass.data() : nullptr, input_.flag() ? centroid.data() : nullptr,
-        input_.flag() ? moment.data() : nullptr, input_.flag() ? status.data() : nullptr));
+              diagram_, input_.flag() ? mass.data() : nullptr, input_.flag() ? centroid.data() : nullptr,
+              input_.flag() ? moment.data() : nullptr, input_.flag() ? status.data() : nullptr),
+          certified_);
   }
 
   void read_adjacency() {
     std::size_t count = 0;
     const pc_status first = pc_diagram_adjacency(diagram_, nullptr, nullptr, nullptr, &count);
-    check(first);
+    check(first, certified_);
     if (first != PC_OK) return;
     const std::size_t room = input_.below(4) == 3 ? input_.below(4) : count;
     std::vector<std::uint64_t> offset(size() + 1);
@@ -182,7 +196,7 @@ class Session {
     std::size_t given = room;
     const pc_status second = pc_diagram_adjacency(diagram_, offset.data(), neighbor.data(),
                                                   input_.flag() ? wall.data() : nullptr, &given);
-    check(second);
+    check(second, certified_);
     require(given == count, "the count of neighbours changed");
     require((second == PC_OK) == (room >= count), "an array too short was taken, or a long one not");
     if (second == PC_OK) require(offset.back() == count, "the last offset is not the count");
@@ -192,13 +206,13 @@ class Session {
     std::size_t count = 0;
     int corners = 0;
     const pc_status first = pc_diagram_dual(diagram_, &corners, nullptr, &count);
-    check(first);
+    check(first, certified_);
     if (first != PC_OK) return;
     const std::size_t room = input_.below(4) == 3 ? input_.below(4) : count;
     std::vector<std::uint32_t> simplices(room * 4 + 1);
     std::size_t given = room;
     const pc_status second = pc_diagram_dual(diagram_, &corners, simplices.data(), &given);
-    check(second);
+    check(second, certified_);
     require((second == PC_OK) == (room >= count), "an array too short was taken, or a long one not");
   }
 
@@ -206,6 +220,7 @@ class Session {
   pc_domain* domain_ = nullptr;
   pc_diagram* diagram_ = nullptr;
   int calls_left_ = 0;
+  bool certified_ = false;  // diagram_, if the options were given
 };
 
 }  // namespace
