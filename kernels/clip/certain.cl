@@ -62,17 +62,21 @@ static inline void note_gap(vertices_t* p, real sum, real level, real error, int
   p->closest = closest ? border : p->closest;
 }
 
-/* The same for the plane of a face that has gone, whatever it is the plane of: 2 q.y = level. */
-static inline void note_gone(vertices_t* p, real4 q, real doubt, int border) {
-  const real sum = fabs(q.x) + fabs(q.y) + fabs(q.z);
-  const real error = REAL_EPSILON * (8 * sum * p->radius + 4 * fabs(q.w)) + 2 * sum * doubt;
+/* The same for the plane of a face that has gone: 2 q.y = level, with q in x, y, z and the level in w. */
+static inline void note_gone(vertices_t* p, real4 raw, real sum, real error, int border) {
   real normal[DIMENSION];
-  if (q.w - error - 2 * sum * p->radius >= 2 * sum * p->gap) return;
-  normal[0] = q.x;
-  normal[1] = q.y;
-  if (DIMENSION == 3) normal[DIMENSION - 1] = q.z;
-  find_sides(p, normal, q.w);
-  note_gap(p, sum, q.w, error, border);
+  if (raw.w - error - 2 * sum * p->radius >= 2 * sum * p->gap) return;
+  normal[0] = raw.x;
+  normal[1] = raw.y;
+  if (DIMENSION == 3) normal[DIMENSION - 1] = raw.z;
+  find_sides(p, normal, raw.w);
+  note_gap(p, sum, raw.w, error, border);
+}
+
+/* Of a bisector. Its level alone does not tell its error: a square and weights may have cancelled there. */
+static inline void note_gone_bisector(vertices_t* p, real4 raw, int border) {
+  const real sum = fabs(raw.x) + fabs(raw.y) + fabs(raw.z), q2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
+  note_gone(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
 }
 
 /* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. */
@@ -119,6 +123,13 @@ static inline real4 vertex_point(const vertices_t* p, int v) {
 /* As a raw plane. */
 static inline real4 raw_plane(certain_plane_t unit) {
   return make_real4(unit.plane.x, unit.plane.y, unit.plane.z, 2 * unit.plane.w);
+}
+
+/* Notes the gap to a facet of the region that has gone. */
+static inline void note_gone_facet(vertices_t* p, certain_plane_t facet, int border) {
+  const real sum = fabs(facet.plane.x) + fabs(facet.plane.y) + fabs(facet.plane.z);
+  const real error = REAL_EPSILON * (8 * sum * p->radius + 8 * fabs(facet.plane.w)) + 2 * sum * facet.doubt;
+  note_gone(p, raw_plane(facet), sum, error, border);
 }
 
 /* The point of three planes, and at least its error in w; below 0 if the planes are nearly dependent, or not

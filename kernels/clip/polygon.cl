@@ -81,11 +81,11 @@ static inline void forget_edges(cell_t* cell, int first, int last) {
 static inline void note_gone_edges(cell_t* cell) {
   if (cell->gone_count > GONE_MOST) cell->at.gap = -1;
   for (int k = 0; k < min(cell->gone_count, GONE_MOST); ++k) {
-    if (cell->gone[k] < 0) {
-      const certain_plane_t line = facet_line(cell, ~cell->gone[k], ground_plane(cell).plane);
-      note_gone(&cell->at, raw_plane(line), line.doubt, cell->gone[k]);
+    const int border = cell->gone[k];
+    if (border < 0) {
+      note_gone_facet(&cell->at, facet_line(cell, ~border, ground_plane(cell).plane), border);
     } else {
-      note_gone(&cell->at, raw_bisector(&cell->at, cell->gone[k]), cell->at.blur.position, cell->gone[k]);
+      note_gone_bisector(&cell->at, raw_bisector(&cell->at, border), border);
     }
   }
 }

@@ -59,11 +59,11 @@ static inline certain_plane_t face_plane(const cell_t* cell, int f) {
 
 /* Before the number of a face that no vertex has is given out again. */
 static inline void forget_face(cell_t* cell, int f) {
-  if (cell->border[f] < 0) {
-    const certain_plane_t facet = region_plane(cell, ~cell->border[f]);
-    note_gone(&cell->at, raw_plane(facet), facet.doubt, cell->border[f]);
+  const int border = cell->border[f];
+  if (border < 0) {
+    note_gone_facet(&cell->at, region_plane(cell, ~border), border);
   } else {
-    note_gone(&cell->at, cell->normal[f], cell->at.blur.position, cell->border[f]);
+    note_gone_bisector(&cell->at, cell->normal[f], border);
   }
 }
 
