@@ -79,14 +79,16 @@ static inline void note_gone_bisector(vertices_t* p, real4 raw, int border) {
   note_gone(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
 }
 
-/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. */
+/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. Where the data leave it
+   open by more than rounding does nothing about it is certain: a cell would have fewer digits than it may have. */
 static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   certain_plane_t unit;
   const real size = sqrt(raw.x * raw.x + raw.y * raw.y + raw.z * raw.z), scale = 1 / size;
   const real h = raw.w * scale * (real)0.5;
+  const real rounding = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h));
+  const real data = plane_blur(p->blur, p->radius, size) * (scale / 2);
   unit.plane = make_real4(raw.x * scale, raw.y * scale, raw.z * scale, h);
-  unit.doubt = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h)) +
-               plane_blur(p->blur, p->radius, size) * (scale / 2);
+  unit.doubt = data > MOST_BLUR * rounding ? 4 * p->radius + data : rounding + data;
   return unit;
 }
 

@@ -177,6 +177,28 @@ TEST_CASE("seeds the least number apart share the domain, whoever decides") {
   }
 }
 
+// Two floats tell the places of these seeds, 1e-11 apart, to 1e-14: the wall between two of them was known
+// well enough to decide by, but not to measure by.
+TEST_CASE("walls that two floats leave open by more than rounding are measured by the host") {
+  const std::vector<double> x = {0.63053095742404264,  0.064861761861359446,  0.51013785655061905,
+                                 1.0922322515434297,   0.50026422675418181,   0.54451124239816295,
+                                 0.63053095741124265,  0.064861761726168393,  0.63053095742378118,
+                                 0.06486176186131036,  0.13721992262073368,   1.1776029254730509,
+                                 0.63053095742405574,  0.064861761861359446,  0.63053095743200316,
+                                 0.064861761865478262, 0.0023051075217913608, 1.2048206623894802},
+                            w = {1.2720528126991208, 0.26874742091083048, 0.45773430487162448,
+                                 1.2720528129358237, 1.2720528126988828,  0.050372106300626211,
+                                 1.2720528126991373, 1.2720528127014559,  0.041956817262352432};
+  const NamedDomain letter = polygon_domains().front();
+  for (const Setup& setup : all_setups()) {
+    CAPTURE(setup.name);
+    Diagram diagram(setup.device, letter.domain, setup.options);
+    diagram.set_seeds({2, x, w});
+    const double error = setup.options.precision == Precision::float32 ? 2e-7 : 1e-12;
+    CHECK(diagram.measures().relative_error() < error);
+  }
+}
+
 TEST_CASE("seeds near rounding: both precisions find their cells") {
   check_families(12, 40);
 }
