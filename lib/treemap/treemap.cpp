@@ -108,6 +108,7 @@ class Layout {
   void take(std::uint32_t node, const GroupLayout& layout) {
     const GroupFrame frame(moments(polygon_[node]));
     const auto children = tree_.children(node);
+    bool all_have_one = true;  // a tolerance of 1 and more allows areas of 0, of which no polygon is left
     for (std::size_t i = 0; i < children.size(); ++i) {
       set_seed(children[i], frame, layout.seeds.x[i], layout.seeds.y[i]);
       std::vector<double>& polygon = polygon_[children[i]];
@@ -116,11 +117,12 @@ class Layout {
         polygon.push_back(frame.outside_x(layout.vertices[2 * v]));
         polygon.push_back(frame.outside_y(layout.vertices[2 * v + 1]));
       }
+      all_have_one &= !polygon.empty();
     }
     const std::scoped_lock lock(mutex_);
     result_.diagrams += layout.diagrams;
     result_.newton_steps += layout.newton_steps;
-    if (!layout.converged) result_.not_converged.push_back(node);
+    if (!layout.converged || !all_have_one) result_.not_converged.push_back(node);
     done(children.size());
   }
 
