@@ -94,8 +94,9 @@ std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells,
     const Sums sums = sums_of(cells, i, seed);
     // Moving the faces of a cell by the rounding of its planes changes its measure by that times its surface.
     // Beside that the sum here has its own rounding, which counts where a needle is far longer than thick.
-    const double moved =
-        rounding.shift(i) * static_cast<double>(sums.surface) + rounding_of(sums, cells.cell_dimension);
+    const double moved = rounding.shift(i) * static_cast<double>(sums.surface) +
+                         rounding_of(sums, cells.cell_dimension) +
+                         rounding.least_measure(cells.cell_dimension);
     const double given = measures.mass[i];
     mass.see(std::abs(static_cast<double>(sums.measure - given)), moved, [&] {
       return "seed " + std::to_string(i) + " has measure " + digits(given) + ", its " +

@@ -41,6 +41,11 @@ Vector Rounding::position(std::size_t i) const {
   return {p[0], p[1], seeds_.dimension == 3 ? p[2] : 0.0};
 }
 
+double Rounding::least_measure(int cell_dimension) const {
+  // 2^-100 in units of up to twice the domain's extent.
+  return unit_ == 0x1p-24 ? 0x1p-97 * std::pow(diagonal_, cell_dimension) : 0;
+}
+
 double Rounding::reach(std::size_t i) const {
   const Vector p = position(i);
   double sum = 0;

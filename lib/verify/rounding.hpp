@@ -29,6 +29,8 @@ class Rounding {
   const SeedsView& seeds() const { return seeds_; }
   double unit() const { return unit_; }  ///< u: 2^-53 or 2^-24
   double diagonal() const { return diagonal_; }
+  /// Of a cell that is decided to be there; in double precision as good as 0 (Clipper::write_moments).
+  double least_measure(int cell_dimension) const;
   /// Distance from seed i to the farthest corner of the domain's box.
   double reach(std::size_t i) const;
   /// How far a plane of cell i that is a facet of the domain may be off.

@@ -145,6 +145,9 @@ TEST_CASE("every precision and provider tells the same neighbours, hidden seeds 
 
 TEST_CASE("campaign: every precision and provider tells the same" * doctest::skip()) {
   check_all(10000, 15);
+}
+
+TEST_CASE("campaign: every precision and provider tells the same of many seeds" * doctest::skip()) {
   check_all(200, 1000);
 }
 

@@ -162,7 +162,10 @@ void check_cells(const Cells& cells, const Domain& domain, const SeedsView& seed
     if (border.kind == Border::Kind::wall) require(border.index < n, "a wall to no seed");
     if (border.kind == Border::Kind::interior) require(border.index < domain.region_count(), "no region");
   }
+  // What is left of coordinates: seeds that are one there are a tie.
+  const Real least = 0x1p-1073L * size_of(domain);
   for (std::size_t i = 0; i < n; ++i) {
+    const Real tie = 4 * least * reach(domain, seeds, i);
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
       require(cells.region[p] < domain.region_count(), "a piece in no region");
       const std::uint64_t begin = cells.vertex_offset[p], end = cells.vertex_offset[p + 1];
@@ -172,7 +175,7 @@ void check_cells(const Cells& cells, const Domain& domain, const SeedsView& seed
         for (std::size_t k = 0; k < d; ++k)
           middle[k] += static_cast<Real>(cells.vertices[v * d + k]) / static_cast<Real>(end - begin);
       for (std::size_t j = 0; j < n; ++j) {
-        const Real allowed = 2 * distance(seeds, i, j) * 4 * static_cast<Real>(error);
+        const Real allowed = 2 * distance(seeds, i, j) * 4 * static_cast<Real>(error) + tie;
         require(power_beyond(seeds, i, j, middle) <= allowed,
                 "a piece of seed " + std::to_string(i) + " lies in the cell of seed " + std::to_string(j));
       }

@@ -90,6 +90,14 @@ TEST_CASE("seeds close together, whose bisectors with others are all but paralle
         }
 }
 
+TEST_CASE("cells that measure less than the least number of single precision obey the laws") {
+  const std::vector<double> low{-13, -13}, high{1e30, 1e30}, seeds{1e-290, 0, -3, -7, 0.5, 5};
+  for (const Setup& setup : all_setups()) {
+    INFO(setup.name);
+    expect_laws(setup, Domain::box(low, high), {2, seeds, {}});
+  }
+}
+
 TEST_CASE("other seeds than the diagram's are refused, or found out") {
   Random random(test_seed());
   const SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
