@@ -148,7 +148,7 @@ TEST_CASE("campaign: every precision and provider tells the same" * doctest::ski
 }
 
 TEST_CASE("campaign: every precision and provider tells the same of many seeds" * doctest::skip()) {
-  check_all(200, 1000);
+  check_all(100, 1000);
 }
 
 // In single precision the bisector of the pair of seeds that are 5e-14 apart cut off a corner that the wall
