@@ -10,6 +10,9 @@
 #include <string>
 
 #include "lib/cl/program_build.hpp"
+#include "tests/support/environment.hpp"
+
+using powercell::test::Environment;
 
 /// The device under test (POWERCELL_DEVICE, or the default one), chosen once. Never released: at the end of
 /// the process the driver may be gone before it (oclgrind is).
@@ -57,22 +60,6 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
-};
-
-/// Sets an environment variable for the length of a scope.
-class Environment {
- public:
-  Environment(const char* name, const std::string& value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    setenv(name, value.c_str(), 1);
-  }
-  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
 };
 
 /// A shell command that runs the skipped test case `name` of this executable in a process of its own.

@@ -1,9 +1,9 @@
 // The cache of compiled programs fails call by call: programs are compiled instead.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/environment.hpp"
 #include "tests/support/opencl_shim.hpp"
 #include "tests/support/setups.hpp"
 
@@ -13,29 +13,23 @@ using shim::Entry;
 
 namespace {
 
+std::filesystem::path new_folder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "powercell-cache-XXXXXX").string();
+  return mkdtemp(pattern.data());
+}
+
 /// A cache of its own, used also where the driver has one, for the length of a scope.
 class OwnCache {
  public:
-  OwnCache() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "powercell-cache-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    setenv("POWERCELL_CACHE_DIR", folder_.c_str(), 1);
-    setenv("POWERCELL_CACHE", "always", 1);
-  }
-  ~OwnCache() {
-    unsetenv("POWERCELL_CACHE");
-    unsetenv("POWERCELL_CACHE_DIR");
-    std::filesystem::remove_all(folder_);
-  }
-  OwnCache(const OwnCache&) = delete;
-  OwnCache& operator=(const OwnCache&) = delete;
+  ~OwnCache() { std::filesystem::remove_all(folder_); }
   std::size_t entries() const {
     using Files = std::filesystem::directory_iterator;
     return static_cast<std::size_t>(std::distance(Files(folder_), Files()));
   }
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = new_folder();
+  Environment place_{"POWERCELL_CACHE_DIR", folder_.string()}, use_{"POWERCELL_CACHE", "always"};
 };
 
 std::uint64_t calls(Entry entry) {
