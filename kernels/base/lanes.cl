@@ -60,6 +60,11 @@ static inline real lane_least(real8 a) {
   const real2 c = select(b.lo, b.hi, b.hi < b.lo);
   return c.y < c.x ? c.y : c.x;
 }
+static inline real lane_sum(real8 a) {
+  const real4 b = a.lo + a.hi;
+  const real2 c = b.lo + b.hi;
+  return c.x + c.y;
+}
 /* Bit k is set where lane k is true. */
 static inline uint lane_bits(mask8 yes) {
   const int8 bits = convert_int8(yes) & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
@@ -100,6 +105,13 @@ static inline uint tag_of(real a) { return (uint)(AS_INDEX(a) & TAG_MASK); }
 static inline real untagged(real a) { return AS_REAL(AS_INDEX(a) & ~TAG_MASK); }
 
 #endif
+
+/* Of x, y, z. Not OpenCL's own dot and cross, whose rounding is the device's and may depend on where in a launch a
+   work-item is: proofs count roundings, and results are the same bits whatever the launch. */
+static inline real dot3(real4 a, real4 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline real4 cross3(real4 a, real4 b) {
+  return make_real4(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x, 0);
+}
 
 /* Index of the lowest set bit. */
 static inline int lowest_bit(ulong bits) { return 63 - (int)clz(bits & (~bits + 1)); }

@@ -110,10 +110,10 @@ static inline real4 region_corner(const vertices_t* p, int k) {
 /* The plane through y with normal n = a x b, which is outward. */
 static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a, real4 b, real4 n) {
   certain_plane_t unit;
-  const real size = sqrt(dot(n, n)), scale = 1 / size;
+  const real size = sqrt(dot3(n, n)), scale = 1 / size;
   unit.plane = n * scale;
-  unit.plane.w = dot(unit.plane, y);
-  unit.doubt = (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot(a, a) * dot(b, b)) * scale);
+  unit.plane.w = dot3(unit.plane, y);
+  unit.doubt = (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
   return unit;
 }
 
@@ -139,12 +139,12 @@ static inline void note_gone_facet(vertices_t* p, certain_plane_t facet, int bor
    dependent a point off by its error along their common line still bounds the right measure. */
 static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane_t a, certain_plane_t b,
                                   certain_plane_t c) {
-  const real4 bc = cross(b.plane, c.plane), ca = cross(c.plane, a.plane), ab = cross(a.plane, b.plane);
-  const real d = dot(a.plane, bc); /* bc.w is 0 */
+  const real4 bc = cross3(b.plane, c.plane), ca = cross3(c.plane, a.plane), ab = cross3(a.plane, b.plane);
+  const real d = dot3(a.plane, bc);
   if (!(d > 256 * REAL_EPSILON)) return make_real4(0, 0, 0, -1);
   const real scale = 1 / d;
   const real sum = fabs(a.plane.w) + fabs(b.plane.w) + fabs(c.plane.w);
-  const real ra = a.plane.w - dot(a.plane, from), rb = b.plane.w - dot(b.plane, from), rc = c.plane.w - dot(c.plane, from);
+  const real ra = a.plane.w - dot3(a.plane, from), rb = b.plane.w - dot3(b.plane, from), rc = c.plane.w - dot3(c.plane, from);
   real4 y = from + (bc * ra + ca * rb + ab * rc) * scale;
   y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + 3 * p->radius));
   return y;

@@ -52,14 +52,14 @@ static inline certain_plane_t ground_plane(const cell_t* cell) {
   }
   const real4 y = region_corner(&cell->at, 0);
   const real4 a = region_corner(&cell->at, 1) - y, b = region_corner(&cell->at, 2) - y;
-  return facet_plane(&cell->at, y, a, b, cross(a, b));
+  return facet_plane(&cell->at, y, a, b, cross3(a, b));
 }
 
 /* The line of facet `slot` of the region, as a plane of unit normal across the ground. */
 static inline certain_plane_t facet_line(const cell_t* cell, int slot, real4 ground) {
   const real4 y = region_corner(&cell->at, slot);
   const real4 along = region_corner(&cell->at, slot + 1 == cell->corners ? 0 : slot + 1) - y;
-  return facet_plane(&cell->at, y, along, ground, cross(along, ground));
+  return facet_plane(&cell->at, y, along, ground, cross3(along, ground));
 }
 
 /* The line of an edge. */

@@ -49,7 +49,7 @@ static inline certain_plane_t region_plane(const cell_t* cell, int f) {
   const real4 y = region_corner(&cell->at, v);
   const real4 a = region_corner(&cell->at, cell->shape->next[k][v]) - y;
   const real4 b = region_corner(&cell->at, cell->shape->next[k == 2 ? 0 : k + 1][v]) - y;
-  return facet_plane(&cell->at, y, a, b, cross(a, b));
+  return facet_plane(&cell->at, y, a, b, cross3(a, b));
 }
 
 /* The plane of face f, with unit normal. */
@@ -286,8 +286,8 @@ static inline real4 face_height(const cell_t* cell, int f, real4 top) {
   real4 n = cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]).plane : cell->normal[f];
   n.w = 0;
   n = n * (1 / fmax(fmax(fabs(n.x), fabs(n.y)), fmax(fabs(n.z), REAL_LEAST))); /* seeds may be next to nothing apart */
-  n = n * (1 / sqrt(dot(n, n)));
-  n.w = dot(n, cell->point[cell->mark[f]] - top); /* n.w is still 0 there */
+  n = n * (1 / sqrt(dot3(n, n)));
+  n.w = dot3(n, cell->point[cell->mark[f]] - top);
   return n;
 }
 
@@ -298,7 +298,7 @@ static inline real4 face_height(const cell_t* cell, int f, real4 top) {
 static inline real tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, real4 height, real* volume, real4* sums,
                                        real4* squares) {
   const real4 sum = (top + a) + (v + w);
-  const real area = dot(cross(v - a, w - a), height), part = area * height.w; /* w of the product is 0 */
+  const real area = dot3(cross3(v - a, w - a), height), part = area * height.w;
   const real4 weighted = sum * part;
   *volume += part;
   *sums = *sums + weighted;

@@ -77,6 +77,9 @@ inline real lane_most(const real8& a) {
 inline real lane_least(const real8& a) {
   return over_lanes(a, [](pair_of_reals x, pair_of_reals y) { return y < x ? y : x; });
 }
+inline real lane_sum(const real8& a) {
+  return over_lanes(a, [](pair_of_reals x, pair_of_reals y) { return x + y; });
+}
 inline uint lane_bits(const mask8& yes) {
   const pair_of_masks first = {1, 2};
   const pair_of_masks bits = (yes.part[0] & first) | (yes.part[1] & (first << 2)) |
@@ -141,11 +144,4 @@ inline real4 operator*(const real4& a, const real4& b) {
 }
 inline real4 operator*(const real4& a, real b) {
   return {a.x * b, a.y * b, a.z * b, a.w * b};
-}
-/* As in OpenCL: the last component is 0. */
-inline real4 cross(const real4& a, const real4& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x, 0};
-}
-inline real dot(const real4& a, const real4& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
