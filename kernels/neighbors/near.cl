@@ -73,10 +73,8 @@ static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const 
     real8 a[DIMENSION], b[DIMENSION], dw, sum = ZERO8;
     node_lanes(blocks, block_of_children(tree, node, level), o, a, b, &dw);
     UNROLL for (int k = 0; k < DIMENSION; ++k) sum = sum + (b[k] - a[k]);
-    real extent = 0, lane[LANES];
-    const int present = (int)(children_end(tree, node, level - 1) - node * TREE_FAN);
-    store8(sum, lane);
-    for (int k = 0; k < present; ++k) extent += lane[k];
+    const uint present = children_end(tree, node, level - 1) - node * TREE_FAN;
+    const real extent = lane_sum(choose8(ZERO8, sum, lanes_of((1u << present) - 1)));
     if (extent > 0) return extent / (real)(present * DIMENSION);
   }
   return 0;
