@@ -93,7 +93,8 @@ TEST_CASE("opening a device fails at every call") {
 }
 
 TEST_CASE("a program that does not build: every one of a run") {
-  const Environment compiled("POWERCELL_CACHE", "never");  // one from the disk that does not build is compiled
+  const Environment compiled("POWERCELL_CACHE",
+                             "never");  // one from the disk that does not build is compiled
   const SmallCase cube = small_cases()[3];
   const JobKind job = device_job(main_setups().front(), cube.domain, cube.seeds);
   report(job, CL_BUILD_PROGRAM_FAILURE,
@@ -113,8 +114,8 @@ TEST_CASE("campaign: the device is lost at every call" * doctest::skip()) {
       report(job, CL_OUT_OF_RESOURCES, lose_device_everywhere(job, CL_OUT_OF_RESOURCES));
 }
 
-// Each fault opens a device and compiles all programs, seconds. Of launches and buffers, which the first case fails one
-// and all, the device's self-test and the first diagrams are some hundreds more; they are left out.
+// Each fault opens a device and compiles all programs, seconds. Of launches and buffers, which the first case
+// fails one and all, the device's self-test and the first diagrams are some hundreds more; they are left out.
 TEST_CASE("campaign: every call fails that opens the device and builds its programs" * doctest::skip()) {
   const Environment compiled("POWERCELL_CACHE", "never");
   const SmallCase polygon = small_cases().front();  // of all kinds of domain it needs the most programs
