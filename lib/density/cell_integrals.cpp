@@ -92,32 +92,24 @@ Adjacency both_sides(const Rows& rows, const std::vector<double>& value) {
 
 }  // namespace
 
-std::vector<Moments> cell_moments(const Cells& cells, std::span<const double> seeds,
-                                  const MakeIntegrator& make, int threads) {
+std::vector<Moments> cell_moments(const Cells& cells, const Box& box, const MakeIntegrator& make,
+                                  int threads) {
   std::vector<Moments> moments(cells.cell_count());
-  const auto d = static_cast<std::size_t>(cells.dimension);
   for_cells(moments.size(), make, threads, [&](PieceIntegrator& integrator, std::size_t i) {
-    Point seed{};
-    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
-      const Piece piece(cells, p);
-      if (seeds.empty()) {
-        seed = piece.vertex(0);
-      } else {
-        for (std::size_t k = 0; k < d; ++k) seed[k] = seeds[i * d + k];
-      }
-      integrator.add(piece, seed, moments[i]);
-    }
+    const std::uint64_t first = cells.cell_offset[i], end = cells.cell_offset[i + 1];
+    if (first < end) moments[i].origin = Piece(cells, box, first).vertex(0);
+    for (std::uint64_t p = first; p < end; ++p) integrator.add(Piece(cells, box, p), moments[i]);
   });
   return moments;
 }
 
-Adjacency wall_integrals(const Cells& cells, std::span<const SeedStatus> status, const MakeIntegrator& make,
-                         int threads) {
+Adjacency wall_integrals(const Cells& cells, const Box& box, std::span<const SeedStatus> status,
+                         const MakeIntegrator& make, int threads) {
   const Rows rows(cells, status);
   std::vector<double> value(rows.neighbor().size(), 0.0);
   for_cells(cells.cell_count(), make, threads, [&](PieceIntegrator& integrator, std::size_t i) {
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
-      const Piece piece(cells, p);
+      const Piece piece(cells, box, p);
       for (std::uint64_t f = piece.first_face(); f < piece.end_face(); ++f) {
         const Border& border = piece.border(f);
         if (border.kind != Border::Kind::wall) continue;

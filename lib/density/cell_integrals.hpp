@@ -13,14 +13,14 @@ namespace powercell {
 
 using MakeIntegrator = std::function<std::unique_ptr<PieceIntegrator>()>;
 
-/// The moments of every cell about its seed; each cell is summed by one thread, in the order of its pieces.
-/// \param seeds  n x d; empty: each cell's first vertex
-std::vector<Moments> cell_moments(const Cells& cells, std::span<const double> seeds,
-                                  const MakeIntegrator& make, int threads);
+/// The moments of every cell about its first vertex: its seed may be so far away that nothing is left of the
+/// cell beside the distance. Each cell is summed by one thread, in the order of its pieces.
+std::vector<Moments> cell_moments(const Cells& cells, const Box& box, const MakeIntegrator& make,
+                                  int threads);
 
 /// The integrals over the walls between cells that have a status of ok, each from the side of the lower
 /// index, or from the other where only that has it.
-Adjacency wall_integrals(const Cells& cells, std::span<const SeedStatus> status, const MakeIntegrator& make,
-                         int threads);
+Adjacency wall_integrals(const Cells& cells, const Box& box, std::span<const SeedStatus> status,
+                         const MakeIntegrator& make, int threads);
 
 }  // namespace powercell

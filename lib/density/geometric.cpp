@@ -31,24 +31,28 @@ double mass_of(std::span<const Moments> moments) {
   return sum.value();
 }
 
+/// The second moment about x: that about the centroid, and what the way from there adds. Of cells without
+/// mass no centroid is known.
+double second_about(const Point& x, const Moments& m) {
+  if (!(m.mass > 0)) return std::max(m.second, 0.0);
+  const Point centroid{m.first[0] / m.mass, m.first[1] / m.mass, m.first[2] / m.mass};
+  const Point way = minus(minus(x, m.origin), centroid);
+  return std::max(m.second - m.mass * dot(centroid, centroid), 0.0) + m.mass * dot(way, way);
+}
+
 /// Edges as long, beside the width of where the density is, as longest_edge() has them beside the domain's:
 /// the root mean square of the way from the middle is 1/√6 of the width of a square, 1/2 of that of a cube.
-/// \param moments  of the regions, about their first vertices
-Grain grain_of(const Domain& domain, const Cells& regions, std::span<const Moments> moments) {
+/// \param moments  of the regions
+Grain grain_of(const Domain& domain, std::span<const Moments> moments) {
   Grain grain{longest_edge(domain), longest_edge(domain)};
   const double mass = mass_of(moments);
   if (!(mass > 0) || !std::isfinite(mass)) return grain;
-  const auto about = [&](std::size_t r) { return Piece(regions, r).vertex(0); };
-  for (std::size_t r = 0; r < moments.size(); ++r)
-    for (std::size_t k = 0; k < 3; ++k)
-      grain.center[k] += (moments[r].first[k] + moments[r].mass * about(r)[k]) / mass;
+  for (const Moments& m : moments)
+    for (std::size_t k = 0; k < 3; ++k) grain.center[k] += (m.first[k] + m.mass * m.origin[k]) / mass;
   double square = 0;
-  for (std::size_t r = 0; r < moments.size(); ++r) {
-    const Point way = minus(grain.center, about(r));
-    square += (moments[r].second - 2 * dot(moments[r].first, way) + moments[r].mass * dot(way, way)) / mass;
-  }
+  for (const Moments& m : moments) square += second_about(grain.center, m) / mass;
   constexpr double reach = 3;  // times that: beyond lies a ninth at most, whatever the density
-  const double spread = std::sqrt(std::max(square, 0.0));
+  const double spread = std::sqrt(square);
   const double dense = spread * (domain.cell_dimension() == 3 ? 0.5 : 0.15);
   if (!(dense < grain.dense) || !(dense > 0)) return grain;
   grain.dense = dense;
@@ -68,7 +72,7 @@ GeometricDensity::Known GeometricDensity::known(const Domain& domain, int thread
   constexpr int more_depth = 10;
   const auto moments = [&](double tolerance, double negligible, const Grain& grain, bool jumps) {
     const auto make = [&] { return integrator(domain, {tolerance, negligible, grain, more_depth, jumps}); };
-    return cell_moments(regions, {}, make, threads);
+    return cell_moments(regions, Box(domain), make, threads);
   };
   // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies
   // and whether it jumps; small jumps are seen with the others' tolerance.
@@ -77,7 +81,7 @@ GeometricDensity::Known GeometricDensity::known(const Domain& domain, int thread
   std::vector<Moments> found =
       moments(0, std::numeric_limits<double>::infinity(), {longest_edge(domain)}, false);
   const double negligible = negligible_share * std::abs(mass_of(found)) / domain.measure();
-  const Grain grain = grain_of(domain, regions, found);
+  const Grain grain = grain_of(domain, found);
   const bool jumps = jump_in(moments(rough, negligible, grain, false));
   found = moments(0, negligible, grain, jumps);
   if (!jumps && jump_in(found)) found = moments(0, negligible, grain, true);
@@ -86,7 +90,7 @@ GeometricDensity::Known GeometricDensity::known(const Domain& domain, int thread
     throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total) +
                                                  " over the domain; it must be positive somewhere");
   const std::lock_guard lock(mutex_);
-  last_known_.emplace(Known{domain, total, grain_of(domain, regions, found), jump_in(found)});
+  last_known_.emplace(Known{domain, total, grain_of(domain, found), jump_in(found)});
   return *last_known_;
 }
 
@@ -98,7 +102,7 @@ std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& 
                                              const Accuracy& accuracy, int threads) const {
   std::vector<double> result;
   for (const Moments& m : cell_moments(
-           cells, {}, [&] { return integrator(domain, accuracy); }, threads))
+           cells, Box(domain), [&] { return integrator(domain, accuracy); }, threads))
     result.push_back(m.mass);
   return result;
 }
@@ -112,7 +116,7 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
   };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
-  const std::vector<Moments> moments = cell_moments(cells, seeds, make, options.threads);
+  const std::vector<Moments> moments = cell_moments(cells, Box(domain), make, options.threads);
 
   DensityIntegrals result;
   const auto d = static_cast<std::size_t>(cells.dimension);
@@ -121,18 +125,20 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
   result.centroid.reserve(moments.size() * d);
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const Moments& m = moments[i];
-    // Rounding turns slivers of cells inside out where their seeds are very far away.
+    // Rounding turns slivers of cells inside out.
     const double below = std::max(0.0, -m.mass), error = m.error + below;
     result.mass.push_back(m.mass + below);
-    result.second_moment.push_back(std::max(m.second, 0.0));
+    Point seed{};
+    std::copy_n(&seeds[i * d], d, seed.begin());
+    result.second_moment.push_back(second_about(seed, m));
     for (std::size_t k = 0; k < d; ++k)
-      result.centroid.push_back(m.mass > 0 ? seeds[i * d + k] + m.first[k] / m.mass
+      result.centroid.push_back(m.mass > 0 ? m.origin[k] + m.first[k] / m.mass
                                            : std::numeric_limits<double>::quiet_NaN());
     result.mass_error.push_back(error);
     result.quadrature_error = std::max(result.quadrature_error, error);
   }
   if (options.walls && (!options.walls_if || options.walls_if(result.mass)))
-    result.walls = wall_integrals(cells, result.status, make, options.threads);
+    result.walls = wall_integrals(cells, Box(domain), result.status, make, options.threads);
   return result;
 }
 

@@ -15,8 +15,8 @@ namespace powercell {
 /// Integrates over pieces; one for each thread.
 struct PieceIntegrator {
   virtual ~PieceIntegrator() = default;
-  /// Adds the integrals over a piece, about `seed`.
-  virtual void add(const Piece& piece, const Point& seed, Moments& moments) = 0;
+  /// Adds the integrals over a piece, about the origin of `moments`.
+  virtual void add(const Piece& piece, Moments& moments) = 0;
   /// The integral of the density over a face of a piece.
   virtual double over_face(const Piece& piece, std::uint64_t face) = 0;
 };

@@ -82,13 +82,13 @@ std::ptrdiff_t pixel_of(double a, double b) {
 
 /// Green's theorem: with R(u, v) the integral of the density along the row up to u, the mass is the integral
 /// of R dv around the piece, and the moments likewise (mathematics, (33)). R is taken from the column of the
-/// seed, which changes nothing around a closed curve and keeps the terms small.
+/// origin, which changes nothing around a closed curve and keeps the terms small.
 class ImageIntegrator : public PieceIntegrator {
  public:
   explicit ImageIntegrator(const Pixels& pixels) : pixels_(pixels) {}
 
-  void add(const Piece& piece, const Point& seed, Moments& moments) override {
-    seed_ = pixels_.pixels(seed[0], seed[1]);
+  void add(const Piece& piece, Moments& moments) override {
+    origin_ = pixels_.pixels(moments.origin[0], moments.origin[1]);
     sum_ = {};
     Place from = place(piece, piece.vertex_count() - 1);
     for (std::uint64_t k = 0; k < piece.vertex_count(); ++k) {
@@ -133,14 +133,14 @@ class ImageIntegrator : public PieceIntegrator {
     const double dv = b[1] - a[1];
     if (dv == 0) return;
     const std::ptrdiff_t row = pixel_of(a[1], b[1]), column = pixel_of(a[0], b[0]);
-    const double seed_u = std::clamp(seed_[0], 0.0, pixels_.width());
-    const Pixels::Sums base = pixels_.sums(row, static_cast<std::ptrdiff_t>(seed_u), seed_u);
+    const double origin_u = std::clamp(origin_[0], 0.0, pixels_.width());
+    const Pixels::Sums base = pixels_.sums(row, static_cast<std::ptrdiff_t>(origin_u), origin_u);
     constexpr double gauss = 0.21132486540518711775;  // (1 - 1/sqrt 3) / 2
     for (const double t : {gauss, 1 - gauss}) {
-      const double u = a[0] + t * (b[0] - a[0]), v = a[1] + t * dv - seed_[1];
+      const double u = a[0] + t * (b[0] - a[0]), v = a[1] + t * dv - origin_[1];
       const Pixels::Sums at = pixels_.sums(row, column, u);
       const double zeroth = at.zeroth - base.zeroth, first = at.first - base.first;
-      const double second = at.second - base.second, s = seed_[0], weight = dv / 2;
+      const double second = at.second - base.second, s = origin_[0], weight = dv / 2;
       sum_.mass += weight * zeroth;
       sum_.largest = std::max(sum_.largest, std::abs(weight * zeroth));
       sum_.u += weight * (first - s * zeroth);
@@ -151,7 +151,7 @@ class ImageIntegrator : public PieceIntegrator {
   }
 
   const Pixels& pixels_;
-  Place seed_{};
+  Place origin_{};
   Sum sum_;
 };
 

@@ -53,8 +53,10 @@ std::array<Part, 2> halves(const Part& part) {
 }
 
 /// The regions of a domain: polygons fanned from their first corner, solids from their middle.
-std::vector<Part> simplices_of(const RegionMesh& mesh) {
+std::vector<Part> simplices_of(const Domain& domain) {
+  const RegionMesh& mesh = domain.mesh();
   const Cells cells = region_cells(mesh);
+  const Box box(domain);
   std::vector<Part> parts;
   const auto add = [&](std::uint32_t region, std::size_t corners, const std::array<Point, 4>& corner) {
     Part part{region, corners, corner};
@@ -66,7 +68,7 @@ std::vector<Part> simplices_of(const RegionMesh& mesh) {
     if (part.measure > 0) parts.push_back(part);
   };
   for (std::size_t r = 0; r < mesh.region_count(); ++r) {
-    const Piece piece(cells, r);
+    const Piece piece(cells, box, r);
     const std::uint64_t count = piece.vertex_count();
     for (std::uint64_t k = 2; k < count && !piece.solid(); ++k)
       add(piece.region(), 3, {piece.vertex(0), piece.vertex(k - 1), piece.vertex(k)});
@@ -110,7 +112,7 @@ class Division {
       : domain_(domain),
         density_(static_cast<const GeometricDensity&>(density)),
         source_(density.source(domain)),
-        parts_(simplices_of(domain.mesh())) {
+        parts_(simplices_of(domain)) {
     divide([size = domain.measure() / parts_at_first](const Part& part) { return part.measure > size; });
   }
 

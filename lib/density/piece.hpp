@@ -2,6 +2,7 @@
 /// A convex piece of a cell as integration sees it. Internal.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <powercell/results.hpp>
 
@@ -19,19 +20,28 @@ inline double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Integrals over one cell, about its seed.
+/// Integrals over one cell, about a point of it.
 struct Moments {
+  Point origin{};
   double mass = 0, second = 0;
   Point first{};
   double error = 0;   ///< estimate of what adaptive rules left in the mass
   bool jump = false;  ///< the density has a jump there, as far as was seen
 };
 
-/// View of piece `index` of some cells.
+/// The box around a domain; in 2D the third coordinates are 0.
+struct Box {
+  Point low{}, high{};
+  explicit Box(const Domain& domain) : low(domain.low()), high(domain.high()) {}
+};
+
+/// View of piece `index` of some cells, whose vertices lie in the box: rounding of the distance to a seed
+/// that is very far away would put them anywhere, and what is larger than the domain takes long to integrate.
 class Piece {
  public:
-  Piece(const Cells& cells, std::uint64_t index)
+  Piece(const Cells& cells, const Box& box, std::uint64_t index)
       : cells_(cells),
+        box_(box),
         first_(cells.vertex_offset[index]),
         end_(cells.vertex_offset[index + 1]),
         first_face_(cells.face_offset[index]),
@@ -48,7 +58,7 @@ class Piece {
   Point vertex(std::uint64_t k) const {
     const auto d = static_cast<std::uint64_t>(cells_.dimension);
     const double* x = &cells_.vertices[(first_ + k) * d];
-    return {x[0], x[1], d == 3 ? x[2] : 0.0};
+    return {within(x[0], 0), within(x[1], 1), d == 3 ? within(x[2], 2) : 0.0};
   }
   /// Corners of a face: two in order for an edge, a polygon for a solid.
   std::uint64_t corner_count(std::uint64_t face) const {
@@ -61,7 +71,10 @@ class Piece {
   }
 
  private:
+  double within(double x, std::size_t axis) const { return std::clamp(x, box_.low[axis], box_.high[axis]); }
+
   const Cells& cells_;
+  const Box& box_;
   std::uint64_t first_, end_, first_face_, end_face_;
   std::uint32_t region_;
 };

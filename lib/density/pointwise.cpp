@@ -35,13 +35,13 @@ class SimplexIntegrator : public PieceIntegrator {
         grain_(accuracy.grain),
         more_depth_(accuracy.more_depth + deeper(accuracy.grain)) {}
 
-  void add(const Piece& piece, const Point& seed, Moments& moments) override {
-    begin(piece, seed);
+  void add(const Piece& piece, Moments& moments) override {
+    begin(piece, moments.origin);
     tolerance_ = cell_tolerance_;
     depth_ = (piece.solid() ? 12 : 20) + more_depth_;
     const auto count = static_cast<std::size_t>(piece.vertex_count());
     places_.resize(count);
-    for (std::size_t v = 0; v < count; ++v) places_[v] = minus(piece.vertex(v), seed);
+    for (std::size_t v = 0; v < count; ++v) places_[v] = minus(piece.vertex(v), origin_);
     if (piece.solid()) places_.push_back(middle_of(places_));
     set_corners();
     if (piece.solid())
@@ -56,7 +56,7 @@ class SimplexIntegrator : public PieceIntegrator {
     depth_ = piece.solid() ? 10 : 8;
     const auto count = static_cast<std::size_t>(piece.corner_count(face));
     places_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) places_[k] = minus(piece.vertex(piece.corner(face, k)), seed_);
+    for (std::size_t k = 0; k < count; ++k) places_[k] = minus(piece.vertex(piece.corner(face, k)), origin_);
     set_corners();
     Moments moments;
     if (piece.solid())
@@ -67,8 +67,8 @@ class SimplexIntegrator : public PieceIntegrator {
   }
 
  private:
-  void begin(const Piece& piece, const Point& seed) {
-    seed_ = seed;
+  void begin(const Piece& piece, const Point& origin) {
+    origin_ = origin;
     region_ = piece.region();
   }
 
@@ -103,7 +103,7 @@ class SimplexIntegrator : public PieceIntegrator {
   void evaluate(std::span<const Point> places, std::span<double> values) {
     at_.resize(places.size());
     for (std::size_t q = 0; q < places.size(); ++q)
-      for (std::size_t k = 0; k < 3; ++k) at_[q][k] = seed_[k] + places[q][k];
+      for (std::size_t k = 0; k < 3; ++k) at_[q][k] = origin_[k] + places[q][k];
     source_->evaluate(at_, region_, values);
   }
 
@@ -269,7 +269,7 @@ class SimplexIntegrator : public PieceIntegrator {
     if (square > grain_.anywhere * grain_.anywhere) return false;
     if (!(square > grain_.dense * grain_.dense)) return true;
     Point way = minus(simplex[0].at, grain_.center);
-    for (std::size_t k = 0; k < 3; ++k) way[k] += seed_[k];
+    for (std::size_t k = 0; k < 3; ++k) way[k] += origin_[k];
     return std::sqrt(dot(way, way)) > grain_.radius + std::sqrt(square);
   }
 
@@ -308,7 +308,8 @@ class SimplexIntegrator : public PieceIntegrator {
   Sums<N> sum_points(const Local<N>& local, const SimplexRules& rules, std::size_t s,
                      std::span<double, SimplexRules::most_points> values) {
     const std::size_t begin = s == 0 ? 0 : rules.size[s - 1], count = rules.size[s] - begin;
-    const Point middle{seed_[0] + local.middle[0], seed_[1] + local.middle[1], seed_[2] + local.middle[2]};
+    const Point middle{origin_[0] + local.middle[0], origin_[1] + local.middle[1],
+                       origin_[2] + local.middle[2]};
     std::array<Point, SimplexRules::most_points> place, at;
     for (std::size_t q = 0; q < count; ++q) {
       const Point y = local.place(rules.point[begin + q]);
@@ -348,10 +349,10 @@ class SimplexIntegrator : public PieceIntegrator {
   int part_depth_ = 0;  // of the part that is integrated
   int spare_ = 0;       // simplices that may still be halved beyond the last depth
   double tolerance_ = 0, floor_ = 0, density_around_ = 0;
-  Point seed_{};
+  Point origin_{};
   std::uint32_t region_ = 0;
   int depth_ = 0;
-  std::vector<Point> places_, at_;  // about the seed, and where that is
+  std::vector<Point> places_, at_;  // about the origin, and where that is
   std::vector<double> values_;
   std::vector<Corner> corners_;
   JumpCut cut_;

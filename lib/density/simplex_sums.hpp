@@ -12,7 +12,7 @@
 
 namespace powercell {
 
-/// A place about the seed, with the density there.
+/// A place about the origin of an integral, with the density there.
 struct Corner {
   Point at{};
   double value = 0;
