@@ -1,7 +1,7 @@
 // Integrals over cells whose seeds are so far away that little is left of the domain beside the distance.
 #include <doctest/doctest.h>
 
-#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <powercell/shapes.hpp>

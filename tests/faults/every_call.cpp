@@ -93,8 +93,8 @@ TEST_CASE("opening a device fails at every call") {
 }
 
 TEST_CASE("a program that does not build: every one of a run") {
-  const Environment compiled("POWERCELL_CACHE",
-                             "never");  // one from the disk that does not build is compiled
+  // A program from the disk that does not build would be compiled instead.
+  const Environment compiled("POWERCELL_CACHE", "never");
   const SmallCase cube = small_cases()[3];
   const JobKind job = device_job(main_setups().front(), cube.domain, cube.seeds);
   report(job, CL_BUILD_PROGRAM_FAILURE,
