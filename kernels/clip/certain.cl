@@ -150,6 +150,19 @@ static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane
   return y;
 }
 
+/* Puts vertex v at y with the error y.w, which side[v] keeps; returns at least the distance of where it was from the
+   true one. */
+static inline real move_vertex(vertices_t* p, int v, real4 y) {
+  const real x[3] = {y.x, y.y, y.z};
+  real moved = y.w;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    moved += fabs(x[k] - p->x[k][v]);
+    p->x[k][v] = x[k];
+  }
+  p->side[v] = y.w;
+  return moved;
+}
+
 /* Whether vertex y with its error is inside the plane. */
 static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_plane_t plane) {
   const real s = plane.plane.x * y.x + plane.plane.y * y.y + plane.plane.z * y.z - plane.plane.w;

@@ -12,7 +12,7 @@ typedef struct {
   STORAGE(index_t, next, VERTEX_CAPACITY);
   STORAGE(index_t, previous, VERTEX_CAPACITY);
   STORAGE(int, border, VERTEX_CAPACITY);
-  STORAGE(real4, line, VERTEX_CAPACITY); /* (q, level) of the bisector of an edge; of unit normal in cell_certain */
+  STORAGE(real4, line, VERTEX_CAPACITY); /* (q, level) of the bisector of an edge; see cell_certain */
   STORAGE(real, doubt, VERTEX_CAPACITY); /* for cell_certain */
   int gone[GONE_MOST];                   /* what was behind edges that are no more */
   int gone_count;
@@ -145,30 +145,42 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
   return cell->at.side[f] >= -tolerance && cell->at.side[cell->next[f]] >= -tolerance;
 }
 
-/* Puts vertex v where its lines meet on the ground; returns how far it was at most from the true place, or below 0 if
-   the lines are nearly dependent. side[v] = error of the new place. */
-static inline real place_vertex(cell_t* cell, int v, certain_plane_t ground) {
+/* Where the lines of vertex v meet on the ground, and at least the error of that in w; below 0 if the lines are nearly
+   dependent. */
+static inline real4 certain_place(const cell_t* cell, int v, certain_plane_t ground) {
   const int u = cell->previous[v];
-  if ((cell->border[u] & cell->border[v]) < 0) { /* a corner of the region */
-    cell->at.side[v] = corner_error(&cell->at);
-    return cell->at.side[v];
-  }
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
-  const real4 y = meeting_point(&cell->at, vertex_point(&cell->at, v), ground, in, out);
-  const real x[3] = {y.x, y.y, y.z};
-  real moved = y.w;
-  if (y.w < 0) return -1;
-  UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    moved += fabs(x[k] - cell->at.x[k][v]);
-    cell->at.x[k][v] = x[k];
-  }
-  cell->at.side[v] = y.w;
-  return moved;
+  real4 y = vertex_point(&cell->at, v);
+  if ((cell->border[u] & cell->border[v]) >= 0) return meeting_point(&cell->at, y, ground, in, out);
+  y.w = corner_error(&cell->at); /* a corner of the region */
+  return y;
+}
+
+/* Whether each edge goes inwards from the line before it: then the lines bound the intersection of their half-planes, and no
+   other polygon. If so, line[v] is the place of vertex v afterwards, with its error in w: a line has served when the
+   second vertex after it is placed. */
+static inline bool find_places(cell_t* cell, certain_plane_t ground) {
+  real4 last = make_real4(0, 0, 0, 0), before_last = last;
+  int v = cell->first, placed = 0;
+  do {
+    const int before = cell->previous[cell->previous[v]];
+    const certain_plane_t line = {cell->line[before], cell->doubt[before]};
+    const real4 y = certain_place(cell, v, ground);
+    if (y.w < 0 || !is_inside(&cell->at, y, y.w, line)) return false;
+    if (++placed > 2) cell->line[before] = before_last;
+    before_last = last;
+    last = y;
+    v = cell->next[v];
+  } while (v != cell->first);
+  v = cell->previous[v];
+  cell->line[v] = last;
+  cell->line[cell->previous[v]] = before_last;
+  return true;
 }
 
 /* Proves the shape of the cell from its edges alone, whatever rounding did on the way to it; the vertices are
    better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below 0 if
-   the shape is not certain. */
+   the shape is not certain: then the vertices are as they were. */
 static inline real cell_certain(cell_t* cell) {
   real worst = 0;
   find_radius2(&cell->at);
@@ -180,17 +192,10 @@ static inline real cell_certain(cell_t* cell) {
     cell->doubt[v] = line.doubt;
     v = cell->next[v];
   } while (v != cell->first);
+  if (!find_places(cell, ground)) return -1;
   do {
-    const real moved = place_vertex(cell, v, ground);
-    if (moved < 0) return -1;
-    worst = fmax(worst, moved);
+    worst = fmax(worst, move_vertex(&cell->at, v, cell->line[v]));
     v = cell->next[v];
-  } while (v != cell->first);
-  do { /* each edge goes inwards from the line before it */
-    const int u = cell->previous[v], w = cell->next[v];
-    const certain_plane_t before = {cell->line[u], cell->doubt[u]};
-    if (!is_inside(&cell->at, vertex_point(&cell->at, w), cell->at.side[w], before)) return -1;
-    v = w;
   } while (v != cell->first);
   return worst;
 }

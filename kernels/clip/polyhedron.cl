@@ -11,7 +11,7 @@ typedef struct {
   STORAGE_ROWS(index_t, face, 3, VERTEX_CAPACITY);
   STORAGE(int, border, FACE_CAPACITY);
   STORAGE(index_t, mark, FACE_CAPACITY); /* NO_VERTEX between cuts */
-  STORAGE(real4, point, VERTEX_CAPACITY); /* for the moments */
+  STORAGE(real4, point, VERTEX_CAPACITY); /* for cell_certain, then for the moments */
   STORAGE(real4, normal, FACE_CAPACITY); /* of the bisectors (q, level) until cell_moments, then of the faces */
   STORAGE(real, doubt, FACE_CAPACITY);   /* for cell_certain */
   __global const region_shape_t* shape; /* of the region */
@@ -202,37 +202,29 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
   return used;
 }
 
-/* Puts each vertex where its three planes meet; returns at least the distance between what the vertices were when
-   cuts were decided and the true ones, or below 0 if that is not certain: some planes are nearly dependent. side[v] =
-   error of vertex v. */
-static inline real place_vertices(cell_t* cell) {
-  real worst = 0;
+/* point[v] = where the three planes of vertex v meet, and at least the error of that in w. False if some planes are
+   nearly dependent. */
+static inline bool find_places(cell_t* cell) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       const int a = cell->face[0][v], b = cell->face[1][v], c = cell->face[2][v];
+      real4 y = vertex_point(&cell->at, v);
       if ((cell->border[a] & cell->border[b] & cell->border[c]) < 0) { /* a corner of the region */
-        cell->at.side[v] = corner_error(&cell->at);
-        worst = fmax(worst, cell->at.side[v]);
-        continue;
+        y.w = corner_error(&cell->at);
+      } else {
+        const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
+                              pc = {cell->normal[c], cell->doubt[c]};
+        y = meeting_point(&cell->at, y, pa, pb, pc);
+        if (y.w < 0) return false;
       }
-      const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
-                            pc = {cell->normal[c], cell->doubt[c]};
-      const real4 y = meeting_point(&cell->at, vertex_point(&cell->at, v), pa, pb, pc);
-      if (y.w < 0) return -1;
-      const real moved = fabs(y.x - cell->at.x[0][v]) + fabs(y.y - cell->at.x[1][v]) +
-                         fabs(y.z - cell->at.x[DIMENSION - 1][v]);
-      cell->at.x[0][v] = y.x;
-      cell->at.x[1][v] = y.y;
-      cell->at.x[DIMENSION - 1][v] = y.z;
-      cell->at.side[v] = y.w;
-      worst = fmax(worst, moved + y.w);
+      cell->point[v] = y;
     }
-  return worst;
+  return true;
 }
 
 /* Whether each edge goes inwards from the face across its start: then the faces bound the intersection of their
-   half-spaces, and no other polyhedron. */
+   half-spaces, and no other polyhedron. Needs find_places. */
 static inline bool edges_are_certain(const cell_t* cell) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
@@ -241,7 +233,7 @@ static inline bool edges_are_certain(const cell_t* cell) {
         const int u = cell->next[k][v], f = cell->face[k == 2 ? 0 : k + 1][v];
         if (u < v) continue;
         const certain_plane_t plane = {cell->normal[f], cell->doubt[f]};
-        if (!is_inside(&cell->at, vertex_point(&cell->at, u), cell->at.side[u], plane)) return false;
+        if (!is_inside(&cell->at, cell->point[u], cell->point[u].w, plane)) return false;
       }
     }
   return true;
@@ -249,8 +241,9 @@ static inline bool edges_are_certain(const cell_t* cell) {
 
 /* Proves the shape of the cell from its faces alone, whatever rounding did on the way to it; the vertices are
    better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below 0 if
-   the shape is not certain. */
+   the shape is not certain: then the vertices are as they were. */
 static inline real cell_certain(cell_t* cell) {
+  real worst = 0;
   find_radius2(&cell->at);
   for (int f = 0; f < cell->faces; ++f) {
     const certain_plane_t unit = face_plane(cell, f);
@@ -258,8 +251,13 @@ static inline real cell_certain(cell_t* cell) {
     cell->normal[f] = unit.plane;
     cell->doubt[f] = unit.doubt;
   }
-  const real moved = place_vertices(cell);
-  return moved < 0 || edges_are_certain(cell) ? moved : -1;
+  if (!find_places(cell) || !edges_are_certain(cell)) return -1;
+  for (int w = 0; w < words_of(&cell->at); ++w)
+    for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
+      const int v = w * WORD_BITS + lowest_bit(bits);
+      worst = fmax(worst, move_vertex(&cell->at, v, cell->point[v]));
+    }
+  return worst;
 }
 
 /* Before the functions below and, with `note`, before cell_certain: mark[f] = the first vertex of each face, the apex
