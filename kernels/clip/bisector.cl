@@ -64,8 +64,10 @@ static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border)
   if (cut == CUT_WITHIN) return cell->at.self < (uint)border ? CUT_NONE : CUT_EMPTY;
   if (cut != CUT_TOUCH) return cut;
   for (int f = 0; f < cell_faces(cell); ++f)
-    if (cell_face_touches(cell, f, tolerance))
+    if (cell_face_touches(cell, f, tolerance)) {
       cell->border[f] = border_behind(cell, cell->border[f], q, q2 + dw, tolerance, border);
+      if (cell->border[f] == border) set_face_plane(cell, f, q, q2 + dw); /* that of a facet was not there */
+    }
   return CUT_NONE;
 }
 

@@ -68,6 +68,11 @@ static inline certain_plane_t edge_line(const cell_t* cell, int v, real4 ground)
                              : unit_plane(&cell->at, cell->line[v]);
 }
 
+/* What edge f lies in: 2 q.y = level. */
+static inline void set_face_plane(cell_t* cell, int f, const real* q, real level) {
+  cell->line[f] = make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, level);
+}
+
 /* Keeps what was behind the edges that have both ends outside the last cut; they are still linked. */
 static inline void forget_edges(cell_t* cell, int first, int last) {
   for (int v = first; v != last; v = cell->next[v]) {
@@ -122,7 +127,7 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   if (b < 0) return CUT_FULL;
   set_edge_point(&cell->at, b, after, last);
   cell->border[a] = border;
-  cell->line[a] = make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, level);
+  set_face_plane(cell, a, q, level);
   cell->border[b] = cell->border[last];
   cell->line[b] = cell->line[last];
   link_vertices(cell, before, a);

@@ -57,6 +57,11 @@ static inline certain_plane_t face_plane(const cell_t* cell, int f) {
   return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]) : unit_plane(&cell->at, cell->normal[f]);
 }
 
+/* What face f lies in: 2 q.y = level. */
+static inline void set_face_plane(cell_t* cell, int f, const real* q, real level) {
+  cell->normal[f] = make_real4(q[0], q[1], q[DIMENSION - 1], level);
+}
+
 /* Before the number of a face that no vertex has is given out again. */
 static inline void forget_face(cell_t* cell, int f) {
   const int border = cell->border[f];
@@ -177,7 +182,7 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   if (cell->faces == FACE_CAPACITY) return CUT_FULL;
   const int cut = cell->faces++;
   cell->border[cut] = border;
-  cell->normal[cut] = make_real4(q[0], q[1], q[DIMENSION - 1], level);
+  set_face_plane(cell, cut, q, level);
   const int result = cut_outside(cell, cut);
   if (result != CUT_SHRUNK) return result;
   drop_outside(&cell->at);
