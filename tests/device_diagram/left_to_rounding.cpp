@@ -1,4 +1,5 @@
-// Cells that nothing proves, where decisions are left to rounding: what the cuts have left of them stands, and measures as much.
+// Cells that nothing proves, where decisions are left to rounding: what the cuts have left of them stands,
+// and measures as much.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,8 +33,8 @@ Mesh octahedron(bool solid) {
   return mesh;
 }
 
-/// Some within `size` of the middle, several in one plane, and one near the corner above: its bisectors with those of a plane
-/// meet beside an edge.
+/// Some within `size` of the middle, several in one plane, and one near the corner above: its bisectors with
+/// those of a plane meet beside an edge.
 SeedArray seeds_in_the_middle(double size, Random& random) {
   SeedArray seeds;
   const std::size_t n = 3 + random.index(8);
@@ -92,9 +93,9 @@ void check_all(Caller& caller, const Domain& domain, Precision precision, Random
 
 }  // namespace
 
-// Bisectors that meet at angles of 1e-6 to 1e-12: of a few seeds in the middle of the domain with one at its border. Where
-// two of them meet is open by rounding over the angle, and so it may be whether that is within a region. The proof had moved
-// vertices there before it failed.
+// Bisectors that meet at angles of 1e-6 to 1e-12: of a few seeds in the middle of the domain with one at its
+// border. Where two of them meet is open by rounding over the angle, and so it may be whether that is within
+// a region. The proof had moved vertices there before it failed.
 TEST_CASE("bisectors all but parallel") {
   INFO(replay_hint());
   Caller caller;
@@ -106,8 +107,8 @@ TEST_CASE("bisectors all but parallel") {
   }
 }
 
-// The plane of a facet that becomes a wall by a bisector in it is the bisector's from then on: it had been read from memory that was
-// never written, and cells came out as a part of themselves.
+// The plane of a facet that becomes a wall by a bisector in it is the bisector's from then on: it had been
+// read from memory that was never written, and cells came out as a part of themselves.
 TEST_CASE("bisectors in facets") {
   Caller caller;
   Random random(1);
