@@ -153,6 +153,7 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
   launch_status_.resize(rows);
   memory_.status.download(std::span(launch_status_));
   const auto batch = static_cast<std::uint32_t>(memory_.pieces.used);
+  const std::size_t first_uncertain = outcome.uncertain.size();
   std::uint32_t worst = PIECE_WHOLE;
   for (std::size_t row = 0; row < rows; ++row) {
     memory_.pieces.status[active[row]] = launch_status_[row];
@@ -171,7 +172,12 @@ void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, in
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
   rows_of_launch.lent_border = nullptr;
   rows_of_launch.repeats = false;
-  if (wants_rows()) read_rows(capacity, rows_of_launch);
+  if (!wants_rows()) return;
+  read_rows(capacity, rows_of_launch);
+  if (options_.exact) return;  // rows of uncertain pieces give way to the host's
+  rows_of_launch.repeats = std::any_of(
+      outcome.uncertain.begin() + static_cast<std::ptrdiff_t>(first_uncertain), outcome.uncertain.end(),
+      [&](std::uint32_t pair) { return rows_of_launch.row_repeats(memory_.pieces.row[pair]); });
 }
 
 void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {

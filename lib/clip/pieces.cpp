@@ -1,6 +1,7 @@
 #include "lib/clip/pieces.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace powercell {
 
@@ -14,6 +15,14 @@ void PieceBatch::keep() {
   }
   lent_border = nullptr;
   lent_wall = nullptr;
+}
+
+bool PieceBatch::row_repeats(std::size_t row) const {
+  std::vector<std::int32_t> seed;
+  std::copy_if(borders(row), borders(row) + faces(row), std::back_inserter(seed),
+               [](std::int32_t behind) { return behind >= 0; });
+  std::sort(seed.begin(), seed.end());
+  return std::adjacent_find(seed.begin(), seed.end()) != seed.end();
 }
 
 }  // namespace powercell

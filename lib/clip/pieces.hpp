@@ -23,7 +23,9 @@ struct PieceBatch {
   const std::int32_t* lent_border = nullptr;  ///< if not null, borders are here, rows `room` entries apart
   const double* lent_wall = nullptr;
   std::size_t room = 0;
-  bool repeats = false;  ///< rows may have a seed more than once, as those that are made of several pieces
+  /// Rows may have a seed more than once: those made of several pieces, and those of cells left to rounding,
+  /// where a bisector may touch several faces.
+  bool repeats = false;
 
   /// No rows; the memory is kept.
   void clear() {
@@ -37,6 +39,8 @@ struct PieceBatch {
     lent_wall = nullptr;
     repeats = false;
   }
+  /// Whether row r has a seed more than once.
+  bool row_repeats(std::size_t row) const;
   /// Copies what is lent.
   void keep();
   const std::int32_t* borders(std::size_t row) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <powercell/diagram.hpp>
+#include <span>
 
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/domains.hpp"
@@ -92,6 +93,37 @@ void check_all(Caller& caller, const Domain& domain, Precision precision, Random
     }
 }
 
+/// Within `size` of the domain, all of one power distance to its middle: their bisectors pass through it.
+SeedArray seeds_about_a_point(double size, Random& random) {
+  SeedArray seeds;
+  for (int i = 0; i < 12; ++i) {
+    const double x = random.uniform(-size, size), y = random.uniform(-size, size),
+                 z = random.uniform(-size, size);
+    seeds.push({x, y, z}, (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) + (z - 0.5) * (z - 0.5));
+  }
+  return seeds;
+}
+
+/// Each neighbour is once in a row, in order, and has this cell with the same wall. Returns the number of
+/// walls.
+std::size_t check_rows(const Adjacency& found) {
+  const auto row = [&](std::size_t i) {
+    return std::span(found.neighbor).subspan(found.offset[i], found.offset[i + 1] - found.offset[i]);
+  };
+  std::size_t wrong = 0;
+  for (std::uint32_t i = 0; i + 1 < found.offset.size(); ++i)
+    for (std::size_t k = found.offset[i]; k < found.offset[i + 1]; ++k) {
+      const std::uint32_t j = found.neighbor[k];
+      const auto back = std::lower_bound(row(j).begin(), row(j).end(), i);
+      const bool twin = back != row(j).end() && *back == i;
+      wrong += k > found.offset[i] && j <= found.neighbor[k - 1];
+      wrong += !twin || !(found.wall[found.offset[j] + static_cast<std::size_t>(back - row(j).begin())] ==
+                          found.wall[k]);
+    }
+  CHECK(wrong == 0);
+  return found.neighbor.size();
+}
+
 }  // namespace
 
 // Bisectors that meet at angles of 1e-6 to 1e-12: of a few seeds in the middle of the domain with one at its
@@ -137,4 +169,32 @@ TEST_CASE("bisectors in facets") {
     CHECK(wrong == 0);
     CHECK(wrong_fast == 0);
   }
+}
+
+// Where more bisectors meet in a point than may, a bisector touches several faces of a cell that rounding has
+// left, and all of them become walls with one seed. They are one wall of the adjacency: taken for several,
+// the place of a cell among the neighbours of the other was found beyond their end, and memory was written
+// that was not theirs.
+TEST_CASE("bisectors through one point") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
+  for (const Domain& domain : {Domain::box(low, high), volume_of(cube_tetrahedra(1, 0, random))})
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+      if (precision == Precision::float64 && !caller.fp64()) continue;
+      CAPTURE(static_cast<int>(precision));
+      Options options;
+      options.precision = precision;
+      options.decisions = Decisions::fast;
+      Diagram diagram(caller.device(), domain, options);
+      std::size_t walls = 0;
+      for (int round = 0; round < 200; ++round) {
+        CAPTURE(round);
+        const SeedArray seeds = seeds_about_a_point(std::pow(10, round % 6), random);
+        diagram.set_seeds(seeds.view());
+        walls += check_rows(diagram.adjacency());
+      }
+      CHECK(walls > 1000);
+    }
 }
