@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <powercell/diagram.hpp>
+#include <vector>
 
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/compare.hpp"
@@ -18,6 +19,20 @@ namespace {
 
 double rounding(Precision precision) {
   return precision == Precision::float64 ? 1e-12 : 1e-5;
+}
+
+/// With decisions left to rounding.
+Options left_to_rounding(Precision precision) {
+  Options options;
+  options.precision = precision;
+  options.decisions = Decisions::fast;
+  return options;
+}
+
+/// Those that the device has.
+std::vector<Precision> precisions(const Caller& caller) {
+  if (!caller.fp64()) return {Precision::float32};
+  return {Precision::float64, Precision::float32};
 }
 
 /// The octahedron of radius 1: edges in the coordinate planes, that bisectors of seeds in the middle pass by.
@@ -63,12 +78,8 @@ void check_device(Caller& caller, DeviceDiagram& device, const SeedArray& exact)
   CHECK(std::fabs(found.total() / whole - 1) <= rounding(device.precision()));
 }
 
-/// With decisions left to rounding.
 void check_geometry(Caller& caller, const Domain& domain, const SeedArray& seeds, Precision precision) {
-  Options options;
-  options.precision = precision;
-  options.decisions = Decisions::fast;
-  Diagram diagram(caller.device(), domain, options);
+  Diagram diagram(caller.device(), domain, left_to_rounding(precision));
   diagram.set_seeds(seeds.view());
   CHECK(diagram.measures().relative_error() <= rounding(precision));
   double farthest = 0;
@@ -115,8 +126,7 @@ TEST_CASE("bisectors all but parallel") {
   Random random(test_seed());
   for (const Domain& domain : {surface_of(octahedron(false)), volume_of(octahedron(true))}) {
     CAPTURE(domain.cell_dimension());
-    if (caller.fp64()) check_all(caller, domain, Precision::float64, random);
-    check_all(caller, domain, Precision::float32, random);
+    for (const Precision precision : precisions(caller)) check_all(caller, domain, precision, random);
   }
 }
 
@@ -130,12 +140,9 @@ TEST_CASE("bisectors in facets") {
   SeedArray seeds;
   for (int k = 0; k < side * side * side; ++k)
     seeds.push({(k % side + 0.5) / side, (k / side % side + 0.5) / side, (k / side / side + 0.5) / side}, 0);
-  for (const Precision precision : {Precision::float64, Precision::float32}) {
-    if (precision == Precision::float64 && !caller.fp64()) continue;
+  for (const Precision precision : precisions(caller)) {
     CAPTURE(static_cast<int>(precision));
-    Options options;
-    options.precision = precision;
-    options.decisions = Decisions::fast;
+    const Options options = left_to_rounding(precision);
     DeviceDiagram device(caller.device(), cube, options);
     const Output found = run(caller, device, seeds.view());
     const Measures fast = measure(caller.device(), cube, seeds.view(), options);
@@ -161,13 +168,9 @@ TEST_CASE("bisectors through one point") {
   Random random(test_seed());
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
   for (const Domain& domain : {Domain::box(low, high), volume_of(cube_tetrahedra(1, 0, random))})
-    for (const Precision precision : {Precision::float64, Precision::float32}) {
-      if (precision == Precision::float64 && !caller.fp64()) continue;
+    for (const Precision precision : precisions(caller)) {
       CAPTURE(static_cast<int>(precision));
-      Options options;
-      options.precision = precision;
-      options.decisions = Decisions::fast;
-      Diagram diagram(caller.device(), domain, options);
+      Diagram diagram(caller.device(), domain, left_to_rounding(precision));
       std::size_t walls = 0;
       for (int round = 0; round < 200; ++round) {
         CAPTURE(round);
