@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs the tests on a copy of the library in which nothing that was not written is zero by luck: private variables of the
-# kernels, buffers on the device and local variables of the host begin with a pattern. A result that depends on what was
+# kernels and buffers on the device begin with a pattern, local variables of the host with the compiler's. A result that depends on what was
 # never written fails its test then, or differs from that of another pattern.
 #
 #   tools/poison.sh PATTERN                   all tests; a byte: 0xFF, every number NaN and every index -1; 0x3F, 0.75 and
@@ -10,6 +10,7 @@
 # The copy is build/poison/PATTERN. Local memory of work-groups is left as it is.
 set -eu
 cd "$(dirname "$0")/.."
+case ${1-} in 0x[0-9A-Fa-f][0-9A-Fa-f]) ;; *) set -- ;; esac
 [ $# -ge 1 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 pattern=$1
 shift
@@ -72,6 +73,7 @@ done
 (cd "$copy" && find . -path ./build -prune -o -type f -print) | while read -r file; do
   [ -e "$work/$file" ] || rm "$copy/$file"
 done
+rm -rf "$work"
 echo "poison.sh: $count lines of declarations and every buffer begin as $pattern"
 
 cd "$copy"
