@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs the tests on a copy of the library in which nothing that was not written is zero by luck: private variables of the
-# kernels and buffers on the device begin with a pattern, local variables of the host with the compiler's. A result that depends on what was
-# never written fails its test then, or differs from that of another pattern.
+# kernels and buffers on the device begin with a pattern, local variables of the host with the compiler's. A result that
+# depends on what was never written fails its test then, or differs from that of another pattern.
 #
 #   tools/poison.sh PATTERN                   all tests; a byte: 0xFF, every number NaN and every index -1; 0x3F, 0.75 and
 #                                             0.00048; 0x00
