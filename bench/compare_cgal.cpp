@@ -46,8 +46,8 @@ Arguments parse(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(distributions));
   app.add_option("--neighbors", a.neighbors, "tree or flann")->transform(CLI::CheckedTransformer(providers));
   app.add_option("--precision", a.precision, "float64 or float32")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Precision>{{"float64", Precision::float64}, {"float32", Precision::float32}}));
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{{"float64", Precision::float64},
+                                                                           {"float32", Precision::float32}}));
   app.add_option("--seed", a.seed, "of the random numbers")->capture_default_str();
   try {
     app.parse(argc, argv);
@@ -128,8 +128,9 @@ int run(const Arguments& a) {
   std::printf("CGAL: %.2f s\n", since(start));
   const ReferenceDiagram reference =
       cut_by_candidates(box_mesh(a.dimension), seeds.view(), cgal.offset, cgal.neighbor, cgal.hidden);
-  const std::vector<double> voro =
-      a.dimension == 3 && a.precision == Precision::float64 ? radical_cells(seeds.view(), {}).volume : std::vector<double>{};
+  const std::vector<double> voro = a.dimension == 3 && a.precision == Precision::float64
+                                       ? radical_cells(seeds.view(), {}).volume
+                                       : std::vector<double>{};
 
   Counts counts;
   compare_walls(counts, diagram.adjacency(), reference, mean_wall(reference));

@@ -90,8 +90,9 @@ POWERCELL_API const char* pc_status_name(pc_status status);
 /** What the last failed call of this thread said; "" before the first. Valid until the next failure. */
 POWERCELL_API const char* pc_last_error(void);
 
-/** From now on `sink` gets the lines of the log up to level `most`, from any thread but one at a time; NULL ends that.
- * While there is none, the environment variable POWERCELL_LOG (info or detail) sends them to standard error. */
+/** From now on `sink` gets the lines of the log up to level `most`, from any thread but one at a time; NULL
+ * ends that. While there is none, the environment variable POWERCELL_LOG (info or detail) sends them to
+ * standard error. */
 POWERCELL_API pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user);
 
 /** The device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "" for the default. */

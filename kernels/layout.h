@@ -47,8 +47,8 @@
 #define OUTPUT_GEOMETRY 4
 #define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 
-/* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it is a plane of
-   the boundary of the domain (kernels/clip/by_cell.cl). */
+/* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it
+   is a plane of the boundary of the domain (kernels/clip/by_cell.cl). */
 #define BORDER_PLANE (1 << 30)
 /* Reals of such a plane: q (3), dw and error of 2 q.y = |q|^2 + dw. */
 #define PLANE_REALS 5
@@ -64,8 +64,8 @@ typedef struct {
   int face[3][SHAPE_VERTICES];
 } region_shape_t;
 
-/* Most leaves in the list of those near a leaf (neighbors/near.cl): with their eight seeds each they are numbered
-   by 9 bits (TAG_BITS in base/lanes.cl). */
+/* Most leaves in the list of those near a leaf (neighbors/near.cl): with their eight seeds each they are
+   numbered by 9 bits (TAG_BITS in base/lanes.cl). */
 #define NEAR_MOST 64
 
 /* The part of a cell's radius by which decisions about it must be clear, and within which its vertices are

@@ -64,9 +64,8 @@ Number load_number(const char* bytes, bool swapped) {
 
 /// The same for a type that the file names, rounded to a double.
 inline double load_number(const char* bytes, NumberType type, bool swapped) {
-  return with_number_type(type, [&](auto number) {
-    return static_cast<double>(load_number<decltype(number)>(bytes, swapped));
-  });
+  return with_number_type(
+      type, [&](auto number) { return static_cast<double>(load_number<decltype(number)>(bytes, swapped)); });
 }
 
 inline bool swapped_from(std::endian order) {

@@ -169,9 +169,9 @@ std::vector<Out> convert(std::string_view bytes, bool swapped, const std::string
 
 NumberType type_of(const std::string& word, const std::string& name) {
   constexpr std::pair<std::string_view, NumberType> known[] = {
-      {"Int8", NumberType::i8},     {"UInt8", NumberType::u8},   {"Int16", NumberType::i16},
-      {"UInt16", NumberType::u16},  {"Int32", NumberType::i32},  {"UInt32", NumberType::u32},
-      {"Int64", NumberType::i64},   {"UInt64", NumberType::u64}, {"Float32", NumberType::f32},
+      {"Int8", NumberType::i8},    {"UInt8", NumberType::u8},   {"Int16", NumberType::i16},
+      {"UInt16", NumberType::u16}, {"Int32", NumberType::i32},  {"UInt32", NumberType::u32},
+      {"Int64", NumberType::i64},  {"UInt64", NumberType::u64}, {"Float32", NumberType::f32},
       {"Float64", NumberType::f64}};
   for (const auto& [type_word, type] : known) {
     if (word == type_word) return type;

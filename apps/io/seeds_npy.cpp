@@ -39,8 +39,8 @@ void read_type(std::string_view header, Array& array, const std::string& name) {
     descr.remove_prefix(1);
   }
   constexpr std::pair<std::string_view, NumberType> known[] = {
-      {"f4", NumberType::f32}, {"f8", NumberType::f64}, {"i1", NumberType::i8},  {"i2", NumberType::i16},
-      {"i4", NumberType::i32}, {"i8", NumberType::i64}, {"u1", NumberType::u8},  {"u2", NumberType::u16},
+      {"f4", NumberType::f32}, {"f8", NumberType::f64}, {"i1", NumberType::i8}, {"i2", NumberType::i16},
+      {"i4", NumberType::i32}, {"i8", NumberType::i64}, {"u1", NumberType::u8}, {"u2", NumberType::u16},
       {"u4", NumberType::u32}, {"u8", NumberType::u64}};
   for (const auto& [word, type] : known) {
     if (descr != word) continue;

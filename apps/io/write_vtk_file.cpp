@@ -41,8 +41,7 @@ void VtkFile::close(std::string_view element) {
 void VtkFile::array_bytes(std::string_view name, std::string_view type, int components,
                           std::string_view bytes) {
   // One component is the default; saying so makes meshio read a column of a matrix.
-  const std::string shape =
-      components == 1 ? "" : "\" NumberOfComponents=\"" + std::to_string(components);
+  const std::string shape = components == 1 ? "" : "\" NumberOfComponents=\"" + std::to_string(components);
   file_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + std::string(name) + shape +
               "\" format=\"binary\">\n");
   const std::size_t blocks = (bytes.size() + block_size - 1) / block_size;

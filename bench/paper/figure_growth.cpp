@@ -29,13 +29,13 @@ void growth(const Study& study, const std::string& name, const Domain& domain,
 void surface_figure(const Study& study) {
   growth(study, "figure9", bench::domain_of("surface"),
          study.quick ? std::vector<std::size_t>{1000, 3000, 10000}
-                       : std::vector<std::size_t>{1000, 2000, 5000, 10000, 30000, 100000, 300000});
+                     : std::vector<std::size_t>{1000, 2000, 5000, 10000, 30000, 100000, 300000});
 }
 
 void volume_figure(const Study& study) {
   growth(study, "figure10", bench::domain_of("tets"),
          study.quick ? std::vector<std::size_t>{1000, 3000}
-                       : std::vector<std::size_t>{1000, 2000, 5000, 10000, 30000, 100000});
+                     : std::vector<std::size_t>{1000, 2000, 5000, 10000, 30000, 100000});
 }
 
 }  // namespace powercell::paper

@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <powercell/error.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <powercell/error.hpp>
 
 namespace powercell {
 
@@ -28,11 +27,11 @@ struct DeviceInfo {
   std::string driver_version;
   std::string opencl_c_version;
   Type type = Type::other;
-  bool fp64 = false;                    ///< has double precision in kernels
+  bool fp64 = false;  ///< has double precision in kernels
   unsigned compute_units = 0;
   unsigned clock_mhz = 0;
-  std::uint64_t memory_bytes = 0;          ///< global memory
-  std::uint64_t largest_allocation = 0;    ///< largest single buffer, bytes
+  std::uint64_t memory_bytes = 0;        ///< global memory
+  std::uint64_t largest_allocation = 0;  ///< largest single buffer, bytes
   std::size_t max_work_group_size = 0;
 
   /// "P:D", what `Device::choose` and `--device` accept.

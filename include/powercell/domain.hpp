@@ -5,10 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <powercell/error.hpp>
 #include <span>
 #include <vector>
-
-#include <powercell/error.hpp>
 
 namespace powercell {
 
@@ -25,8 +24,9 @@ struct PolygonPart {
 
 enum class DomainKind { polygon, surface, volume };
 
-/// An immutable, validated domain; copies share one state. Safe to share between threads. Its largest coordinate
-/// is within 10^-100 .. 10^100, or it is refused (invalid_domain): beyond, measures leave the range of double.
+/// An immutable, validated domain; copies share one state. Safe to share between threads. Its largest
+/// coordinate is within 10^-100 .. 10^100, or it is refused (invalid_domain): beyond, measures leave the
+/// range of double.
 class POWERCELL_API Domain {
  public:
   /// The union of parts with disjoint interiors. Rings and parts may touch in points, and parts along
@@ -54,12 +54,12 @@ class POWERCELL_API Domain {
   static Domain box(std::span<const double> low, std::span<const double> high);
 
   DomainKind kind() const;
-  int dimension() const;                 ///< of the space: 2 or 3
-  int cell_dimension() const;            ///< of the cells: 2 for polygon and surface, 3 for volume
-  double measure() const;                ///< area or volume
-  std::array<double, 3> low() const;     ///< bounding box (third coordinate 0 in 2D)
+  int dimension() const;              ///< of the space: 2 or 3
+  int cell_dimension() const;         ///< of the cells: 2 for polygon and surface, 3 for volume
+  double measure() const;             ///< area or volume
+  std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;
-  std::size_t region_count() const;      ///< convex pieces, triangles or tetrahedra kept
+  std::size_t region_count() const;  ///< convex pieces, triangles or tetrahedra kept
 
   explicit Domain(std::shared_ptr<const RegionMesh> mesh) : mesh_(std::move(mesh)) {}
   /// For the library's own use.

@@ -2,10 +2,9 @@
 /// The one exception type of powercell.
 #pragma once
 
+#include <powercell/export.hpp>
 #include <stdexcept>
 #include <string>
-
-#include <powercell/export.hpp>
 
 namespace powercell {
 

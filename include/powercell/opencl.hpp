@@ -38,14 +38,14 @@ enum class DeviceSeedStatus : std::uint32_t {
 /// What the host does for Diagram is done on the device here, but for the last resort: a cell of more than
 /// about 128 faces within one region, or one whose cuts rounding has made contradictory (seen in single
 /// precision only), is reported as `unfinished` and its measures are NaN, never a part of the cell.
-/// Diagram gives those too. For the same reason decisions are those of Decisions::fast: of a cell that is empty or not
-/// by less than rounding either may be told; measures differ by rounding.
+/// Diagram gives those too. For the same reason decisions are those of Decisions::fast: of a cell that is
+/// empty or not by less than rounding either may be told; measures differ by rounding.
 class POWERCELL_API DeviceDiagram {
  public:
   /// Uploads the domain and builds the kernels; this waits.
   /// \param options  `precision` is that of the caller's arrays and of the computation; `chunk_pairs` is
-  ///   the most pairs of one kernel launch; what concerns the host (`threads`, `progress`, `decisions`, `certify`)
-  ///   is not used
+  ///   the most pairs of one kernel launch; what concerns the host (`threads`, `progress`, `decisions`,
+  ///   `certify`) is not used
   /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a domain whose size is
   ///   not in the range of the precision); build_failed, opencl
   DeviceDiagram(Device device, Domain domain, Options options = {});

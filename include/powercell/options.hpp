@@ -30,8 +30,9 @@ enum class Decisions {
 struct Options {
   Precision precision = Precision::automatic;
   Decisions decisions = Decisions::exact;
-  /// Check each result by laws that need no reference (sum of the measures, both sides of walls, owners of random
-  /// points) and throw Error internal, naming the seeds concerned, if one does not hold. Costs a few percent.
+  /// Check each result by laws that need no reference (sum of the measures, both sides of walls, owners of
+  /// random points) and throw Error internal, naming the seeds concerned, if one does not hold. Costs a few
+  /// percent.
   bool certify = false;
   Neighbors neighbors = Neighbors::automatic;
 

@@ -4,9 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
-
 #include <powercell/export.hpp>
+#include <vector>
 
 namespace powercell {
 
@@ -36,7 +35,7 @@ struct Adjacency {
   std::vector<std::uint64_t> offset;    ///< n + 1; row i is [offset[i], offset[i+1])
   std::vector<std::uint32_t> neighbor;  ///< ascending within a row
   std::vector<double> wall;             ///< length (polygon, surface) or area (volume) of the wall
-  double asymmetry = 0;  ///< largest |a_ij - a_ji| seen before the two sides were averaged
+  double asymmetry = 0;                 ///< largest |a_ij - a_ji| seen before the two sides were averaged
   std::array<std::uint32_t, 2> asymmetric{};  ///< i and j of that difference; equal where none was seen
 };
 
@@ -53,18 +52,17 @@ struct Border {
 };
 
 /// The geometry of the cells as convex pieces, one for each region of the domain that a cell meets.
-/// A piece without thickness in a facet between regions is kept, since it carries a wall, but adds nothing to the
-/// measures; where seeds tie, faces and edges may have no extent.
-/// Cell i owns the pieces [cell_offset[i], cell_offset[i+1]).
-/// Piece p has the vertices [vertex_offset[p], vertex_offset[p+1]) and the faces
+/// A piece without thickness in a facet between regions is kept, since it carries a wall, but adds nothing to
+/// the measures; where seeds tie, faces and edges may have no extent. Cell i owns the pieces [cell_offset[i],
+/// cell_offset[i+1]). Piece p has the vertices [vertex_offset[p], vertex_offset[p+1]) and the faces
 /// [face_offset[p], face_offset[p+1]). For polygons and surfaces a face is an edge: face k of a piece
 /// goes from its vertex k to its vertex k+1 (cyclic), counter-clockwise (on a surface, as the
 /// triangle is oriented), and `loop_offset` and `loop` are empty. For volumes face f is the polygon
 /// loop[loop_offset[f] .. loop_offset[f+1]), indices from 0 within the piece's vertices,
 /// counter-clockwise seen from outside.
 struct POWERCELL_API Cells {
-  int dimension = 0;       ///< d, coordinates of a vertex
-  int cell_dimension = 0;  ///< 2 or 3
+  int dimension = 0;                         ///< d, coordinates of a vertex
+  int cell_dimension = 0;                    ///< 2 or 3
   std::vector<std::uint64_t> cell_offset;    ///< n + 1
   std::vector<std::uint32_t> region;         ///< per piece: the region of the domain it lies in
   std::vector<std::uint64_t> vertex_offset;  ///< pieces + 1
@@ -92,19 +90,20 @@ struct JoinedCells {
   int cell_dimension = 0;
   std::vector<std::uint64_t> vertex_offset;  ///< n + 1
   std::vector<double> vertices;
-  std::vector<std::uint64_t> face_offset;    ///< n + 1
-  std::vector<Border> face_border;           ///< per face (volumes only)
-  std::vector<std::uint64_t> loop_offset;    ///< faces + 1
+  std::vector<std::uint64_t> face_offset;  ///< n + 1
+  std::vector<Border> face_border;         ///< per face (volumes only)
+  std::vector<std::uint64_t> loop_offset;  ///< faces + 1
   std::vector<std::uint32_t> loop;
-  std::vector<Border> edge_border;           ///< per loop entry (polygons and surfaces only)
+  std::vector<Border> edge_border;  ///< per loop entry (polygons and surfaces only)
 };
 
 /// The regular triangulation restricted to the domain: one simplex for each point of the domain in
-/// which d+1 cells meet (three on polygons and surfaces, four in volumes). With exact decisions more cells meet in no
-/// point: ties are broken by the order of their positions, so that the simplices form a triangulation for any seeds.
-/// Their corners have cells: a seed whose cell only touches the domain from outside is hidden, and none of them.
+/// which d+1 cells meet (three on polygons and surfaces, four in volumes). With exact decisions more cells
+/// meet in no point: ties are broken by the order of their positions, so that the simplices form a
+/// triangulation for any seeds. Their corners have cells: a seed whose cell only touches the domain from
+/// outside is hidden, and none of them.
 struct Dual {
-  int corners = 0;                      ///< 3 or 4
+  int corners = 0;                       ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented
                                          ///< (surface: as the triangle it was found in), rows ascending
   std::size_t size() const { return corners ? simplices.size() / static_cast<std::size_t>(corners) : 0; }
@@ -112,19 +111,19 @@ struct Dual {
 
 /// Seconds spent in each part of the last computation, and what it did.
 struct Timings {
-  double total = 0;      ///< seeds in host memory to results in host memory, kernels built before
-  double prepare = 0;    ///< validation, duplicates, ordering, tree
-  double pairs = 0;      ///< which seeds meet which regions
-  double neighbors = 0;  ///< neighbour lists on the host (FLANN)
-  double clip = 0;       ///< kernels
-  double collect = 0;    ///< results on the host
-  double certify = 0;    ///< checking laws (Options::certify)
-  double build = 0;      ///< compiling kernels (not in total)
-  std::uint64_t pair_count = 0;   ///< candidate (region, seed) pairs
-  std::uint64_t retried = 0;      ///< pairs that needed a larger variant
-  std::uint64_t on_host = 0;      ///< pairs that ended on the host
-  std::uint64_t uncertain = 0;    ///< pairs in which rounding may have decided
-  int rounds = 0;                 ///< rounds of neighbour lists (FLANN)
+  double total = 0;              ///< seeds in host memory to results in host memory, kernels built before
+  double prepare = 0;            ///< validation, duplicates, ordering, tree
+  double pairs = 0;              ///< which seeds meet which regions
+  double neighbors = 0;          ///< neighbour lists on the host (FLANN)
+  double clip = 0;               ///< kernels
+  double collect = 0;            ///< results on the host
+  double certify = 0;            ///< checking laws (Options::certify)
+  double build = 0;              ///< compiling kernels (not in total)
+  std::uint64_t pair_count = 0;  ///< candidate (region, seed) pairs
+  std::uint64_t retried = 0;     ///< pairs that needed a larger variant
+  std::uint64_t on_host = 0;     ///< pairs that ended on the host
+  std::uint64_t uncertain = 0;   ///< pairs in which rounding may have decided
+  int rounds = 0;                ///< rounds of neighbour lists (FLANN)
 };
 
 }  // namespace powercell

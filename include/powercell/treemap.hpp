@@ -63,8 +63,8 @@ struct Treemap {
   std::vector<double> seeds;  ///< n x 2, near the centroids; NaN where dropped or without a place
 
   /// Largest |area / its share of the outline - 1| of a leaf, and whose: measured on the polygons as they
-  /// are. Rounding of corners is part of it, to last places of the outline's size and coordinates; where a leaf
-  /// is tiny beside those that may be more than the tolerance.
+  /// are. Rounding of corners is part of it, to last places of the outline's size and coordinates; where a
+  /// leaf is tiny beside those that may be more than the tolerance.
   double worst_error = 0;
   std::size_t worst_leaf = 0;
   /// Mean over the leaves that have an area of the ratio of the longer to the shorter principal axis (of

@@ -3,16 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <powercell/diagram.hpp>
 #include <string>
 #include <vector>
-
-#include <powercell/diagram.hpp>
 
 namespace powercell {
 
 /// One law and how well it was met.
 struct LawCheck {
-  std::string law;     ///< e.g. "partition: the measures sum to the domain's"
+  std::string law;  ///< e.g. "partition: the measures sum to the domain's"
   bool passed = false;
   double value = 0;      ///< the measured defect
   double tolerance = 0;  ///< what was allowed

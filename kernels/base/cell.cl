@@ -2,8 +2,8 @@
    themselves is included here first: the host expands an include once, also where #if leaves it out. */
 #ifndef POWERCELL_BASE_CELL
 #define POWERCELL_BASE_CELL
-#include "clip/vertices.cl"
 #include "clip/certain.cl"
+#include "clip/vertices.cl"
 #if CELL_DIMENSION == 3
 #include "clip/polyhedron.cl"
 #else

@@ -1,15 +1,16 @@
-/* How decisions differ between precisions, and where the host decides otherwise than devices: with its own error of each
-   vertex and, where that does not suffice, exactly (lib/clip/host_decide.hpp). Devices decide as they compute, and prove it
-   afterwards. Nothing here is used before the cell is known. */
+/* How decisions differ between precisions, and where the host decides otherwise than devices: with its own
+   error of each vertex and, where that does not suffice, exactly (lib/clip/host_decide.hpp). Devices decide
+   as they compute, and prove it afterwards. Nothing here is used before the cell is known. */
 #ifndef POWERCELL_BASE_DECIDE
 #define POWERCELL_BASE_DECIDE
 #include "base/real.cl"
 
-/* SEARCH_MARGIN: planes that clear every vertex by a 16th of this part of the cell's radius need not be noted one by one;
-   searches keep such a margin when they leave out seeds. LEAST_FILLING: of the cube or square of the radius; whole cells smaller
-   than that are left to the host. MOST_BLUR: where errors of the data move a wall by more than so many times what rounding does,
-   its cell is left to the host. QUICK_PROOF: whether the proof from the way is tried (clip/certain.cl); floats are not
-   exact enough for it, and the host needs none. */
+/* SEARCH_MARGIN: planes that clear every vertex by a 16th of this part of the cell's radius need not be noted
+   one by one; searches keep such a margin when they leave out seeds. LEAST_FILLING: of the cube or square of
+   the radius; whole cells smaller than that are left to the host. MOST_BLUR: where errors of the data move a
+   wall by more than so many times what rounding does, its cell is left to the host. QUICK_PROOF: whether the
+   proof from the way is tried (clip/certain.cl); floats are not exact enough for it, and the host needs none.
+ */
 #if REAL_BITS == 32
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
 #define LEAST_FILLING ((real)0.05)

@@ -34,21 +34,37 @@ typedef uint8 index8;
 typedef uint lane_bits_t;
 #endif
 
-static inline real4 make_real4(real x, real y, real z, real w) { return (real4)(x, y, z, w); }
+static inline real4 make_real4(real x, real y, real z, real w) {
+  return (real4)(x, y, z, w);
+}
 
 #define ZERO8 ((real8)(0))
 #define LANE_NUMBERS ((index8)(0, 1, 2, 3, 4, 5, 6, 7))
 
-static inline real8 all_lanes(real x) { return (real8)(x); }
+static inline real8 all_lanes(real x) {
+  return (real8)(x);
+}
 /* Where `yes` holds b, else a. (Not fmin and fmax: no lane is ever NaN.) */
-static inline real8 choose8(real8 a, real8 b, mask8 yes) { return select(a, b, yes); }
-static inline real8 least8(real8 a, real8 b) { return select(a, b, b < a); }
-static inline real8 most8(real8 a, real8 b) { return select(a, b, a < b); }
-static inline real8 size8(real8 a) { return fabs(a); }
+static inline real8 choose8(real8 a, real8 b, mask8 yes) {
+  return select(a, b, yes);
+}
+static inline real8 least8(real8 a, real8 b) {
+  return select(a, b, b < a);
+}
+static inline real8 most8(real8 a, real8 b) {
+  return select(a, b, a < b);
+}
+static inline real8 size8(real8 a) {
+  return fabs(a);
+}
 
 /* Without a branch; b where a is NaN. */
-static inline real least_of(real a, real b) { return a < b ? a : b; }
-static inline real most_of(real a, real b) { return a > b ? a : b; }
+static inline real least_of(real a, real b) {
+  return a < b ? a : b;
+}
+static inline real most_of(real a, real b) {
+  return a > b ? a : b;
+}
 
 static inline real lane_most(real8 a) {
   const real4 b = select(a.lo, a.hi, a.lo < a.hi);
@@ -84,16 +100,24 @@ static inline real8 with_lane(real8 a, uint lane, real x) {
   return select(a, (real8)(x), LANE_NUMBERS == (index8)((lane_bits_t)lane));
 }
 
-static inline real8 load8(const real* at) { return vload8(0, at); }
-static inline real8 load8_stored(__global const stored_real* at) { return vload8(0, at); }
+static inline real8 load8(const real* at) {
+  return vload8(0, at);
+}
+static inline real8 load8_stored(__global const stored_real* at) {
+  return vload8(0, at);
+}
 typedef struct __attribute__((packed, aligned(REAL_BITS / 8))) {
   real8 lanes;
 } loose8_t;
-static inline void store8(real8 a, real* at) { ((loose8_t*)at)->lanes = a; }
+static inline void store8(real8 a, real* at) {
+  ((loose8_t*)at)->lanes = a;
+}
 typedef struct __attribute__((packed, aligned(REAL_BITS / 8))) {
   real4 lanes;
 } loose4_t;
-static inline void store4(real4 a, real* at) { ((loose4_t*)at)->lanes = a; }
+static inline void store4(real4 a, real* at) {
+  ((loose4_t*)at)->lanes = a;
+}
 
 /* Numbers that carry a small index in their lowest bits, so that the least of many tells whose it is. */
 #define TAG_BITS 9
@@ -101,19 +125,27 @@ static inline void store4(real4 a, real* at) { ((loose4_t*)at)->lanes = a; }
 static inline real8 tag8(real8 a, uint first) {
   return AS_REAL8((AS_INDEX8(a) & (index8)(~TAG_MASK)) | ((index8)((lane_bits_t)first) + LANE_NUMBERS));
 }
-static inline uint tag_of(real a) { return (uint)(AS_INDEX(a) & TAG_MASK); }
-static inline real untagged(real a) { return AS_REAL(AS_INDEX(a) & ~TAG_MASK); }
+static inline uint tag_of(real a) {
+  return (uint)(AS_INDEX(a) & TAG_MASK);
+}
+static inline real untagged(real a) {
+  return AS_REAL(AS_INDEX(a) & ~TAG_MASK);
+}
 
 #endif
 
-/* Of x, y, z. Not OpenCL's own dot and cross, whose rounding is the device's and may depend on where in a launch a
-   work-item is: proofs count roundings, and results are the same bits whatever the launch. */
-static inline real dot3(real4 a, real4 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/* Of x, y, z. Not OpenCL's own dot and cross, whose rounding is the device's and may depend on where in a
+   launch a work-item is: proofs count roundings, and results are the same bits whatever the launch. */
+static inline real dot3(real4 a, real4 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline real4 cross3(real4 a, real4 b) {
   return make_real4(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x, 0);
 }
 
 /* Index of the lowest set bit. */
-static inline int lowest_bit(ulong bits) { return 63 - (int)clz(bits & (~bits + 1)); }
+static inline int lowest_bit(ulong bits) {
+  return 63 - (int)clz(bits & (~bits + 1));
+}
 
 #endif

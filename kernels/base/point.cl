@@ -26,7 +26,9 @@ static inline parts_t parts_of(seed_t p) {
 static inline seed_t seed_of(parts_t p) {
   return (double4)(p.high[0], p.high[1], p.high[2], p.high[3]);
 }
-static inline ulong bits_of(real x) { return as_ulong(x); }
+static inline ulong bits_of(real x) {
+  return as_ulong(x);
+}
 #else
 #define MOST_COORDINATE 1.0e17f
 #define MOST_WEIGHT 1.0e34f
@@ -43,7 +45,9 @@ static inline seed_t seed_of(parts_t p) {
   seed.low = (float4)(p.low[0], p.low[1], p.low[2], p.low[3]);
   return seed;
 }
-static inline ulong bits_of(real x) { return as_uint(x); }
+static inline ulong bits_of(real x) {
+  return as_uint(x);
+}
 #endif
 
 /* Ascending with x, for x that is not NaN; 0 and -0 alike. Below 2^WEIGHT_KEY_BITS. */
@@ -70,11 +74,14 @@ static inline bool parts_less(const parts_t* a, const parts_t* b, int k) {
   return a->high[k] < b->high[k] || (a->high[k] == b->high[k] && a->low[k] < b->low[k]);
 }
 
-static inline bool is_dead(const parts_t* p) { return p->high[3] <= DEAD_WEIGHT; }
+static inline bool is_dead(const parts_t* p) {
+  return p->high[3] <= DEAD_WEIGHT;
+}
 
 static inline bool same_position(const parts_t* a, const parts_t* b) {
   bool same = true;
-  UNROLL for (int k = 0; k < DIMENSION; ++k) same = same && a->high[k] == b->high[k] && a->low[k] == b->low[k];
+  UNROLL for (int k = 0; k < DIMENSION; ++k) same =
+      same && a->high[k] == b->high[k] && a->low[k] == b->low[k];
   return same;
 }
 

@@ -1,7 +1,7 @@
-/* Scalar types, seeds and the few things that differ between precisions and languages; with decide.cl, lanes.cl,
-   point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64; always 64 when compiled
-   as C++ for what the host decides), DIMENSION (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra),
-   VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
+/* Scalar types, seeds and the few things that differ between precisions and languages; with decide.cl,
+   lanes.cl, point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64;
+   always 64 when compiled as C++ for what the host decides), DIMENSION (of the space), CELL_DIMENSION (2:
+   convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
 #include "layout.h"
@@ -19,8 +19,8 @@
 #define OUTPUTS 7
 #endif
 
-/* UNROLL goes before loops over a few coordinates. Compilers that do not unroll on their own (PoCL's) would keep what is
-   indexed in memory; others may ignore it. */
+/* UNROLL goes before loops over a few coordinates. Compilers that do not unroll on their own (PoCL's) would
+   keep what is indexed in memory; others may ignore it. */
 #ifdef __cplusplus
 
 #define UNROLL
@@ -41,17 +41,17 @@ typedef struct {
 #define VERTEX_CAPACITY (cell->vertex_capacity)
 #define FACE_CAPACITY (cell->face_capacity)
 #define VERTEX_WORDS 2 /* or any number */
-#define HOST_MEMBERS                                                       \
-  int vertex_capacity;                                                     \
-  int face_capacity;                                                       \
-  real* error;              /* of each vertex */                           \
-  real worst_error;         /* of all vertices there were */               \
-  certain_plane_t* unit;    /* of each face (polygon: edge) */             \
-  ulong* unit_of;           /* the round in which it was found, and what was behind the face then */ \
-  uint round;                                                              \
-  certain_plane_t ground;   /* polygons: their plane */                    \
-  bool moved;               /* since the radius was found */               \
-  powercell::SeedMarks* tried; /* seeds whose bisectors were decided about */ \
+#define HOST_MEMBERS                                                                              \
+  int vertex_capacity;                                                                            \
+  int face_capacity;                                                                              \
+  real* error;           /* of each vertex */                                                     \
+  real worst_error;      /* of all vertices there were */                                         \
+  certain_plane_t* unit; /* of each face (polygon: edge) */                                       \
+  ulong* unit_of;        /* the round in which it was found, and what was behind the face then */ \
+  uint round;                                                                                     \
+  certain_plane_t ground;      /* polygons: their plane */                                        \
+  bool moved;                  /* since the radius was found */                                   \
+  powercell::SeedMarks* tried; /* seeds whose bisectors were decided about */                     \
   powercell::ExactCell* exact;
 
 #else
@@ -111,7 +111,9 @@ static inline void difference(seed_t a, seed_t b, real* d) {
   if (DIMENSION == 3) d[DIMENSION - 1] = c.z;
 }
 #else
-static inline real weight_difference(seed_t a, seed_t b) { return (real)a.w - (real)b.w; }
+static inline real weight_difference(seed_t a, seed_t b) {
+  return (real)a.w - (real)b.w;
+}
 static inline void difference(seed_t a, seed_t b, real* d) {
   d[0] = (real)a.x - (real)b.x;
   d[1] = (real)a.y - (real)b.y;
@@ -119,8 +121,8 @@ static inline void difference(seed_t a, seed_t b, real* d) {
 }
 #endif
 
-/* By how much the differences of a seed from anything may be off beyond relative rounding: what two floats leave out of
-   coordinates and weights, and products that underflow. */
+/* By how much the differences of a seed from anything may be off beyond relative rounding: what two floats
+   leave out of coordinates and weights, and products that underflow. */
 typedef struct {
   real position, weight;
 } blur_t;
@@ -140,7 +142,8 @@ static inline blur_t blur_of(seed_t p) {
 }
 #endif
 
-/* What that makes of 2 q.y - |q|^2 - dw, of a plane with |q_1| + |q_2| + ... = sum and points no farther than `reach`. */
+/* What that makes of 2 q.y - |q|^2 - dw, of a plane with |q_1| + |q_2| + ... = sum and points no farther than
+ * `reach`. */
 static inline real plane_blur(blur_t blur, real reach, real sum) {
   return 8 * blur.position * (reach + sum) + 2 * blur.weight;
 }

@@ -13,23 +13,23 @@
 // operands: 3 per item (a, b, c; b > 0). results: 6 per item:
 // a*b + c rounded twice, fma(a, b, c), a/b, sqrt(b), -1 where NaN and infinity behave, a*b - b*a.
 // A macro, so that both precisions come in one program: a second one would double the time of the test.
-#define ARITHMETIC(name, number)                                                                         \
+#define ARITHMETIC(name, number)                                                                        \
   __kernel void name(__global const number* operands, __global number* results, uint count) {           \
-    const uint i = get_global_id(0);                                                                     \
-    if (i >= count) return;                                                                              \
-    const number a = operands[3 * i], b = operands[3 * i + 1], c = operands[3 * i + 2];                  \
-    const number zero = a - a; /* not a constant that could be folded */                                 \
-    const number infinite = b / zero;                                                                    \
-    const number undefined = zero / zero;                                                                \
-    const int sane = undefined != undefined && !(undefined < a) && !(undefined >= a) && infinite > a &&  \
-                     -infinite < a && isinf(infinite) && isnan(infinite - infinite);                     \
-    __global number* out = results + 6 * i;                                                              \
-    out[0] = a * b + c;                                                                                  \
-    out[1] = fma(a, b, c);                                                                               \
-    out[2] = a / b;                                                                                      \
-    out[3] = sqrt(b);                                                                                    \
-    out[4] = sane ? (number)-1 : (number)1;                                                              \
-    out[5] = a * b - b * a;                                                                              \
+    const uint i = get_global_id(0);                                                                    \
+    if (i >= count) return;                                                                             \
+    const number a = operands[3 * i], b = operands[3 * i + 1], c = operands[3 * i + 2];                 \
+    const number zero = a - a; /* not a constant that could be folded */                                \
+    const number infinite = b / zero;                                                                   \
+    const number undefined = zero / zero;                                                               \
+    const int sane = undefined != undefined && !(undefined < a) && !(undefined >= a) && infinite > a && \
+                     -infinite < a && isinf(infinite) && isnan(infinite - infinite);                    \
+    __global number* out = results + 6 * i;                                                             \
+    out[0] = a * b + c;                                                                                 \
+    out[1] = fma(a, b, c);                                                                              \
+    out[2] = a / b;                                                                                     \
+    out[3] = sqrt(b);                                                                                   \
+    out[4] = sane ? (number)-1 : (number)1;                                                             \
+    out[5] = a * b - b * a;                                                                             \
   }
 
 ARITHMETIC(arithmetic_float, float)

@@ -25,12 +25,12 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
   return s > tolerance || (s >= -tolerance && (uint)border < cell->at.self) ? border : old;
 }
 
-/* The gap of a cell that a bisector touches. What is behind a face may be another seed from then on, whose bisector is not
-   the plane that the face was made in: the shape cannot be proved from its planes. */
+/* The gap of a cell that a bisector touches. What is behind a face may be another seed from then on, whose
+   bisector is not the plane that the face was made in: the shape cannot be proved from its planes. */
 #define TOUCHED_GAP ((real)-1)
 
-/* For a cell that is empty since all of it is beyond the plane: how far, at least, or below 0 if that is not certain.
-   The cell is no longer usable. */
+/* For a cell that is empty since all of it is beyond the plane: how far, at least, or below 0 if that is not
+   certain. The cell is no longer usable. */
 static inline real outside_gap(cell_t* cell, const real* q, real level, real sum, real error) {
   real normal[DIMENSION];
   if (cell->at.gap <= TOUCHED_GAP) return -1;

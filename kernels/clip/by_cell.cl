@@ -1,8 +1,8 @@
 /* One work-item clips one (region, seed) pair by the neighbours of the seed's whole cell: no other seed has a
-   bisector that bounds it. For domains of many regions, where a cell is searched for once and not per piece. Cells
-   without neighbours here have not been clipped yet, and are searched for. */
-#include "neighbors/search.cl"
+   bisector that bounds it. For domains of many regions, where a cell is searched for once and not per piece.
+   Cells without neighbours here have not been clipped yet, and are searched for. */
 #include "clip/arguments.cl"
+#include "neighbors/search.cl"
 
 /* A cell of more walls than this is searched for in each region: few of them meet it. */
 #define WALLS_MOST 64
@@ -25,8 +25,8 @@ static inline uint walls_that_cut(const cell_t* cell, __global const seed_t* see
 }
 
 /* Cuts by `count` neighbours. The seed alone in its own list has no cell. Returns a PIECE status. */
-static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint i, __global const uint* neighbor,
-                                uint count) {
+static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint i,
+                                __global const uint* neighbor, uint count) {
   const seed_t seed = seeds[i];
   if (count == 1 && neighbor[0] == i) return PIECE_EMPTY;
   for (uint first = 0; first < count; first += LANES) {
@@ -40,8 +40,8 @@ static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint
   return PIECE_WHOLE;
 }
 
-/* Cuts by planes of the boundary of the domain: rows of q (3), dw, and how far the plane may be off (docs/mathematics.md,
-   "Cells at the boundary"). Returns a PIECE status. */
+/* Cuts by planes of the boundary of the domain: rows of q (3), dw, and how far the plane may be off
+   (docs/mathematics.md, "Cells at the boundary"). Returns a PIECE status. */
 static inline int clip_by_planes(cell_t* cell, __global const stored_real* plane, uint count) {
   for (uint k = 0; k < count; ++k, plane += PLANE_REALS) {
     real q[DIMENSION];
@@ -55,9 +55,9 @@ static inline int clip_by_planes(cell_t* cell, __global const stored_real* plane
 
 /* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped.
    Likewise for planes: those pairs have the region around the domain. */
-__kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
-                                  __global const uint* wall_offset, __global const uint* neighbor,
-                                  __global const uint* plane_offset, __global const stored_real* plane) {
+__kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS, __global const uint* wall_offset,
+                                  __global const uint* neighbor, __global const uint* plane_offset,
+                                  __global const stored_real* plane) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair];
@@ -70,9 +70,10 @@ __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS,
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
   if (result == PIECE_WHOLE)
     result = walls == 0 || walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)
-                                : clip_by_walls(&cell, seeds, i, neighbor + first, walls);
+                                              : clip_by_walls(&cell, seeds, i, neighbor + first, walls);
   const uint first_plane = plane_offset[i];
   if (result == PIECE_WHOLE)
-    result = clip_by_planes(&cell, plane + (size_t)first_plane * PLANE_REALS, plane_offset[i + 1] - first_plane);
+    result =
+        clip_by_planes(&cell, plane + (size_t)first_plane * PLANE_REALS, plane_offset[i + 1] - first_plane);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

@@ -1,14 +1,14 @@
 /* One work-item clips one (region, seed) pair, with candidates from the seed's neighbour list. */
-#include "neighbors/list.cl"
 #include "clip/arguments.cl"
+#include "neighbors/list.cl"
 
 /* Work-item t takes pair active[t] of the chunk, neighbour row active_list[t] and row t of the
    outputs; moments go by pair. With OUTPUT_LIST_USE row t of list_use is: neighbours tried, cuts, and 1 if
    the list sufficed. */
-__kernel void clip_by_list_kernel(PIECE_ARGUMENTS,
-    __global const seed_t* seeds, const uint seed_count, __global const stored_real* lift,
-    __global const uint* neighbor, __global const uint* active_list, const uint stride,
-    const uint list_count, const int twins, __global uint* list_use) {
+__kernel void clip_by_list_kernel(PIECE_ARGUMENTS, __global const seed_t* seeds, const uint seed_count,
+                                  __global const stored_real* lift, __global const uint* neighbor,
+                                  __global const uint* active_list, const uint stride, const uint list_count,
+                                  const int twins, __global uint* list_use) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair];

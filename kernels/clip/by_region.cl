@@ -1,12 +1,11 @@
 /* One work-item clips one (region, seed) pair, with candidates from the list of the region or, where that
    would be long, from the packed tree. */
-#include "neighbors/search.cl"
-#include "neighbors/region.cl"
 #include "clip/arguments.cl"
+#include "neighbors/region.cl"
+#include "neighbors/search.cl"
 
-__kernel void clip_by_region_kernel(PIECE_ARGUMENTS,
-    __global const ulong* list_offset, __global const uint* list_seed,
-    TREE_ARGUMENTS) {
+__kernel void clip_by_region_kernel(PIECE_ARGUMENTS, __global const ulong* list_offset,
+                                    __global const uint* list_seed, TREE_ARGUMENTS) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
   const uint pair = active[row], i = pair_seed[pair], region = pair_region[pair];

@@ -1,6 +1,6 @@
 /* One work-item clips one (region, seed) pair, with candidates from the packed tree. */
-#include "neighbors/search.cl"
 #include "clip/arguments.cl"
+#include "neighbors/search.cl"
 
 __kernel void clip_by_tree_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS) {
   const uint row = (uint)get_global_id(0);

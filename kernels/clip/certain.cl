@@ -1,21 +1,23 @@
-/* What makes the outcome of a cell certain in spite of rounding (docs/mathematics.md, "Certain decisions"): common to
-   polygons and polyhedra. */
+/* What makes the outcome of a cell certain in spite of rounding (docs/mathematics.md, "Certain decisions"):
+   common to polygons and polyhedra. */
 #ifndef POWERCELL_CLIP_CERTAIN
 #define POWERCELL_CLIP_CERTAIN
 #include "clip/vertices.cl"
 
-/* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the radius
-   of the cell. */
+/* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the
+   radius of the cell. */
 typedef struct {
   real4 plane;
   real doubt;
 } certain_plane_t;
 
 /* Error of a corner of the region. */
-static inline real corner_error(const vertices_t* p) { return 2 * (REAL_EPSILON * p->reach + p->blur.position); }
+static inline real corner_error(const vertices_t* p) {
+  return 2 * (REAL_EPSILON * p->reach + p->blur.position);
+}
 
-/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw the
-   difference of the weights. */
+/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw
+   the difference of the weights. */
 static inline real plane_error(const vertices_t* p, real sum, real q2, real dw) {
   return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + plane_blur(p->blur, p->radius, sum);
 }
@@ -29,13 +31,15 @@ static inline real most_of_used(const vertices_t* p) {
   return most;
 }
 
-/* After a cut: its vertices lie between those before it but for rounding. The proof from the end asks for that only
-   since there has been a gap. */
+/* After a cut: its vertices lie between those before it but for rounding. The proof from the end asks for
+   that only since there has been a gap. */
 static inline void note_drift(vertices_t* p) {
-  if (QUICK_PROOF || least_of(p->gap, p->closest_gap) < REAL_MAX / 8) p->drift += 2 * REAL_EPSILON * p->radius;
+  if (QUICK_PROOF || least_of(p->gap, p->closest_gap) < REAL_MAX / 8)
+    p->drift += 2 * REAL_EPSILON * p->radius;
 }
 
-/* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after count_sides. */
+/* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after
+ * count_sides. */
 static inline void note_cut(vertices_t* p, real sum, real error) {
   const real scale = 1 / (2 * sum), clear = (p->nearest - error) * scale;
   error += 12 * REAL_EPSILON * sum * p->radius; /* of the ratio in set_edge_point */
@@ -43,8 +47,8 @@ static inline void note_cut(vertices_t* p, real sum, real error) {
   p->rounding = most_of(error * scale, p->rounding);
 }
 
-/* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything on the
-   way (docs/mathematics.md (84)). */
+/* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything
+   on the way (docs/mathematics.md (84)). */
 static inline bool quickly_certain(const vertices_t* p) {
   const real rounding = p->rounding + corner_error(p) + p->drift;
   const real gap = fmin(fmin(p->gap, p->closest_gap), p->clear);
@@ -52,7 +56,8 @@ static inline bool quickly_certain(const vertices_t* p) {
   return QUICK_PROOF && 16 * rounding < steep * fmin(gap, SEARCH_MARGIN / 16 * p->radius);
 }
 
-/* Notes how near the plane 2 q.y = level of `border`, which cuts nothing, comes to the vertices, after find_sides. */
+/* Notes how near the plane 2 q.y = level of `border`, which cuts nothing, comes to the vertices, after
+ * find_sides. */
 static inline void note_gap(vertices_t* p, real sum, real level, real error, int border) {
   const real clear = -(level < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -level */
   const real gap = clear / (2 * sum);
@@ -75,12 +80,14 @@ static inline void note_gone(vertices_t* p, real4 raw, real sum, real error, int
 
 /* Of a bisector. Its level alone does not tell its error: a square and weights may have cancelled there. */
 static inline void note_gone_bisector(vertices_t* p, real4 raw, int border) {
-  const real sum = fabs(raw.x) + fabs(raw.y) + fabs(raw.z), q2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
+  const real sum = fabs(raw.x) + fabs(raw.y) + fabs(raw.z),
+             q2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
   note_gone(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
 }
 
-/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. Where the data leave it
-   open by more than rounding does nothing about it is certain: a cell would have fewer digits than it may have. */
+/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. Where the data
+   leave it open by more than rounding does nothing about it is certain: a cell would have fewer digits than
+   it may have. */
 static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   certain_plane_t unit;
   const real size = sqrt(raw.x * raw.x + raw.y * raw.y + raw.z * raw.z), scale = 1 / size;
@@ -97,7 +104,8 @@ static inline real4 raw_bisector(const vertices_t* p, int other) {
   const seed_t seed = p->seeds[p->self], there = p->seeds[other];
   real q[DIMENSION];
   difference(there, seed, q);
-  return make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, norm2(q) + weight_difference(seed, there));
+  return make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0,
+                    norm2(q) + weight_difference(seed, there));
 }
 
 /* Corner k of the region relative to the seed; .w is 0. */
@@ -113,7 +121,8 @@ static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a,
   const real size = sqrt(dot3(n, n)), scale = 1 / size;
   unit.plane = n * scale;
   unit.plane.w = dot3(unit.plane, y);
-  unit.doubt = (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
+  unit.doubt =
+      (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
   return unit;
 }
 
@@ -135,8 +144,8 @@ static inline void note_gone_facet(vertices_t* p, certain_plane_t facet, int bor
 }
 
 /* The point of three planes, and at least its error in w; below 0 if the planes are nearly dependent, or not
-   oriented as at a vertex of a cell. The nearer to it `from` is (w: 0), the nearer it comes to each plane: of planes nearly
-   dependent a point off by its error along their common line still bounds the right measure. */
+   oriented as at a vertex of a cell. The nearer to it `from` is (w: 0), the nearer it comes to each plane: of
+   planes nearly dependent a point off by its error along their common line still bounds the right measure. */
 static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane_t a, certain_plane_t b,
                                   certain_plane_t c) {
   const real4 bc = cross3(b.plane, c.plane), ca = cross3(c.plane, a.plane), ab = cross3(a.plane, b.plane);
@@ -144,14 +153,15 @@ static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane
   if (!(d > 256 * REAL_EPSILON)) return make_real4(0, 0, 0, -1);
   const real scale = 1 / d;
   const real sum = fabs(a.plane.w) + fabs(b.plane.w) + fabs(c.plane.w);
-  const real ra = a.plane.w - dot3(a.plane, from), rb = b.plane.w - dot3(b.plane, from), rc = c.plane.w - dot3(c.plane, from);
+  const real ra = a.plane.w - dot3(a.plane, from), rb = b.plane.w - dot3(b.plane, from),
+             rc = c.plane.w - dot3(c.plane, from);
   real4 y = from + (bc * ra + ca * rb + ab * rc) * scale;
   y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + 3 * p->radius));
   return y;
 }
 
-/* Puts vertex v at y with the error y.w, which side[v] keeps; returns at least the distance of where it was from the
-   true one. */
+/* Puts vertex v at y with the error y.w, which side[v] keeps; returns at least the distance of where it was
+   from the true one. */
 static inline real move_vertex(vertices_t* p, int v, real4 y) {
   const real x[3] = {y.x, y.y, y.z};
   real moved = y.w;
@@ -169,7 +179,8 @@ static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_p
   return s < -(error + plane.doubt + 4 * REAL_EPSILON * (p->radius + fabs(plane.plane.w)));
 }
 
-/* Whether each vertex is inside the bisector of `closest`, by its own error (side[]) and not the worst of all. */
+/* Whether each vertex is inside the bisector of `closest`, by its own error (side[]) and not the worst of
+ * all. */
 static inline bool closest_is_clear(const vertices_t* p) {
   const certain_plane_t plane = unit_plane(p, raw_bisector(p, p->closest));
   for (int w = 0; w < words_of(p); ++w)

@@ -16,8 +16,8 @@ typedef struct {
   STORAGE(real, doubt, VERTEX_CAPACITY); /* for cell_certain */
   int gone[GONE_MOST];                   /* what was behind edges that are no more */
   int gone_count;
-  int corners;                           /* of the region */
-  int first; /* some vertex */
+  int corners; /* of the region */
+  int first;   /* some vertex */
   HOST_MEMBERS
 } cell_t;
 
@@ -101,7 +101,8 @@ static inline bool find_run(const cell_t* cell, int* first, int* last) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.outside[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      const bool begins = !is_outside(&cell->at, cell->previous[v]), ends = !is_outside(&cell->at, cell->next[v]);
+      const bool begins = !is_outside(&cell->at, cell->previous[v]),
+                 ends = !is_outside(&cell->at, cell->next[v]);
       *first = begins ? v : *first;
       *last = ends ? v : *last;
       firsts += begins;
@@ -142,7 +143,9 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
 }
 
 /* Faces are numbered like slots: face v may be none. */
-static inline int cell_faces(const cell_t* cell) { return cell->at.blocks * LANES; }
+static inline int cell_faces(const cell_t* cell) {
+  return cell->at.blocks * LANES;
+}
 
 /* Whether face f lies in the plane that side[] was computed for and that nothing is outside of. */
 static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) {
@@ -150,8 +153,8 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
   return cell->at.side[f] >= -tolerance && cell->at.side[cell->next[f]] >= -tolerance;
 }
 
-/* Where the lines of vertex v meet on the ground, and at least the error of that in w; below 0 if the lines are nearly
-   dependent. */
+/* Where the lines of vertex v meet on the ground, and at least the error of that in w; below 0 if the lines
+   are nearly dependent. */
 static inline real4 certain_place(const cell_t* cell, int v, certain_plane_t ground) {
   const int u = cell->previous[v];
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
@@ -161,9 +164,9 @@ static inline real4 certain_place(const cell_t* cell, int v, certain_plane_t gro
   return y;
 }
 
-/* Whether each edge goes inwards from the line before it: then the lines bound the intersection of their half-planes, and no
-   other polygon. If so, line[v] is the place of vertex v afterwards, with its error in w: a line has served when the
-   second vertex after it is placed. */
+/* Whether each edge goes inwards from the line before it: then the lines bound the intersection of their
+   half-planes, and no other polygon. If so, line[v] is the place of vertex v afterwards, with its error in w:
+   a line has served when the second vertex after it is placed. */
 static inline bool find_places(cell_t* cell, certain_plane_t ground) {
   real4 last = make_real4(0, 0, 0, 0), before_last = last;
   int v = cell->first, placed = 0;
@@ -184,8 +187,8 @@ static inline bool find_places(cell_t* cell, certain_plane_t ground) {
 }
 
 /* Proves the shape of the cell from its edges alone, whatever rounding did on the way to it; the vertices are
-   better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below 0 if
-   the shape is not certain: then the vertices are as they were. */
+   better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below
+   0 if the shape is not certain: then the vertices are as they were. */
 static inline real cell_certain(cell_t* cell) {
   real worst = 0;
   find_radius2(&cell->at);
@@ -251,8 +254,8 @@ static inline void cell_moments(const cell_t* cell, real* moments) {
     triangle_moments(cell, first, v, w, moments);
 }
 
-/* Writes what lies behind the edges and their lengths, in order, without geometry only of walls between cells;
-   returns their number. */
+/* Writes what lies behind the edges and their lengths, in order, without geometry only of walls between
+   cells; returns their number. */
 static inline int cell_write_walls(cell_t* cell, __global int* border, __global stored_real* wall) {
   int count = 0, v = cell->first;
   do {

@@ -10,12 +10,13 @@ typedef struct {
   STORAGE_ROWS(index_t, next, 3, VERTEX_CAPACITY);
   STORAGE_ROWS(index_t, face, 3, VERTEX_CAPACITY);
   STORAGE(int, border, FACE_CAPACITY);
-  STORAGE(index_t, mark, FACE_CAPACITY); /* NO_VERTEX between cuts */
+  STORAGE(index_t, mark, FACE_CAPACITY);  /* NO_VERTEX between cuts */
   STORAGE(real4, point, VERTEX_CAPACITY); /* for cell_certain, then for the moments */
-  STORAGE(real4, normal, FACE_CAPACITY); /* of the bisectors (q, level) until cell_moments, then of the faces */
-  STORAGE(real, doubt, FACE_CAPACITY);   /* for cell_certain */
+  STORAGE(real4, normal,
+          FACE_CAPACITY);              /* of the bisectors (q, level) until cell_moments, then of the faces */
+  STORAGE(real, doubt, FACE_CAPACITY); /* for cell_certain */
   __global const region_shape_t* shape; /* of the region */
-  int faces; /* face numbers given out; some may no longer be in use */
+  int faces;                            /* face numbers given out; some may no longer be in use */
   HOST_MEMBERS
 } cell_t;
 
@@ -25,7 +26,8 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   const uint first = regions.offset[region];
   cell->faces = regions.shape->faces;
   cell->shape = regions.shape;
-  start_vertices(&cell->at, regions, seeds, self, regions.vertex + first, regions.behind + region * (uint)cell->faces);
+  start_vertices(&cell->at, regions, seeds, self, regions.vertex + first,
+                 regions.behind + region * (uint)cell->faces);
   set_corners(&cell->at, regions.shape->vertices);
   for (int v = 0; v < regions.shape->vertices; ++v) {
     UNROLL for (int k = 0; k < 3; ++k) {
@@ -38,7 +40,8 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   return PIECE_WHOLE;
 }
 
-/* The plane of facet `f` of the region, by a corner and the two edges beside it that the shape puts f between. */
+/* The plane of facet `f` of the region, by a corner and the two edges beside it that the shape puts f
+ * between. */
 static inline certain_plane_t region_plane(const cell_t* cell, int f) {
   int v = 0, k = 0;
   while (cell->shape->face[k][v] != f)
@@ -72,8 +75,8 @@ static inline void forget_face(cell_t* cell, int f) {
   }
 }
 
-/* Forgets the faces that no vertex has, so that their numbers can be given out again; notes the gaps to them if
-   `note`, and then side[] does not hold afterwards. */
+/* Forgets the faces that no vertex has, so that their numbers can be given out again; notes the gaps to them
+   if `note`, and then side[] does not hold afterwards. */
 static inline void collect_faces(cell_t* cell, bool note) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1)
@@ -135,8 +138,8 @@ static inline int link_cut(cell_t* cell, int first, int count) {
   return length == count && count >= 3 ? CUT_SHRUNK : CUT_TANGLED;
 }
 
-/* Lists the edges from vertices of word w outside to others, as slot within the word times 4 plus k; returns their
-   number. Which edges these are is anybody's guess, so there is no branch to be taken wrong. */
+/* Lists the edges from vertices of word w outside to others, as slot within the word times 4 plus k; returns
+   their number. Which edges these are is anybody's guess, so there is no branch to be taken wrong. */
 static inline int list_cut_edges(const cell_t* cell, int w, uchar* edge) {
   int count = 0;
   for (ulong bits = cell->at.outside[w]; bits != 0; bits &= bits - 1) {
@@ -190,7 +193,9 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
 }
 
 /* Faces are numbered up to here; some may be none. */
-static inline int cell_faces(const cell_t* cell) { return cell->faces; }
+static inline int cell_faces(const cell_t* cell) {
+  return cell->faces;
+}
 
 /* Whether face f lies in the plane that side[] was computed for and that nothing is outside of. */
 static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) {
@@ -207,8 +212,8 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
   return used;
 }
 
-/* point[v] = where the three planes of vertex v meet, and at least the error of that in w. False if some planes are
-   nearly dependent. */
+/* point[v] = where the three planes of vertex v meet, and at least the error of that in w. False if some
+   planes are nearly dependent. */
 static inline bool find_places(cell_t* cell) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
@@ -228,8 +233,8 @@ static inline bool find_places(cell_t* cell) {
   return true;
 }
 
-/* Whether each edge goes inwards from the face across its start: then the faces bound the intersection of their
-   half-spaces, and no other polyhedron. Needs find_places. */
+/* Whether each edge goes inwards from the face across its start: then the faces bound the intersection of
+   their half-spaces, and no other polyhedron. Needs find_places. */
 static inline bool edges_are_certain(const cell_t* cell) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
@@ -245,14 +250,15 @@ static inline bool edges_are_certain(const cell_t* cell) {
 }
 
 /* Proves the shape of the cell from its faces alone, whatever rounding did on the way to it; the vertices are
-   better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below 0 if
-   the shape is not certain: then the vertices are as they were. */
+   better afterwards. Returns at least the distance of the vertices as they were from the true ones, or below
+   0 if the shape is not certain: then the vertices are as they were. */
 static inline real cell_certain(cell_t* cell) {
   real worst = 0;
   find_radius2(&cell->at);
   for (int f = 0; f < cell->faces; ++f) {
     const certain_plane_t unit = face_plane(cell, f);
-    if (!(unit.doubt < REAL_MAX)) return -1; /* the square of q is nothing, but cell_moments needs its direction */
+    if (!(unit.doubt < REAL_MAX))
+      return -1; /* the square of q is nothing, but cell_moments needs its direction */
     cell->normal[f] = unit.plane;
     cell->doubt[f] = unit.doubt;
   }
@@ -265,8 +271,8 @@ static inline real cell_certain(cell_t* cell) {
   return worst;
 }
 
-/* Before the functions below and, with `note`, before cell_certain: mark[f] = the first vertex of each face, the apex
-   of its fan of triangles. */
+/* Before the functions below and, with `note`, before cell_certain: mark[f] = the first vertex of each face,
+   the apex of its fan of triangles. */
 static inline void cell_finish(cell_t* cell, bool note) {
   collect_faces(cell, note);
   for (int w = words_of(&cell->at) - 1; w >= 0; --w)
@@ -288,18 +294,19 @@ static inline bool cell_goes_on(const cell_t* cell) {
 static inline real4 face_height(const cell_t* cell, int f, real4 top) {
   real4 n = cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]).plane : cell->normal[f];
   n.w = 0;
-  n = n * (1 / fmax(fmax(fabs(n.x), fabs(n.y)), fmax(fabs(n.z), REAL_LEAST))); /* seeds may be next to nothing apart */
+  n = n * (1 / fmax(fmax(fabs(n.x), fabs(n.y)),
+                    fmax(fabs(n.z), REAL_LEAST))); /* seeds may be next to nothing apart */
   n = n * (1 / sqrt(dot3(n, n)));
   n.w = dot3(n, cell->point[cell->mark[f]] - top);
   return n;
 }
 
-/* Adds the integrals over the tetrahedron of `top` and the triangle a, v, w in the face of that height, all with |y|^2 in the
-   last component: to sums those of 1 and of 24 y, and to `squares` parts of that of 120 |y|^2 (docs/mathematics.md (14)).
-   Returns twice the area of the triangle. By the face's own normal: that of the triangle would be lost in rounding where
-   the cell is a needle. */
-static inline real tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, real4 height, real* volume, real4* sums,
-                                       real4* squares) {
+/* Adds the integrals over the tetrahedron of `top` and the triangle a, v, w in the face of that height, all
+   with |y|^2 in the last component: to sums those of 1 and of 24 y, and to `squares` parts of that of 120
+   |y|^2 (docs/mathematics.md (14)). Returns twice the area of the triangle. By the face's own normal: that of
+   the triangle would be lost in rounding where the cell is a needle. */
+static inline real tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, real4 height, real* volume,
+                                       real4* sums, real4* squares) {
   const real4 sum = (top + a) + (v + w);
   const real area = dot3(cross3(v - a, w - a), height), part = area * height.w;
   const real4 weighted = sum * part;
@@ -309,8 +316,8 @@ static inline real tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, rea
   return area;
 }
 
-/* The integrals of 1, y and |y|^2, by the tetrahedra from one vertex over a fan of each face; side[f] = area of
-   face f, where walls are asked for. Needs cell_finish. */
+/* The integrals of 1, y and |y|^2, by the tetrahedra from one vertex over a fan of each face; side[f] = area
+   of face f, where walls are asked for. Needs cell_finish. */
 static inline void cell_moments(cell_t* cell, real* moments) {
   const bool walls = (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0;
   const int words = words_of(&cell->at);
@@ -335,8 +342,9 @@ static inline void cell_moments(cell_t* cell, real* moments) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       UNROLL for (int k = 0; k < 3; ++k) {
         const int f = cell->face[k][v];
-        const real area = tetrahedron_moments(top, cell->point[cell->mark[f]], cell->point[v],
-                                              cell->point[cell->next[k][v]], cell->normal[f], &volume, &sums, &squares);
+        const real area =
+            tetrahedron_moments(top, cell->point[cell->mark[f]], cell->point[v],
+                                cell->point[cell->next[k][v]], cell->normal[f], &volume, &sums, &squares);
         if (walls) cell->at.side[f] += area;
       }
     }
@@ -349,8 +357,8 @@ static inline void cell_moments(cell_t* cell, real* moments) {
   moments[4] = (sums.w + squares.x + squares.y + squares.z) / 120;
 }
 
-/* Writes what lies behind the faces and their areas, without geometry only of walls between cells; returns their
-   number. Needs cell_moments. */
+/* Writes what lies behind the faces and their areas, without geometry only of walls between cells; returns
+   their number. Needs cell_moments. */
 static inline int cell_write_walls(cell_t* cell, __global int* border, __global stored_real* wall) {
   int count = 0;
   for (int f = 0; f < cell->faces; ++f) {

@@ -11,30 +11,33 @@
 
 typedef struct {
   STORAGE_ROWS(real, x, DIMENSION, VERTEX_CAPACITY);
-  STORAGE(real, side, VERTEX_CAPACITY);   /* of the last plane tried */
-  STORAGE(ulong, used, VERTEX_WORDS);     /* a bit per slot: it is a vertex */
-  STORAGE(ulong, outside, VERTEX_WORDS);  /* vertices outside the last plane that cut */
-  int blocks;                             /* in use */
-  real reach;                     /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  STORAGE(real, side, VERTEX_CAPACITY);  /* of the last plane tried */
+  STORAGE(ulong, used, VERTEX_WORDS);    /* a bit per slot: it is a vertex */
+  STORAGE(ulong, outside, VERTEX_WORDS); /* vertices outside the last plane that cut */
+  int blocks;                            /* in use */
+  real reach;  /* largest coordinate sum of the region's corners: the scale of rounding errors */
   real radius; /* no vertex is farther from the seed */
   real most;   /* largest of side[] */
-  real gap;    /* no plane that cut nothing, but that of `closest`, is nearer to a vertex; below 0: one may cut */
-  real closest_gap;               /* how near that of `closest` came; of both, rounding is taken off */
-  int closest;                    /* the seed, by rank, whose bisector came nearest of those that cut nothing */
-  real clear;  /* the same of those that cut */
-  real nearest;                   /* no vertex, nor the seed, has a smaller |side| (count_sides) */
-  real rounding;                  /* no vertex is farther from a plane through it, but for what each cut adds */
-  real steep, size2;              /* least squared sine of a bisector with an edge it cut; 4 |q|^2 of the last one */
-  real drift;                     /* what cuts add: roundings of their new vertices */
-  blur_t blur;                    /* of the data (base/real.cl) */
-  uint self;                      /* rank of the seed */
-  __global const seed_t* seeds;   /* all seeds, by rank */
-  __global const seed_t* corner;  /* vertices of the domain */
-  __global const uint* region;    /* the corners of the region */
-  __global const int* behind;     /* what lies behind the facets of the region */
+  real
+      gap; /* no plane that cut nothing, but that of `closest`, is nearer to a vertex; below 0: one may cut */
+  real closest_gap;  /* how near that of `closest` came; of both, rounding is taken off */
+  int closest;       /* the seed, by rank, whose bisector came nearest of those that cut nothing */
+  real clear;        /* the same of those that cut */
+  real nearest;      /* no vertex, nor the seed, has a smaller |side| (count_sides) */
+  real rounding;     /* no vertex is farther from a plane through it, but for what each cut adds */
+  real steep, size2; /* least squared sine of a bisector with an edge it cut; 4 |q|^2 of the last one */
+  real drift;        /* what cuts add: roundings of their new vertices */
+  blur_t blur;       /* of the data (base/real.cl) */
+  uint self;         /* rank of the seed */
+  __global const seed_t* seeds;  /* all seeds, by rank */
+  __global const seed_t* corner; /* vertices of the domain */
+  __global const uint* region;   /* the corners of the region */
+  __global const int* behind;    /* what lies behind the facets of the region */
 } vertices_t;
 
-static inline int words_of(const vertices_t* p) { return VERTEX_WORDS == 1 ? 1 : (p->blocks + 7) / 8; }
+static inline int words_of(const vertices_t* p) {
+  return VERTEX_WORDS == 1 ? 1 : (p->blocks + 7) / 8;
+}
 
 static inline void start_vertices(vertices_t* p, regions_t regions, __global const seed_t* seeds, uint self,
                                   __global const uint* region, __global const int* behind) {
@@ -75,7 +78,9 @@ static inline int free_slot(vertices_t* p, int capacity) {
   return (p->blocks - 1) * LANES;
 }
 
-static inline void use_slot(vertices_t* p, int v) { p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS; }
+static inline void use_slot(vertices_t* p, int v) {
+  p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS;
+}
 
 /* The corners of the region as vertices 0, 1, ... */
 static inline void set_corners(vertices_t* p, int count) {

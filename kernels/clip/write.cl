@@ -4,13 +4,13 @@
 #include "clip/bisector.cl"
 
 typedef struct {
-  __global stored_real* moments;  /* per pair: measure, first moments, second moment, about the seed */
-  __global uint* faces;           /* per row: faces written, all or (without geometry) the walls alone */
-  __global int* border;           /* rows of FACE_CAPACITY */
-  __global stored_real* wall;     /* rows of FACE_CAPACITY */
-  __global uint* vertices;        /* per row: vertices written */
-  __global stored_real* vertex;   /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
-  __global uint* link;            /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
+  __global stored_real* moments; /* per pair: measure, first moments, second moment, about the seed */
+  __global uint* faces;          /* per row: faces written, all or (without geometry) the walls alone */
+  __global int* border;          /* rows of FACE_CAPACITY */
+  __global stored_real* wall;    /* rows of FACE_CAPACITY */
+  __global uint* vertices;       /* per row: vertices written */
+  __global stored_real* vertex;  /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
+  __global uint* link;           /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
 } output_t;
 
 /* True if the cell is no thicker than the rounding errors of its vertices. */
@@ -24,20 +24,23 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
   return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
 }
 
-/* Whether a piece that nothing can cut any more is what it would be without rounding: its own shape is certain, and
-   no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better afterwards. */
+/* Whether a piece that nothing can cut any more is what it would be without rounding: its own shape is
+   certain, and no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better
+   afterwards. */
 static inline bool whole_is_certain(cell_t* cell) {
-  if (!(cell->at.gap > 0)) return false; /* before vertices move: a face that was touched has no plane to put them in */
+  if (!(cell->at.gap > 0))
+    return false; /* before vertices move: a face that was touched has no plane to put them in */
   const real moved = cell_certain(cell), off = moved + cell->at.drift;
   if (!(moved >= 0 && off < cell->at.gap && 16 * moved < SEARCH_MARGIN * cell->at.radius)) return false;
   return off < cell->at.closest_gap || closest_is_clear(&cell->at);
 }
 
-/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few digits, and
- * one that is small beside the domain moments below the range of numbers. */
+/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few
+ * digits, and one that is small beside the domain moments below the range of numbers. */
 static inline bool measure_is_good(const cell_t* cell, real measure) {
   const real r = cell->at.radius;
-  return measure >= fmax(REAL_LEAST, LEAST_FILLING * (CELL_DIMENSION == 3 ? r * r * r : r * r)) || cell_goes_on(cell);
+  return measure >= fmax(REAL_LEAST, LEAST_FILLING * (CELL_DIMENSION == 3 ? r * r * r : r * r)) ||
+         cell_goes_on(cell);
 }
 
 /* Writes a piece that ended with `status`; returns the final status. */
@@ -69,8 +72,8 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     out.faces[row] = 0;
     if (OUTPUTS & OUTPUT_GEOMETRY) out.vertices[row] = 0;
   }
-  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k)
-    out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] = (stored_real)moments[k];
+  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] =
+      (stored_real)moments[k];
   return status <= PIECE_FLAT && !certain ? status | PIECE_UNCERTAIN : status;
 }
 

@@ -1,6 +1,6 @@
 /* Clips (region, seed) pairs whose number only the device knows. */
-#include "neighbors/search.cl"
 #include "clip/arguments.cl"
+#include "neighbors/search.cl"
 
 /* Work-item t takes entry first + t of the pairs, or of `list` where `listed`, if it is below `end` and
    below their number: offset[seed_count] pairs, found[0] listed ones. Writes status and moments by
@@ -11,8 +11,7 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
                          __global const uint* state, __global const seed_t* corners,
                          __global const uint* region_offset, __global const uint* region_vertex,
                          __global const int* behind, __global const region_shape_t* shape,
-                         __global uint* status,
-                         __global stored_real* moments, TREE_ARGUMENTS) {
+                         __global uint* status, __global stored_real* moments, TREE_ARGUMENTS) {
   const uint entry = first + (uint)get_global_id(0);
   if (entry >= end || entry >= (listed ? (ulong)found[0] : offset[seed_count])) return;
   const uint pair = listed ? list[entry] : entry, i = pair_seed[pair];
@@ -24,7 +23,8 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
   int result = state[i] == SEED_OK ? PIECE_WHOLE : PIECE_EMPTY;
   if (result == PIECE_WHOLE)
     result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
-  else cell.at.gap = 1; /* not even started, and certainly empty */
+  else
+    cell.at.gap = 1; /* not even started, and certainly empty */
   if (result == PIECE_WHOLE) result = clip_by_tree(&cell, tree, blocks, i);
   status[pair] = (uint)write_piece(&cell, out, result, pair, 0);
 }

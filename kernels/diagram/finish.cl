@@ -41,8 +41,8 @@ __kernel void write_measures(const uint count, __global const uint* order, __glo
   for (int k = 1; k < CELL_DIMENSION; ++k) scale *= unit;
   __global stored_real* row = measures + i * MEASURES;
   row[0] = cell ? sum[0] * scale : known ? (real)0 : (real)NAN;
-  UNROLL for (int k = 0; k < DIMENSION; ++k)
-    row[1 + k] = cell ? positions[i * DIMENSION + (size_t)k] + sum[1 + k] / sum[0] * unit : (real)NAN;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) row[1 + k] =
+      cell ? positions[i * DIMENSION + (size_t)k] + sum[1 + k] / sum[0] * unit : (real)NAN;
   row[1 + DIMENSION] = cell ? sum[1 + DIMENSION] * scale * unit * unit : known ? (real)0 : (real)NAN;
   status[i] = result;
 }

@@ -4,9 +4,11 @@
 
 #define MOMENTS (2 + DIMENSION)
 
-/* The sum decides whether its loop goes on (a sum that is no number stays one), so that it is taken in this order: Intel's
-   compiler adds up loops that are plain sums in another where it has no vector of work-items, without being told to. */
-static inline stored_real add_column(stored_real sum, __global const stored_real* moments, uint first, uint end, uint column) {
+/* The sum decides whether its loop goes on (a sum that is no number stays one), so that it is taken in this
+   order: Intel's compiler adds up loops that are plain sums in another where it has no vector of work-items,
+   without being told to. */
+static inline stored_real add_column(stored_real sum, __global const stored_real* moments, uint first,
+                                     uint end, uint column) {
   for (uint pair = first; pair < end && sum == sum; ++pair) sum += moments[(size_t)pair * MOMENTS + column];
   return sum;
 }

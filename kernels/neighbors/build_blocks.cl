@@ -2,10 +2,11 @@
 #include "neighbors/near.cl"
 
 /* Work-item t packs leaf t, and as node t of `nodes` above the leaves its children. */
-__kernel void pack_blocks(const uint leaves, const uint nodes, __global const seed_t* seeds, const uint seed_count,
-                          __global const seed_t* node_low, __global const seed_t* node_high,
-                          __global const uint* level_offset, const int levels,
-                          __global stored_real* seed_block, __global stored_real* node_block) {
+__kernel void pack_blocks(const uint leaves, const uint nodes, __global const seed_t* seeds,
+                          const uint seed_count, __global const seed_t* node_low,
+                          __global const seed_t* node_high, __global const uint* level_offset,
+                          const int levels, __global stored_real* seed_block,
+                          __global stored_real* node_block) {
   const uint t = (uint)get_global_id(0);
   const tree_t tree = {seeds, node_low, node_high, level_offset, levels, seed_count};
   if (t < leaves) pack_seed_block(tree, t, seed_block);

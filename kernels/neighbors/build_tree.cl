@@ -17,7 +17,8 @@ __kernel void lay_out_levels(const uint seeds, __global uint* level_offset) {
 }
 
 /* Makes `p` hold what both hold: the box and the largest weight. */
-static inline void add_child(parts_t* low, parts_t* high, const parts_t* child_low, const parts_t* child_high) {
+static inline void add_child(parts_t* low, parts_t* high, const parts_t* child_low,
+                             const parts_t* child_high) {
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     if (parts_less(child_low, low, k)) {
       low->high[k] = child_low->high[k];

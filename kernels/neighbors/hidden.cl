@@ -2,19 +2,19 @@
    (docs/mathematics.md, "Hidden seeds"). They are found by the simplex method over the seeds nearby. */
 #include "neighbors/nearest.cl"
 
-/* Leaves whose seeds are asked. Of 48 and 52 hidden seeds among 100 (white, W2) 4, 6 and 8 leaves find 34, 44 and 47 in
-   the plane, 8, 12 and 16 find 35, 44 and 48 in space. */
+/* Leaves whose seeds are asked. Of 48 and 52 hidden seeds among 100 (white, W2) 4, 6 and 8 leaves find 34, 44
+   and 47 in the plane, 8, 12 and 16 find 35, 44 and 48 in space. */
 #define RIVAL_LEAVES (DIMENSION == 3 ? 12 : 6)
 #define RIVALS (RIVAL_LEAVES * LANES)
 #define ROWS (DIMENSION + 1)
 /* Steps after which a seed is left to clipping: most that are hidden need 4 to 8. */
 #define PIVOTS_MOST 12
-/* Distance of the planes of the first basis from the seed, in units of the farthest rival's, over the length of their
-   normals. Nearer ones save steps until they hide that a seed is hidden. */
+/* Distance of the planes of the first basis from the seed, in units of the farthest rival's, over the length
+   of their normals. Nearer ones save steps until they hide that a seed is hidden. */
 #define START_RADIUS ((real)1)
 
-/* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and level_j = |q_j|^2 + w_i - w_j, so that no point
-   p_i + y with q_j.(2y) > level_j is i's. */
+/* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and level_j = |q_j|^2 + w_i - w_j, so that no
+   point p_i + y with q_j.(2y) > level_j is i's. */
 typedef struct {
   real q[DIMENSION][RIVALS];
   real level[RIVALS];
@@ -22,14 +22,17 @@ typedef struct {
   int leaves;
 } rivals_t;
 
-/* A basis: ROWS columns (q_k, 1), of rivals or of planes of a simplex around the seed, whose multiples e_k sum up to
-   (0, 1). Of its inverse columns are kept, one number for each k, the last of which is e; unused numbers are 0. */
+/* A basis: ROWS columns (q_k, 1), of rivals or of planes of a simplex around the seed, whose multiples e_k
+   sum up to (0, 1). Of its inverse columns are kept, one number for each k, the last of which is e; unused
+   numbers are 0. */
 typedef struct {
   real inverse[ROWS][4];
   real q[ROWS][DIMENSION];
   real level[ROWS];
-  real proof[ROWS]; /* the same of a rival; of a plane of the simplex the least level that all of the box is within */
-  real dual[ROWS];  /* (2y, t): the point y at which all of the basis have the same value level - q.(2y), and that */
+  real proof[ROWS]; /* the same of a rival; of a plane of the simplex the least level that all of the box is
+                       within */
+  real dual[ROWS];  /* (2y, t): the point y at which all of the basis have the same value level - q.(2y), and
+                       that */
 } basis_t;
 
 /* The box relative to p_i, and what two floats leave out there. */
@@ -58,7 +61,8 @@ static inline real rival_error(const room_t* room, const real* q, real level) {
 }
 
 /* Reads the seeds of the leaves; returns whether p_i itself is beyond the bisector of any. */
-static inline bool find_rivals(rivals_t* rivals, blocks_t blocks, const nearest_t* near, seed_t seed, uint i) {
+static inline bool find_rivals(rivals_t* rivals, blocks_t blocks, const nearest_t* near, seed_t seed,
+                               uint i) {
   const origin_t origin = origin_of(seed);
   real8 least = ZERO8, most = ZERO8;
   rivals->leaves = near->count;
@@ -81,7 +85,8 @@ static inline bool find_rivals(rivals_t* rivals, blocks_t blocks, const nearest_
 /* Starts from the planes of a simplex around the seed, with normals `size` long. */
 static inline void start_basis(basis_t* basis, const room_t* room, real size) {
 #if DIMENSION == 3
-  const real4 normal[DIMENSION] = {make_real4(1, 1, -1, -1), make_real4(1, -1, 1, -1), make_real4(1, -1, -1, 1)};
+  const real4 normal[DIMENSION] = {make_real4(1, 1, -1, -1), make_real4(1, -1, 1, -1),
+                                   make_real4(1, -1, -1, 1)};
   const real4 share = make_real4(1, 1, 1, 1) / 4;
   const real part = 1 / (4 * size);
 #else
@@ -113,8 +118,8 @@ static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real
   real8 worst = all_lanes(REAL_MAX / 4);
   for (int k = 0; k < rivals->leaves; ++k) {
     real8 left = load8(rivals->level + k * LANES);
-    UNROLL for (int c = 0; c < DIMENSION; ++c)
-      left = left - load8(rivals->q[c] + k * LANES) * all_lanes(basis->dual[c]);
+    UNROLL for (int c = 0; c < DIMENSION; ++c) left =
+        left - load8(rivals->q[c] + k * LANES) * all_lanes(basis->dual[c]);
     worst = least8(worst, tag8(left, (uint)k * LANES));
   }
   const real least = lane_least(worst);
@@ -122,8 +127,8 @@ static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real
   return (int)tag_of(least);
 }
 
-/* Which column leaves when one comes in that is `column` of the present ones, of which `inverse` is one over: the
-   multiples of the others stay at least 0. Below 0 if none can. */
+/* Which column leaves when one comes in that is `column` of the present ones, of which `inverse` is one over:
+   the multiples of the others stay at least 0. Below 0 if none can. */
 static inline int leaving_column(const real* multiple, real4 column, real4 inverse) {
   const real4 most = (real4)(REAL_MAX), least = (real4)(16 * REAL_EPSILON);
   real ratio[4];
@@ -146,7 +151,8 @@ static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival
   if (leaving < 0) return false;
   store4(inverse, u);
   const real scale = u[leaving];
-  const real4 rest = (column - select((real4)(0), (real4)(1), (mask4)(0, 1, 2, 3) == (mask4)(leaving))) * scale;
+  const real4 rest =
+      (column - select((real4)(0), (real4)(1), (mask4)(0, 1, 2, 3) == (mask4)(leaving))) * scale;
   UNROLL for (int k = 0; k < ROWS; ++k) {
     const real old = basis->inverse[k][leaving];
     store4(vload4(0, basis->inverse[k]) - rest * old, basis->inverse[k]);
@@ -157,8 +163,8 @@ static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival
   return true;
 }
 
-/* Whether the basis proves that nothing of the box is i's: a sum of its inequalities with multiples that are not
-   negative holds nowhere in it, with all errors (docs/mathematics.md (10c)). */
+/* Whether the basis proves that nothing of the box is i's: a sum of its inequalities with multiples that are
+   not negative holds nowhere in it, with all errors (docs/mathematics.md (10c)). */
 static inline bool basis_proves(const basis_t* basis, const room_t* room) {
   real sum = 0, error = 0, q[DIMENSION];
   UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = 0;
@@ -168,14 +174,13 @@ static inline bool basis_proves(const basis_t* basis, const room_t* room) {
     error += e * rival_error(room, basis->q[r], basis->proof[r]);
     UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] += e * basis->q[r][k];
   }
-  UNROLL for (int k = 0; k < DIMENSION; ++k)
-    sum -= 2 * least_of(q[k] * room->low[k], q[k] * room->high[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) sum -= 2 * least_of(q[k] * room->low[k], q[k] * room->high[k]);
   return sum < -2 * error;
 }
 
 /* Whether it is certain that the seed of rank i has no cell in the box. */
-static inline bool is_hidden(tree_t tree, blocks_t blocks, __global const seed_t* box,
-                             const nearest_t* near, uint i) {
+static inline bool is_hidden(tree_t tree, blocks_t blocks, __global const seed_t* box, const nearest_t* near,
+                             uint i) {
   rivals_t rivals;
   const seed_t seed = tree.seeds[i];
   if (!find_rivals(&rivals, blocks, near, seed, i)) return false;
@@ -192,11 +197,12 @@ static inline bool is_hidden(tree_t tree, blocks_t blocks, __global const seed_t
   return false;
 }
 
-/* Work-item t tells which seeds of leaf t * stride have certainly no cell in the box between two points. The tree has
-   more than one leaf. */
+/* Work-item t tells which seeds of leaf t * stride have certainly no cell in the box between two points. The
+   tree has more than one leaf. */
 __kernel void find_hidden(const uint count, const uint stride, __global const seed_t* box,
-                          __global const seed_t* seeds, const uint seed_count, __global const seed_t* node_low,
-                          __global const seed_t* node_high, __global const uint* level_offset, const int levels,
+                          __global const seed_t* seeds, const uint seed_count,
+                          __global const seed_t* node_low, __global const seed_t* node_high,
+                          __global const uint* level_offset, const int levels,
                           __global const stored_real* seed_block, __global const stored_real* node_block,
                           __global uchar* hidden) {
   const uint t = (uint)get_global_id(0);

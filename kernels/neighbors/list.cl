@@ -6,9 +6,9 @@
 #include "clip/bisector.cl"
 
 typedef struct {
-  __global const seed_t* seeds;          /* by rank */
-  __global const stored_real* lift;      /* h of each seed */
-  __global const uint* neighbor;         /* rows of `stride` ranks */
+  __global const seed_t* seeds;     /* by rank */
+  __global const stored_real* lift; /* h of each seed */
+  __global const uint* neighbor;    /* rows of `stride` ranks */
   uint stride;
   uint count; /* neighbours in each row */
   uint total; /* seeds in all */

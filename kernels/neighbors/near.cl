@@ -8,8 +8,8 @@
 #define NEAR_SPREAD (CELL_DIMENSION == 3 ? (real)1.4 : (real)1.1)
 #define NEAR_TRIES 12
 
-/* The box of a leaf's seeds relative to its first seed, with the largest weight of the leaf: the first seed may
-   be one that takes no part, whose weight would drown all others. */
+/* The box of a leaf's seeds relative to its first seed, with the largest weight of the leaf: the first seed
+   may be one that takes no part, whose weight would drown all others. */
 typedef struct {
   origin_t origin;
   real low[DIMENSION], high[DIMENSION];

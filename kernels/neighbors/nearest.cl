@@ -4,8 +4,8 @@
 #include "neighbors/near.cl"
 
 /* Lifted distances of the children of a node from the home; returns a bit for each that is below `reach`. */
-static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level, real reach,
-                                   real* distance) {
+static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level,
+                                   real reach, real* distance) {
   real8 a[DIMENSION], b[DIMENSION], dw;
   node_lanes(blocks, block_of_children(tree, node, level), &home->origin, a, b, &dw);
   const real8 lifted = lifted_distance8(home, a, b, dw);
@@ -20,7 +20,8 @@ static inline void take_leaves(nearest_t* near, tree_t tree, blocks_t blocks, co
   uint bits = children_within(tree, blocks, home, node, 1, nearest_reach(near), distance);
   for (; bits != 0; bits &= bits - 1) {
     const int lane = lowest_bit(bits);
-    if (distance[lane] < nearest_reach(near)) insert_nearest(near, node * TREE_FAN + (uint)lane, distance[lane]);
+    if (distance[lane] < nearest_reach(near))
+      insert_nearest(near, node * TREE_FAN + (uint)lane, distance[lane]);
   }
 }
 

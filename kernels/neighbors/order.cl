@@ -17,8 +17,8 @@ typedef struct {
   __global const uint* leaf;
 } order_t;
 
-/* The key of eight seeds at q with weights less than that of the seed by dw, rather too low than too high: where weights
-   and distances cancel, and of seeds nearer than the resolution. */
+/* The key of eight seeds at q with weights less than that of the seed by dw, rather too low than too high:
+   where weights and distances cancel, and of seeds nearer than the resolution. */
 static inline real8 bisector_keys(const real8* q, real8 dw, real resolution) {
   const real8 taken = all_lanes(TAKEN);
   real8 q2 = ZERO8;
@@ -65,8 +65,8 @@ static inline real take_least(order_t* order) {
   return least;
 }
 
-/* Cuts by those seeds of a leaf whose bits are set in `left`, tested by the vertices if `close`, else by the box
-   of the cell, which is kept. Returns a CUT code, CUT_NONE when done. */
+/* Cuts by those seeds of a leaf whose bits are set in `left`, tested by the vertices if `close`, else by the
+   box of the cell, which is kept. Returns a CUT code, CUT_NONE when done. */
 static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i, uint leaf, uint left,
                               bool close, real* low, real* high) {
   const seed_t seed = tree.seeds[i];
@@ -107,11 +107,13 @@ static inline int cut_by_near(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   const seed_t seed = tree.seeds[i];
   find_keys(&order, cell, tree, blocks, i);
   if (order.count == 0) return CUT_NONE;
-  real reach = TAKEN / 2; /* found anew only after a bisector that cut nothing: that they end shows first there */
+  real reach =
+      TAKEN / 2; /* found anew only after a bisector that cut nothing: that they end shows first there */
   bool shrunk = true;
   for (int misses = 0; misses < MISSES_MOST;) {
     const real least = take_least(&order);
-    if (!(untagged(least) < reach)) return CUT_NONE; /* that plane is beyond every vertex, and so are the rest */
+    if (!(untagged(least) < reach))
+      return CUT_NONE; /* that plane is beyond every vertex, and so are the rest */
     const uint at = tag_of(least), j = order.leaf[at / LANES] * TREE_FAN + at % LANES;
     const int cut = cut_by_seed(cell, seed, tree.seeds[j], (int)j);
     if (cut > CUT_SHRUNK) return cut;

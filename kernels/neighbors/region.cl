@@ -10,9 +10,9 @@
 #define LISTED_LAST (REAL_MAX / 4) /* key of a seed that has been tried */
 
 typedef struct {
-  __global const seed_t* seeds;  /* by rank */
-  __global const ulong* offset;  /* per region: its list; an empty one means that there is none */
-  __global const uint* seed;     /* ranks */
+  __global const seed_t* seeds; /* by rank */
+  __global const ulong* offset; /* per region: its list; an empty one means that there is none */
+  __global const uint* seed;    /* ranks */
 } region_lists_t;
 
 static inline bool region_has_list(region_lists_t lists, uint region) {
@@ -49,10 +49,10 @@ static inline real cell_centre(const cell_t* cell, real* centre) {
   return cell_reach(cell, centre);
 }
 
-/* Keys of the listed seeds, tagged with their places: how far the bisector is from the centre, less the farther
-   beyond it, rather too low than too high. Returns the number of keys, a multiple of the lanes. */
-static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint i, uint region, const real* centre,
-                                 real* key) {
+/* Keys of the listed seeds, tagged with their places: how far the bisector is from the centre, less the
+   farther beyond it, rather too low than too high. Returns the number of keys, a multiple of the lanes. */
+static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint i, uint region,
+                                 const real* centre, real* key) {
   const ulong begin = lists.offset[region];
   const int count = (int)(lists.offset[region + 1] - begin), rows = (count + LANES - 1) / LANES;
   const seed_t seed = lists.seeds[i];
@@ -70,12 +70,14 @@ static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint 
     key[k] = k >= count || j == i ? LISTED_LAST : level / most_of(sqrt(q2), resolution);
   }
   for (int row = 0; row < rows; ++row)
-    store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)), key + row * LANES);
+    store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)),
+           key + row * LANES);
   return rows * LANES;
 }
 
 /* Clips the cell of rank i by all of `count` seeds, in their order. Returns a PIECE status. */
-static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __global const uint* listed, int count) {
+static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __global const uint* listed,
+                              int count) {
   const seed_t seed = lists.seeds[i];
   for (int k = 0; k < count; ++k) {
     const uint j = listed[k];

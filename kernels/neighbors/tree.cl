@@ -7,12 +7,12 @@
 #define TREE_LEVELS 12 /* 8^11 leaves hold more seeds than a rank can number */
 #define TREE_STACK (7 * TREE_LEVELS + 8)
 #define NEAR_LEAVES (CELL_DIMENSION == 3 ? 8 : 4) /* leaves whose seeds are tried first */
-#define NEAR_SEEDS 64 /* most in them */
+#define NEAR_SEEDS 64                             /* most in them */
 #define NEAREST_MOST 12
 
 typedef struct {
-  __global const seed_t* seeds;       /* by rank */
-  __global const seed_t* node_low;    /* box of a node; .w is the largest weight below */
+  __global const seed_t* seeds;    /* by rank */
+  __global const seed_t* node_low; /* box of a node; .w is the largest weight below */
   __global const seed_t* node_high;
   __global const uint* level_offset;
   int levels;

@@ -73,7 +73,8 @@ static inline bool box_is_outside(const half_space_t* h, const real* a, const re
 }
 
 /* True if one half-space has all of the box outside. */
-static inline bool box_is_excluded(const testers_t* testers, bool owned, seed_t seed, seed_t low, seed_t high) {
+static inline bool box_is_excluded(const testers_t* testers, bool owned, seed_t seed, seed_t low,
+                                   seed_t high) {
   real a[DIMENSION], b[DIMENSION];
   difference(low, seed, a);
   difference(high, seed, b);
@@ -89,7 +90,8 @@ typedef struct {
   __global const uint* vertex;
 } region_corners_t;
 
-static inline bool region_is_outside(const half_space_t* h, region_corners_t regions, uint region, seed_t seed) {
+static inline bool region_is_outside(const half_space_t* h, region_corners_t regions, uint region,
+                                     seed_t seed) {
   for (uint slot = regions.offset[region]; slot < regions.offset[region + 1]; ++slot) {
     real y[DIMENSION], value = -h->level, reach = 0;
     difference(regions.corners[regions.vertex[slot]], seed, y);
@@ -102,8 +104,8 @@ static inline bool region_is_outside(const half_space_t* h, region_corners_t reg
   return true;
 }
 
-static inline bool region_is_excluded(const testers_t* testers, bool owned, region_corners_t regions, uint region,
-                                      seed_t seed) {
+static inline bool region_is_excluded(const testers_t* testers, bool owned, region_corners_t regions,
+                                      uint region, seed_t seed) {
   if (owned && region_is_outside(&testers->space[TESTERS], regions, region, seed)) return true;
   for (int k = 0; k < testers->count; ++k)
     if (region_is_outside(&testers->space[k], regions, region, seed)) return true;

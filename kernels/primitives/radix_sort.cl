@@ -6,7 +6,9 @@
 #endif
 #define RADIX (1u << RADIX_BITS)
 
-static inline uint digit_of(ulong key, uint shift) { return (uint)(key >> shift) & (RADIX - 1u); }
+static inline uint digit_of(ulong key, uint shift) {
+  return (uint)(key >> shift) & (RADIX - 1u);
+}
 
 /* counts[digit * tiles + t]: how often the digit occurs in tile t of `tile` pairs. */
 __kernel void count_digits(const uint tiles, const uint tile, const uint count, const uint shift,

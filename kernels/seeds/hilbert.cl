@@ -13,7 +13,9 @@ static inline uint rotate_left(uint v, uint by) {
   return ((v << by) | (v >> (DIMENSION - by))) & HILBERT_MASK;
 }
 
-static inline uint gray_code(uint w) { return w ^ (w >> 1); }
+static inline uint gray_code(uint w) {
+  return w ^ (w >> 1);
+}
 
 /* How many ones w ends in, at most DIMENSION - 1 counted. */
 static inline uint trailing_ones(uint w) {

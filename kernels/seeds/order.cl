@@ -15,7 +15,8 @@ __kernel void make_grid(const uint tiles, __global const stored_real* boxes, __g
     grid[k] = low <= high ? low : 0; /* no valid seed, no box */
     if (low <= high) side = fmax(side, high - low);
   }
-  const int exponent = side > 0 ? max(ilogb(side) + 1, LEAST_EXPONENT) : LEAST_EXPONENT; /* side < 2^exponent */
+  const int exponent =
+      side > 0 ? max(ilogb(side) + 1, LEAST_EXPONENT) : LEAST_EXPONENT; /* side < 2^exponent */
   grid[3] = ldexp((real)1, HILBERT_BITS - exponent);
 }
 

@@ -31,8 +31,7 @@ T device_value(cl_device_id device, cl_device_info which) {
 
 bool has_fp64(cl_device_id device) {
   cl_device_fp_config config = 0;
-  const cl_int status =
-      clGetDeviceInfo(device, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof config, &config, nullptr);
+  const cl_int status = clGetDeviceInfo(device, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof config, &config, nullptr);
   // Devices of OpenCL 1.1 without the extension do not know the question: that is a no. Any other failure is
   // none, else a device would silently compute in single precision.
   if (status == CL_INVALID_VALUE) return false;

@@ -38,9 +38,9 @@ void list_near(HostScene& scene, std::span<const std::uint32_t> ranks, int threa
 class HostClipper {
  public:
   virtual ~HostClipper() = default;
-  /// Clips the piece of seed `rank` in `region` by all other seeds: returns its status (PIECE_WHOLE, _EMPTY or
-  /// _FLAT), writes its 2 + dimension moments and appends its row.
-  /// \throw Error internal if the result contradicts itself: a defect (names the seed by its rank)
+  /// Clips the piece of seed `rank` in `region` by all other seeds: returns its status (PIECE_WHOLE, _EMPTY
+  /// or _FLAT), writes its 2 + dimension moments and appends its row. \throw Error internal if the result
+  /// contradicts itself: a defect (names the seed by its rank)
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;
 
   /// \param scene     must outlive the clipper

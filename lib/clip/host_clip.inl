@@ -246,7 +246,7 @@ class Clipper final : public HostClipper {
     const blocks_t blocks = {scene_.seed_block.data(), scene_.node_block.data(), scene_.near.get(),
                              scene_.near_count.data(), scene_.near_bound.data()};
     row.faces = row.vertices = 0;
-    const output_t out = {moments,      &row.faces,        row.border.data(), row.wall.data(),
+    const output_t out = {moments,       &row.faces,        row.border.data(), row.wall.data(),
                           &row.vertices, row.vertex.data(), row.link.data()};
     const regions_t regions = {as_seeds(scene_.corners), scene_.mesh->region_offset.data(),
                                scene_.mesh->region_vertex.data(), scene_.behind.data(), &scene_.shape};

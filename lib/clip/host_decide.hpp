@@ -44,8 +44,8 @@ const certain_plane_t& known_plane(Cell* cell, int f) {
 template <class Cell>
 real4 placed_by_planes(Cell* cell, int v, real4 from) {
   if constexpr (requires { cell->previous; }) {
-    return meeting_point(&cell->at, from, cell->ground, known_plane(cell, static_cast<int>(cell->previous[v])),
-                         known_plane(cell, v));
+    return meeting_point(&cell->at, from, cell->ground,
+                         known_plane(cell, static_cast<int>(cell->previous[v])), known_plane(cell, v));
   } else {
     return meeting_point(&cell->at, from, known_plane(cell, static_cast<int>(cell->face[0][v])),
                          known_plane(cell, static_cast<int>(cell->face[1][v])),

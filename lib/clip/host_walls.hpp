@@ -1,5 +1,5 @@
-// What the walls of a finished cell measure, and which lie in facets of its region (docs/mathematics.md, "Walls in
-// facets"). Included inside the namespace of a host clipper, after Row.
+// What the walls of a finished cell measure, and which lie in facets of its region (docs/mathematics.md,
+// "Walls in facets"). Included inside the namespace of a host clipper, after Row.
 
 /// A facet of the region that some vertex of the cell may lie in.
 struct NearFacet {
@@ -76,8 +76,8 @@ bool ends_before(const cell_t& cell, int face, int f) {
   return false;
 }
 
-/// Of a wall in the line of several facets only what has a region behind it is one: its length, below 0 if that is
-/// all of it.
+/// Of a wall in the line of several facets only what has a region behind it is one: its length, below 0 if
+/// that is all of it.
 real open_length(const cell_t& cell, int face, const std::vector<int>& facets, real least) {
   const int end = static_cast<int>(cell.next[face]);
   real way[2] = {cell.at.x[0][end] - cell.at.x[0][face], cell.at.x[1][end] - cell.at.x[1][face]};

@@ -17,8 +17,8 @@ namespace powercell {
 /// ascending.
 Dual make_dual(const Cells& cells, const SeedsView& seeds);
 
-/// With further simplices of a polygon or volume, rows of seed indices in any order; those that are there already
-/// change nothing.
+/// With further simplices of a polygon or volume, rows of seed indices in any order; those that are there
+/// already change nothing.
 Dual extend_dual(const Dual& dual, const std::vector<std::uint32_t>& rows, const SeedsView& seeds);
 
 }  // namespace powercell

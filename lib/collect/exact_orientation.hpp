@@ -7,7 +7,8 @@
 
 namespace powercell {
 
-/// Sign of the determinant of the edges from the first corner. \param corners  d+1 indices of rows of `positions`
+/// Sign of the determinant of the edges from the first corner. \param corners  d+1 indices of rows of
+/// `positions`
 int exact_orientation(std::span<const double> positions, std::span<const std::uint32_t> corners);
 
 }  // namespace powercell

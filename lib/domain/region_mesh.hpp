@@ -4,10 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
-
 #include <powercell/domain.hpp>
 #include <powercell/results.hpp>
+#include <vector>
 
 namespace powercell {
 
@@ -34,7 +33,7 @@ struct RegionMesh {
   std::vector<std::uint32_t> source;        ///< per region: input part, triangle or tetrahedron
   std::uint32_t boundary_count = 0;
   double measure = 0;
-  std::array<double, 3> low{}, high{};      ///< bounding box of the regions
+  std::array<double, 3> low{}, high{};  ///< bounding box of the regions
 
   std::size_t region_count() const { return source.size(); }
 };

@@ -32,8 +32,8 @@ struct Caller {
     clGetCommandQueueInfo(queue, CL_QUEUE_REFERENCE_COUNT, sizeof count, &count, nullptr);
     return count;
   }
-  /// Drivers let go of finished commands, and of the queue with them, in threads of their own: the count once it
-  /// is `expected`, or whatever it is after ten seconds.
+  /// Drivers let go of finished commands, and of the queue with them, in threads of their own: the count once
+  /// it is `expected`, or whatever it is after ten seconds.
   cl_uint references_settled_at(cl_uint expected) const {
     for (int k = 0; k < 1000 && queue_references() != expected; ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -1,8 +1,8 @@
 // The order of the seeds permutes the results and changes no bit of them.
 #include <doctest/doctest.h>
 
-#include "tests/support/permuted.hpp"
 #include "tests/support/domains.hpp"
+#include "tests/support/permuted.hpp"
 #include "tests/support/setups.hpp"
 
 using namespace powercell;

@@ -10,9 +10,9 @@
 #include <powercell/opencl.hpp>
 
 #include "lib/cl/buffer.hpp"
-#include "tests/support/permuted.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/opencl_shim.hpp"
+#include "tests/support/permuted.hpp"
 #include "tests/support/setups.hpp"
 
 using namespace powercell;

@@ -165,8 +165,11 @@ TEST_CASE("what is not a polygon is refused with the place") {
              "parts 0 and 2 overlap");
   CHECK_SAYS(refusal([&] { polygon({{square, {}}, {square, {}}}); }), "parts 0 and 1 overlap");
   // The long edge passes the hole's corner on the wrong side, nearer than doubles tell.
-  const Ring wide = {{5.25, 2.375}, {-12.875, -12.75}, {-12.875, -7.75}, {-13, -6.25}, {-1.5, 1e30}, {1e30, 1e30}};
-  CHECK_SAYS(refusal([&] { polygon({{wide, {{{9.125, 6.25}, {5.25, 7.375}, {5, 4.375}}}}}); }),
+  const Ring wide = {{5.25, 2.375}, {-12.875, -12.75}, {-12.875, -7.75},
+                     {-13, -6.25},  {-1.5, 1e30},      {1e30, 1e30}};
+  CHECK_SAYS(refusal([&] {
+               polygon({{wide, {{{9.125, 6.25}, {5.25, 7.375}, {5, 4.375}}}}});
+             }),
              "part 0: cannot be judged in double precision");
   CHECK_SAYS(refusal([&] { polygon({{{{0, 0}, {1e200, 0}, {1e200, 1e200}}, {}}}); }), "of size 1e+200");
   CHECK_SAYS(refusal([&] { polygon({{{{0, 0}, {1e-200, 0}, {1e-200, 1e-200}}, {}}}); }), "of size 1e-200");

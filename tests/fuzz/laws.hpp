@@ -12,8 +12,9 @@ namespace powercell::fuzz {
 /// Bisectors that pass the domain by are not counted. Infinity where rounding leaves nothing sure.
 double plane_error(const Domain& domain, const SeedsView& seeds, Precision precision);
 
-/// What the sum of the masses may be off by, as a part of the domain's measure, with so many walls moved by `error`, each as
-/// large as the domain's size allows: of a domain far longer than wide that may be more than all.
+/// What the sum of the masses may be off by, as a part of the domain's measure, with so many walls moved by
+/// `error`, each as large as the domain's size allows: of a domain far longer than wide that may be more than
+/// all.
 double sum_doubt(const Domain& domain, std::size_t walls, double error);
 
 /// Sizes and statuses, masses not negative, the sum of the masses. \param error plane_error of the seeds

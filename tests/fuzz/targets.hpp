@@ -26,7 +26,8 @@ void meshes(Bytes input);    ///< .off .obj .ply .stl .mesh .msh .tet .txt
 void grids(Bytes input);     ///< .vtk .vtu
 void polygons(Bytes input);  ///< .geojson .wkt .svg
 void seeds(Bytes input);     ///< text, .npy, random:
-void trees(Bytes input);      ///< tables, JSON and earlier layouts of treemaps; small ones are laid out (documents.cpp)
+void trees(
+    Bytes input);  ///< tables, JSON and earlier layouts of treemaps; small ones are laid out (documents.cpp)
 void documents(Bytes input);  ///< masses, saved diagrams, records of benchmarks, PNG (documents.cpp)
 
 // Public entry points. The bytes are numbers and choices, see input.hpp.

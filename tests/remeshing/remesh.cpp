@@ -119,7 +119,7 @@ TEST_CASE("sharp edges and corners stay") {
 TEST_CASE("vertices of no triangle change nothing") {
   const TriangleMesh torus = small_torus();
   TriangleMesh more = torus;
-  for (std::uint32_t& v : more.triangles) v += 2;
+  for (std::uint32_t &v : more.triangles) v += 2;
   more.vertices.insert(more.vertices.begin(), {1, -1e300, 2, 5e3, 0, 0});
   RemeshOptions options;
   options.count = 300;
@@ -272,7 +272,8 @@ TEST_CASE("what cannot be done is refused") {
   options.count = 100;  // fewer than the boundary of a ribbon asks for, whatever the spacing by its area
   const TriangleMesh ribbon{{0, 0, 0, 1, 0, 0, 1, 1e-8, 0, 0, 1e-8, 0}, {0, 1, 2, 0, 2, 3}};
   CHECK(code_of(ribbon, options) == ErrorCode::invalid_argument);
-  options.sharp_angle = 180;  // no kept edges, and a spacing that would cut a needle into millions of triangles
+  options.sharp_angle =
+      180;  // no kept edges, and a spacing that would cut a needle into millions of triangles
   TriangleMesh needle{{1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1},
                       {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
   for (std::size_t k = 0; k < needle.vertices.size(); k += 3) needle.vertices[k] *= 1e9;

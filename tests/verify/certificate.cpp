@@ -1,4 +1,5 @@
-// The certificate of every result: it holds for what the library computes, and refuses what was tampered with.
+// The certificate of every result: it holds for what the library computes, and refuses what was tampered
+// with.
 #include "lib/verify/certificate.hpp"
 
 #include <doctest/doctest.h>
@@ -107,9 +108,11 @@ TEST_CASE("a certificate is refused for what no diagram is, and names the seed")
           m.mass[8] += 2 * m.mass[7];
           m.mass[7] *= -1;
         }).find("seed 7") != std::string::npos);
-  CHECK(refusal([](Measures& m, Adjacency&) { m.centroid[3 * 41 + 1] = 1.5; }).find("seed 41") != std::string::npos);
-  CHECK(refusal([](Measures& m, Adjacency&) { m.second_moment[5] = std::numeric_limits<double>::quiet_NaN(); })
-            .find("seed 5 ") != std::string::npos);
+  CHECK(refusal([](Measures& m, Adjacency&) { m.centroid[3 * 41 + 1] = 1.5; }).find("seed 41") !=
+        std::string::npos);
+  CHECK(refusal([](Measures& m, Adjacency&) {
+          m.second_moment[5] = std::numeric_limits<double>::quiet_NaN();
+        }).find("seed 5 ") != std::string::npos);
   CHECK(refusal([](Measures&, Adjacency& a) { a.asymmetry = 0.01; }).find("two sides") != std::string::npos);
   CHECK(refusal([](Measures&, Adjacency& a) {
           a.asymmetry = 0.01;
