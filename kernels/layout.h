@@ -28,7 +28,7 @@
 #define SEED_INVALID 3    /* not finite, or out of the range in which squares are finite */
 #define SEED_UNFINISHED 4 /* a piece fits no variant on the device, or no memory was set aside for it */
 
-/* The frame of a scene in device memory: FRAME_SIZE reals (lib/clip/frame.hpp). */
+/* The frame of a scene in device memory: FRAME_SIZE reals (lib/domain/frame.hpp). */
 #define FRAME_CENTRE 0     /* 3: high parts of the centre */
 #define FRAME_CENTRE_LOW 3 /* 3: low parts (0 in double precision) */
 #define FRAME_SCALE 6      /* a power of two */

@@ -1,7 +1,7 @@
 /* Writing what was asked for of a clipped piece. */
 #ifndef POWERCELL_CLIP_WRITE
 #define POWERCELL_CLIP_WRITE
-#include "clip/bisector.cl"
+#include "cell/bisector.cl"
 
 typedef struct {
   __global stored_real* moments; /* per pair: measure, first moments, second moment, about the seed */

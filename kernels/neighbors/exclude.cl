@@ -3,7 +3,7 @@
    the cell by SEARCH_MARGIN / 16 of its radius (docs/mathematics.md, "Certain decisions"). */
 #ifndef POWERCELL_NEIGHBORS_EXCLUDE
 #define POWERCELL_NEIGHBORS_EXCLUDE
-#include "clip/bisector.cl"
+#include "cell/bisector.cl"
 
 /* Seeds nearer than this are hardly told apart from the cell's own: searches keep them, for decisions about
    them not to be certain (docs/mathematics.md (82a)). */

@@ -3,7 +3,7 @@
    query leaves the cell as it is (paper, sections 4-5; docs/mathematics.md (8)). */
 #ifndef POWERCELL_NEIGHBORS_LIST
 #define POWERCELL_NEIGHBORS_LIST
-#include "clip/bisector.cl"
+#include "cell/bisector.cl"
 
 typedef struct {
   __global const seed_t* seeds;     /* by rank */

@@ -1,7 +1,7 @@
 /* The packed tree: 8 seeds a leaf, 8 nodes a parent, box and largest weight per node. */
 #ifndef POWERCELL_NEIGHBORS_TREE
 #define POWERCELL_NEIGHBORS_TREE
-#include "clip/bisector.cl"
+#include "cell/bisector.cl"
 
 #define TREE_FAN 8u
 #define TREE_LEVELS 12 /* 8^11 leaves hold more seeds than a rank can number */

@@ -7,9 +7,9 @@
 #include <powercell/opencl.hpp>
 #include <utility>
 
+#include "lib/base/text.hpp"
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/self_test.hpp"
-#include "lib/readable.hpp"
 
 namespace powercell {
 namespace cl {

@@ -16,7 +16,7 @@ enum class ProgramOrigin { compiled, disk };
 
 /// One program as it will be handed to the driver.
 struct ProgramRequest {
-  std::string name;     ///< for messages, e.g. "kernels/clip/polygon.cl"
+  std::string name;     ///< for messages, e.g. "kernels/cell/polygon.cl"
   std::string source;   ///< with includes expanded
   std::string options;  ///< of clBuildProgram
 };

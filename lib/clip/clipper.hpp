@@ -7,11 +7,11 @@
 #include <optional>
 #include <span>
 
-#include "lib/clip/candidates.hpp"
 #include "lib/clip/host_clip.hpp"
 #include "lib/clip/pieces.hpp"
 #include "lib/clip/row_reader.hpp"
-#include "lib/clip/scene.hpp"
+#include "lib/neighbors/candidates.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/base/text.hpp"
 #include "lib/clip/clipper.hpp"
-#include "lib/digits.hpp"
 
 namespace powercell {
 

@@ -3,9 +3,9 @@
 /// driver that miscompiles it is refused and not believed.
 #pragma once
 
-#include "lib/clip/candidates.hpp"
-#include "lib/clip/variant.hpp"
 #include "lib/domain/region_mesh.hpp"
+#include "lib/neighbors/candidates.hpp"
+#include "lib/scene/variant.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {

@@ -1,7 +1,7 @@
 #include "lib/clip/host_clip.hpp"
 
 #include "kernels/layout.h"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell {
 

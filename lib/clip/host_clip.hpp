@@ -10,7 +10,7 @@
 
 #include "lib/clip/exact_cell.hpp"
 #include "lib/clip/pieces.hpp"
-#include "lib/clip/scene.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/clip/variant.hpp"
+#include "lib/scene/variant.hpp"
 
 namespace powercell {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "lib/clip/frame.hpp"
 #include "lib/clip/pieces.hpp"
+#include "lib/domain/frame.hpp"
 #include "lib/domain/region_mesh.hpp"
 #include "lib/seeds/seed_set.hpp"
 

@@ -4,10 +4,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "lib/base/threads.hpp"
+#include "lib/base/vector_copies.hpp"
 #include "lib/collect/sort_row.hpp"
 #include "lib/collect/walls.hpp"
-#include "lib/seeds/threads.hpp"
-#include "lib/vector_copies.hpp"
 
 namespace powercell {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/vector_copies.hpp"
+#include "lib/base/vector_copies.hpp"
 
 namespace powercell {
 namespace {

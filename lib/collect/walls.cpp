@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "kernels/layout.h"
+#include "lib/base/threads.hpp"
 #include "lib/collect/sort_row.hpp"
-#include "lib/seeds/threads.hpp"
 
 namespace powercell {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "lib/base/memory.hpp"
 #include "lib/clip/pieces.hpp"
-#include "lib/seeds/memory.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell {
 namespace {

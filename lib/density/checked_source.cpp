@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "lib/base/text.hpp"
 #include "lib/density/value.hpp"
-#include "lib/digits.hpp"
 #include "lib/domain/region_mesh.hpp"
 
 namespace powercell {

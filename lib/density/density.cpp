@@ -1,11 +1,11 @@
 #include <cmath>
 #include <powercell/density.hpp>
 
+#include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/density/constant.hpp"
 #include "lib/density/make.hpp"
-#include "lib/digits.hpp"
 #include "lib/domain/measure.hpp"
-#include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 namespace {
@@ -71,7 +71,7 @@ DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls,
 }
 
 double DensityIntegrals::total() const {
-  CompensatedSum sum;
+  CompensatedSum<long double> sum;
   for (double m : mass) sum.add(m);
   return sum.value();
 }

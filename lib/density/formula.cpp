@@ -2,11 +2,10 @@
 
 #include <string_view>
 
+#include "lib/base/text.hpp"
 #include "lib/density/checked_source.hpp"
 #include "lib/density/make.hpp"
 #include "lib/density/pointwise.hpp"
-#include "lib/digits.hpp"
-#include "lib/readable.hpp"
 
 namespace powercell {
 namespace {

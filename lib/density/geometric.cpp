@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/base/text.hpp"
 #include "lib/density/cell_integrals.hpp"
 #include "lib/density/region_cells.hpp"
-#include "lib/digits.hpp"
 #include "lib/domain/measure.hpp"
 
 namespace powercell {
@@ -26,7 +26,7 @@ double longest_edge(const Domain& domain) {
 }
 
 double mass_of(std::span<const Moments> moments) {
-  CompensatedSum sum;
+  CompensatedSum<long double> sum;
   for (const Moments& m : moments) sum.add(m.mass);
   return sum.value();
 }
@@ -36,7 +36,7 @@ double mass_of(std::span<const Moments> moments) {
 double second_about(const Point& x, const Moments& m) {
   if (!(m.mass > 0)) return std::max(m.second, 0.0);
   const Point centroid{m.first[0] / m.mass, m.first[1] / m.mass, m.first[2] / m.mass};
-  const Point way = minus(minus(x, m.origin), centroid);
+  const Point way = x - m.origin - centroid;
   return std::max(m.second - m.mass * dot(centroid, centroid), 0.0) + m.mass * dot(way, way);
 }
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/base/text.hpp"
 #include "lib/density/geometric.hpp"
 #include "lib/density/make.hpp"
 #include "lib/density/pixels.hpp"
-#include "lib/digits.hpp"
 
 namespace powercell {
 namespace {

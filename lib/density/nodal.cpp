@@ -19,7 +19,7 @@ class LinearSource : public PointSource {
   void evaluate(std::span<const Point> x, std::uint32_t region, std::span<double> values) override {
     if (region != known_) set_region(region);
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const Point y = minus(x[k], origin_);
+      const Point y = x[k] - origin_;
       values[k] = value_ + gradient_[0] * y[0] + gradient_[1] * y[1] + gradient_[2] * y[2];
     }
   }
@@ -33,11 +33,11 @@ class LinearSource : public PointSource {
     const std::uint32_t* corner = &mesh_.region_vertex[mesh_.region_offset[region]];
     origin_ = vertex(corner[0]);
     value_ = values_[corner[0]];
-    Point a = minus(vertex(corner[1]), origin_), b = minus(vertex(corner[2]), origin_), c{};
+    Point a = vertex(corner[1]) - origin_, b = vertex(corner[2]) - origin_, c{};
     const double da = values_[corner[1]] - value_, db = values_[corner[2]] - value_;
     double dc = 0;
     if (mesh_.cell_dimension == 3) {
-      c = minus(vertex(corner[3]), origin_);
+      c = vertex(corner[3]) - origin_;
       dc = values_[corner[3]] - value_;
     }
     // In a unit of the region's own: products of four lengths may be beyond range.

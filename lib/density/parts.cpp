@@ -5,12 +5,12 @@
 #include <limits>
 #include <numeric>
 
+#include "lib/base/threads.hpp"
 #include "lib/density/geometric.hpp"
 #include "lib/density/region_cells.hpp"
 #include "lib/density/simplex.hpp"
 #include "lib/density/simplex_rule.hpp"
 #include "lib/domain/measure.hpp"
-#include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 namespace {
@@ -138,7 +138,7 @@ class Division {
 
  private:
   double sum(double Part::*value) const {
-    CompensatedSum all;
+    CompensatedSum<long double> all;
     for (const Part& part : parts_) all.add(part.*value);
     return all.value();
   }

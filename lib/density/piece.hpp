@@ -6,19 +6,10 @@
 #include <cstdint>
 #include <powercell/results.hpp>
 
+#include "lib/base/vectors.hpp"
 #include "lib/density/model.hpp"
 
 namespace powercell {
-
-inline Point minus(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// Integrals over one cell, about a point of it.
 struct Moments {

@@ -41,7 +41,7 @@ class SimplexIntegrator : public PieceIntegrator {
     depth_ = (piece.solid() ? 12 : 20) + more_depth_;
     const auto count = static_cast<std::size_t>(piece.vertex_count());
     places_.resize(count);
-    for (std::size_t v = 0; v < count; ++v) places_[v] = minus(piece.vertex(v), origin_);
+    for (std::size_t v = 0; v < count; ++v) places_[v] = piece.vertex(v) - origin_;
     if (piece.solid()) places_.push_back(middle_of(places_));
     set_corners();
     if (piece.solid())
@@ -56,7 +56,7 @@ class SimplexIntegrator : public PieceIntegrator {
     depth_ = piece.solid() ? 10 : 8;
     const auto count = static_cast<std::size_t>(piece.corner_count(face));
     places_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) places_[k] = minus(piece.vertex(piece.corner(face, k)), origin_);
+    for (std::size_t k = 0; k < count; ++k) places_[k] = piece.vertex(piece.corner(face, k)) - origin_;
     set_corners();
     Moments moments;
     if (piece.solid())
@@ -268,7 +268,7 @@ class SimplexIntegrator : public PieceIntegrator {
   bool small_enough(const Simplex<N>& simplex, double square) const {
     if (square > grain_.anywhere * grain_.anywhere) return false;
     if (!(square > grain_.dense * grain_.dense)) return true;
-    Point way = minus(simplex[0].at, grain_.center);
+    Point way = simplex[0].at - grain_.center;
     for (std::size_t k = 0; k < 3; ++k) way[k] += origin_[k];
     return std::sqrt(dot(way, way)) > grain_.radius + std::sqrt(square);
   }

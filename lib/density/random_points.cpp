@@ -6,6 +6,7 @@
 #include <powercell/point_sets.hpp>
 #include <random>
 
+#include "lib/base/random.hpp"
 #include "lib/density/parts.hpp"
 
 namespace powercell {

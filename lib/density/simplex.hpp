@@ -10,16 +10,16 @@
 namespace powercell {
 
 inline double measure_of_segment(const Point& a, const Point& b) {
-  const Point e = minus(b, a);
+  const Point e = b - a;
   return std::sqrt(dot(e, e));
 }
 inline double measure_of_triangle(const Point& a, const Point& b, const Point& c) {
-  const Point normal = cross(minus(b, a), minus(c, a));
+  const Point normal = cross(b - a, c - a);
   return std::hypot(normal[0], normal[1], normal[2]) / 2;  // squares of areas may be beyond range
 }
 /// Signed: fans of solids that rounding has bent cancel.
 inline double measure_of_tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return dot(minus(b, a), cross(minus(c, a), minus(d, a))) / 6;
+  return dot(b - a, cross(c - a, d - a)) / 6;
 }
 
 /// Between two corners of a simplex.
@@ -34,7 +34,7 @@ SimplexEdge longest_edge(std::size_t corners, const At& at) {
   SimplexEdge longest;
   for (std::size_t a = 0; a < corners; ++a)
     for (std::size_t b = a + 1; b < corners; ++b) {
-      const Point e = minus(at(a), at(b));
+      const Point e = at(a) - at(b);
       if (dot(e, e) > longest.square) longest = {a, b, dot(e, e)};
     }
   return longest;

@@ -44,7 +44,7 @@ struct Local {
   explicit Local(const Simplex<N>& simplex) {
     for (const Corner& c : simplex)
       for (std::size_t k = 0; k < 3; ++k) middle[k] += c.at[k] / (N + 1);
-    for (std::size_t c = 0; c <= N; ++c) corner[c] = minus(simplex[c].at, middle);
+    for (std::size_t c = 0; c <= N; ++c) corner[c] = simplex[c].at - middle;
     for (std::size_t k = 0; k < 3; ++k) reach[k] = corner[N][k] * 2 / (N + 3);  // to rule 1's first point
   }
   /// About the middle.
@@ -86,7 +86,7 @@ struct Sums {
 /// point.
 template <int N>
 double difference(const Sums<N>& a, const Sums<N>& b, const Local<N>& local) {
-  const Point moved = minus(a.first(local), b.first(local));
+  const Point moved = a.first(local) - b.first(local);
   return std::max(std::abs(a.mass - b.mass), std::sqrt(dot(moved, moved) / dot(local.reach, local.reach)));
 }
 

@@ -1,6 +1,6 @@
 #include "lib/density/value.hpp"
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 
 namespace powercell {
 

@@ -6,8 +6,8 @@
 
 #include "kernels/layout.h"
 #include "lib/clip/golden.hpp"
-#include "lib/clip/variant.hpp"
 #include "lib/diagram/state.hpp"
+#include "lib/scene/variant.hpp"
 
 namespace powercell {
 namespace {

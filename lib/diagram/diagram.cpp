@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <powercell/diagram.hpp>
 
+#include "lib/base/threads.hpp"
 #include "lib/collect/dual.hpp"
 #include "lib/diagram/range.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/seeds/given.hpp"
-#include "lib/seeds/threads.hpp"
 #include "lib/seeds/validate.hpp"
 
 namespace powercell {

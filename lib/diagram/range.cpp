@@ -4,8 +4,8 @@
 #include <powercell/error.hpp>
 #include <string>
 
-#include "lib/digits.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell {
 namespace {

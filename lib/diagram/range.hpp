@@ -4,7 +4,7 @@
 
 #include <powercell/seeds.hpp>
 
-#include "lib/clip/frame.hpp"
+#include "lib/domain/frame.hpp"
 
 namespace powercell {
 

@@ -4,16 +4,17 @@
 #include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/base/log.hpp"
+#include "lib/clip/cell_candidates.hpp"
 #include "lib/diagram/chunks.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/domain/outline.hpp"
-#include "lib/log.hpp"
-#include "lib/neighbors/cell_candidates.hpp"
 #include "lib/neighbors/hidden_seeds.hpp"
 #include "lib/neighbors/region_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #include "lib/verify/certificate.hpp"
 #ifdef POWERCELL_HAS_FLANN
+#include "lib/base/threads.hpp"
 #include "lib/neighbors/list_candidates.hpp"
 #endif
 

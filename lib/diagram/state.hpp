@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "lib/clip/candidates.hpp"
 #include "lib/clip/clipper.hpp"
-#include "lib/clip/scene.hpp"
 #include "lib/collect/walls.hpp"
+#include "lib/neighbors/candidates.hpp"
 #include "lib/pairs/enumerate.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

@@ -6,15 +6,15 @@
 #include <powercell/triangulation.hpp>
 
 #include "kernels/layout.h"
-#include "lib/clip/frame.hpp"
+#include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/clip/host_clip.hpp"
-#include "lib/clip/scene.hpp"
 #include "lib/collect/dual.hpp"
 #include "lib/diagram/state.hpp"
-#include "lib/digits.hpp"
-#include "lib/neighbors/packed_tree.hpp"
+#include "lib/domain/frame.hpp"
+#include "lib/scene/scene.hpp"
+#include "lib/seeds/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
-#include "lib/seeds/threads.hpp"
 
 namespace powercell {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/pairs/region_locator.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
+#include "lib/regions/region_locator.hpp"
 
 namespace powercell {
 namespace {
@@ -66,7 +66,7 @@ class Places {
  private:
   int dimension_;
   double error_;  // of moments, relative
-  pairs::RegionLocator locator_;
+  RegionLocator locator_;
   double least_radius_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/measure.hpp"
 
@@ -58,7 +58,7 @@ RegionMeshPtr build_box(std::span<const double> low, std::span<const double> hig
     }
     close_single_region(*mesh, 6);
   }
-  CompensatedSum sum;
+  CompensatedSum<long double> sum;
   sum.add(measure);
   finish(*mesh, sum);
   return mesh;

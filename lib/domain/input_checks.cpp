@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 
 namespace powercell {
 

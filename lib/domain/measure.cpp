@@ -4,12 +4,12 @@
 #include <limits>
 #include <string>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/domain/input_checks.hpp"
 
 namespace powercell {
 
-void finish(RegionMesh& mesh, const CompensatedSum& measure) {
+void finish(RegionMesh& mesh, const CompensatedSum<long double>& measure) {
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
   double largest = 0;
   for (std::size_t k = 0; k < dimension; ++k) {

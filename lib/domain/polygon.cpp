@@ -103,7 +103,7 @@ RegionMeshPtr build_polygon(std::span<const PolygonPart> parts) {
     append_convex_pieces(rings, rings.part(first[p], first[p + 1]), pieces);
     mesh->source.resize(pieces.offset.size() - 1, p);
   }
-  CompensatedSum area;
+  CompensatedSum<long double> area;
   for (std::size_t r = 0; r + 1 < pieces.offset.size(); ++r) {
     const std::uint32_t begin = pieces.offset[r], end = pieces.offset[r + 1];
     area.add(twice_area(rings, std::span(pieces.vertex).subspan(begin, end - begin)) / 2);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/base/random.hpp"
+
 namespace powercell {
 namespace {
 
@@ -16,10 +18,6 @@ struct Simplex {
 Vector vertex(const RegionMesh& mesh, std::uint32_t v) {
   const double* x = &mesh.vertices[v * static_cast<std::size_t>(mesh.dimension)];
   return {x[0], x[1], mesh.dimension == 3 ? x[2] : 0.0};
-}
-
-Vector minus(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
 /// Regions as simplices: convex polygons fanned from their first vertex.
@@ -39,11 +37,11 @@ std::vector<Simplex> simplices_of(const RegionMesh& mesh) {
 
 double measure_of(const RegionMesh& mesh, const Simplex& simplex) {
   const Vector a = vertex(mesh, simplex.vertex[0]);
-  const Vector b = minus(vertex(mesh, simplex.vertex[1]), a), c = minus(vertex(mesh, simplex.vertex[2]), a);
+  const Vector b = vertex(mesh, simplex.vertex[1]) - a, c = vertex(mesh, simplex.vertex[2]) - a;
   const Vector normal = cross(b, c);
-  const long double twice_area = std::sqrt(dot(normal, normal));
+  const long double twice_area = norm(normal);
   if (simplex.corners == 3) return static_cast<double>(twice_area / 2);
-  return static_cast<double>(std::fabs(dot(minus(vertex(mesh, simplex.vertex[3]), a), normal)) / 6);
+  return static_cast<double>(std::fabs(dot(vertex(mesh, simplex.vertex[3]) - a, normal)) / 6);
 }
 
 Vector point_in(const RegionMesh& mesh, const Simplex& simplex, std::mt19937_64& engine) {
@@ -51,27 +49,13 @@ Vector point_in(const RegionMesh& mesh, const Simplex& simplex, std::mt19937_64&
   const Vector origin = vertex(mesh, simplex.vertex[0]);
   Vector point = origin;
   for (std::size_t c = 1; c < simplex.corners; ++c) {
-    const Vector edge = minus(vertex(mesh, simplex.vertex[c]), origin);
+    const Vector edge = vertex(mesh, simplex.vertex[c]) - origin;
     for (std::size_t k = 0; k < 3; ++k) point[k] += share[c] * edge[k];
   }
   return point;
 }
 
 }  // namespace
-
-double uniform(std::mt19937_64& engine) {
-  return static_cast<double>(engine() >> 11) * 0x1p-53;
-}
-
-/// Sorted uniform numbers part [0, 1] into such lengths.
-std::array<long double, 4> uniform_barycentric(std::size_t corners, std::mt19937_64& engine) {
-  std::array<double, 5> cut{0, 1, 1, 1, 1};
-  for (std::size_t k = 1; k < corners; ++k) cut[k] = uniform(engine);
-  std::sort(cut.begin(), cut.end());
-  std::array<long double, 4> share;
-  for (std::size_t k = 0; k < share.size(); ++k) share[k] = static_cast<long double>(cut[k + 1]) - cut[k];
-  return share;
-}
 
 std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std::uint64_t random_seed) {
   std::mt19937_64 engine(random_seed);

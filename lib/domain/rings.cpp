@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/domain/input_checks.hpp"
 #include "lib/domain/orient2d.hpp"
 

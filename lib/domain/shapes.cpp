@@ -5,6 +5,8 @@
 #include <powercell/shapes.hpp>
 #include <string>
 
+#include "lib/base/vectors.hpp"
+
 namespace powercell {
 namespace {
 
@@ -15,15 +17,11 @@ void check_range(int value, int least, int most, const char* what) {
                                                std::to_string(most));
 }
 
-using Point = std::array<double, 3>;
+using Point = Vector3<double>;
 
 Point normalized(const Point& p) {
   const double length = std::hypot(p[0], p[1], p[2]);
   return {p[0] / length, p[1] / length, p[2] / length};
-}
-
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// The corners of an icosahedron and its faces, counter-clockwise seen from outside.

@@ -8,7 +8,8 @@ namespace {
 
 /// Area of a triangle, or 0 if it is flat.
 long double triangle_area(const double* a, const double* b, const double* c) {
-  const Vector ab = difference(b, a), ac = difference(c, a), bc = difference(c, b);
+  const Vector ab = difference<long double>(b, a), ac = difference<long double>(c, a),
+               bc = difference<long double>(c, b);
   const long double longest2 = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   const Vector normal = cross(ab, ac);
   const long double twice = std::sqrt(dot(normal, normal));
@@ -49,7 +50,7 @@ RegionMeshPtr build_surface(std::span<const double> vertices, std::span<const st
   mesh->vertices.assign(vertices.begin(), vertices.end());
   mesh->region_vertex.reserve(triangles.size());
 
-  CompensatedSum area;
+  CompensatedSum<long double> area;
   for (std::size_t k = 0; k < triangles.size(); k += 3) {
     const double* at[3];
     for (std::size_t c = 0; c < 3; ++c) at[c] = &vertices[3 * std::size_t{triangles[k + c]}];

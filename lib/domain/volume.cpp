@@ -8,11 +8,12 @@ namespace {
 
 /// Six times the signed volume, or 0 if the tetrahedron is flat.
 long double determinant(const std::array<const double*, 4>& v) {
-  const Vector a = difference(v[1], v[0]), b = difference(v[2], v[0]), c = difference(v[3], v[0]);
+  const Vector a = difference<long double>(v[1], v[0]), b = difference<long double>(v[2], v[0]),
+               c = difference<long double>(v[3], v[0]);
   const Vector ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
-  const Vector far_facet = cross(difference(v[2], v[1]), difference(v[3], v[1]));
-  const Vector bc_edge = difference(v[3], v[2]), ab_edge = difference(v[2], v[1]),
-               ac_edge = difference(v[3], v[1]);
+  const Vector far_facet = cross(difference<long double>(v[2], v[1]), difference<long double>(v[3], v[1]));
+  const Vector bc_edge = difference<long double>(v[3], v[2]), ab_edge = difference<long double>(v[2], v[1]),
+               ac_edge = difference<long double>(v[3], v[1]);
   const long double longest2 = std::max(
       {dot(a, a), dot(b, b), dot(c, c), dot(ab_edge, ab_edge), dot(ac_edge, ac_edge), dot(bc_edge, bc_edge)});
   const long double facet2 = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca), dot(far_facet, far_facet)});
@@ -87,7 +88,7 @@ RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std
   mesh->vertices.assign(vertices.begin(), vertices.end());
   mesh->region_vertex.reserve(tetrahedra.size());
 
-  CompensatedSum volume;
+  CompensatedSum<long double> volume;
   for (std::size_t k = 0; k < tetrahedra.size(); k += 4) {
     std::array<std::uint32_t, 4> corner;
     std::array<const double*, 4> at;

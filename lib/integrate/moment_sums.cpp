@@ -4,9 +4,9 @@
 #include <cstring>
 #include <limits>
 
-#include "lib/clip/variant.hpp"
-#include "lib/seeds/memory.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/memory.hpp"
+#include "lib/base/threads.hpp"
+#include "lib/scene/variant.hpp"
 
 namespace powercell {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/cl/program.hpp"
-#include "lib/clip/scene.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

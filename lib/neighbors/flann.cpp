@@ -1,7 +1,7 @@
 #include <flann/flann.hpp>
 
+#include "lib/base/threads.hpp"
 #include "lib/neighbors/flann_index.hpp"
-#include "lib/seeds/threads.hpp"
 
 namespace powercell {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "lib/clip/variant.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/scene/variant.hpp"
 
 namespace powercell {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/clip/scene.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "kernels/layout.h"
+#include "lib/base/threads.hpp"
 #include "lib/seeds/lift.hpp"
 
 namespace powercell {

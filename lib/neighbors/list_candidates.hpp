@@ -4,9 +4,9 @@
 
 #include <powercell/options.hpp>
 
-#include "lib/clip/candidates.hpp"
-#include "lib/clip/scene.hpp"
+#include "lib/neighbors/candidates.hpp"
 #include "lib/neighbors/flann_index.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

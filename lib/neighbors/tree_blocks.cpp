@@ -1,8 +1,8 @@
 #include "lib/neighbors/tree_blocks.hpp"
 
 #include "kernels/layout.h"
-#include "lib/clip/variant.hpp"
-#include "lib/neighbors/packed_tree.hpp"
+#include "lib/scene/variant.hpp"
+#include "lib/seeds/packed_tree.hpp"
 
 namespace powercell {
 namespace {

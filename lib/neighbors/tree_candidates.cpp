@@ -1,6 +1,6 @@
 #include "lib/neighbors/tree_candidates.hpp"
 
-#include "lib/clip/variant.hpp"
+#include "lib/scene/variant.hpp"
 
 namespace powercell {
 

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "lib/clip/candidates.hpp"
-#include "lib/clip/scene.hpp"
+#include "lib/neighbors/candidates.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 

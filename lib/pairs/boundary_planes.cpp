@@ -4,13 +4,14 @@
 #include <numeric>
 #include <span>
 
-#include "lib/collect/exact_orientation.hpp"
+#include "lib/base/vectors.hpp"
 #include "lib/domain/adjacency.hpp"
+#include "lib/domain/exact_orientation.hpp"
 
 namespace powercell::pairs {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Vector3<double>;
 
 /// More would cost more than the regions.
 constexpr std::size_t most_planes = 24;
@@ -18,26 +19,14 @@ constexpr std::size_t most_planes = 24;
 /// with a cross product.
 constexpr double rounding = 1e-14;
 
-Vector difference(const double* a, const double* b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-double length(const Vector& a) {
-  return std::sqrt(dot(a, a));
-}
-
 /// The sign of the place of vertex x: above 0 outside the plane of a facet seen from outside as a, b, c.
 int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                   std::uint32_t x) {
   const auto at = [&](std::uint32_t v) { return &vertices[std::size_t{v} * 3]; };
-  const Vector ab = difference(at(b), at(a)), ac = difference(at(c), at(a)), ax = difference(at(x), at(a));
+  const Vector ab = difference<double>(at(b), at(a)), ac = difference<double>(at(c), at(a)),
+               ax = difference<double>(at(x), at(a));
   const double value = dot(cross(ab, ac), ax);
-  if (std::abs(value) > rounding * length(ab) * length(ac) * length(ax)) return value > 0 ? 1 : -1;
+  if (std::abs(value) > rounding * norm(ab) * norm(ac) * norm(ax)) return value > 0 ? 1 : -1;
   const std::uint32_t corners[4] = {a, b, c, x};
   return exact_orientation(vertices, corners);
 }
@@ -70,7 +59,7 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
   const auto corners = [&](std::uint32_t f) { return &mesh_.region_vertex[std::size_t{f} * 3]; };
   const auto normal = [&](std::uint32_t f) {
     const auto at = [&](std::size_t k) { return &mesh_.vertices[std::size_t{corners(f)[k]} * 3]; };
-    return cross(difference(at(1), at(0)), difference(at(2), at(0)));
+    return cross(difference<double>(at(1), at(0)), difference<double>(at(2), at(0)));
   };
   struct Edge {
     std::uint32_t facet;
@@ -131,8 +120,9 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
     axis[k] = 1;
     if (parted(axis)) return Meeting::none;
   }
-  const Vector edge[3] = {difference(x[1].data(), x[0].data()), difference(x[2].data(), x[1].data()),
-                          difference(x[0].data(), x[2].data())};
+  const Vector edge[3] = {difference<double>(x[1].data(), x[0].data()),
+                          difference<double>(x[2].data(), x[1].data()),
+                          difference<double>(x[0].data(), x[2].data())};
   if (parted(cross(edge[0], edge[1]))) return Meeting::none;
   for (const Vector& e : edge)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -154,7 +144,7 @@ bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* see
   const std::size_t below = b_.groups_.level[level - 1].low.size() / 3;
   const std::size_t members = std::min(RegionGroups::fan, below - group * RegionGroups::fan);
   Lanes gap;
-  loops::test_overlap(3, b_.blocks_.boxes(level - 1, group), seed, cell.low.data(), cell.high.data(), gap);
+  b_.blocks_.find_gaps(level - 1, group, seed, cell.low.data(), cell.high.data(), gap);
   for (std::size_t lane = 0; lane < members; ++lane)
     // Boxes that touch to rounding are looked at.
     if (!(gap[lane] > cell.error) && !gather(level - 1, group * RegionGroups::fan + lane, seed, cell))
@@ -199,15 +189,15 @@ bool PlaneSearch::convex_around() {
 }
 
 LocalPlane PlaneSearch::plane_of(std::uint32_t facet, const double* seed, double reach) const {
-  const Vector a = difference(corner(facet, 1), corner(facet, 0)),
-               b = difference(corner(facet, 2), corner(facet, 0)), y = difference(corner(facet, 0), seed),
-               n = cross(a, b);
-  const double size = length(n);
+  const Vector a = difference<double>(corner(facet, 1), corner(facet, 0)),
+               b = difference<double>(corner(facet, 2), corner(facet, 0)),
+               y = difference<double>(corner(facet, 0), seed), n = cross(a, b);
+  const double size = norm(n);
   LocalPlane plane;
   for (std::size_t k = 0; k < 3; ++k) plane.normal[k] = n[k] / size;
   plane.height = dot(plane.normal, y);
   reach += std::abs(y[0]) + std::abs(y[1]) + std::abs(y[2]);
-  plane.error = 16 * std::numeric_limits<double>::epsilon() * reach * (length(a) * length(b) / size);
+  plane.error = 16 * std::numeric_limits<double>::epsilon() * reach * (norm(a) * norm(b) / size);
   return plane;
 }
 

@@ -8,7 +8,7 @@
 #include "lib/domain/region_mesh.hpp"
 #include "lib/neighbors/cell_planes.hpp"
 #include "lib/pairs/cell_hull.hpp"
-#include "lib/pairs/region_blocks.hpp"
+#include "lib/regions/region_blocks.hpp"
 
 namespace powercell::pairs {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <powercell/error.hpp>
 
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell::pairs {
 namespace {
@@ -112,7 +112,7 @@ void CellSearch::visit_regions(std::size_t group, std::size_t members, std::size
   const std::size_t corners =
       (blocks_.corner_offset[group + 1] - corner) / static_cast<std::size_t>(seeds_.dimension);
   Lanes gap, beyond;
-  loops::test_overlap(seeds_.dimension, box, seed_, hull_->low.data(), hull_->high.data(), gap);
+  blocks_.find_gaps(0, group, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
   reach_.resize(std::max(reach_.size(), (last - first) * fan));
   loops::test_corners(&walls_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner], corners,
@@ -132,7 +132,7 @@ void CellSearch::visit(std::size_t level, std::size_t group, std::size_t first, 
   if (level == 1) return visit_regions(group, members, first, last);
   Lanes gap, beyond;
   const Lanes* const box = blocks_.boxes(level - 1, group);
-  loops::test_overlap(seeds_.dimension, box, seed_, hull_->low.data(), hull_->high.data(), gap);
+  blocks_.find_gaps(level - 1, group, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
   reach_.resize(std::max(reach_.size(), count * fan));
   loops::test_boxes(&walls_[first], count, seeds_.dimension, box, seed_, beyond, reach_.data());

@@ -10,8 +10,8 @@
 #include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_hull.hpp"
 #include "lib/pairs/enumerate.hpp"
-#include "lib/pairs/region_blocks.hpp"
 #include "lib/pairs/wall_loops.hpp"
+#include "lib/regions/region_blocks.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell::pairs {

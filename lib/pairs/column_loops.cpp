@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "lib/vector_copies.hpp"
+#include "lib/base/vector_copies.hpp"
 
 namespace powercell::pairs::loops {
 namespace {

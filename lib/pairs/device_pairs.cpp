@@ -1,6 +1,6 @@
 #include "lib/pairs/device_pairs.hpp"
 
-#include "lib/pairs/region_groups.hpp"
+#include "lib/regions/region_groups.hpp"
 
 namespace powercell {
 namespace {
@@ -22,7 +22,7 @@ DevicePairs::RegionTree::RegionTree(const Scene& scene, const std::vector<std::s
       node_owner(scene.context()),
       find_owners(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_owners"),
       find_pairs(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_pairs") {
-  const pairs::RegionGroups groups(scene.mesh(), 1);
+  const RegionGroups groups(scene.mesh(), 1);
   region.upload(groups.order);
   upload(low, scene.frame().pack(scene.mesh().dimension, groups.level[0].low, {}));
   upload(high, scene.frame().pack(scene.mesh().dimension, groups.level[0].high, {}));

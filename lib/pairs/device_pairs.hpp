@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "lib/clip/scene.hpp"
-#include "lib/neighbors/device_tree.hpp"
 #include "lib/primitives/scan.hpp"
+#include "lib/scene/scene.hpp"
 #include "lib/seeds/device_seeds.hpp"
+#include "lib/seeds/device_tree.hpp"
 
 namespace powercell {
 

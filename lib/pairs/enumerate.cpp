@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lib/base/threads.hpp"
 #include "lib/domain/outline.hpp"
 #include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_search.hpp"
-#include "lib/pairs/region_blocks.hpp"
-#include "lib/pairs/region_locator.hpp"
 #include "lib/pairs/region_search.hpp"
+#include "lib/regions/region_blocks.hpp"
+#include "lib/regions/region_locator.hpp"
 
 namespace powercell {
 namespace {

@@ -11,7 +11,7 @@
 #include "lib/domain/region_mesh.hpp"
 #include "lib/neighbors/cell_planes.hpp"
 #include "lib/neighbors/cell_walls.hpp"
-#include "lib/neighbors/packed_tree.hpp"
+#include "lib/seeds/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
@@ -35,12 +35,12 @@ struct BoundaryRanks {
   std::vector<std::uint32_t> by_region;  ///< of those, ascending: pairs with regions only
 };
 
-namespace pairs {
-class BoundaryPlanes;
 class RegionLocator;
 struct RegionBlocks;
 struct RegionGroups;
-}  // namespace pairs
+namespace pairs {
+class BoundaryPlanes;
+}
 
 /// Finds pairs for one domain. What depends on the regions alone is kept.
 class PairFinder {
@@ -86,15 +86,15 @@ class PairFinder {
                                         const CellWalls& walls) const;
 
   /// For what looks points up in the regions. \pre the finder stays where it is
-  pairs::RegionLocator locator();
+  RegionLocator locator();
 
  private:
-  const pairs::RegionBlocks& blocks();
+  const RegionBlocks& blocks();
 
   const RegionMesh& mesh_;
   int threads_;
-  std::unique_ptr<pairs::RegionGroups> groups_, boundary_groups_;
-  std::unique_ptr<pairs::RegionBlocks> blocks_;
+  std::unique_ptr<RegionGroups> groups_, boundary_groups_;
+  std::unique_ptr<RegionBlocks> blocks_;
   std::unique_ptr<pairs::BoundaryPlanes> planes_;
   std::unique_ptr<RegionMesh> boundary_;
 };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/neighbors/packed_tree.hpp"
+#include "lib/seeds/packed_tree.hpp"
 
 namespace powercell::pairs {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <powercell/error.hpp>
 
+#include "lib/base/threads.hpp"
 #include "lib/pairs/candidate_search.hpp"
-#include "lib/seeds/threads.hpp"
 
 namespace powercell::pairs {
 namespace {

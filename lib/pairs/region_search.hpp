@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lib/pairs/enumerate.hpp"
-#include "lib/pairs/region_groups.hpp"
 #include "lib/pairs/transpose.hpp"
+#include "lib/regions/region_groups.hpp"
 
 namespace powercell::pairs {
 

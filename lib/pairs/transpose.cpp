@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell::pairs {
 namespace {

@@ -1,15 +1,13 @@
 #include "lib/pairs/wall_loops.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
-#include "lib/vector_copies.hpp"
+#include "lib/base/vector_copies.hpp"
 
 namespace powercell::pairs::loops {
 namespace {
 
-constexpr std::size_t lanes = RegionGroups::fan;
 /// Of the absolute terms: coordinates relative to the seed, products and sums together round less than 16
 /// times.
 constexpr double rounding = 0x1p-48;
@@ -19,15 +17,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 /// For the absolute errors of subnormal terms.
 constexpr double tiny = std::numeric_limits<double>::min();
 
-// Vectors of the compiler: it does not find them by itself in loops as short as these.
-typedef double Vector __attribute__((vector_size(lanes * sizeof(double))));
-
-[[gnu::always_inline]] inline void load(const void* from, Vector& to) {
-  std::memcpy(&to, from, sizeof to);
-}
-[[gnu::always_inline]] inline void store(const Vector& from, void* to) {
-  std::memcpy(to, &from, sizeof from);
-}
+using lanes::load, lanes::store, lanes::Vector;
 
 /// What eight boxes are to a wall: the error of 2 q.y - level at any of their points, or infinity.
 template <int D>
@@ -79,7 +69,7 @@ template <int D>
       greatest += a < b ? b : a;
     }
     find_error<D>(by, extent, error);
-    enter(least, greatest, error, most, reach + w * lanes);
+    enter(least, greatest, error, most, reach + w * lane_count);
   }
   store(most, &beyond);
 }
@@ -105,32 +95,16 @@ template <int D>
     find_error<D>(by, extent, error);
     least = 2 * least - by.level;
     greatest = 2 * greatest - by.level;
-    enter(least, greatest, error, most, reach + w * lanes);
+    enter(least, greatest, error, most, reach + w * lane_count);
   }
   store(most, &beyond);
-}
-
-template <int D>
-[[gnu::always_inline]] inline void overlap_in(const Lanes* box, const double* seed, const double* low,
-                                              const double* high, Lanes& gap) {
-  Vector most = Vector{} - infinite;
-  for (int k = 0; k < D; ++k) {
-    Vector a, b;
-    load(&box[k], a);
-    load(&box[D + k], b);
-    a = (a - seed[k]) - high[k];
-    b = low[k] - (b - seed[k]);
-    most = a > most ? a : most;
-    most = b > most ? b : most;
-  }
-  store(most, &gap);
 }
 
 template <int D>
 [[gnu::always_inline]] inline double least_in(const double* direction, const double* vertex,
                                               std::size_t count) {
   Vector least = Vector{} + infinite;
-  for (std::size_t v = 0; v < count; v += lanes) {
+  for (std::size_t v = 0; v < count; v += lane_count) {
     Vector sum{}, x;
     for (int k = 0; k < D; ++k) {
       load(&vertex[static_cast<std::size_t>(k) * count + v], x);
@@ -139,7 +113,7 @@ template <int D>
     least = sum < least ? sum : least;
   }
   double all = infinite;
-  for (std::size_t l = 0; l < lanes; ++l) all = least[l] < all ? least[l] : all;
+  for (std::size_t l = 0; l < lane_count; ++l) all = least[l] < all ? least[l] : all;
   return all;
 }
 
@@ -160,14 +134,6 @@ POWERCELL_VECTOR_COPIES void test_corners(const Wall* wall, std::size_t walls, i
     corners_in<2>(wall, walls, box, corner, corners, seed, beyond, reach);
   else
     corners_in<3>(wall, walls, box, corner, corners, seed, beyond, reach);
-}
-
-POWERCELL_VECTOR_COPIES void test_overlap(int dimension, const Lanes* box, const double* seed,
-                                          const double* low, const double* high, Lanes& gap) {
-  if (dimension == 2)
-    overlap_in<2>(box, seed, low, high, gap);
-  else
-    overlap_in<3>(box, seed, low, high, gap);
 }
 
 POWERCELL_VECTOR_COPIES double least_along(const double* direction, int dimension, const double* vertex,

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "lib/pairs/region_blocks.hpp"
+#include "lib/regions/region_blocks.hpp"
 
 namespace powercell::pairs::loops {
 
@@ -26,11 +26,6 @@ void test_boxes(const Wall* wall, std::size_t walls, int dimension, const Lanes*
 /// The same for the hulls of `corners` corners each, in these boxes.
 void test_corners(const Wall* wall, std::size_t walls, int dimension, const Lanes* box, const Lanes* corner,
                   std::size_t corners, const double* seed, Lanes& beyond, double* reach);
-
-/// gap[lane] = the largest distance along an axis of box `lane` from [low, high], negative where they
-/// overlap; all but the boxes are relative to the seed.
-void test_overlap(int dimension, const Lanes* box, const double* seed, const double* low, const double* high,
-                  Lanes& gap);
 
 /// The least of direction . vertex over `count` vertices, a multiple of the lanes, coordinate after
 /// coordinate.

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/remeshing/dual.hpp"
 #include "lib/remeshing/even_mass.hpp"
 #include "lib/remeshing/farthest.hpp"

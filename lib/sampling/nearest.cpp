@@ -4,24 +4,16 @@
 #include <limits>
 #include <vector>
 
+#include "lib/base/vectors.hpp"
+
 namespace powercell {
 namespace {
 
-using Vec = std::array<double, 3>;
+using Vec = Vector3<double>;
 
-Vec operator-(const Vec& a, const Vec& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 Vec along(const Vec& from, double t, const Vec& way) {
   return {from[0] + t * way[0], from[1] + t * way[1], from[2] + t * way[2]};
 }
-double dot(const Vec& a, const Vec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// The nearest so far.
 struct Nearest {
   Vec to, point{};

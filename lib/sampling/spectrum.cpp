@@ -1,8 +1,7 @@
 #include <cmath>
 #include <powercell/point_sets.hpp>
 
-#include "lib/seeds/seed_set.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/layout.h"
-#include "lib/clip/frame.hpp"
+#include "lib/domain/frame.hpp"
 
 namespace powercell {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <mutex>
 
+#include "lib/base/memory.hpp"
+#include "lib/base/radix_sort.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/seeds/hilbert_curve.hpp"
-#include "lib/seeds/memory.hpp"
-#include "lib/seeds/radix_sort.hpp"
-#include "lib/seeds/threads.hpp"
 
 namespace powercell {
 namespace {

@@ -5,7 +5,7 @@
 #include <powercell/error.hpp>
 #include <string>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 
 namespace powercell {
 namespace {

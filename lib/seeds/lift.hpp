@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lib/clip/frame.hpp"
+#include "lib/domain/frame.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "lib/base/memory.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/seeds/duplicates.hpp"
 #include "lib/seeds/hilbert.hpp"
-#include "lib/seeds/memory.hpp"
-#include "lib/seeds/threads.hpp"
 #include "lib/seeds/validate.hpp"
 
 namespace powercell {

@@ -27,7 +27,4 @@ struct SeedSet {
 /// \throw Error invalid_argument (sizes), invalid_seed (NaN or infinity, which seed and value)
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads);
 
-/// Number of worker threads meant by an option value (0: all of the machine).
-int thread_count(int requested);
-
 }  // namespace powercell

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "kernels/layout.h"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 
 namespace powercell {
 namespace {

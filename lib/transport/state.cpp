@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/transport/course.hpp"
 #include "lib/transport/merge.hpp"
 #include "lib/transport/periodic_evaluator.hpp"

@@ -1,6 +1,6 @@
 #include "lib/treemap/candidate_scan.hpp"
 
-#include "lib/vector_copies.hpp"
+#include "lib/base/vector_copies.hpp"
 
 namespace powercell::treemap_detail {
 

@@ -6,7 +6,8 @@
 #include <numbers>
 #include <string>
 
-#include "lib/digits.hpp"
+#include "lib/base/random.hpp"
+#include "lib/base/text.hpp"
 
 namespace powercell::treemap_detail {
 namespace {
@@ -72,17 +73,6 @@ void require_sure_area(const std::vector<double>& corners) {
         ErrorCode::invalid_domain,
         "the outline is so thin, or so far from the origin, that rounding its corners moves its area by more "
         "than a millionth; move it to the origin, or take another shape");
-}
-
-std::uint64_t mixed(std::uint64_t x) {  // splitmix64
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-double unit(std::uint64_t bits) {
-  return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
 }  // namespace
@@ -199,11 +189,12 @@ Columns spread_points(const Columns& polygon, std::size_t n, std::uint64_t rando
   }
   // The plastic number and its square: the two-dimensional golden ratio.
   constexpr double step[2] = {0.7548776662466927, 0.5698402909980532};
-  double u = unit(mixed(random_seed)), v = unit(mixed(random_seed ^ 0x5851f42d4c957f2du));
+  double u = unit_from_bits(mixed_bits(random_seed)),
+         v = unit_from_bits(mixed_bits(random_seed ^ 0x5851f42d4c957f2du));
   Columns points;
   for (std::size_t tries = 0; points.size() < n; ++tries) {
     if (tries > 100 * (n + 10)) {  // a sliver whose width is rounding: nothing is surely inside of it
-      const double t = unit(mixed(random_seed + tries));
+      const double t = unit_from_bits(mixed_bits(random_seed + tries));
       points.x.push_back(c * (low[0] + t * (high[0] - low[0])) - s * (low[1] + high[1]) / 2);
       points.y.push_back(s * (low[0] + t * (high[0] - low[0])) + c * (low[1] + high[1]) / 2);
       continue;

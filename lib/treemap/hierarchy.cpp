@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 
 namespace powercell::treemap_detail {
 namespace {

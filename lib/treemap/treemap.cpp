@@ -5,8 +5,7 @@
 #include <powercell/treemap.hpp>
 #include <string>
 
-#include "lib/seeds/seed_set.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/treemap/convex_polygon.hpp"
 #include "lib/treemap/group.hpp"
 #include "lib/treemap/hierarchy.hpp"

@@ -35,10 +35,10 @@ Vector normal_of(const Corners& corner) {
 }
 
 long double sine_between(const Vector& a, const Vector& b) {
-  return length(cross(a, b)) / (length(a) * length(b));
+  return norm(cross(a, b)) / (norm(a) * norm(b));
 }
 long double sine_to_plane(const Vector& direction, const Vector& normal) {
-  return std::fabs(dot(direction, normal)) / (length(direction) * length(normal));
+  return std::fabs(dot(direction, normal)) / (norm(direction) * norm(normal));
 }
 
 }  // namespace powercell

@@ -4,7 +4,7 @@
 #include <array>
 #include <iterator>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/verify/angles.hpp"
 
 namespace powercell {
@@ -12,9 +12,9 @@ namespace {
 
 /// The least sine of an angle of a triangle of seeds: that between the two longer sides.
 long double least_sine(const Vector& a, const Vector& b, const Vector& c) {
-  std::array<long double, 3> side{length(b - a), length(c - b), length(a - c)};
+  std::array<long double, 3> side{norm(b - a), norm(c - b), norm(a - c)};
   std::ranges::sort(side);
-  return length(cross(b - a, c - a)) / (side[1] * side[2]);
+  return norm(cross(b - a, c - a)) / (side[1] * side[2]);
 }
 
 /// How far rounding may move the ends of the wall of two seeds, to first order: the sum over the planes that

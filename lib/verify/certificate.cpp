@@ -7,9 +7,9 @@
 #include <powercell/error.hpp>
 #include <string>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/domain/random_points.hpp"
-#include "lib/seeds/threads.hpp"
 #include "lib/verify/asymmetry.hpp"
 #include "lib/verify/laws.hpp"
 #include "lib/verify/partition.hpp"

@@ -37,19 +37,6 @@ inline Vector cell_vertex(const Cells& cells, std::uint64_t v) {
   const double* x = &cells.vertices[v * static_cast<std::size_t>(cells.dimension)];
   return {x[0], x[1], cells.dimension == 3 ? x[2] : 0.0};
 }
-inline Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Vector operator+(const Vector& a, const Vector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline Vector operator*(long double s, const Vector& a) {
-  return {s * a[0], s * a[1], s * a[2]};
-}
-inline long double length(const Vector& a) {
-  return std::sqrt(dot(a, a));
-}
-
 /// Corner k of face f: of a polyhedron's loop, or of the edge k of a polygon.
 std::vector<Vector> face_corners(const Cells& cells, std::size_t piece, std::uint64_t face);
 

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/digits.hpp"
-#include "lib/seeds/seed_set.hpp"
-#include "lib/seeds/threads.hpp"
+#include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -20,8 +19,9 @@ Vector plane_normal(const RegionMesh& mesh, std::uint32_t region) {
   if (mesh.dimension == 2) return {0, 0, 1};
   const std::uint32_t* v = &mesh.region_vertex[mesh.region_offset[region]];
   const double* x = mesh.vertices.data();
-  const Vector normal = cross(difference(x + 3 * v[1], x + 3 * v[0]), difference(x + 3 * v[2], x + 3 * v[0]));
-  return (1 / length(normal)) * normal;
+  const Vector normal = cross(difference<long double>(x + 3 * v[1], x + 3 * v[0]),
+                              difference<long double>(x + 3 * v[2], x + 3 * v[0]));
+  return (1 / norm(normal)) * normal;
 }
 
 struct Face {
@@ -35,14 +35,14 @@ Face face_of(const std::vector<Vector>& corners, const Vector& plane) {
   for (const Vector& x : corners)
     face.middle = face.middle + (1 / static_cast<long double>(corners.size())) * x;
   long double extent = 0;
-  for (const Vector& x : corners) extent = std::max(extent, length(x - face.middle));
+  for (const Vector& x : corners) extent = std::max(extent, norm(x - face.middle));
   if (corners.size() == 2) {
     face.normal = cross(corners[1] - corners[0], plane);
   } else {
     for (std::size_t k = 2; k < corners.size(); ++k)
       face.normal = face.normal + cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
   }
-  const long double size = length(face.normal);  // its length, or twice its area
+  const long double size = norm(face.normal);  // its length, or twice its area
   if (!(size > 0)) return {};
   face.normal = (1 / size) * face.normal;
   face.slant = static_cast<double>(corners.size() == 2 ? 2 / size : 2 * extent / size);
@@ -107,7 +107,7 @@ class Owners {
       const Face face = face_of(face_corners(cells_, piece, f), plane);
       const double distance = static_cast<double>(dot(x - face.middle, face.normal));
       if (distance <= 0) continue;
-      const double away = static_cast<double>(length(x - face.middle));
+      const double away = static_cast<double>(norm(x - face.middle));
       const Outside here{distance, rounding_.shift(i, cells_.border[f]) * (1 + away * face.slant)};
       if (here.ratio() > worst.ratio()) worst = here;
     }

@@ -29,7 +29,7 @@ class Gradients {
   Vector edge(std::uint32_t from, std::uint32_t to) const {
     const auto d = static_cast<std::size_t>(mesh_.dimension);
     const double *a = &mesh_.vertices[from * d], *b = &mesh_.vertices[to * d];
-    if (d == 3) return difference(b, a);
+    if (d == 3) return difference<long double>(b, a);
     return {static_cast<long double>(b[0]) - a[0], static_cast<long double>(b[1]) - a[1], 0};
   }
 
@@ -91,13 +91,13 @@ class Gradients {
 long double slanted_area(const Cells& cells, std::size_t seed, std::uint64_t piece, const Corners& triangle,
                          const Rounding& rounding) {
   const Vector normal = normal_of(triangle);
-  const long double most = length(normal) / 2;
+  const long double most = norm(normal) / 2;
   long double sum = 0;
   for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
     if (cells.border[f].kind != Border::Kind::wall) continue;
     const std::uint32_t other = cells.border[f].index;
     const std::vector<Vector> end = face_corners(cells, piece, f);
-    const long double area = length(end[1] - end[0]) * rounding.wall_shift(seed, other);
+    const long double area = norm(end[1] - end[0]) * rounding.wall_shift(seed, other);
     const long double sine = sine_between(rounding.position(other) - rounding.position(seed), normal);
     sum += area < most * sine ? area / sine : most;
   }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -14,7 +14,7 @@ struct Sums {
 
   void add_triangle(const Vector& a, const Vector& b, const Vector& c) {
     const Vector normal = cross(b - a, c - a);
-    add(length(normal) / 2, a + b + c, 3);
+    add(norm(normal) / 2, a + b + c, 3);
   }
   void add_tetrahedron(const Vector& apex, const Vector& a, const Vector& b, const Vector& c) {
     add(dot(a - apex, cross(b - apex, c - apex)) / 6, apex + a + b + c, 4);
@@ -38,8 +38,8 @@ void add_polygon(const Cells& cells, std::uint64_t piece, const Vector& seed, Su
   for (std::uint64_t v = begin; v < end; ++v) {
     const Vector a = cell_vertex(cells, v) - seed;
     const Vector b = cell_vertex(cells, v + 1 < end ? v + 1 : begin) - seed;
-    sums.surface += length(b - a);
-    sums.extent = std::max(sums.extent, length(a));
+    sums.surface += norm(b - a);
+    sums.extent = std::max(sums.extent, norm(a));
     sums.add_triangle(first, a, b);
   }
 }
@@ -50,10 +50,10 @@ void add_polyhedron(const Cells& cells, std::uint64_t piece, const Vector& seed,
     std::vector<Vector> corner = face_corners(cells, piece, f);
     for (Vector& x : corner) {
       x = x - seed;
-      sums.extent = std::max(sums.extent, length(x));
+      sums.extent = std::max(sums.extent, norm(x));
     }
     for (std::size_t k = 2; k < corner.size(); ++k) {
-      sums.surface += length(cross(corner[k - 1] - corner[0], corner[k] - corner[0])) / 2;
+      sums.surface += norm(cross(corner[k - 1] - corner[0], corner[k] - corner[0])) / 2;
       sums.add_tetrahedron(apex, corner[0], corner[k - 1], corner[k]);
     }
   }
@@ -106,7 +106,7 @@ std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells,
     if (!(given > 0) || !(sums.measure > 0)) continue;
     const double* c = &measures.centroid[i * d];
     const Vector stated = Vector{c[0], c[1], d == 3 ? c[2] : 0.0} - seed;
-    const double apart = static_cast<double>(length(stated - (1 / sums.measure) * sums.first));
+    const double apart = static_cast<double>(norm(stated - (1 / sums.measure) * sums.first));
     const double allowed = rounding.shift(i) + moved * static_cast<double>(sums.extent / sums.measure);
     centroid.see(apart, allowed, [&] {
       return "the centroid of seed " + std::to_string(i) + " is " + digits(apart, 3) +

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {

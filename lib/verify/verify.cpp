@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <powercell/verify.hpp>
 
-#include "lib/digits.hpp"
+#include "lib/base/text.hpp"
 #include "lib/verify/laws.hpp"
 #include "lib/verify/partition.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "lib/clip/scene.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell::test {
 

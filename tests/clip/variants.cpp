@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 
 #include "lib/clip/golden.hpp"
-#include "lib/clip/variant.hpp"
 #include "lib/neighbors/list_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
+#include "lib/scene/variant.hpp"
 #include "tests/clip/random_scene.hpp"
 
 using namespace powercell;

@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "kernels/layout.h"
-#include "lib/clip/scene.hpp"
-#include "lib/clip/variant.hpp"
-#include "lib/neighbors/device_tree.hpp"
+#include "lib/scene/scene.hpp"
+#include "lib/scene/variant.hpp"
 #include "lib/seeds/device_seeds.hpp"
+#include "lib/seeds/device_tree.hpp"
 #include "lib/seeds/hilbert_curve.hpp"
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/domains.hpp"

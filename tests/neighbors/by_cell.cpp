@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/clip/cell_candidates.hpp"
 #include "lib/clip/clipper.hpp"
 #include "lib/domain/outline.hpp"
-#include "lib/neighbors/cell_candidates.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 

@@ -1,0 +1,194 @@
+/* What makes the outcome of a cell certain in spite of rounding (docs/mathematics.md, "Certain decisions"):
+   common to polygons and polyhedra. */
+#ifndef POWERCELL_CLIP_CERTAIN
+#define POWERCELL_CLIP_CERTAIN
+#include "cell/vertices.cl"
+
+/* The plane n.y = h with |n| = 1 (n in x, y, z; h in w) as computed is this near to the true one, within the
+   radius of the cell. */
+typedef struct {
+  real4 plane;
+  real doubt;
+} certain_plane_t;
+
+/* Error of a corner of the region. */
+static inline real corner_error(const vertices_t* p) {
+  return 2 * (REAL_EPSILON * p->reach + p->blur.position);
+}
+
+/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw
+   the difference of the weights. */
+static inline real plane_error(const vertices_t* p, real sum, real q2, real dw) {
+  return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + plane_blur(p->blur, p->radius, sum);
+}
+
+/* Largest of side[] of a vertex. */
+static inline real most_of_used(const vertices_t* p) {
+  real most = -REAL_MAX;
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1)
+      most = fmax(most, p->side[w * WORD_BITS + lowest_bit(bits)]);
+  return most;
+}
+
+/* After a cut: its vertices lie between those before it but for rounding. The proof from the end asks for
+   that only since there has been a gap. */
+static inline void note_drift(vertices_t* p) {
+  if (QUICK_PROOF || least_of(p->gap, p->closest_gap) < REAL_MAX / 8)
+    p->drift += 2 * REAL_EPSILON * p->radius;
+}
+
+/* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after
+ * count_sides. */
+static inline void note_cut(vertices_t* p, real sum, real error) {
+  const real scale = 1 / (2 * sum), clear = (p->nearest - error) * scale;
+  error += 12 * REAL_EPSILON * sum * p->radius; /* of the ratio in set_edge_point */
+  p->clear = least_of(clear, p->clear);
+  p->rounding = most_of(error * scale, p->rounding);
+}
+
+/* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything
+   on the way (docs/mathematics.md (84)). */
+static inline bool quickly_certain(const vertices_t* p) {
+  const real rounding = p->rounding + corner_error(p) + p->drift;
+  const real gap = fmin(fmin(p->gap, p->closest_gap), p->clear);
+  const real steep = DIMENSION == 2 ? sqrt(p->steep) : p->steep;
+  return QUICK_PROOF && 16 * rounding < steep * fmin(gap, SEARCH_MARGIN / 16 * p->radius);
+}
+
+/* Notes how near the plane 2 q.y = level of `border`, which cuts nothing, comes to the vertices, after
+ * find_sides. */
+static inline void note_gap(vertices_t* p, real sum, real level, real error, int border) {
+  const real clear = -(level < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -level */
+  const real gap = clear / (2 * sum);
+  const bool closest = gap < p->closest_gap && border >= 0 && border < BORDER_PLANE;
+  p->gap = least_of(closest ? p->closest_gap : gap, p->gap);
+  p->closest_gap = closest ? gap : p->closest_gap;
+  p->closest = closest ? border : p->closest;
+}
+
+/* The same for the plane of a face that has gone: 2 q.y = level, with q in x, y, z and the level in w. */
+static inline void note_gone(vertices_t* p, real4 raw, real sum, real error, int border) {
+  real normal[DIMENSION];
+  if (raw.w - error - 2 * sum * p->radius >= 2 * sum * p->gap) return;
+  normal[0] = raw.x;
+  normal[1] = raw.y;
+  if (DIMENSION == 3) normal[DIMENSION - 1] = raw.z;
+  find_sides(p, normal, raw.w);
+  note_gap(p, sum, raw.w, error, border);
+}
+
+/* Of a bisector. Its level alone does not tell its error: a square and weights may have cancelled there. */
+static inline void note_gone_bisector(vertices_t* p, real4 raw, int border) {
+  const real sum = fabs(raw.x) + fabs(raw.y) + fabs(raw.z),
+             q2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
+  note_gone(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
+}
+
+/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. Where the data
+   leave it open by more than rounding does nothing about it is certain: a cell would have fewer digits than
+   it may have. */
+static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
+  certain_plane_t unit;
+  const real size = sqrt(raw.x * raw.x + raw.y * raw.y + raw.z * raw.z), scale = 1 / size;
+  const real h = raw.w * scale * (real)0.5;
+  const real rounding = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h));
+  const real data = plane_blur(p->blur, p->radius, size) * (scale / 2);
+  unit.plane = make_real4(raw.x * scale, raw.y * scale, raw.z * scale, h);
+  unit.doubt = data > MOST_BLUR * rounding ? 4 * p->radius + data : rounding + data;
+  return unit;
+}
+
+/* 2 q.y = level of the bisector with seed `other`. */
+static inline real4 raw_bisector(const vertices_t* p, int other) {
+  const seed_t seed = p->seeds[p->self], there = p->seeds[other];
+  real q[DIMENSION];
+  difference(there, seed, q);
+  return make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0,
+                    norm2(q) + weight_difference(seed, there));
+}
+
+/* Corner k of the region relative to the seed; .w is 0. */
+static inline real4 region_corner(const vertices_t* p, int k) {
+  real y[DIMENSION];
+  difference(p->corner[p->region[k]], p->seeds[p->self], y);
+  return make_real4(y[0], y[1], DIMENSION == 3 ? y[DIMENSION - 1] : 0, 0);
+}
+
+/* The plane through y with normal n = a x b, which is outward. */
+static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a, real4 b, real4 n) {
+  certain_plane_t unit;
+  const real size = sqrt(dot3(n, n)), scale = 1 / size;
+  unit.plane = n * scale;
+  unit.plane.w = dot3(unit.plane, y);
+  unit.doubt =
+      (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
+  return unit;
+}
+
+/* Vertex v; .w is 0. */
+static inline real4 vertex_point(const vertices_t* p, int v) {
+  return make_real4(p->x[0][v], p->x[1][v], DIMENSION == 3 ? p->x[DIMENSION - 1][v] : 0, 0);
+}
+
+/* As a raw plane. */
+static inline real4 raw_plane(certain_plane_t unit) {
+  return make_real4(unit.plane.x, unit.plane.y, unit.plane.z, 2 * unit.plane.w);
+}
+
+/* Notes the gap to a facet of the region that has gone. */
+static inline void note_gone_facet(vertices_t* p, certain_plane_t facet, int border) {
+  const real sum = fabs(facet.plane.x) + fabs(facet.plane.y) + fabs(facet.plane.z);
+  const real error = REAL_EPSILON * (8 * sum * p->radius + 8 * fabs(facet.plane.w)) + 2 * sum * facet.doubt;
+  note_gone(p, raw_plane(facet), sum, error, border);
+}
+
+/* The point of three planes, and at least its error in w; below 0 if the planes are nearly dependent, or not
+   oriented as at a vertex of a cell. The nearer to it `from` is (w: 0), the nearer it comes to each plane: of
+   planes nearly dependent a point off by its error along their common line still bounds the right measure. */
+static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane_t a, certain_plane_t b,
+                                  certain_plane_t c) {
+  const real4 bc = cross3(b.plane, c.plane), ca = cross3(c.plane, a.plane), ab = cross3(a.plane, b.plane);
+  const real d = dot3(a.plane, bc);
+  if (!(d > 256 * REAL_EPSILON)) return make_real4(0, 0, 0, -1);
+  const real scale = 1 / d;
+  const real sum = fabs(a.plane.w) + fabs(b.plane.w) + fabs(c.plane.w);
+  const real ra = a.plane.w - dot3(a.plane, from), rb = b.plane.w - dot3(b.plane, from),
+             rc = c.plane.w - dot3(c.plane, from);
+  real4 y = from + (bc * ra + ca * rb + ab * rc) * scale;
+  y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + 3 * p->radius));
+  return y;
+}
+
+/* Puts vertex v at y with the error y.w, which side[v] keeps; returns at least the distance of where it was
+   from the true one. */
+static inline real move_vertex(vertices_t* p, int v, real4 y) {
+  const real x[3] = {y.x, y.y, y.z};
+  real moved = y.w;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    moved += fabs(x[k] - p->x[k][v]);
+    p->x[k][v] = x[k];
+  }
+  p->side[v] = y.w;
+  return moved;
+}
+
+/* Whether vertex y with its error is inside the plane. */
+static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_plane_t plane) {
+  const real s = plane.plane.x * y.x + plane.plane.y * y.y + plane.plane.z * y.z - plane.plane.w;
+  return s < -(error + plane.doubt + 4 * REAL_EPSILON * (p->radius + fabs(plane.plane.w)));
+}
+
+/* Whether each vertex is inside the bisector of `closest`, by its own error (side[]) and not the worst of
+ * all. */
+static inline bool closest_is_clear(const vertices_t* p) {
+  const certain_plane_t plane = unit_plane(p, raw_bisector(p, p->closest));
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
+      const int v = w * WORD_BITS + lowest_bit(bits);
+      if (!is_inside(p, vertex_point(p, v), p->side[v], plane)) return false;
+    }
+  return true;
+}
+
+#endif

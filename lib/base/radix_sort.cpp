@@ -1,0 +1,101 @@
+#include "lib/base/radix_sort.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "lib/base/threads.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr unsigned digit_bits = 11;
+constexpr std::size_t buckets = std::size_t{1} << digit_bits;
+constexpr std::size_t small_count = 1024;   // below, comparing beats clearing the buckets
+constexpr std::size_t share_count = 32768;  // below, threads cost more than they save
+
+using Histogram = std::array<std::size_t, buckets>;
+
+std::size_t digit(std::uint64_t key, unsigned shift) {
+  return (key >> shift) & (buckets - 1);
+}
+
+/// One pass of the sort, by the digit at `shift`. Each part of `from` counts and then writes by itself, and
+/// within a bucket the parts follow each other, which keeps the sort stable for any number of parts.
+/// Returns false, with nothing written, when all records have the same digit.
+bool scatter(std::span<const KeyedIndex> from, std::span<KeyedIndex> to, unsigned shift,
+             std::vector<Histogram>& histograms) {
+  const std::size_t parts = histograms.size();
+  const auto bound = [&](std::size_t part) { return from.size() * part / parts; };
+  const int threads = static_cast<int>(parts);
+  parallel_for(threads, parts, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) {
+      histograms[part].fill(0);
+      for (std::size_t k = bound(part); k < bound(part + 1); ++k)
+        ++histograms[part][digit(from[k].key, shift)];
+    }
+  });
+  std::size_t sum = 0;
+  for (std::size_t b = 0; b < buckets; ++b) {
+    const std::size_t before = sum;
+    for (Histogram& h : histograms) {
+      const std::size_t count = h[b];
+      h[b] = sum;
+      sum += count;
+    }
+    if (sum - before == from.size()) return false;
+  }
+  parallel_for(threads, parts, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part)
+      for (std::size_t k = bound(part); k < bound(part + 1); ++k)
+        to[histograms[part][digit(from[k].key, shift)]++] = from[k];
+  });
+  return true;
+}
+
+/// By the digits from `first_shift` up.
+void sort_by_digits(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, unsigned first_shift,
+                    int threads) {
+  // More parts than a few would only add histograms: 16 KiB each.
+  const std::size_t parts = std::clamp<std::size_t>(records.size() / share_count, 1,
+                                                    static_cast<std::size_t>(std::max(threads, 1)));
+  std::vector<Histogram> histograms(parts);
+  std::span<KeyedIndex> from = records;
+  std::span<KeyedIndex> to = scratch;
+  for (unsigned shift = first_shift; shift < 64; shift += digit_bits)
+    if (scatter(from, to, shift, histograms)) std::swap(from, to);
+  if (from.data() != records.data()) std::copy(from.begin(), from.end(), records.begin());
+}
+
+void sort_short(std::span<KeyedIndex> records) {
+  const auto less = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; };
+  if (records.size() == 2) {
+    if (less(records[1], records[0])) std::swap(records[0], records[1]);
+  } else {
+    std::stable_sort(records.begin(), records.end(), less);
+  }
+}
+
+}  // namespace
+
+void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads) {
+  if (records.size() < small_count) return sort_short(records);
+  // As many digits from the top as tell most records apart, an even number so that they end where they began;
+  // the few runs that are left are short, or sorted by all digits.
+  unsigned passes = 2;
+  while (passes * digit_bits < 64 && (records.size() >> (passes * digit_bits - 1)) > 1) passes += 2;
+  const unsigned first_shift = passes * digit_bits < 64 ? 64 - passes * digit_bits : 0;
+  sort_by_digits(records, scratch, first_shift, threads);
+  if (first_shift == 0) return;
+  for (std::size_t run = 0; run < records.size();) {
+    std::size_t end = run + 1;
+    while (end < records.size() && records[end].key >> first_shift == records[run].key >> first_shift) ++end;
+    if (end - run >= small_count)
+      sort_by_digits(records.subspan(run, end - run), scratch.subspan(run, end - run), 0, threads);
+    else if (end - run > 1)
+      sort_short(records.subspan(run, end - run));
+    run = end;
+  }
+}
+
+}  // namespace powercell

@@ -1,0 +1,29 @@
+/// \file
+/// Eight doubles at a time, as vectors of the compiler: it does not find them by itself in short loops.
+/// Internal.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+namespace powercell {
+
+constexpr std::size_t lane_count = 8;
+
+/// One coordinate of eight things.
+using Lanes = std::array<double, lane_count>;
+
+namespace lanes {
+
+typedef double Vector __attribute__((vector_size(lane_count * sizeof(double))));
+
+[[gnu::always_inline]] inline void load(const void* from, Vector& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+[[gnu::always_inline]] inline void store(const Vector& from, void* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+}  // namespace lanes
+}  // namespace powercell
