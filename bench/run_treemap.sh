@@ -1,6 +1,6 @@
 #!/bin/sh
 # The figures of docs/applications.md, "Treemap": time, worst leaf and aspect, and the written files measured
-# again by tests/treemap/measure_again.py.
+# again by tests/applications/treemap/measure_again.py.
 #
 #   bench/run_treemap.sh [TREE]   TREE: a table or JSON to lay out besides the made ones; the paper's is the
 #                                 tree of the Linux kernel, rows id;parent;name;weight
@@ -52,4 +52,4 @@ done
 echo "layout s: wall time of the layout; processor: seconds of all threads, reading included"
 tree=${1:-$folder/flat.csv}
 "$tool" treemap "$tree" --quiet -o "$folder/out.json" -o "$folder/out.svg"
-/usr/bin/python3 tests/treemap/measure_again.py "$tree" "$folder/out.json" "$folder/out.svg"
+/usr/bin/python3 tests/applications/treemap/measure_again.py "$tree" "$folder/out.json" "$folder/out.svg"

@@ -2,8 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set_target_properties(powercell PROPERTIES EXPORT_NAME powercell)
-install(TARGETS powercell EXPORT powercellTargets
+install(TARGETS powercell powercell_core powercell_applications EXPORT powercellTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -21,22 +20,38 @@ install(FILES
   ${PROJECT_BINARY_DIR}/powercellConfigVersion.cmake
   DESTINATION ${package_folder})
 
-# Paths in the .pc file are relative to its own place, so the tree can be moved after installation.
+# Paths in the .pc files are relative to their own place, so the tree can be moved after installation.
 file(RELATIVE_PATH pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
-if(BUILD_SHARED_LIBS)
-  set(pc_private "Requires.private: OpenCL")
+
+# powercell_pkg_config(NAME DESCRIPTION LIBS REQUIRES [STATIC_REQUIRES]): the packages that a static library needs
+# besides are required by whoever links it.
+function(powercell_pkg_config name description libs requires static_requires)
+  set(pc_name ${name})
+  set(pc_description "${description}")
+  set(pc_libs "${libs}")
   set(pc_cflags "")
-else()
-  set(pc_private "Requires: OpenCL geos muparser")
-  if(POWERCELL_FLANN)
-    string(APPEND pc_private " flann")
+  if(NOT BUILD_SHARED_LIBS)
+    string(APPEND requires " ${static_requires}")
+    set(pc_cflags " -DPOWERCELL_STATIC")
   endif()
-  string(APPEND pc_private "\nLibs.private: -lstdc++ -pthread")
-  set(pc_cflags " -DPOWERCELL_STATIC")
+  string(STRIP "${requires}" pc_requires)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/powercell.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+set(core_packages "OpenCL geos")
+if(POWERCELL_FLANN)
+  string(APPEND core_packages " flann")
 endif()
-configure_file(${PROJECT_SOURCE_DIR}/cmake/powercell.pc.in ${PROJECT_BINARY_DIR}/powercell.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/powercell.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+set(core_libs "-lpowercell_core")
+if(NOT BUILD_SHARED_LIBS)
+  string(APPEND core_libs " -lstdc++ -pthread")
+endif()
+powercell_pkg_config(powercell-core "Power diagrams (weighted Voronoi diagrams) on OpenCL"
+  "${core_libs}" "" "${core_packages}")
+powercell_pkg_config(powercell "Power diagrams on OpenCL, and applications: transport, sampling, remeshing, treemaps"
+  "-lpowercell_applications" "powercell-core" "muparser")
 
 if(TARGET powercell_tool)
   file(RELATIVE_PATH library_from_tool /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})

@@ -1,23 +1,26 @@
-# powercell_add_test_folders(): each folder of tests/ that holds .cpp files, except support/, becomes one
-# doctest executable. Tests see library internals by "lib/..." and shared helpers by "tests/support/...".
-# They link the static twin of the library; a folder.cmake that sets `library` links that instead (the tool's
-# powercell_io links the shared library, and one program must not hold both).
+# powercell_add_test_folders(): each folder of tests/ and tests/applications/ that holds .cpp files, except
+# support/, becomes one doctest executable. Tests see library internals by "lib/..." and shared helpers by
+# "tests/support/...". They link the static twin of the libraries and the helpers; a folder.cmake that sets
+# `library` links that instead (the tool's powercell_io links the shared libraries, and one program must not
+# hold both).
 find_path(DOCTEST_INCLUDE_DIR doctest/doctest.h REQUIRED)
+include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
 
 function(powercell_add_test_folders)
-  file(GLOB children RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*)
-  foreach(folder IN LISTS children)
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
-    if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder} AND sources AND NOT folder STREQUAL "support")
-      add_executable(test_${folder} ${sources} ${CMAKE_CURRENT_SOURCE_DIR}/support/main.cpp)
-      target_include_directories(test_${folder} SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
-      target_compile_options(test_${folder} PRIVATE -Wall -Wextra)
-      set(library powercell_test_lib)
-      if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/folder.cmake)
-        include(${CMAKE_CURRENT_SOURCE_DIR}/${folder}/folder.cmake)  # extra libraries of this folder
+  file(GLOB folders CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/* ${CMAKE_CURRENT_SOURCE_DIR}/applications/*)
+  foreach(folder IN LISTS folders)
+    get_filename_component(name ${folder} NAME)
+    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    if(IS_DIRECTORY ${folder} AND sources AND NOT name STREQUAL "support")
+      add_executable(test_${name} ${sources} ${CMAKE_CURRENT_SOURCE_DIR}/support/main.cpp)
+      target_include_directories(test_${name} SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
+      target_compile_options(test_${name} PRIVATE -Wall -Wextra)
+      set(library powercell_support)
+      if(EXISTS ${folder}/folder.cmake)
+        include(${folder}/folder.cmake)  # libraries of this folder
       endif()
-      target_link_libraries(test_${folder} PRIVATE ${library})
-      add_test(NAME ${folder} COMMAND test_${folder})
+      target_link_libraries(test_${name} PRIVATE ${library})
+      add_test(NAME ${name} COMMAND test_${name})
     endif()
   endforeach()
 endfunction()

@@ -1,41 +1,57 @@
 #!/bin/sh
-# Includes point one way: diagram and verify -> stages -> primitives -> cl; the C interface and the tool
-# see public headers only. Prints each include that does not, and fails.
+# Includes point one way. Each folder may include those before it in the lists below, and no other; the kernels
+# likewise. The applications see the public headers, lib/base and each other; the C interface and the tool see the
+# public headers alone. Prints each include that breaks this, and fails.
 set -eu
 cd "$(dirname "$0")/.."
+
+# Stages of the core, each above those before it.
+core="base report cl primitives domain regions seeds scene neighbors clip pairs integrate collect verify diagram"
+kernels="base cell seeds neighbors clip pairs integrate diagram"
+applications="linear density periodic transport sampling remeshing treemap"
+
 bad=0
-# forbid FOLDER PATTERN WHY [EXCEPT]: no file below FOLDER includes what PATTERN matches, EXCEPT apart.
-forbid() {
-  [ -d "$1" ] || return 0
-  if grep -rnE "^#include [\"<]($2)" "$1" --include='*.hpp' --include='*.h' --include='*.cpp' |
-    grep -vE "${4:-^$}"; then
-    echo "check_includes: $3" >&2
-    bad=1
-  fi
+# complain FILES PATTERN WHY: no file of FILES includes what PATTERN matches.
+complain() {
+  found=$(grep -rnE "^#include [\"<]($2)" "$1" --include='*.hpp' --include='*.h' --include='*.cpp' --include='*.inl' \
+    --include='*.cl') || return 0
+  printf '%s\ncheck_includes: %s\n' "$found" "$3" >&2
+  bad=1
 }
-stages="seeds|domain|neighbors|pairs|clip|integrate|collect"
-forbid lib/cl "lib/(primitives|$stages|diagram|verify|c_api)/" "lib/cl must not know what is above it"
-forbid lib/primitives "lib/($stages|diagram|verify|c_api)/" "lib/primitives may include lib/cl only"
-forbid lib/peaks "lib/(primitives|$stages|diagram|verify|c_api)/" "lib/peaks may include lib/cl only"
-for stage in $(echo "$stages" | tr '|' ' '); do
-  forbid "lib/$stage" "lib/(diagram|density|verify|c_api)/" "a stage must not include the pipeline that calls it"
+# one_way ROOT PREFIX OTHERS STAGE...: below ROOT each stage includes only itself and those before it, and every folder is a
+# stage or one of OTHERS.
+one_way() {
+  root=$1 prefix=$2 others=$3
+  shift 3
+  for folder in "$root"/*/; do
+    case " $others $* " in
+      *" $(basename "$folder") "*) ;;
+      *) echo "check_includes: $folder has no place in the order that this script checks" >&2; bad=1 ;;
+    esac
+  done
+  while [ $# -gt 1 ]; do
+    stage=$1
+    shift
+    above=$(echo "$*" | tr ' ' '|')
+    complain "$root/$stage" "$prefix($above)/" "$root/$stage must not include what is above it ($above)"
+  done
+}
+
+# shellcheck disable=SC2086 # the lists are meant to be split
+{
+  one_way lib lib/ "applications c_api device_rates" $core
+  one_way lib/applications lib/applications/ "" $applications
+  one_way kernels '' "device_rates primitives" $kernels
+}
+inner=$(echo "$core" | sed 's/^base //' | tr ' ' '|')
+complain lib/applications "lib/($inner|c_api|device_rates)/" "the applications are built on the public headers and lib/base"
+complain lib/device_rates "lib/(primitives|domain|regions|seeds|scene|neighbors|clip|pairs|integrate|collect|verify|diagram)/" \
+  "lib/device_rates may include lib/cl only"
+complain lib/c_api "lib/" "the C interface is built on the public headers"
+complain apps "lib/" "the tool is built on the public headers"
+complain include "lib/|CL/opencl.hpp|flann|Eigen|geos|muParser" "public headers must not leak what the library is made of"
+for folder in $core; do
+  complain "lib/$folder" "lib/(applications|c_api)/" "lib/$folder is below the applications and the C interface"
 done
-forbid lib/c_api "lib/($stages|primitives|cl|diagram|verify)/" "the C interface is built on the public headers"
-forbid include "lib/|CL/opencl.hpp|flann|Eigen|geos|muParser" "public headers must not leak what the library is made of"
-forbid lib/linear "lib/(primitives|$stages|diagram|verify|c_api|cl|transport|density)/" "lib/linear knows graphs only"
-# On a surface the normals of Domain::mesh() are needed, a struct without code.
-forbid lib/transport "lib/(primitives|$stages|diagram|verify|c_api|cl|density)/" \
-  "transport is built on the public headers and lib/linear" 'lib/domain/region_mesh\.hpp"'
-forbid lib/treemap "lib/($stages|primitives|cl|diagram|verify|c_api|transport|density)/" \
-  "treemaps are built on the public headers and lib/linear" 'lib/seeds/(threads|seed_set)\.hpp"'
-# A mesh is refused as the domain of its triangles would be.
-forbid lib/remeshing "lib/(linear|primitives|$stages|diagram|verify|c_api|cl|density|transport)/" \
-  "remeshing is built on the public headers" 'lib/domain/input_checks\.hpp"'
-forbid lib/periodic "lib/(primitives|$stages|diagram|verify|c_api|cl|transport|density)/" \
-  "periodic diagrams are built on the public headers"
-forbid lib/sampling "lib/(primitives|neighbors|pairs|clip|integrate|collect|diagram|verify|c_api|cl|transport|density|linear)/" \
-  "sampling is built on the public headers and lib/periodic"
-# The pictures draw the regions that Domain::mesh() hands out, a struct without code.
-forbid apps "lib/" "the tool is built on the public headers" 'lib/domain/region_mesh\.hpp"'
 [ $bad -eq 0 ] && echo "check_includes: includes point one way"
 exit $bad

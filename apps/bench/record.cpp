@@ -63,8 +63,8 @@ json row_json(const BenchRow& row) {
   out["first_result_seconds"] = row.first_result;
   out["relative_error"] = row.relative_error;
   out["work_per_cell"] = work_json(row);
-  out["device_copied_bytes_per_second"] = row.peaks.copied_bytes;
-  out["device_operations_per_second"] = row.peaks.operations;
+  out["device_copied_bytes_per_second"] = row.rates.copied_bytes;
+  out["device_operations_per_second"] = row.rates.operations;
   out["arithmetic_fraction"] = row.arithmetic_fraction();
   out["bandwidth_fraction"] = row.bandwidth_fraction();
   return out;
@@ -124,10 +124,10 @@ double BenchRow::adjacency_rate() const {
   return adjacency.best() > 0 ? static_cast<double>(n) / adjacency.best() : 0;
 }
 double BenchRow::arithmetic_fraction() const {
-  return peaks.operations > 0 ? rate() * work.operations() / peaks.operations : 0;
+  return rates.operations > 0 ? rate() * work.operations() / rates.operations : 0;
 }
 double BenchRow::bandwidth_fraction() const {
-  return peaks.copied_bytes > 0 ? rate() * work.bytes(real_bytes(precision)) / peaks.copied_bytes : 0;
+  return rates.copied_bytes > 0 ? rate() * work.bytes(real_bytes(precision)) / rates.copied_bytes : 0;
 }
 
 std::size_t BenchRecord::failures() const {

@@ -4,7 +4,7 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <powercell/peaks.hpp>
+#include <powercell/device_rates.hpp>
 #include <powercell/powercell.hpp>
 #include <string>
 #include <string_view>
@@ -35,7 +35,7 @@ struct BenchRow {
   double first_result = 0;    ///< seconds: opening the device to the measures of the first seeds
   double relative_error = 0;  ///< of the sum of the measures, the worst of all runs
   Work work;                  ///< counted for a cell
-  Peaks peaks;                ///< of the device in this precision
+  DeviceRates rates;          ///< of the device in this precision
   std::string failure;        ///< why there are no figures; empty if there are
 
   std::string title() const;           ///< for messages: "cube in double with 1,000 seeds on NAME"

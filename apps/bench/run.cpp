@@ -109,11 +109,11 @@ class Bench {
   void run_device(const DeviceInfo& device) {
     say(fmt::format("{}  {} ({}, {}), {} units", device.selector(), device.name, device.platform_name,
                     device.driver_version, device.compute_units));
-    std::vector<std::pair<Precision, Peaks>> measured;
+    std::vector<std::pair<Precision, DeviceRates>> measured;
     std::vector<std::string> faults;
     for (const Precision precision : precisions_of(arguments_, device)) {
       std::string fault;
-      measured.emplace_back(precision, peaks_of(device, precision, fault));
+      measured.emplace_back(precision, rates_of(device, precision, fault));
       faults.push_back(fault);
     }
     say(table_head());
@@ -122,22 +122,22 @@ class Bench {
         run_row(device, domain, measured[k].first, measured[k].second, faults[k]);
   }
 
-  Peaks peaks_of(const DeviceInfo& device, Precision precision, std::string& fault) {
-    Peaks peaks;
+  DeviceRates rates_of(const DeviceInfo& device, Precision precision, std::string& fault) {
+    DeviceRates rates;
     try {
       const Device opened = open_device(on_device(arguments_, device.selector()));
-      compute([&] { peaks = measure_peaks(opened, precision); });
+      compute([&] { rates = measure_device_rates(opened, precision); });
       say(fmt::format("     {}: {:.1f} GB/s copied, {:.1f} Gflop/s multiplied and added",
-                      precision_name(precision), 1e-9 * peaks.copied_bytes, 1e-9 * peaks.operations));
+                      precision_name(precision), 1e-9 * rates.copied_bytes, 1e-9 * rates.operations));
     } catch (const Error& error) {
       if (error.code() == ErrorCode::interrupted) throw;
       fault = error.what();
     }
-    return peaks;
+    return rates;
   }
 
-  void run_row(const DeviceInfo& device, const NamedDomain& domain, Precision precision, const Peaks& peaks,
-               const std::string& fault) {
+  void run_row(const DeviceInfo& device, const NamedDomain& domain, Precision precision,
+               const DeviceRates& rates, const std::string& fault) {
     const CommonOptions options = on_device(arguments_, device.selector());
     BenchTask task{domain.name, &domain.loaded, [options] { return open_device(options); },
                    library_options(options, domain.name)};
@@ -146,7 +146,7 @@ class Bench {
     task.repeat = arguments_.repeat;
     task.seconds = std::max(1.0, (seconds_in_all() - spent()) / static_cast<double>(rows_left_--));
     task.longest = arguments_.quick ? quick_run : usual_run;
-    task.peaks = peaks;
+    task.rates = rates;
 
     BenchRow row;
     row.domain = domain.name;

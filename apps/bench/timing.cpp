@@ -151,7 +151,7 @@ BenchRow time_row(const BenchTask& task, WorkCounts& counts) {
   row.precision = precision_name(task.options.precision);
   row.n = task.n;
   row.regions = task.domain->domain.region_count();
-  row.peaks = task.peaks;
+  row.rates = task.rates;
   try {
     RowTimer(task, row).run(counts);
   } catch (const Error& error) {

@@ -24,7 +24,7 @@ struct BenchTask {
   std::size_t repeat = 3;          ///< runs of measures, and of measures and adjacency
   double seconds = 10;             ///< that this row may take
   double longest = 1;              ///< seconds that one run need not exceed
-  Peaks peaks = {};                ///< of the device
+  DeviceRates rates = {};          ///< of the device
 };
 
 /// Opens the device, times the first result, finds the number of seeds, and times; every run is checked.

@@ -17,7 +17,7 @@ Vec3 corner_of(const TriangleMesh& mesh, std::size_t t, std::size_t k, const Nor
 }
 
 /// Which way normals point out of a closed mesh: the sign of its volume; 0 if it is open.
-float outward_sign(const TriangleMesh& mesh, const RegionMesh& regions, const Normalization& normalize) {
+float outward_sign(const TriangleMesh& mesh, const RegionsView& regions, const Normalization& normalize) {
   if (regions.boundary_count > 0) return 0;
   double volume = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
@@ -29,14 +29,14 @@ float outward_sign(const TriangleMesh& mesh, const RegionMesh& regions, const No
 
 Model model_of(const TriangleMesh& mesh, const Normalization& normalize) {
   const Domain domain = Domain::surface(mesh.vertices, mesh.triangles);
-  const std::vector<Vec3> normals = corner_normals(domain.mesh(), normalize);
-  const float outside = outward_sign(mesh, domain.mesh(), normalize);
+  const std::vector<Vec3> normals = corner_normals(domain.regions(), normalize);
+  const float outside = outward_sign(mesh, domain.regions(), normalize);
   // Of an edge some 1000 / sqrt(triangles) pixels long.
   const float width = static_cast<float>(
       std::clamp(70 / std::sqrt(static_cast<double>(mesh.triangles.size() / 3)), 0.5, 2.5));
   Model model;
   for (std::size_t r = 0; r < domain.region_count(); ++r) {
-    const std::size_t t = 3 * std::size_t{domain.mesh().source[r]};
+    const std::size_t t = 3 * std::size_t{domain.regions().source[r]};
     Model::Triangle triangle{{}, {}, clay};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.corner[k] = corner_of(mesh, t, k, normalize);

@@ -17,9 +17,9 @@ Normalization normalization(const Domain& domain) {
   return result;
 }
 
-std::vector<Vec3> corner_normals(const RegionMesh& mesh, const Normalization& normalize) {
+std::vector<Vec3> corner_normals(const RegionsView& mesh, const Normalization& normalize) {
   constexpr float crease = 0.8f;  // cosine of the angle from which an edge stays sharp
-  const std::size_t triangles = mesh.region_count();
+  const std::size_t triangles = mesh.size();
   const auto corner = [&](std::size_t c) { return &mesh.vertices[3 * std::size_t{mesh.region_vertex[c]}]; };
   std::vector<Vec3> face(triangles);  // twice the area long
   for (std::size_t t = 0; t < triangles; ++t) {

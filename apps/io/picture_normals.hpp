@@ -2,10 +2,10 @@
 /// Normals of a triangle mesh for smooth shading.
 #pragma once
 
+#include <powercell/regions.hpp>
 #include <vector>
 
 #include "apps/io/picture_vector.hpp"
-#include "lib/domain/region_mesh.hpp"
 
 namespace powercell::io {
 
@@ -23,6 +23,6 @@ Normalization normalization(const Domain& domain);
 
 /// Three normals a triangle: the mean over the triangles around a corner that meet at a small angle;
 /// creases stay sharp. Corners at one place count as one, and neighbours may be oriented either way.
-std::vector<Vec3> corner_normals(const RegionMesh& mesh, const Normalization& normalize);
+std::vector<Vec3> corner_normals(const RegionsView& mesh, const Normalization& normalize);
 
 }  // namespace powercell::io

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-
-#include "lib/domain/region_mesh.hpp"
+#include <powercell/regions.hpp>
 
 namespace powercell::io {
 namespace {
@@ -15,12 +14,12 @@ struct Edge {
   bool used = false;
 };
 
-std::vector<Edge> boundary_edges(const RegionMesh& mesh) {
+std::vector<Edge> boundary_edges(const RegionsView& mesh) {
   const auto point = [&](std::uint32_t v) {
     return Point{mesh.vertices[2 * std::size_t{v}], mesh.vertices[2 * std::size_t{v} + 1]};
   };
   std::vector<Edge> edges;
-  for (std::size_t r = 0; r < mesh.region_count(); ++r) {
+  for (std::size_t r = 0; r < mesh.size(); ++r) {
     const std::uint32_t first = mesh.region_offset[r], end = mesh.region_offset[r + 1];
     for (std::uint32_t k = first; k < end; ++k) {
       if (mesh.facet[mesh.facet_offset[r] + (k - first)].kind != Border::Kind::boundary) continue;
@@ -35,7 +34,7 @@ std::vector<Edge> boundary_edges(const RegionMesh& mesh) {
 
 // Edges run with the domain on their left, so each ring is found by going on from edge to edge.
 std::vector<Ring> boundary_rings(const Domain& domain) {
-  std::vector<Edge> edges = boundary_edges(domain.mesh());
+  std::vector<Edge> edges = boundary_edges(domain.regions());
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });
   std::vector<Ring> rings;
   for (Edge& start : edges) {

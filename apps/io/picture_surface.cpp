@@ -34,7 +34,7 @@ struct SurfaceDrawing {
     return normalized(own[0] * share[0] + own[1] * share[1] + own[2] * share[2]);
   }
   std::array<Vec3, 3> corners(std::uint32_t region) const {
-    const RegionMesh& mesh = output.domain.mesh();
+    const RegionsView mesh = output.domain.regions();
     std::array<Vec3, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = normalize(&mesh.vertices[3 * std::size_t{mesh.region_vertex[3 * std::size_t{region} + k]}]);
@@ -75,10 +75,10 @@ float wall_line(const DiagramOutput& output) {
 }
 
 // By the sign of the volume inside.
-float outward_sign(const RegionMesh& mesh, const Normalization& normalize) {
+float outward_sign(const RegionsView& mesh, const Normalization& normalize) {
   if (mesh.boundary_count > 0) return 0;
   double volume = 0;
-  for (std::size_t t = 0; t < mesh.region_count(); ++t) {
+  for (std::size_t t = 0; t < mesh.size(); ++t) {
     Vec3 p[3];
     for (std::size_t k = 0; k < 3; ++k) {
       p[k] = normalize(&mesh.vertices[3 * std::size_t{mesh.region_vertex[3 * t + k]}]);
@@ -94,10 +94,10 @@ Model surface_model(const DiagramOutput& output) {
   const Normalization normalize = normalization(output.domain);
   SurfaceDrawing drawing{output,
                          normalize,
-                         corner_normals(output.domain.mesh(), normalize),
+                         corner_normals(output.domain.regions(), normalize),
                          cell_colours(output.adjacency, output.measures.mass.size()),
                          wall_line(output),
-                         outward_sign(output.domain.mesh(), normalize),
+                         outward_sign(output.domain.regions(), normalize),
                          {}};
   for (std::size_t i = 0; i < output.cells.cell_count(); ++i) {
     for (std::uint64_t p = output.cells.cell_offset[i]; p < output.cells.cell_offset[i + 1]; ++p) {

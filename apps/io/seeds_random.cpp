@@ -6,12 +6,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <powercell/regions.hpp>
 #include <powercell/seeds.hpp>
 
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/read_text.hpp"
-#include "lib/domain/region_mesh.hpp"
 
 namespace powercell::io {
 namespace {
@@ -49,7 +49,7 @@ class Generator {
 
 using Vec = std::array<double, 3>;
 
-Vec vertex(const RegionMesh& mesh, std::uint32_t index) {
+Vec vertex(const RegionsView& mesh, std::uint32_t index) {
   Vec p{};
   for (int axis = 0; axis < mesh.dimension; ++axis)
     p[axis] = mesh.vertices[std::size_t{index} * mesh.dimension + axis];
@@ -77,9 +77,9 @@ struct Pieces {
   }
 };
 
-Pieces pieces_of(const RegionMesh& mesh) {
+Pieces pieces_of(const RegionsView& mesh) {
   Pieces pieces;
-  for (std::size_t region = 0; region < mesh.region_count(); ++region) {
+  for (std::size_t region = 0; region < mesh.size(); ++region) {
     const std::uint32_t* v = mesh.region_vertex.data() + mesh.region_offset[region];
     const std::size_t n = mesh.region_offset[region + 1] - mesh.region_offset[region];
     const Vec origin = vertex(mesh, v[0]);
@@ -117,7 +117,7 @@ void fold_into_tetrahedron(double& u, double& v, double& w) {
 }
 
 // A point of one piece: its corner plus parts of the edges from there.
-Vec point_in(const RegionMesh& mesh, const std::array<std::uint32_t, 4>& corners, Generator& generator) {
+Vec point_in(const RegionsView& mesh, const std::array<std::uint32_t, 4>& corners, Generator& generator) {
   double u = generator.next(), v = generator.next(), w = 0;
   if (mesh.cell_dimension == 3) w = generator.next();
   if (mesh.shape == RegionShape::polygon && u + v > 1) {
@@ -173,7 +173,7 @@ RandomSeeds parse_random_spec(const std::string& spec) {
 }
 
 SeedTable random_seeds(const RandomSeeds& what, const Domain& domain) {
-  const RegionMesh& mesh = domain.mesh();
+  const RegionsView mesh = domain.regions();
   const Pieces pieces = pieces_of(mesh);
   if (pieces.sum.empty())
     throw Error(ErrorCode::invalid_domain, "random seeds need a domain that is not empty");

@@ -14,7 +14,7 @@
 
 #include "apps/io/read_domain.hpp"
 #include "bench/remeshing/cgal_mesh.hpp"
-#include "tests/remeshing/shapes.hpp"
+#include "tests/applications/remeshing/shapes.hpp"
 
 namespace {
 

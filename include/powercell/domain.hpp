@@ -12,6 +12,7 @@
 namespace powercell {
 
 struct RegionMesh;  // the domain cut into convex regions (library-internal)
+struct RegionsView;
 
 using Ring = std::vector<std::array<double, 2>>;  ///< a closed curve, the last point joined to the first
 
@@ -59,6 +60,7 @@ class POWERCELL_API Domain {
   double measure() const;             ///< area or volume
   std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;
+  RegionsView regions() const;       ///< see powercell/regions.hpp
   std::size_t region_count() const;  ///< convex pieces, triangles or tetrahedra kept
 
   explicit Domain(std::shared_ptr<const RegionMesh> mesh) : mesh_(std::move(mesh)) {}

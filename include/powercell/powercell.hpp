@@ -4,12 +4,12 @@
 
 #include <powercell/density.hpp>
 #include <powercell/device.hpp>
+#include <powercell/device_rates.hpp>
 #include <powercell/diagram.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/error.hpp>
 #include <powercell/log.hpp>
 #include <powercell/options.hpp>
-#include <powercell/peaks.hpp>
 #include <powercell/point_sets.hpp>
 #include <powercell/remeshing.hpp>
 #include <powercell/results.hpp>

@@ -7,21 +7,11 @@
 #include <memory>
 #include <powercell/density.hpp>
 #include <powercell/diagram.hpp>
+#include <powercell/linear_solver.hpp>
 #include <span>
 #include <vector>
 
 namespace powercell {
-
-/// What solves the linear system of a Newton step.
-enum class LinearSolver {
-  automatic,   ///< by the number of seeds and the dimension of the cells
-  dense,       ///< Cholesky on a full matrix: up to some hundred seeds
-  direct,      ///< sparse Cholesky
-  multilevel,  ///< conjugate gradients, preconditioned by smoothed aggregation
-};
-
-/// Stable lower-case name, e.g. "multilevel".
-POWERCELL_API const char* name(LinearSolver solver) noexcept;
 
 /// What a step of the solver was.
 enum class TransportPhase {

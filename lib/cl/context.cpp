@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "lib/base/log.hpp"
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell::cl {
 namespace {

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <utility>
 
-#include "lib/base/log.hpp"
 #include "lib/cl/program.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell::cl {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <powercell/version.hpp>
 
-#include "lib/base/log.hpp"
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program_source.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell::cl {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "kernels/layout.h"
-#include "lib/base/log.hpp"
 #include "lib/clip/clipper.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell {
 namespace {

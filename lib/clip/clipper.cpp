@@ -7,9 +7,9 @@
 #include <type_traits>
 
 #include "kernels/layout.h"
-#include "lib/base/log.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/clip/golden.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell {
 

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "kernels/layout.h"
-#include "lib/base/log.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/whole_cells.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "kernels/layout.h"
-#include "lib/base/log.hpp"
 #include "lib/clip/cell_candidates.hpp"
 #include "lib/diagram/chunks.hpp"
 #include "lib/diagram/stopwatch.hpp"
@@ -12,6 +11,7 @@
 #include "lib/neighbors/hidden_seeds.hpp"
 #include "lib/neighbors/region_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
+#include "lib/report/log.hpp"
 #include "lib/verify/certificate.hpp"
 #ifdef POWERCELL_HAS_FLANN
 #include "lib/base/threads.hpp"

@@ -1,4 +1,5 @@
 #include <powercell/domain.hpp>
+#include <powercell/regions.hpp>
 
 #include "lib/domain/build.hpp"
 #include "lib/domain/region_mesh.hpp"
@@ -41,6 +42,12 @@ std::array<double, 3> Domain::high() const {
 }
 std::size_t Domain::region_count() const {
   return mesh_->region_count();
+}
+
+RegionsView Domain::regions() const {
+  return {mesh_->shape,         mesh_->dimension,     mesh_->cell_dimension, mesh_->vertices,
+          mesh_->region_offset, mesh_->region_vertex, mesh_->facet_offset,   mesh_->facet,
+          mesh_->source,        mesh_->boundary_count};
 }
 
 }  // namespace powercell

@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "lib/base/mesh_arrays.hpp"
 #include "lib/base/text.hpp"
-#include "lib/domain/input_checks.hpp"
 
 namespace powercell {
 

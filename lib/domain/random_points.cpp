@@ -82,4 +82,14 @@ std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std
   return samples;
 }
 
+std::vector<RegionPoint> random_points(const Domain& domain, std::size_t count, std::uint64_t random_seed) {
+  std::vector<RegionPoint> points;
+  points.reserve(count);
+  for (const Sample& sample : random_points(domain.mesh(), count, random_seed)) {
+    RegionPoint& to = points.emplace_back(RegionPoint{sample.region, {}});
+    for (std::size_t k = 0; k < 3; ++k) to.point[k] = static_cast<double>(sample.point[k]);
+  }
+  return points;
+}
+
 }  // namespace powercell

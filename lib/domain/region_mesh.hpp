@@ -4,17 +4,10 @@
 
 #include <array>
 #include <cstdint>
-#include <powercell/domain.hpp>
-#include <powercell/results.hpp>
+#include <powercell/regions.hpp>
 #include <vector>
 
 namespace powercell {
-
-enum class RegionShape {
-  polygon,      ///< convex polygon, vertices counter-clockwise (surface: a triangle as oriented)
-  tetrahedron,  ///< positively oriented: det(v1-v0, v2-v0, v3-v0) > 0
-  box,          ///< 8 corners, corner k at (x: k&1, y: k&2, z: k&4), low where the bit is 0
-};
 
 struct RegionMesh {
   DomainKind kind = DomainKind::polygon;

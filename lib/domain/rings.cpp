@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/base/mesh_arrays.hpp"
 #include "lib/base/text.hpp"
-#include "lib/domain/input_checks.hpp"
 #include "lib/domain/orient2d.hpp"
 
 namespace powercell {

@@ -1,6 +1,6 @@
+#include "lib/base/mesh_arrays.hpp"
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/build.hpp"
-#include "lib/domain/input_checks.hpp"
 #include "lib/domain/measure.hpp"
 
 namespace powercell {

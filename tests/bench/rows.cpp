@@ -15,7 +15,7 @@ namespace {
 BenchTask small_task(const io::LoadedDomain& domain) {
   BenchTask task{"square", &domain, [] { return Device::choose(); }, {}, 1000, 2};
   task.options.precision = Precision::float32;
-  task.peaks = {1e10, 1e10};
+  task.rates = {1e10, 1e10};
   return task;
 }
 

@@ -1,2 +1,1 @@
-include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
-target_link_libraries(test_diagram PRIVATE powercell_oracles)
+set(library powercell_oracles)

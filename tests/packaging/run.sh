@@ -12,28 +12,27 @@ step() { printf '== packaging: %s\n' "$*"; }
 
 step "install"
 cmake --install "$build" --prefix "$prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
-pc=$(find "$prefix" -name powercell.pc)
-library=$(find "$prefix" -name 'libpowercell.so' -o -name 'libpowercell.a')
-[ -n "$pc" ] && [ -n "$library" ] || { echo "no powercell.pc or library was installed" >&2; exit 1; }
-PKG_CONFIG_PATH=$(dirname "$pc")
-export PKG_CONFIG_PATH
+libraries=$(find "$prefix" -name 'libpowercell_*.so' -o -name 'libpowercell_*.a')
+for name in powercell.pc powercell-core.pc libpowercell_core libpowercell_applications; do
+  [ -n "$(find "$prefix" -name "$name*")" ] || { echo "no $name was installed" >&2; exit 1; }
+done
 
 step "hidden symbols"
 # Only powercell:: and pc_ may be exported; typeinfo and inline members of std types are the C++
 # run-time's way of being unique and weak.
-case $library in
-  *.so)
-    foreign=$(nm -D --defined-only "$library" | awk '$2 == "T" || $2 == "D" || $2 == "B" { print $3 }' |
-      c++filt | grep -vE '^(powercell::|pc_|(vtable|typeinfo( name)?|VTT) for powercell::)' || true)
-    [ -z "$foreign" ] || { printf 'exported, but not ours:\n%s\n' "$foreign" >&2; exit 1; }
-    readelf -d "$library" | grep -q 'SONAME.*libpowercell\.so\.[0-9]' || { echo "no SONAME" >&2; exit 1; }
-    ;;
-esac
+for library in $libraries; do
+  case $library in *.a) continue ;; esac
+  foreign=$(nm -D --defined-only "$library" | awk '$2 == "T" || $2 == "D" || $2 == "B" { print $3 }' |
+    c++filt | grep -vE '^(powercell::|pc_|(vtable|typeinfo( name)?|VTT) for powercell::)' || true)
+  [ -z "$foreign" ] || { printf 'exported, but not ours:\n%s\n' "$foreign" >&2; exit 1; }
+  readelf -d "$library" | grep -q 'SONAME.*libpowercell_[a-z]*\.so\.[0-9]' || { echo "no SONAME" >&2; exit 1; }
+done
 
 step "the moved tree: find_package"
 mv "$prefix" "$work/moved"
 prefix=$work/moved
 PKG_CONFIG_PATH=$(find "$prefix" -name pkgconfig -type d)
+export PKG_CONFIG_PATH
 cmake -S "$source/examples" -B "$work/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$work/log" ||
   { cat "$work/log"; exit 1; }
 cmake --build "$work/examples"
@@ -41,16 +40,23 @@ for program in host_cpp host_c own_queue; do
   step "run $program"
   "$work/examples/$program"
 done
+# Diagrams alone need neither the applications nor what those need.
+! ldd "$work/examples/host_cpp" | grep -E 'powercell_applications|muparser' ||
+  { echo "a program that makes diagrams needs more than the core" >&2; exit 1; }
 
 step "pkg-config"
 flags="$(pkg-config --cflags --libs powercell)"
-libdir=$(dirname "$(find "$prefix" -name 'libpowercell.*' | head -n 1)")
+libdir=$(dirname "$(find "$prefix" -name 'libpowercell_core.*' | head -n 1)")
 # shellcheck disable=SC2086
 ${CXX:-c++} -std=c++20 "$source/examples/host_cpp.cpp" -o "$work/by_pkg_config_cpp" $flags
 # shellcheck disable=SC2086
 ${CC:-cc} -std=c99 "$source/examples/host_c.c" -o "$work/by_pkg_config_c" $flags -lm
 LD_LIBRARY_PATH=$libdir "$work/by_pkg_config_cpp"
 LD_LIBRARY_PATH=$libdir "$work/by_pkg_config_c"
+
+# shellcheck disable=SC2046
+${CXX:-c++} -std=c++20 "$source/examples/host_cpp.cpp" -o "$work/by_core" $(pkg-config --cflags --libs powercell-core)
+LD_LIBRARY_PATH=$libdir "$work/by_core" >/dev/null
 
 step "every public header compiles alone"
 for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | sort); do

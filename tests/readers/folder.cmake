@@ -1,3 +1,3 @@
 set(library powercell_io)  # the readers and writers of files, with the shared library
 # A path of the build, since compilers and their caches may make __FILE__ relative.
-target_compile_definitions(test_${folder} PRIVATE POWERCELL_READERS_DATA="${CMAKE_CURRENT_SOURCE_DIR}/${folder}/data")
+target_compile_definitions(test_readers PRIVATE POWERCELL_READERS_DATA="${folder}/data")

@@ -1,4 +1,4 @@
-# Included by the folder.cmake of a test folder, and by bench/: two static libraries, each built once.
+# Static libraries for tests and benchmarks, each built once:
 #   powercell_support   generators, domains, brute force, comparisons
 #   powercell_oracles   CGAL and voro++ behind plain headers (CGAL takes long to compile)
 # and powercell_opencl_shim, which a test links besides to count OpenCL calls and make them fail.

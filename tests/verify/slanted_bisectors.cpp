@@ -15,7 +15,7 @@ using namespace powercell::test;
 namespace {
 
 Vector unit(const Vector& a) {
-  return (1 / length(a)) * a;
+  return (1 / norm(a)) * a;
 }
 
 /// A place in a facet, its normal and a direction within it.
@@ -54,7 +54,7 @@ Place any_place(const Domain& domain, Random& random) {
     normal = cross(facet[1] - facet[0], up);
   }
   const Vector point = any_of(facet, random);
-  return {point, unit(normal), unit(facet[1] - facet[0]), static_cast<double>(length(region[1] - region[0]))};
+  return {point, unit(normal), unit(facet[1] - facet[0]), static_cast<double>(norm(region[1] - region[0]))};
 }
 
 /// Two seeds whose bisector crosses the facet there at this angle, and now and then others about.

@@ -1,0 +1,20 @@
+/// \file
+/// The choice of a solver for the linear systems of optimal transport.
+#pragma once
+
+#include <powercell/export.hpp>
+
+namespace powercell {
+
+/// What solves the linear system of a Newton step.
+enum class LinearSolver {
+  automatic,   ///< by the number of seeds and the dimension of the cells
+  dense,       ///< Cholesky on a full matrix: up to some hundred seeds
+  direct,      ///< sparse Cholesky
+  multilevel,  ///< conjugate gradients, preconditioned by smoothed aggregation
+};
+
+/// Stable lower-case name, e.g. "multilevel".
+POWERCELL_API const char* name(LinearSolver solver) noexcept;
+
+}  // namespace powercell

@@ -1,0 +1,83 @@
+#include <cmath>
+#include <powercell/density.hpp>
+
+#include "lib/applications/density/constant.hpp"
+#include "lib/applications/density/make.hpp"
+#include "lib/base/sums.hpp"
+#include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
+
+namespace powercell {
+namespace {
+
+/// Sums and products with small numbers of an integral are to stay in the range of numbers.
+constexpr double largest_integral = 1e300;
+
+}  // namespace
+
+Density Density::constant(double value) {
+  if (!(value > 0 && value <= largest_value))
+    throw Error(ErrorCode::invalid_argument, "a constant density must be positive and at most " +
+                                                 digits(largest_value) + ", got " + digits(value));
+  return Density(std::make_shared<ConstantDensity>(value));
+}
+
+Density Density::formula(std::string_view expression, double tolerance) {
+  return Density(make_formula(expression, tolerance));
+}
+Density Density::function(std::function<double(const std::array<double, 3>&)> value, double tolerance) {
+  return Density(make_function(std::move(value), tolerance));
+}
+Density Density::image(const ImageView& image) {
+  return Density(make_image(image));
+}
+Density Density::nodal(std::span<const double> values) {
+  return Density(make_nodal(values));
+}
+
+bool Density::is_constant() const {
+  return model_->is_constant();
+}
+
+bool Density::is_exact() const {
+  return model_->exact();
+}
+
+double Density::total(const Domain& domain, int threads) const {
+  const double total = model_->total(domain, thread_count(threads));
+  if (!(total <= largest_integral))
+    throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total, 3) +
+                                                 " over the domain; it must be at most " +
+                                                 digits(largest_integral));
+  return total;
+}
+
+DensityIntegrals integrate(Diagram& diagram, const Density& density, const IntegrationOptions& options) {
+  if (!(options.tolerance >= 0 && options.tolerance < 1))
+    throw Error(ErrorCode::invalid_argument, "the tolerance of integrals is " + digits(options.tolerance) +
+                                                 "; it must be 0 or between 0 and 1");
+  IntegrationOptions counted = options;
+  counted.threads = thread_count(options.threads);
+  DensityIntegrals result = density.model().integrate(diagram, counted);
+  result.domain_mass = density.total(diagram.domain(), options.threads);
+  return result;
+}
+
+DensityIntegrals integrate(Diagram& diagram, const Density& density, bool walls, int threads) {
+  IntegrationOptions options;
+  options.walls = walls;
+  options.threads = threads;
+  return integrate(diagram, density, options);
+}
+
+double DensityIntegrals::total() const {
+  CompensatedSum<long double> sum;
+  for (double m : mass) sum.add(m);
+  return sum.value();
+}
+
+double DensityIntegrals::relative_error() const {
+  return std::abs(total() - domain_mass) / domain_mass;
+}
+
+}  // namespace powercell

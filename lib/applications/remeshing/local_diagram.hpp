@@ -1,0 +1,93 @@
+/// \file
+/// The power diagram of seeds restricted to a surface, kept up to date while seeds come and go.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/applications/remeshing/seed_grid.hpp"
+#include "lib/applications/remeshing/surface.hpp"
+
+namespace powercell::remeshing {
+
+/// A corner of a piece and what lies behind the edge that starts there.
+struct Corner {
+  Vec at;
+  std::int32_t behind;  ///< a seed, or ~k for edge k of the triangle
+};
+
+/// The part of a triangle that a seed owns: a convex polygon, counter-clockwise as the triangle.
+struct Piece {
+  std::uint32_t seed, triangle;
+  std::uint32_t rank;  ///< in the list of its seed
+  std::vector<Corner> ring;
+};
+
+struct Seed {
+  Vec at;
+  double weight = 0;
+  double size = 1;  ///< the edge length wanted there: for the search only
+  bool alive = false;
+};
+
+/// Cells are the same as those of powercell::Diagram for the same seeds, but for rounding. A seed comes
+/// or goes in a time that depends on its neighbours only: the new cell is cut out of the cells that it
+/// reaches, and the cell of a seed that goes is shared out among those that reach into it. Seeds in special
+/// position (four on one circle, a bisector along an edge) are the caller's to avoid.
+class LocalDiagram {
+ public:
+  explicit LocalDiagram(const Surface& surface) : surface_(surface), owners_(surface.size()) {}
+
+  /// Adds a seed and returns its number, that of a removed one if there is any.
+  std::uint32_t insert(Vec at, double weight, double size);
+  void remove(std::uint32_t seed);
+
+  const Surface& surface() const { return surface_; }
+  std::size_t size() const { return seeds_.size(); }  ///< numbers in use, of removed seeds too
+  std::size_t alive() const { return seeds_.size() - free_seeds_.size(); }
+  const Seed& seed(std::uint32_t i) const { return seeds_[i]; }
+  const std::vector<std::uint32_t>& pieces(std::uint32_t i) const { return cells_[i].pieces; }
+  const std::vector<std::uint32_t>& pieces_in(std::uint32_t triangle) const { return owners_[triangle]; }
+  const Piece& piece(std::uint32_t p) const { return pieces_[p]; }
+  /// The seeds whose cells the last call changed, each once, with the seed itself.
+  const std::vector<std::uint32_t>& changed() const { return changed_; }
+  /// |x - p_i|^2 - w_i
+  double power(std::uint32_t i, Vec x) const { return norm2(x - seeds_[i].at) - seeds_[i].weight; }
+  /// Largest power distance of a point of the cell to its own seed; -infinity where the cell is empty.
+  double reach(std::uint32_t i) const { return cells_[i].reach; }
+  /// The seeds across the walls of a cell, ascending.
+  std::vector<std::uint32_t> neighbors(std::uint32_t i) const;
+
+ private:
+  struct Cell {
+    std::vector<std::uint32_t> pieces;
+    double reach = 0;
+  };
+  using Ring = std::vector<Corner>;
+
+  Ring ring_of(std::uint32_t triangle) const;
+  bool cut(Ring& ring, std::uint32_t i, std::uint32_t j);
+  void add_piece(std::uint32_t seed, std::uint32_t triangle, const Ring& ring);
+  void drop_piece(std::uint32_t piece);
+  void mark_changed(std::uint32_t seed);
+  void finish();
+  void take_from(std::uint32_t seed, std::vector<std::uint32_t>& affected);
+  std::vector<std::uint32_t> heirs(std::uint32_t seed, const std::vector<std::uint32_t>& pieces) const;
+  void share_out(std::uint32_t seed, std::uint32_t piece, const std::vector<std::uint32_t>& heirs);
+  std::uint32_t find(std::uint32_t triangle, std::uint32_t seed) const;
+
+  const Surface& surface_;
+  std::vector<Seed> seeds_;
+  std::vector<Cell> cells_;
+  std::vector<Piece> pieces_;
+  std::vector<std::vector<std::uint32_t>> owners_;  ///< per triangle: its pieces
+  std::vector<std::uint32_t> free_seeds_, free_pieces_, changed_;
+  std::vector<char> is_changed_;
+  std::vector<double> side_;
+  Ring scratch_;
+  SeedGrid grid_;
+  double most_reach_ = 0;  ///< no cell's reach is above it
+  std::size_t since_measured_ = 0;
+};
+
+}  // namespace powercell::remeshing

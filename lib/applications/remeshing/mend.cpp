@@ -1,0 +1,125 @@
+#include <powercell/error.hpp>
+#include <string>
+
+#include "lib/applications/remeshing/cell_loop.hpp"
+#include "lib/applications/remeshing/dual.hpp"
+#include "lib/applications/remeshing/mesh_check.hpp"
+
+namespace powercell::remeshing {
+namespace {
+
+[[noreturn]] void too_few(std::size_t most) {
+  throw Error(ErrorCode::invalid_argument,
+              "too few points for the topology of the surface: its parts lie so close together that " +
+                  std::to_string(most) + " do not tell them apart; ask for more");
+}
+
+/// The longest chord at a seed, as a curve and a rank; false if it is on none.
+bool longest_chord(const Sampling& sampling, std::uint32_t seed,
+                   std::pair<std::uint32_t, std::size_t>& chord) {
+  double longest = 0;
+  for (std::uint32_t c = 0; c < sampling.curve_count(); ++c) {
+    const auto& seeds = sampling.on_curve(c);
+    for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
+      if (seeds[k] != seed && seeds[k + 1] != seed) continue;
+      const LocalDiagram& diagram = sampling.diagram();
+      const double length = norm(diagram.seed(seeds[k]).at - diagram.seed(seeds[k + 1]).at);
+      if (length <= longest) continue;
+      longest = length;
+      chord = {c, k};
+    }
+  }
+  return longest > 0;
+}
+
+/// A seed more in a cell.
+void add_in_cell(Sampling& sampling, std::uint32_t seed) {
+  const FarPoint far = sampling.farthest_of(seed);
+  if (far.place.triangle != nothing) {
+    sampling.add_between(far.place);
+    return;
+  }
+  std::pair<std::uint32_t, std::size_t> chord;
+  if (longest_chord(sampling, seed, chord)) {
+    sampling.split(chord.first, chord.second);
+    return;
+  }
+  for (const std::uint32_t j : sampling.diagram().neighbors(seed))
+    if (const FarPoint other = sampling.farthest_of(j); other.place.triangle != nothing) {
+      sampling.add_between(other.place);
+      return;
+    }
+}
+
+/// What two cells that meet twice go around together, or a cell on its own, gets seeds around it. At a tip
+/// seeds at the farthest vertices would go nearer and nearer to it instead.
+void add_around(Sampling& sampling, const Defects& defects, Progress& progress) {
+  const LocalDiagram& diagram = sampling.diagram();
+  for (const std::uint32_t i : defects.not_discs)
+    for (const Place& place : points_around(diagram, i, sampling.hold(i).place)) {
+      progress.tick();
+      sampling.add_between(place);
+    }
+  if (!defects.not_discs.empty()) return;
+  for (const auto& [a, b] : defects.twice) {
+    progress.tick();
+    const Place place = point_between(diagram, a, b, sampling.hold(a).place);
+    if (place.triangle != nothing) sampling.add_between(place);
+  }
+}
+
+/// One seed for a defect that several cells share; the next round tells what is left.
+void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds, Progress& progress) {
+  std::vector<char> treated(sampling.diagram().size(), 0);
+  for (const std::uint32_t i : seeds) {
+    if (treated[i]) continue;
+    progress.tick();
+    treated[i] = 1;
+    for (const std::uint32_t j : sampling.diagram().neighbors(i))
+      if (j < treated.size()) treated[j] = 1;
+    add_in_cell(sampling, i);
+  }
+}
+
+/// Treats the defects of the first kind that there is: those of later kinds may be gone with them. Returns
+/// whether anything changed.
+bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
+  const std::size_t before = sampling.diagram().alive();
+  bool changed = false;
+  for (const std::uint32_t i : defects.outside) {
+    progress.tick();
+    changed |= sampling.give_cell(i);
+  }
+  if (changed) return true;
+  // Later ranks of a curve first: they do not move the earlier ones.
+  for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
+    sampling.split(chord->first, chord->second);
+  for (const Place& fragment : defects.fragments) {
+    progress.tick();
+    sampling.add_between(fragment);
+  }
+  if (sampling.diagram().alive() == before) add_around(sampling, defects, progress);
+  if (sampling.diagram().alive() == before) add_in_cells(sampling, defects.seeds, progress);
+  return sampling.diagram().alive() > before;
+}
+
+}  // namespace
+
+DualMesh mend(Sampling& sampling, std::size_t most, Progress progress) {
+  const Surface& surface = sampling.diagram().surface();
+  while (true) {
+    progress.at(0);
+    Defects defects;
+    DualMesh dual = dual_of(sampling, defects, progress);
+    progress.at(0);
+    if (defects.none()) {
+      const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
+      if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))
+        throw Error(ErrorCode::internal, "the dual is a manifold of another topology than the surface");
+      return dual;
+    }
+    if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) too_few(most);
+  }
+}
+
+}  // namespace powercell::remeshing

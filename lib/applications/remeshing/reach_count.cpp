@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <powercell/error.hpp>
+#include <queue>
+#include <string>
+#include <tuple>
+
+#include "lib/applications/remeshing/relax.hpp"
+#include "lib/applications/remeshing/star.hpp"
+
+namespace powercell::remeshing {
+namespace {
+
+using Row = WorkMesh::Row;
+
+double relative_length(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  return norm(mesh.at(a) - mesh.at(b)) * 2 / (mesh.vertex(a).h + mesh.vertex(b).h);
+}
+
+/// Whether the triangles that vertex a leaves behind when it goes into b keep their side.
+bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, std::uint32_t b) {
+  for (const std::uint32_t t : mesh.around(a)) {
+    const Row& row = mesh.triangle(t);
+    if (std::find(row.begin(), row.end(), b) != row.end()) continue;
+    Row after = row;
+    std::replace(after.begin(), after.end(), a, b);
+    if (turns_over(mesh, surface, row, after)) return false;
+  }
+  return true;
+}
+
+/// Collapses edges, the relatively shortest first, until `count` vertices are left or none may be.
+void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count, Progress progress) {
+  using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto offer = [&](std::uint32_t a) {
+    for (const std::uint32_t b : mesh.neighbors(a)) {
+      const double length = relative_length(mesh, a, b);
+      queue.emplace(length, a, b);
+      queue.emplace(length, b, a);
+    }
+  };
+  for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a)
+    if (mesh.is_alive(a)) {
+      progress.tick();
+      offer(a);
+    }
+  while (mesh.alive() > count && !queue.empty()) {
+    const auto [length, a, b] = queue.top();
+    queue.pop();
+    progress.tick();
+    // What was collapsed or could not be then is left; a collapse near by offers it again.
+    if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b) ||
+        !keeps_sides(mesh, surface, a, b))
+      continue;
+    mesh.collapse(a, b);
+    offer(b);
+  }
+}
+
+bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress) {
+  double longest = 0;
+  std::optional<WorkMesh::Edge> found;
+  for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a) {
+    if (!mesh.is_alive(a)) continue;
+    progress.tick();
+    for (const std::uint32_t b : mesh.neighbors(a)) {
+      if (b < a || mesh.kept(a, b) || relative_length(mesh, a, b) <= longest) continue;
+      if (const auto e = mesh.edge(a, b)) {
+        longest = relative_length(mesh, a, b);
+        found = e;
+      }
+    }
+  }
+  if (!found) return false;
+  const Place place =
+      project(surface, mesh.vertex(found->a).place, (mesh.at(found->a) + mesh.at(found->b)) * 0.5);
+  mesh.split(*found, place, sizing.at(surface, place));
+  return true;
+}
+
+}  // namespace
+
+void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
+                 Progress progress) {
+  // Vertices that crowd make shapes that cannot be collapsed: flips in between help.
+  for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
+    before = mesh.alive();
+    collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2, progress);
+    flip_edges(mesh, surface, progress);
+  }
+  if (mesh.alive() > count)
+    throw Error(ErrorCode::invalid_argument,
+                "too few points for the topology of the surface: " + std::to_string(count) +
+                    " could not be reached from a mesh of " + std::to_string(mesh.alive()) + " points");
+  while (mesh.alive() < count) {
+    if (!split_longest(mesh, surface, sizing, progress))
+      throw Error(ErrorCode::invalid_argument, "too many points: there is no edge left to split");
+    flip_edges(mesh, surface, progress);
+  }
+}
+
+}  // namespace powercell::remeshing

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "lib/applications/remeshing/surface.hpp"
+
+namespace powercell::remeshing {
+namespace {
+
+std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+/// A directed edge as a number: triangle and side.
+using Sides = std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Neighbours of a surface known to be an oriented manifold; `kept` by the vertices of edges.
+void connect(Surface& surface, const std::unordered_map<std::uint64_t, bool>& kept) {
+  Sides first;
+  first.reserve(2 * surface.size());
+  surface.across.assign(surface.size(), {nothing, nothing, nothing});
+  surface.kept.assign(surface.size(), {false, false, false});
+  for (std::uint32_t t = 0; t < surface.size(); ++t)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint64_t key = edge_key(surface.triangle[t][k], surface.triangle[t][(k + 1) % 3]);
+      surface.kept[t][k] = kept.contains(key);
+      const auto [at, added] = first.try_emplace(key, t, k);
+      if (added) continue;
+      surface.across[t][k] = at->second.first;
+      surface.across[at->second.first][at->second.second] = t;
+    }
+}
+
+/// Cuts triangle `row` where `middle` names the new vertex of an edge.
+void cut(const Surface& surface, const std::array<std::uint32_t, 3>& row,
+         const std::array<std::uint32_t, 3>& middle, std::vector<std::array<std::uint32_t, 3>>& out) {
+  const auto count = 3 - std::count(middle.begin(), middle.end(), nothing);
+  std::size_t k = 0;  // turn the triangle so that the cases below are the only ones
+  if (count == 1)
+    while (middle[k] == nothing) ++k;
+  if (count == 2)
+    while (middle[(k + 2) % 3] != nothing) ++k;
+  const std::uint32_t a = row[k], b = row[(k + 1) % 3], c = row[(k + 2) % 3];
+  const std::uint32_t ab = middle[k], bc = middle[(k + 1) % 3], ca = middle[(k + 2) % 3];
+  if (count == 0) {
+    out.push_back({a, b, c});
+  } else if (count == 1) {
+    out.insert(out.end(), {{a, ab, c}, {ab, b, c}});
+  } else if (count == 2) {
+    out.push_back({ab, b, bc});
+    const auto length2 = [&](std::uint32_t u, std::uint32_t v) {
+      return norm2(surface.vertex[u] - surface.vertex[v]);
+    };
+    if (length2(a, bc) < length2(ab, c))
+      out.insert(out.end(), {{a, ab, bc}, {a, bc, c}});
+    else
+      out.insert(out.end(), {{a, ab, c}, {ab, bc, c}});
+  } else {
+    out.insert(out.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+}
+
+}  // namespace
+
+double refined_size(const Surface& surface, double longest) {
+  const double power = std::log2(3.0);
+  double triangles = 0;
+  for (std::uint32_t t = 0; t < surface.size(); ++t) {
+    double most = 0;
+    for (int k = 0; k < 3; ++k)
+      most = std::max(most, norm2(surface.corner(t, (k + 1) % 3) - surface.corner(t, k)));
+    triangles += std::pow(std::max(1.0, std::sqrt(most) / longest), power);
+  }
+  return triangles;
+}
+
+Surface refined(const Surface& surface, double longest, std::vector<double>& value) {
+  Surface result = surface;
+  while (true) {
+    std::unordered_map<std::uint64_t, std::uint32_t> middle;
+    std::unordered_map<std::uint64_t, bool> kept;
+    for (std::uint32_t t = 0; t < result.size(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = result.triangle[t][k], b = result.triangle[t][(k + 1) % 3];
+        const std::uint64_t key = edge_key(a, b);
+        if (result.kept[t][k]) kept[key] = true;
+        if (norm2(result.vertex[a] - result.vertex[b]) <= longest * longest) continue;
+        const auto [at, added] = middle.try_emplace(key, static_cast<std::uint32_t>(result.vertex.size()));
+        if (!added) continue;
+        result.vertex.push_back((result.vertex[a] + result.vertex[b]) * 0.5);
+        value.push_back((value[a] + value[b]) / 2);
+      }
+    if (middle.empty()) return result;
+    for (const auto& [key, at] : middle)
+      if (kept.erase(key) > 0) {
+        kept[edge_key(static_cast<std::uint32_t>(key >> 32), at)] = true;
+        kept[edge_key(static_cast<std::uint32_t>(key), at)] = true;
+      }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (const auto& row : result.triangle) {
+      std::array<std::uint32_t, 3> middles{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = middle.find(edge_key(row[k], row[(k + 1) % 3]));
+        middles[k] = at == middle.end() ? nothing : at->second;
+      }
+      cut(result, row, middles, triangles);
+    }
+    result.triangle = std::move(triangles);
+    connect(result, kept);
+  }
+}
+
+}  // namespace powercell::remeshing

@@ -1,0 +1,18 @@
+/// \file
+/// Measures of one triangle.
+#pragma once
+
+#include "lib/applications/remeshing/vec.hpp"
+
+namespace powercell::remeshing {
+
+/// The point of triangle abc nearest to x.
+Vec nearest_in_triangle(Vec x, Vec a, Vec b, Vec c);
+/// 6/sqrt(3) area / (half perimeter x longest edge): 1 where equilateral.
+double triangle_quality(Vec a, Vec b, Vec c);
+/// The cosine of the least angle.
+double largest_cosine(Vec a, Vec b, Vec c);
+/// At most 1 where no angle is below 40 degrees and the quality is `good` at least, the more the worse.
+double misshape(Vec a, Vec b, Vec c, double good);
+
+}  // namespace powercell::remeshing

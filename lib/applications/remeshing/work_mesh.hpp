@@ -1,0 +1,71 @@
+/// \file
+/// The new mesh while it is edited: vertices on the surface, flips, collapses and splits of edges.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lib/applications/remeshing/dual.hpp"
+#include "lib/applications/remeshing/sampling.hpp"
+
+namespace powercell::remeshing {
+
+/// An oriented manifold that no operation makes into anything else.
+class WorkMesh {
+ public:
+  using Row = std::array<std::uint32_t, 3>;
+
+  WorkMesh(const Sampling& sampling, const DualMesh& dual);
+
+  struct Vertex {
+    Place place;
+    double h = 0;  ///< edge length wanted here
+    Hold::Kind kind = Hold::Kind::free;
+    bool boundary = false;
+  };
+  std::size_t vertex_count() const { return vertex_.size(); }
+  std::size_t alive() const { return alive_; }
+  bool is_alive(std::uint32_t v) const { return !around_[v].empty(); }
+  const Vertex& vertex(std::uint32_t v) const { return vertex_[v]; }
+  Vec at(std::uint32_t v) const { return vertex_[v].place.at; }
+  void move(std::uint32_t v, const Place& place, double h);
+  const std::vector<Row>& triangles() const { return triangle_; }  ///< removed ones are all zeros
+  const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[v]; }  ///< triangles
+  const Row& triangle(std::uint32_t t) const { return triangle_[t]; }
+  std::size_t degree(std::uint32_t v) const { return around_[v].size() + (vertex_[v].boundary ? 1 : 0); }
+  bool kept(std::uint32_t a, std::uint32_t b) const;  ///< the edge is part of a kept curve
+  /// Vertices that share an edge with v, ascending.
+  std::vector<std::uint32_t> neighbors(std::uint32_t v) const;
+
+  /// An edge inside the surface with the corners opposite to it: triangles (a, b, c) and (b, a, d).
+  struct Edge {
+    std::uint32_t a, b, c, d, left, right;
+  };
+  /// The edge from a to b; nothing at the boundary or where there is none.
+  std::optional<Edge> edge(std::uint32_t a, std::uint32_t b) const;
+
+  /// Whether edge c-d may take the place of a-b: neither kept nor there already.
+  bool can_flip(const Edge& edge) const;
+  void flip(const Edge& edge);
+  /// Whether free vertex a may go into its neighbour b (the link condition).
+  bool can_collapse(std::uint32_t a, std::uint32_t b) const;
+  void collapse(std::uint32_t a, std::uint32_t b);
+  /// A free vertex in the middle of an inner edge that is not kept.
+  std::uint32_t split(const Edge& edge, const Place& place, double h);
+
+ private:
+  void detach(std::uint32_t v, std::uint32_t t);
+  bool adjacent(std::uint32_t a, std::uint32_t b) const;
+
+  std::vector<Vertex> vertex_;
+  std::vector<std::vector<std::uint32_t>> chord_, around_;
+  std::vector<Row> triangle_;
+  std::size_t alive_ = 0;
+};
+
+/// The point of the surface nearest to x among those that connect to `from` within |x - from|.
+Place project(const Surface& surface, const Place& from, Vec x);
+
+}  // namespace powercell::remeshing

@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <powercell/point_sets.hpp>
+
+#include "lib/applications/sampling/state.hpp"
+
+namespace powercell {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of the capacities while points still move; the last solve has the caller's. A tenth costs energy in the
+// end, less than 3 % nothing.
+constexpr double lloyd_tolerance = 3e-2, lbfgs_tolerance = 1e-5;
+constexpr double sufficient_decrease = 1e-4;
+constexpr int most_halvings = 10;
+constexpr int iterations_without_order = 20;
+/// Points have six neighbours in the plane, and fewer where most are at its boundary. The order of points in
+/// a row, or of a few in all, says nothing.
+constexpr double neighbours_with_order = 5;
+constexpr std::size_t points_with_order = 50;
+
+class Sampler {
+ public:
+  Sampler(const Device& device, const Domain& domain, const SamplingOptions& options,
+          std::vector<double> positions)
+      : options_(options),
+        until_hexatic_(options.mode == SamplingMode::blue && domain.dimension() == 2),
+        fixed_count_(options.mode == SamplingMode::blue ? !until_hexatic_ : options.movement == 0),
+        start_(std::move(positions)),
+        state_(device, domain, options, start_),
+        spacing_(
+            std::pow(domain.measure() / static_cast<double>(state_.size()), 1.0 / domain.cell_dimension())) {}
+
+  SamplingResult run() {
+    const int most = iterations();
+    state_.move_to(start_, tolerance());
+    refuse_copies();
+    record(0);
+    while (!at_end() && result_.steps.back().iteration < most) {
+      const int iteration = result_.steps.back().iteration + 1;
+      if (options_.descent == SamplingDescent::lloyd) {
+        state_.move_to(state_.centroids(), tolerance());
+      } else if (!lbfgs_move()) {
+        as_low_as_rounding_allows_ = true;
+        break;
+      }
+      record(iteration);
+    }
+    const int moves = result_.steps.back().iteration;
+    const bool moved_enough = at_end() || (fixed_count_ && (moves == most || as_low_as_rounding_allows_));
+    const bool at_centroids = moves > 0 && options_.descent == SamplingDescent::lloyd;
+    state_.move_to(state_.in_domain(at_centroids), options_.capacity_tolerance);
+    finish(moved_enough);
+    return std::move(result_);
+  }
+
+ private:
+  int iterations() const {
+    if (options_.iterations > 0) return options_.iterations;
+    if (options_.mode == SamplingMode::quantise) return 1000;
+    return until_hexatic_ ? 100 : iterations_without_order;
+  }
+
+  double tolerance() const {
+    return options_.descent == SamplingDescent::lloyd ? lloyd_tolerance : lbfgs_tolerance;
+  }
+
+  bool at_end() const {
+    const SamplingStep& step = result_.steps.back();
+    const bool at_rest = step.gradient <= options_.movement * spacing_;
+    if (!until_hexatic_) return options_.mode == SamplingMode::quantise && at_rest;
+    if (step.iteration == 0) return false;  // where the points come from is not asked
+    if (at_rest) return true;
+    if (neighbours_ >= neighbours_with_order && state_.size() >= points_with_order)
+      return step.hexatic >= options_.hexatic;
+    return step.iteration >= std::min(iterations_without_order, iterations());
+  }
+
+  void record(int iteration) {
+    SamplingStep step;
+    step.iteration = iteration;
+    step.energy = state_.energy();
+    step.gradient = state_.distance_to_centroids();
+    step.hexatic = std::numeric_limits<double>::quiet_NaN();
+    if (until_hexatic_) {
+      const Surroundings found = state_.surroundings();
+      step.hexatic = found.spacing.hexatic;
+      neighbours_ = found.neighbours;
+    }
+    step.capacity_error = state_.capacity_error();
+    step.newton_steps = static_cast<int>(state_.cells().newton_steps());
+    const Clock::time_point now = Clock::now();
+    step.seconds = std::chrono::duration<double>(now - before_).count();
+    before_ = now;
+    result_.steps.push_back(step);
+    if (options_.progress && !options_.progress(step))
+      throw Error(ErrorCode::interrupted, "stopped by the progress callback");
+  }
+
+  /// Points at one place would stay together. \throw Error invalid_argument
+  void refuse_copies() const {
+    const std::vector<std::uint32_t>& first = state_.cells().merged_with;
+    for (std::size_t i = 0; i < first.size(); ++i)
+      if (first[i] != i)
+        throw Error(ErrorCode::invalid_argument,
+                    "points " + std::to_string(first[i]) + " and " + std::to_string(i) +
+                        " are at one place: their cells could not be told apart");
+  }
+
+  /// One step with backtracking. False if there is no descent along the gradient either.
+  bool lbfgs_move() {
+    const std::vector<double> from = state_.positions(), gradient = state_.energy_gradient();
+    const double energy = state_.energy();
+    std::vector<double> inverse_diagonal(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k)
+      inverse_diagonal[k] = 1 / (2 * state_.cells().mass[k / state_.dimension()]);
+    for (;;) {
+      const std::vector<double> direction = memory_.direction(gradient, inverse_diagonal);
+      const double slope = std::inner_product(gradient.begin(), gradient.end(), direction.begin(), 0.0);
+      double length = 1;
+      for (int k = 0; slope < 0 && k < most_halvings; ++k, length /= 2) {
+        std::vector<double> step = direction, to = from;
+        for (std::size_t c = 0; c < to.size(); ++c) to[c] += step[c] *= length;
+        state_.move_to(std::move(to), tolerance());
+        if (!(state_.energy() <= energy + sufficient_decrease * length * slope)) continue;
+        std::vector<double> change = state_.energy_gradient();
+        for (std::size_t c = 0; c < change.size(); ++c) change[c] -= gradient[c];
+        memory_.add(std::move(step), std::move(change));
+        return true;
+      }
+      const bool was_plain = memory_.empty();
+      memory_.forget();
+      if (was_plain) {
+        state_.move_to(from, tolerance());
+        return false;
+      }
+    }
+  }
+
+  void finish(bool moved_enough) {
+    const TransportResult& cells = state_.cells();
+    result_.converged = moved_enough && cells.converged && cells.merged == 0;
+    result_.positions = state_.wrapped();
+    result_.weights = cells.weights;
+    result_.mass = cells.mass;
+    result_.capacity_error = state_.capacity_error();
+    result_.quadrature_error = cells.quadrature_error;
+    result_.energy = cells.primal;
+    result_.relative_energy = state_.relative_energy();
+  }
+
+  const SamplingOptions& options_;
+  bool until_hexatic_, fixed_count_;
+  std::vector<double> start_;
+  SamplingState state_;
+  double spacing_;
+  LbfgsMemory memory_;
+  double neighbours_ = 0;  // of a point on average, after the last iteration of blue in the plane
+  bool as_low_as_rounding_allows_ = false;
+  SamplingResult result_;
+  Clock::time_point before_ = Clock::now();
+};
+
+void check(const SamplingOptions& options) {
+  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::invalid_argument, what); };
+  if (options.iterations < 0) refuse("the number of iterations is negative");
+  if (!(options.hexatic > 0 && options.hexatic < 1))
+    refuse("the hexatic order to stop at must be between 0 and 1");
+  if (!(options.movement >= 0)) refuse("the movement to stop at must not be negative");
+  if (!(options.capacity_tolerance > 0 && options.capacity_tolerance < 1))
+    refuse("the tolerance of the capacities must be between 0 and 1");
+}
+
+}  // namespace
+
+SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
+                      const SamplingOptions& options) {
+  check(options);
+  if (n == 0) throw Error(ErrorCode::invalid_argument, "no points: sampling needs at least one");
+  return Sampler(device, domain, options, random_points(domain, options.density, n, options.random_seed))
+      .run();
+}
+
+SamplingResult sample(const Device& device, const Domain& domain, std::span<const double> positions,
+                      const SamplingOptions& options) {
+  check(options);
+  if (positions.empty() || positions.size() % static_cast<std::size_t>(domain.dimension()) != 0)
+    throw Error(ErrorCode::invalid_argument, std::to_string(positions.size()) +
+                                                 " coordinates are no points of " +
+                                                 std::to_string(domain.dimension()) + " coordinates");
+  return Sampler(device, domain, options, {positions.begin(), positions.end()}).run();
+}
+
+}  // namespace powercell

@@ -1,0 +1,124 @@
+#include "lib/applications/sampling/spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/applications/periodic/periodic_diagram.hpp"
+
+namespace powercell {
+namespace {
+
+/// The largest distance that neighbours can all have, with cells of this measure.
+double lattice_distance(double measure, int cell_dimension) {
+  return cell_dimension == 2 ? std::sqrt(2 * measure / std::sqrt(3.0)) : std::cbrt(std::sqrt(2.0) * measure);
+}
+
+/// What neighbours say, point by point in order.
+class Neighbours {
+ public:
+  explicit Neighbours(bool flat) : flat_(flat) {}
+
+  void meet(const std::array<double, 3>& step) {
+    const double distance2 = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+    nearest2_ = std::min(nearest2_, distance2);
+    ++count_;
+    if (!flat_) return;
+    const double angle = 6 * std::atan2(step[1], step[0]);
+    re_ += std::cos(angle);
+    im_ += std::sin(angle);
+  }
+  /// \param largest  what the distance is taken over
+  void finish_point(double largest) {
+    ++points_;
+    if (count_ == 0) return;
+    const double distance = std::sqrt(nearest2_) / largest;
+    least_ = std::min(least_, distance);
+    sum_ += distance;
+    order_ += std::hypot(re_, im_) / static_cast<double>(count_);
+    ++neighbourly_;
+    met_ += count_;
+    nearest2_ = std::numeric_limits<double>::infinity();
+    re_ = im_ = 0;
+    count_ = 0;
+  }
+  Surroundings result() const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    Surroundings result{{nan, nan, nan}, 0};
+    if (neighbourly_ == 0) return result;
+    const auto n = static_cast<double>(neighbourly_);
+    result.spacing = {least_, sum_ / n, flat_ ? order_ / n : nan};
+    result.neighbours = static_cast<double>(met_) / static_cast<double>(points_);
+    return result;
+  }
+
+ private:
+  bool flat_;
+  double nearest2_ = std::numeric_limits<double>::infinity(), re_ = 0, im_ = 0;
+  std::size_t count_ = 0;                               // of the point
+  std::size_t points_ = 0, neighbourly_ = 0, met_ = 0;  // neighbourly: points that have a neighbour
+  double least_ = std::numeric_limits<double>::infinity(), sum_ = 0, order_ = 0;
+};
+
+void require_cells(const Measures& measures) {
+  if (measures.mass.size() < 2)
+    throw Error(ErrorCode::invalid_argument, "the spacing of points needs at least two of them");
+  for (std::size_t i = 0; i < measures.status.size(); ++i)
+    if (measures.status[i] != SeedStatus::ok)
+      throw Error(ErrorCode::invalid_argument,
+                  "point " + std::to_string(i) + " has no cell: it is outside the domain or given twice");
+}
+
+using Step = std::array<double, 3>;
+
+/// `check(measures)` first, then the neighbours of all points that have a cell.
+template <class Check>
+Surroundings study(const Device& device, const Domain& domain, std::span<const double> positions,
+                   bool periodic, bool uniform, const Options& options, const Check& check) {
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  const std::size_t n = positions.size() / d;
+  Neighbours neighbours(d == 2);
+  const auto see = [&](const Measures& measures, const std::vector<std::uint64_t>& offset,
+                       const auto& step_of) {
+    check(measures);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (measures.status[i] != SeedStatus::ok) continue;
+      for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) neighbours.meet(step_of(i, k));
+      const double mass = uniform ? domain.measure() / static_cast<double>(n) : measures.mass[i];
+      neighbours.finish_point(lattice_distance(mass, domain.cell_dimension()));
+    }
+  };
+  if (periodic) {
+    PeriodicDiagram diagram(device, domain, options);
+    diagram.set_seeds(positions, {});
+    const std::vector<PeriodicDiagram::Wall>& walls = diagram.walls();
+    see(diagram.measures(), diagram.wall_offset(), [&](std::size_t, std::uint64_t k) {
+      return Step{walls[k].step[0], walls[k].step[1], 0};
+    });
+    return neighbours.result();
+  }
+  Diagram diagram(device, domain, options);
+  diagram.set_seeds({domain.dimension(), positions, {}});
+  const Adjacency& adjacency = diagram.adjacency();
+  see(diagram.measures(), adjacency.offset, [&](std::size_t i, std::uint64_t k) {
+    Step step{};
+    for (std::size_t c = 0; c < d; ++c)
+      step[c] = positions[adjacency.neighbor[k] * d + c] - positions[i * d + c];
+    return step;
+  });
+  return neighbours.result();
+}
+
+}  // namespace
+
+Surroundings surroundings(const Device& device, const Domain& domain, std::span<const double> positions,
+                          bool periodic, bool uniform, const Options& options) {
+  return study(device, domain, positions, periodic, uniform, options, [](const Measures&) {});
+}
+
+Spacing spacing(const Device& device, const Domain& domain, std::span<const double> positions, bool periodic,
+                bool uniform, const Options& options) {
+  return study(device, domain, positions, periodic, uniform, options, require_cells).spacing;
+}
+
+}  // namespace powercell

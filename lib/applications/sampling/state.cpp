@@ -1,0 +1,113 @@
+#include "lib/applications/sampling/state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <powercell/point_sets.hpp>
+
+#include "lib/applications/sampling/nearest.hpp"
+
+namespace powercell {
+namespace {
+
+TransportOptions transport_options(const SamplingOptions& options) {
+  TransportOptions result;
+  result.density = options.density;
+  result.periodic = options.periodic;
+  result.diagram = options.diagram;
+  return result;
+}
+
+}  // namespace
+
+SamplingState::SamplingState(const Device& device, const Domain& domain, const SamplingOptions& options,
+                             std::vector<double> positions)
+    : device_(device),
+      domain_(domain),
+      options_(options),
+      dimension_(static_cast<std::size_t>(domain.dimension())),
+      positions_(std::move(positions)),
+      solver_(device, domain, transport_options(options)) {
+  solver_.set_seeds({domain.dimension(), positions_, {}});
+}
+
+void SamplingState::move_to(std::vector<double> positions, double tolerance) {
+  solver_.move_seeds(positions);
+  positions_ = std::move(positions);
+  solver_.set_tolerance(tolerance);
+  solver_.solve();
+}
+
+std::vector<double> SamplingState::centroids() const {
+  std::vector<double> result = cells().centroid;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    if (!(cells().mass[k / dimension_] > 0)) result[k] = positions_[k];
+  return result;
+}
+
+std::vector<double> SamplingState::energy_gradient() const {
+  std::vector<double> result = centroids();
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = 2 * cells().mass[k / dimension_] * (positions_[k] - result[k]);
+  return result;
+}
+
+double SamplingState::distance_to_centroids() const {
+  const std::vector<double> to = centroids();
+  double sum = 0;
+  for (std::size_t k = 0; k < to.size(); ++k) sum += (to[k] - positions_[k]) * (to[k] - positions_[k]);
+  return std::sqrt(sum / static_cast<double>(size()));
+}
+
+Surroundings SamplingState::surroundings() const {
+  return powercell::surroundings(device_, domain_, wrapped(), options_.periodic, true, options_.diagram);
+}
+
+double SamplingState::capacity_error() const {
+  const double capacity = cells().total_mass / static_cast<double>(size());
+  double worst = 0;
+  for (const double mass : cells().mass) worst = std::max(worst, std::abs(mass / capacity - 1));
+  return worst;
+}
+
+std::vector<double> SamplingState::wrapped() const {
+  std::vector<double> result = positions_;
+  if (!options_.periodic) return result;
+  const auto low = domain_.low(), high = domain_.high();
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const double size = high[k % 2] - low[k % 2];
+    result[k] -= std::floor((result[k] - low[k % 2]) / size) * size;
+  }
+  return result;
+}
+
+std::vector<double> SamplingState::in_domain(bool at_centroids) {
+  std::vector<double> result = positions_;
+  // Centroids of convex cells are in them.
+  if (options_.periodic || (at_centroids && domain_.region_count() == 1)) return result;
+  const Cells& geometry = solver_.diagram().cells();
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (geometry.cell_offset[i] == geometry.cell_offset[i + 1]) continue;
+    std::array<double, 3> x{};
+    std::copy_n(&positions_[i * dimension_], dimension_, x.begin());
+    x = nearest_in_cell(geometry, i, x);
+    std::copy_n(x.begin(), dimension_, &result[i * dimension_]);
+  }
+  return result;
+}
+
+double SamplingState::relative_energy() const {
+  const int d = domain_.cell_dimension();
+  // The energy of a lattice's cell over its mass and its measure^(2/d): hexagonal, or body-centred cubic.
+  const double lattice = d == 2 ? 5 / (18 * std::sqrt(3.0)) : 3 * 19 / (192 * std::cbrt(2.0));
+  double sum = 0;
+  if (options_.density.is_constant()) {
+    const auto n = static_cast<double>(size());
+    sum = cells().total_mass * std::pow(domain_.measure() / n, 2.0 / d);
+  } else {
+    const Measures& measures = solver_.diagram().measures();
+    for (std::size_t i = 0; i < size(); ++i) sum += cells().mass[i] * std::pow(measures.mass[i], 2.0 / d);
+  }
+  return cells().primal / (lattice * sum);
+}
+
+}  // namespace powercell

@@ -1,0 +1,173 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/applications/transport/course.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr double smallest_fraction = 1.0 / 16;  // of given weights that is tried
+constexpr double room = 0.9;                    // of the domain's box that seeds are moved into
+// Of the way of moved seeds from the mean of the density, from one attempt to the next.
+constexpr double nearer = 0.8;
+constexpr int most_nearer = 4;
+
+using Place = Eigen::Vector3d;  // third coordinate 0 in 2D
+
+Place place(std::span<const double> positions, std::size_t i, std::size_t d) {
+  Place p = Place::Zero();
+  for (std::size_t c = 0; c < d; ++c) p[static_cast<Eigen::Index>(c)] = positions[i * d + c];
+  return p;
+}
+
+/// Seeds p = middle + u at which their cells are to be about y = center + A u.
+struct Move {
+  Place middle = Place::Zero(), center = Place::Zero();
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  // A: symmetric, positive
+};
+
+/// (31a), less the square of the way from the center to the middle, which is that of all and would leave no
+/// digits to seeds far away.
+Vector weights_of_moved_seeds(std::span<const double> positions, std::size_t d, const Move& move) {
+  Vector weights(static_cast<Eigen::Index>(positions.size() / d));
+  const Eigen::Matrix3d shrunk = Eigen::Matrix3d::Identity() - move.linear;
+  const Place away = move.middle - move.center;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    const Place u = place(positions, static_cast<std::size_t>(i), d) - move.middle;
+    weights[i] = u.dot(shrunk * u + 2 * away);
+  }
+  return weights;
+}
+
+/// All y in the domain's box.
+Move into_box(const Domain& domain, std::span<const double> positions) {
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  const std::size_t n = positions.size() / d;
+  Move move;
+  double scale = 0;
+  for (std::size_t c = 0; c < d; ++c) {
+    double low = positions[c], high = positions[c];
+    for (std::size_t i = 0; i < n; ++i) {
+      low = std::min(low, positions[i * d + c]);
+      high = std::max(high, positions[i * d + c]);
+    }
+    const auto k = static_cast<Eigen::Index>(c);
+    move.middle[k] = low / 2 + high / 2;
+    move.center[k] = domain.low()[c] / 2 + domain.high()[c] / 2;
+    const double extent = domain.high()[c] - domain.low()[c];
+    if (extent > 0) scale = std::max(scale, (high - low) / (room * extent));
+  }
+  if (scale > 0) move.linear /= scale;
+  return move;
+}
+
+/// The normal distribution of the same mean and covariance.
+struct Normal {
+  Place mean = Place::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+Normal normal_of(std::span<const double> positions, std::size_t d, const Vector& mass) {
+  Normal normal;
+  const double sum = mass.sum();
+  const auto each = [&](const auto& body) {
+    for (Eigen::Index i = 0; i < mass.size(); ++i)
+      if (mass[i] > 0) body(place(positions, static_cast<std::size_t>(i), d), mass[i] / sum);
+  };
+  each([&](const Place& p, double share) { normal.mean += share * p; });
+  each([&](const Place& p, double share) {
+    normal.covariance += share * (p - normal.mean) * (p - normal.mean).transpose();
+  });
+  return normal;
+}
+
+/// Of the density: the centroids of cells, and about them what the second moments about the seeds leave, as
+/// much along each axis.
+Normal normal_of(const Iterate& at, std::span<const double> positions, std::size_t d) {
+  Normal normal = normal_of(at.cells.centroid, d, at.mass());
+  double within = 0;
+  for (Eigen::Index i = 0; i < at.mass().size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!(at.mass()[i] > 0)) continue;
+    const Place to_seed = place(at.cells.centroid, k, d) - place(positions, k, d);
+    within += std::max(0.0, at.cells.second_moment[k] - at.mass()[i] * to_seed.squaredNorm());
+  }
+  const auto size = static_cast<Eigen::Index>(d);
+  normal.covariance.topLeftCorner(size, size).diagonal().array() +=
+      within / at.mass().sum() / static_cast<double>(d);
+  return normal;
+}
+
+Eigen::Matrix3d power_of(const Eigen::Matrix3d& symmetric, double exponent) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(symmetric);
+  // Along what the seeds do not span nothing is moved.
+  const double least = 1e-12 * of.eigenvalues().cwiseAbs().maxCoeff();
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (of.eigenvalues()[k] > least) value[k] = std::pow(of.eigenvalues()[k], exponent);
+  return of.eigenvectors() * value.asDiagonal() * of.eigenvectors().transpose();
+}
+
+/// The mean and the covariance of the y, by their masses, are those of the density: (31b), the transport
+/// between normal distributions.
+Move onto_density(const Normal& seeds, const Normal& density) {
+  const Eigen::Matrix3d root = power_of(seeds.covariance, 0.5), inverse = power_of(seeds.covariance, -0.5);
+  return {seeds.mean, density.mean, inverse * power_of(root * density.covariance * root, 0.5) * inverse};
+}
+
+bool some_outside_box(const Domain& domain, std::span<const double> positions) {
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    if (positions[k] < domain.low()[k % d] || positions[k] > domain.high()[k % d]) return true;
+  return false;
+}
+
+/// Keeps what is better. Where a density ends at an edge, seeds of another outline than its own lie beyond
+/// until they are moved nearer to its mean.
+void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
+  const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
+  const std::span<const double> positions = evaluator.positions();
+  Move move = onto_density(normal_of(positions, d, target), normal_of(best, positions, d));
+  for (int k = 0; k < most_nearer && best.least(target) < poor_share; ++k, move.linear *= nearer) {
+    const Vector weights = weights_of_moved_seeds(positions, d, move);
+    if (!weights.allFinite()) return;  // the cells have no mass at all, or squares are beyond range
+    Iterate found = evaluator.evaluate(weights);
+    const bool better =
+        found.empty < best.empty || (found.empty == best.empty && found.least(target) > best.least(target));
+    if (better) best = std::move(found);
+  }
+}
+
+}  // namespace
+
+Iterate find_start(Course& course, const Vector& weights) {
+  Evaluator& evaluator = course.evaluator();
+  const Vector& target = course.target();
+  const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
+  Iterate best = evaluator.evaluate(weights);
+  const auto attempt = [&](const Vector& trial) {
+    Iterate found = evaluator.evaluate(trial);
+    if (found.empty < best.empty) best = std::move(found);
+    return best.empty == 0;
+  };
+  const auto search = [&] {
+    if (best.empty == 0) return;
+    const Vector centred = best.weights;
+    const bool weighted = centred.cwiseAbs().maxCoeff() > 0;
+    for (double t = 0.5; weighted && t >= smallest_fraction; t /= 2)
+      if (attempt(t * centred)) return;
+    if (weighted && attempt(Vector::Zero(centred.size()))) return;
+    const Domain& domain = evaluator.diagram().domain();
+    if (some_outside_box(domain, evaluator.positions()))
+      attempt(weights_of_moved_seeds(evaluator.positions(), d, into_box(domain, evaluator.positions())));
+  };
+  search();
+  if (evaluator.uneven() && best.least(target) < poor_share) try_on_density(evaluator, target, best);
+  TransportStep step;
+  step.phase = TransportPhase::start;
+  course.accept(step, best, target);
+  return best;
+}
+
+}  // namespace powercell

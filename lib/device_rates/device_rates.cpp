@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <powercell/device_rates.hpp>
+
+#include "lib/cl/program.hpp"
+#include "lib/device_rates/known.hpp"
+
+namespace powercell {
+namespace {
+
+constexpr int launches = 5;      // timed ones; the best counts
+constexpr double enough = 0.03;  // seconds of a launch that clocks can tell; no watchdog minds
+constexpr std::size_t buffer_limit = std::size_t{256} << 20;  // beyond the caches of today's devices
+constexpr std::size_t items_per_unit = 2048;                  // work-items that fill a unit of a GPU
+
+using ContextPointer = std::shared_ptr<cl::Context>;
+using ProgramPointer = std::shared_ptr<const cl::Program>;
+
+// The best rate of some launches, each of `amount`.
+double best_rate(const cl::Context& context, cl::Kernel& kernel, std::size_t items, double amount) {
+  double best = 0;
+  for (int k = 0; k < launches; ++k) {
+    double seconds = 0;
+    kernel.launch(items, 0, &seconds);
+    if (seconds > 0) best = std::max(best, amount / seconds);
+  }
+  if (best > 0) return best;
+  throw Error(ErrorCode::opencl, "the clock of the device " + context.info().name +
+                                     " does not tell how long a kernel ran; its rates cannot be measured");
+}
+
+void require_no_fault(const cl::Context& context, const std::string& fault) {
+  if (fault.empty()) return;
+  throw Error(ErrorCode::self_test_failed,
+              "the device " + context.info().name + " computes wrongly: " + fault +
+                  "; update its driver or choose another device (POWERCELL_DEVICE or --device)");
+}
+
+// In pieces, so that the host needs little memory beside.
+template <class T>
+void check_copy(const cl::Context& context, const cl::Buffer<T>& copied) {
+  std::vector<T> part(std::min<std::size_t>(copied.size(), std::size_t{1} << 20));
+  for (std::size_t first = 0; first < copied.size(); first += part.size()) {
+    part.resize(std::min(part.size(), copied.size() - first));
+    copied.download(std::span<T>(part), first);
+    require_no_fault(context, copy_fault<T>(part, first));
+  }
+}
+
+template <class T>
+double measure_copy(const ContextPointer& context, const ProgramPointer& program) {
+  constexpr std::size_t packet = 16 / sizeof(T);
+  const DeviceInfo& info = context->info();
+  const std::size_t bytes = std::min<std::uint64_t>(
+      {buffer_limit, info.largest_allocation / 2, std::max<std::uint64_t>(info.memory_bytes / 8, 1 << 20)});
+  const std::size_t packets = bytes / 16;
+  cl::Buffer<T> from(context), to(context);
+  from.resize(packets * packet);
+  to.resize(packets * packet);
+  to.zero();
+  cl::Kernel fill(context, program, "fill"), copy(context, program, "copy");
+  fill.args(from, static_cast<cl_ulong>(from.size())).launch(from.size());
+  copy.args(from, to, static_cast<cl_ulong>(packets)).launch(packets);  // compiles, touches the memory
+  const double rate = best_rate(*context, copy, packets, 32.0 * static_cast<double>(packets));
+  check_copy(*context, to);
+  return rate;
+}
+
+template <class T>
+double measure_multiply_add(const ContextPointer& context, const ProgramPointer& program) {
+  constexpr std::size_t lanes = 64 / sizeof(T);
+  const std::size_t items = std::max(1u, context->info().compute_units) * items_per_unit;
+  const std::vector<T> start = chain_starts<T>(items * lanes);
+  cl::Buffer<T> in(context), out(context);
+  in.upload(start);
+  out.resize(start.size());
+  cl::Kernel kernel(context, program, "multiply_add");
+  std::uint32_t rounds = 256;
+  const auto count = static_cast<cl_uint>(items);
+  kernel.args(in, out, T{1}, T{1}, cl_uint{rounds}, count).launch(items);  // compiles
+  for (double seconds = 0; rounds < most_chain_rounds; rounds *= 2) {
+    seconds = 0;
+    kernel.args(in, out, T{1}, T{1}, cl_uint{rounds}, count).launch(items, 0, &seconds);
+    if (seconds >= enough) break;
+  }
+  out.zero();
+  kernel.args(in, out, T{1}, T{1}, cl_uint{rounds}, count);
+  const double operations = 2.0 * 8 * static_cast<double>(lanes * items) * rounds;
+  const double rate = best_rate(*context, kernel, items, operations);
+  require_no_fault(*context, chain_fault<T>(start, out.download(), rounds));
+  return rate;
+}
+
+template <class T>
+DeviceRates measure_all(const ContextPointer& context) {
+  const auto program =
+      context->program("device_rates/device_rates.cl", {sizeof(T) == 8 ? "REAL_BITS=64" : "REAL_BITS=32"});
+  return {measure_copy<T>(context, program), measure_multiply_add<T>(context, program)};
+}
+
+}  // namespace
+
+DeviceRates measure_device_rates(const Device& device, Precision precision) {
+  const bool fp64 = device.info().fp64;
+  if (precision == Precision::float64 && !fp64)
+    throw Error(ErrorCode::no_fp64, "device \"" + device.info().name +
+                                        "\" has no double precision; use single precision or another device");
+  if (precision == Precision::float32 || !fp64) return measure_all<float>(device.context());
+  return measure_all<double>(device.context());
+}
+
+}  // namespace powercell

@@ -1,0 +1,114 @@
+// Surfaces whose cells reach around a tip or through to another sheet.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <powercell/error.hpp>
+#include <powercell/remeshing.hpp>
+#include <string>
+
+#include "lib/applications/remeshing/cell_loop.hpp"
+#include "lib/applications/remeshing/sampling.hpp"
+#include "tests/applications/remeshing/shapes.hpp"
+#include "tests/applications/remeshing/surface_from.hpp"
+
+namespace powercell::test {
+namespace {
+
+using namespace remeshing;
+
+void check_remeshes(const TriangleMesh& mesh, std::size_t count) {
+  RemeshOptions options;
+  options.count = count;
+  options.rounds = 3;
+  const TriangleMesh result = remesh(mesh.vertices, mesh.triangles, options).mesh;
+  const MeshQuality quality = mesh_quality(result.vertices, result.triangles);
+  CHECK(quality.vertices == count);
+  CHECK(quality.manifold);
+  CHECK(quality.euler_characteristic == 2);
+  CHECK(quality.boundary_loops == 0);
+  CHECK(farthest_from(result, mesh, 10000) < 0.1);
+}
+
+double angle_of(const Place& place) {
+  return std::atan2(place.at.y, place.at.x);
+}
+
+}  // namespace
+
+TEST_CASE("cones remesh, however sharp their tips and rims") {
+  for (const double radius : {0.1, 0.2, 0.3, 1.0})
+    for (const std::size_t count : {50, 300}) {
+      CAPTURE(radius);
+      CAPTURE(count);
+      check_remeshes(cone(24, radius), count);
+    }
+}
+
+TEST_CASE("plates far thinner than the new edges are long remesh") {
+  for (const double thickness : {0.02, 1e-4}) {
+    CAPTURE(thickness);
+    check_remeshes(plate(thickness), 200);
+  }
+}
+
+TEST_CASE("a plate as thin as rounding errors is refused") {
+  const TriangleMesh sheet = plate(1e-9);
+  RemeshOptions options;
+  options.count = 100;
+  options.rounds = 1;
+  try {
+    remesh(sheet.vertices, sheet.triangles, options);
+    FAIL("no error");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::invalid_argument);
+    CHECK(std::string(error.what()).find("too thin") != std::string::npos);
+  }
+}
+
+TEST_CASE("a cell around a tube gets points around it, a disc none") {
+  const Surface surface = surface_from(tube());
+  LocalDiagram diagram(surface);
+  const Place from{0, (surface.corner(0, 0) + surface.corner(0, 1) + surface.corner(0, 2)) * (1.0 / 3)};
+  diagram.insert(from.at, 0, 1);
+  const std::vector<Place> around = points_around(diagram, 0, from);
+  REQUIRE(around.size() == 2);
+  for (const Place& place : around) {
+    const double turn = std::remainder(angle_of(place) - angle_of(from), 2 * std::numbers::pi);
+    CHECK(std::fabs(std::fabs(turn) - 2 * std::numbers::pi / 3) < 0.2);
+    CHECK(std::fabs(place.at.z - from.at.z) < 0.2);
+  }
+  // Two cells of half the tube each meet along two walls; between them are the sides.
+  diagram.insert({-from.at.x, -from.at.y, from.at.z}, 0, 1);
+  CHECK(points_around(diagram, 0, from).empty());
+  const Place side = point_between(diagram, 0, 1, from);
+  REQUIRE(side.triangle != nothing);
+  CHECK(std::fabs(std::fabs(std::remainder(angle_of(side) - angle_of(from), 2 * std::numbers::pi)) -
+                  std::numbers::pi / 2) < 0.2);
+}
+
+TEST_CASE("a seed between others has a cell, whatever their weights") {
+  const Surface surface = surface_from(tube());
+  // Edges that grow by ten times the distance: seeds weighed as wanted would hide each other.
+  Sizing sizing{std::vector<double>(surface.vertex.size()), 10};
+  for (std::size_t v = 0; v < sizing.h.size(); ++v) sizing.h[v] = 1 + 10 * std::fabs(surface.vertex[v].z);
+  Sampling sampling(surface, sizing, {}, 1);
+  const auto centre = [&](std::uint32_t t) {
+    return Place{t, (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) * (1.0 / 3)};
+  };
+  const auto last = static_cast<std::uint32_t>(surface.size() - 1);
+  std::uint32_t hidden = 0;
+  for (const std::uint32_t t : {0u, last / 2, last}) sampling.add_free(centre(t));
+  for (std::uint32_t i = 0; i < 3; ++i)
+    if (sampling.owner(sampling.hold(i).place) != i) {
+      ++hidden;
+      CHECK(sampling.give_cell(i));
+    }
+  CHECK(hidden > 0);
+  for (const std::uint32_t t : {last / 4, last / 3, last / 3 * 2}) {
+    const std::uint32_t id = sampling.add_between(centre(t));
+    CHECK(sampling.owner(centre(t)) == id);
+  }
+}
+
+}  // namespace powercell::test

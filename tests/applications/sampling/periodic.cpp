@@ -1,0 +1,199 @@
+// Periodic boxes: cells against those among all copies, and transport on them.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <powercell/transport.hpp>
+
+#include "lib/applications/periodic/periodic_diagram.hpp"
+#include "tests/support/domains.hpp"
+#include "tests/support/setups.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+const std::array<double, 2> low{-1, 2}, high{2, 4};
+
+Domain box() {
+  return Domain::box(low, high);
+}
+
+SeedArray seeds_in_box(std::size_t n, WeightRange range, Random& random) {
+  SeedArray seeds = scatter(Distribution::white, n, 2, {{low[0], low[1], 0}, {high[0], high[1], 0}}, random);
+  set_weights(seeds, range, spacing(6, n, 2), random);
+  return seeds;
+}
+
+/// Masses and second moments among all nine copies, in a box that is large enough for every cell.
+Measures among_all_copies(const SeedArray& seeds) {
+  SeedArray copies{2, seeds.positions, seeds.weights};
+  for (int a = -1; a <= 1; ++a)
+    for (int b = -1; b <= 1; ++b)
+      for (std::size_t i = 0; (a != 0 || b != 0) && i < seeds.size(); ++i)
+        copies.push({seeds.coordinate(i, 0) + 3 * a, seeds.coordinate(i, 1) + 2 * b}, seeds.weights[i]);
+  const std::array<double, 2> far_low{-4, 0}, far_high{5, 6};
+  const Setup& setup = main_setups().front();
+  return measure(setup.device, Domain::box(far_low, far_high), copies.view(), setup.options);
+}
+
+}  // namespace
+
+TEST_CASE("periodic cells are those among all copies") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const Setup& setup = main_setups().front();
+  for (const std::size_t n : {1u, 2u, 7u, 300u})
+    for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
+      INFO(n << " seeds, weights " << name(range));
+      const SeedArray seeds = seeds_in_box(n, range, random);
+      PeriodicDiagram diagram(setup.device, box(), setup.options);
+      diagram.set_seeds(seeds.positions, seeds.weights);
+      const Measures found = diagram.measures(), expected = among_all_copies(seeds);
+      REQUIRE(found.mass.size() == n);
+      CHECK(found.total() == doctest::Approx(6).epsilon(1e-12));
+      for (std::size_t i = 0; i < n; ++i) {
+        CHECK(std::abs(found.mass[i] - expected.mass[i]) < 1e-11);
+        CHECK(std::abs(found.second_moment[i] - expected.second_moment[i]) < 1e-10);
+      }
+    }
+}
+
+TEST_CASE("one heavy seed: the margin grows until the areas sum to that of the box") {
+  Random random(test_seed());
+  SeedArray seeds = seeds_in_box(400, WeightRange::W0, random);
+  seeds.weights[0] = 0.8;  // a disc of radius .9: copies farther than three spacings cut
+  const Setup& setup = main_setups().front();
+  PeriodicDiagram diagram(setup.device, box(), setup.options);
+  diagram.set_seeds(seeds.positions, seeds.weights);
+  const Measures expected = among_all_copies(seeds);
+  CHECK(expected.mass[0] > 1);
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    CHECK(std::abs(diagram.measures().mass[i] - expected.mass[i]) < 1e-11);
+}
+
+TEST_CASE("single precision: what copies beyond the margin cut off is not lost in rounding") {
+  Random random(5);
+  Setup setup = main_setups().front();
+  setup.options.precision = Precision::float32;
+  SeedArray seeds = seeds_in_box(400, WeightRange::W0, random);
+  seeds.coordinate(0, 0) = 0.5;
+  seeds.coordinate(0, 1) = 3;
+  for (int step = 0; step < 20; ++step) {
+    // Discs of radius .933 to .943 in a box of height 2: what they cut off at its other side is 1e-5 of it.
+    seeds.weights[0] = 0.87 + 0.001 * step;
+    CAPTURE(seeds.weights[0]);
+    PeriodicDiagram diagram(setup.device, box(), setup.options);
+    diagram.set_seeds(seeds.positions, seeds.weights);
+    const Measures expected = among_all_copies(seeds);
+    double off = 0;
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+      off = std::max(off, std::abs(diagram.measures().mass[i] - expected.mass[i]));
+    CHECK(off < 1e-6);
+    CHECK(expected.mass[0] > 2);
+  }
+}
+
+TEST_CASE("walls of periodic cells are symmetric, and copies outside the box stand for those inside") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const SeedArray seeds = seeds_in_box(50, WeightRange::W1, random);
+  const Setup& setup = main_setups().front();
+  PeriodicDiagram diagram(setup.device, box(), setup.options), moved(setup.device, box(), setup.options);
+  diagram.set_seeds(seeds.positions, seeds.weights);
+  SeedArray far = seeds;
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    far.coordinate(i, 0) += 3 * static_cast<double>(i % 4);
+    far.coordinate(i, 1) -= 2 * static_cast<double>(i % 3);
+  }
+  moved.set_seeds(far.positions, far.weights);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    CHECK(std::abs(diagram.measures().mass[i] - moved.measures().mass[i]) < 1e-11);
+    REQUIRE(diagram.measures().status[i] == moved.measures().status[i]);
+    for (std::size_t k = 0; k < 2 && diagram.measures().status[i] == SeedStatus::ok; ++k)
+      CHECK(std::abs((diagram.measures().centroid[2 * i + k] - seeds.positions[2 * i + k]) -
+                     (moved.measures().centroid[2 * i + k] - far.positions[2 * i + k])) < 1e-10);
+  }
+  const auto& walls = diagram.walls();
+  const auto& offset = diagram.wall_offset();
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) {
+      if (walls[k].measure < 1e-9) continue;
+      const std::uint32_t j = walls[k].seed;
+      double back = 0;
+      for (std::uint64_t other = offset[j]; other < offset[j + 1]; ++other)
+        if (walls[other].seed == i && std::abs(walls[other].step[0] + walls[k].step[0]) < 1e-9 &&
+            std::abs(walls[other].step[1] + walls[k].step[1]) < 1e-9)
+          back = walls[other].measure;
+      CHECK(back == doctest::Approx(walls[k].measure).epsilon(1e-9));
+      ++met;
+    }
+  CHECK(met > 4 * seeds.size());
+}
+
+TEST_CASE("transport on a periodic box: Newton converges, and moving all seeds changes nothing") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const Setup& setup = main_setups().front();
+  TransportOptions options;
+  options.diagram = setup.options;
+  options.periodic = true;
+  options.tolerance = 1e-10;
+  for (const std::size_t n : {3u, 200u}) {
+    SeedArray seeds = seeds_in_box(n, WeightRange::W0, random);
+    const TransportResult here = transport(setup.device, box(), seeds.view(), {}, options);
+    translate(seeds, {0.7, -0.9, 0});
+    const TransportResult there = transport(setup.device, box(), seeds.view(), {}, options);
+    CHECK(here.converged);
+    CHECK(there.converged);
+    CHECK(here.newton_steps() < 15);
+    CHECK(here.primal == doctest::Approx(here.dual).epsilon(1e-9));
+    for (std::size_t i = 0; i < n; ++i) {
+      CHECK(here.mass[i] == doctest::Approx(6.0 / static_cast<double>(n)).epsilon(1e-9));
+      CHECK(std::abs(here.weights[i] - there.weights[i]) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("copies of one seed are one, and seeds however far away are inside") {
+  const Setup& setup = main_setups().front();
+  TransportOptions options;
+  options.diagram = setup.options;
+  options.periodic = true;
+  // The box is [-1, 2] x [2, 4].
+  const std::vector<double> positions{-1, 3, 2, 3, 0.5, 2.5, 5, 1};
+  const TransportResult found = transport(setup.device, box(), {2, positions, {}}, {}, options);
+  CHECK(found.converged);
+  CHECK(found.merged == 2);
+  CHECK(found.merged_with == std::vector<std::uint32_t>{0, 0, 2, 0});
+  CHECK(found.mass[0] == doctest::Approx(4.5).epsilon(1e-5));
+  const PeriodicDiagram diagram(setup.device, box(), setup.options);
+  const std::vector<double> far{1e17, -1e300, -1 - 1e-18, 4};
+  const std::vector<double> inside = diagram.inside(far);
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    CHECK(inside[k] >= low[k % 2]);
+    CHECK(inside[k] < high[k % 2]);
+  }
+}
+
+TEST_CASE("what cannot be periodic is refused") {
+  const Setup& setup = main_setups().front();
+  const auto code = [&](const Domain& domain, const Density& density) {
+    TransportOptions options;
+    options.periodic = true;
+    options.density = density;
+    try {
+      TransportSolver solver(setup.device, domain, options);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode::internal;
+  };
+  const Density one = Density::constant(1);
+  CHECK(code(unit_box(3), one) == ErrorCode::unsupported);
+  CHECK(code(Domain::polygon(square_with_holes()), one) == ErrorCode::unsupported);
+  CHECK(code(Domain::polygon(std::vector<PolygonPart>{{{{0, 0}, {1, 0}, {0, 1}}, {}}}), one) ==
+        ErrorCode::unsupported);
+  CHECK(code(box(), Density::formula("1+x*x")) == ErrorCode::unsupported);
+}

@@ -1,0 +1,58 @@
+// What a device reaches at best: rates that are possible at all, and wrong results that are found out.
+#include <doctest/doctest.h>
+
+#include <powercell/device_rates.hpp>
+
+#include "lib/cl/context.hpp"
+#include "lib/device_rates/known.hpp"
+
+using namespace powercell;
+
+TEST_CASE("the rates of every device are positive, and of the same order in a second measurement") {
+  for (const DeviceInfo& info : devices()) {
+    const Device device = Device::choose(info.selector());
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+      if (precision == Precision::float64 && !info.fp64) {
+        CHECK_THROWS_AS(measure_device_rates(device, precision), Error);
+        continue;
+      }
+      CAPTURE(info.name);
+      const DeviceRates first = measure_device_rates(device, precision),
+                        second = measure_device_rates(device, precision);
+      // No device that runs OpenCL is below these, and none known beyond.
+      CHECK(first.copied_bytes > 1e7);
+      CHECK(first.copied_bytes < 1e14);
+      CHECK(first.operations > 1e7);
+      CHECK(first.operations < 1e16);
+      CHECK(first.copied_bytes < 20 * second.copied_bytes);
+      CHECK(second.copied_bytes < 20 * first.copied_bytes);
+      CHECK(first.operations < 20 * second.operations);
+      CHECK(second.operations < 20 * first.operations);
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("wrong sums of the chains are found out", T, float, double) {
+  const std::vector<T> start = chain_starts<T>(3000);
+  for (const std::uint32_t rounds : {1u, 256u, most_chain_rounds}) {
+    std::vector<T> sums;
+    for (const T s : start) {
+      T sum = 0;
+      for (int k = 0; k < 8; ++k) sum += s + static_cast<T>(k) + static_cast<T>(rounds);
+      sums.push_back(sum);
+    }
+    CHECK(chain_fault(start, sums, rounds) == "");
+    CHECK(chain_fault(start, sums, rounds + 1) != "");  // a launch that stopped a round early
+    sums[2999] = 0;                                     // a work-item that did not run
+    CHECK(chain_fault(start, sums, rounds).find("sum 2999") == 0);
+  }
+}
+
+TEST_CASE_TEMPLATE("a wrong copy is found out", T, float, double) {
+  std::vector<T> part;
+  for (std::size_t i = 8000; i < 9000; ++i) part.push_back(static_cast<T>(i % 8191));
+  CHECK(copy_fault(part, 8000) == "");
+  CHECK(copy_fault(part, 8001) != "");
+  part[700] = 0;
+  CHECK(copy_fault(part, 8000).find("number 8700") == 0);
+}

@@ -1,2 +1,0 @@
-include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
-target_link_libraries(test_neighbors PRIVATE powercell_support)
