@@ -1,13 +1,11 @@
 /* Eight numbers at once: what is done to the eight seeds of a leaf, the eight children of a node or eight
-   vertices of a cell. Like real.cl it hides precision and language behind names; on the host
-   lib/clip/host_lanes.hpp has the same names. */
+   vertices of a cell. Like real.cl it hides the precision behind names. */
 #ifndef POWERCELL_BASE_LANES
 #define POWERCELL_BASE_LANES
 #include "base/real.cl"
 
 #define LANES 8
 
-#ifndef __cplusplus
 #if REAL_BITS == 64
 typedef double8 real8;
 typedef double4 real4;
@@ -131,8 +129,6 @@ static inline uint tag_of(real a) {
 static inline real untagged(real a) {
   return AS_REAL(AS_INDEX(a) & ~TAG_MASK);
 }
-
-#endif
 
 /* Of x, y, z. Not OpenCL's own dot and cross, whose rounding is the device's and may depend on where in a
    launch a work-item is: proofs count roundings, and results are the same bits whatever the launch. */

@@ -1,7 +1,7 @@
-/* Scalar types, seeds and the few things that differ between precisions and languages; with decide.cl,
-   lanes.cl, point.cl and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64;
-   always 64 when compiled as C++ for what the host decides), DIMENSION (of the space), CELL_DIMENSION (2:
-   convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY, OUTPUTS. */
+/* Scalar types, seeds and the few things that differ between precisions; with decide.cl, lanes.cl, point.cl
+   and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64), DIMENSION (of the
+   space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY and
+   OUTPUTS. */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
 #include "layout.h"
@@ -19,45 +19,12 @@
 #define OUTPUTS 7
 #endif
 
+#pragma OPENCL FP_CONTRACT OFF
+
 /* UNROLL goes before loops over a few coordinates. Compilers that do not unroll on their own (PoCL's) would
    keep what is indexed in memory; others may ignore it. */
-#ifdef __cplusplus
-
-#define UNROLL
-#define __global
-#define __kernel
-typedef double real;
-typedef double stored_real;
-typedef unsigned int index_t;
-typedef struct {
-  double x, y, z, w;
-} seed_t;
-#define REAL_EPSILON 2.2204460492503131e-16
-#define REAL_MAX 1.0e300
-#define REAL_LEAST 1.0e-290 /* products below it are far from relative rounding */
-/* Cells on the host grow: arrays are pointers, capacities are members. */
-#define STORAGE(type, name, count) type* name
-#define STORAGE_ROWS(type, name, rows, count) type* name[rows]
-#define VERTEX_CAPACITY (cell->vertex_capacity)
-#define FACE_CAPACITY (cell->face_capacity)
-#define VERTEX_WORDS 2 /* or any number */
-#define HOST_MEMBERS                                                                              \
-  int vertex_capacity;                                                                            \
-  int face_capacity;                                                                              \
-  real* error;           /* of each vertex */                                                     \
-  real worst_error;      /* of all vertices there were */                                         \
-  certain_plane_t* unit; /* of each face (polygon: edge) */                                       \
-  ulong* unit_of;        /* the round in which it was found, and what was behind the face then */ \
-  uint round;                                                                                     \
-  certain_plane_t ground;      /* polygons: their plane */                                        \
-  bool moved;                  /* since the radius was found */                                   \
-  powercell::SeedMarks* tried; /* seeds whose bisectors were decided about */                     \
-  powercell::ExactCell* exact;
-
-#else
-
-#pragma OPENCL FP_CONTRACT OFF
 #define UNROLL _Pragma("unroll")
+
 #ifndef VERTEX_CAPACITY
 #define VERTEX_CAPACITY 64
 #endif
@@ -70,9 +37,6 @@ typedef ushort index_t;
 typedef uchar index_t;
 #endif
 #define VERTEX_WORDS ((VERTEX_CAPACITY + 63) / 64) /* of a bit per vertex */
-#define STORAGE(type, name, count) type name[count]
-#define STORAGE_ROWS(type, name, rows, count) type name[rows][count]
-#define HOST_MEMBERS
 
 #if REAL_BITS == 64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -93,14 +57,12 @@ typedef struct {
 #endif
 typedef real stored_real;
 
-#endif
-
 /* a - b by coordinates, and the difference of the weights (exact to the precision of the result
    also far from the origin). */
 static inline real weight_difference(seed_t a, seed_t b);
 static inline void difference(seed_t a, seed_t b, real* d);
 
-#if !defined(__cplusplus) && REAL_BITS == 32
+#if REAL_BITS == 32
 static inline real weight_difference(seed_t a, seed_t b) {
   return (a.high.w - b.high.w) + (a.low.w - b.low.w);
 }
@@ -127,7 +89,7 @@ typedef struct {
   real position, weight;
 } blur_t;
 
-#if !defined(__cplusplus) && REAL_BITS == 32
+#if REAL_BITS == 32
 static inline blur_t blur_of(seed_t p) {
   const real square = REAL_EPSILON * REAL_EPSILON;
   const blur_t blur = {(fabs(p.high.x) + fabs(p.high.y) + fabs(p.high.z) + 1) * square,

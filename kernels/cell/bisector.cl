@@ -49,7 +49,8 @@ static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border)
   UNROLL for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
   const real q2 = norm2(q);
   cell->at.size2 = 4 * q2;
-  const real tolerance = SIDE_TOLERANCE(cell, sum, q2, dw);
+  /* A value of (3) within 16 rounding errors of its terms counts as zero while cells are cut. */
+  const real tolerance = 16 * REAL_EPSILON * (2 * sum * cell->at.reach + q2 + fabs(dw));
   const int cut = cell_cut(cell, q, q2 + dw, tolerance, border);
   const real error = plane_error(&cell->at, sum, q2, dw);
   if (cut == CUT_NONE) note_gap(&cell->at, sum, q2 + dw, error, border);
@@ -59,7 +60,7 @@ static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border)
     return cut;
   }
   if (cut == CUT_EMPTY)
-    cell->at.gap = quickly_certain(&cell->at) ? (real)1 : OUTSIDE_GAP(cell, q, q2 + dw, sum, error);
+    cell->at.gap = quickly_certain(&cell->at) ? (real)1 : outside_gap(cell, q, q2 + dw, sum, error);
   if (cut == CUT_TOUCH || cut == CUT_WITHIN) cell->at.gap = TOUCHED_GAP;
   if (cut == CUT_WITHIN) return cell->at.self < (uint)border ? CUT_NONE : CUT_EMPTY;
   if (cut != CUT_TOUCH) return cut;

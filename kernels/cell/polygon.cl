@@ -9,16 +9,15 @@
 
 typedef struct {
   vertices_t at;
-  STORAGE(index_t, next, VERTEX_CAPACITY);
-  STORAGE(index_t, previous, VERTEX_CAPACITY);
-  STORAGE(int, border, VERTEX_CAPACITY);
-  STORAGE(real4, line, VERTEX_CAPACITY); /* (q, level) of the bisector of an edge; see cell_certain */
-  STORAGE(real, doubt, VERTEX_CAPACITY); /* for cell_certain */
-  int gone[GONE_MOST];                   /* what was behind edges that are no more */
+  index_t next[VERTEX_CAPACITY];
+  index_t previous[VERTEX_CAPACITY];
+  int border[VERTEX_CAPACITY];
+  real4 line[VERTEX_CAPACITY]; /* (q, level) of the bisector of an edge; see cell_certain */
+  real doubt[VERTEX_CAPACITY]; /* for cell_certain */
+  int gone[GONE_MOST];         /* what was behind edges that are no more */
   int gone_count;
   int corners; /* of the region */
   int first;   /* some vertex */
-  HOST_MEMBERS
 } cell_t;
 
 static inline void link_vertices(cell_t* cell, int from, int to) {
@@ -116,7 +115,7 @@ static inline bool find_run(const cell_t* cell, int* first, int* last) {
 static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
   if (find_sides(&cell->at, q, level) < -tolerance) return CUT_NONE;
   int inside, vertices, first = 0, last = 0;
-  const int outside = COUNT_SIDES(cell, border, tolerance, &vertices, &inside);
+  const int outside = count_sides(&cell->at, tolerance, &vertices, &inside);
   if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
   if (outside == 0) return vertices - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
   if (!find_run(cell, &first, &last)) return CUT_TANGLED;
@@ -134,8 +133,6 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   link_vertices(cell, before, a);
   link_vertices(cell, a, b);
   link_vertices(cell, b, after);
-  PLACE_VERTEX(cell, a);
-  PLACE_VERTEX(cell, b);
   cell->first = a;
   drop_outside(&cell->at);
   forget_edges(cell, first, last);

@@ -7,17 +7,15 @@
 
 typedef struct {
   vertices_t at;
-  STORAGE_ROWS(index_t, next, 3, VERTEX_CAPACITY);
-  STORAGE_ROWS(index_t, face, 3, VERTEX_CAPACITY);
-  STORAGE(int, border, FACE_CAPACITY);
-  STORAGE(index_t, mark, FACE_CAPACITY);  /* NO_VERTEX between cuts */
-  STORAGE(real4, point, VERTEX_CAPACITY); /* for cell_certain, then for the moments */
-  STORAGE(real4, normal,
-          FACE_CAPACITY);              /* of the bisectors (q, level) until cell_moments, then of the faces */
-  STORAGE(real, doubt, FACE_CAPACITY); /* for cell_certain */
+  index_t next[3][VERTEX_CAPACITY];
+  index_t face[3][VERTEX_CAPACITY];
+  int border[FACE_CAPACITY];
+  index_t mark[FACE_CAPACITY];  /* NO_VERTEX between cuts */
+  real4 point[VERTEX_CAPACITY]; /* for cell_certain, then for the moments */
+  real4 normal[FACE_CAPACITY];  /* of the bisectors (q, level) until cell_moments, then of the faces */
+  real doubt[FACE_CAPACITY];    /* for cell_certain */
   __global const region_shape_t* shape; /* of the region */
   int faces;                            /* face numbers given out; some may no longer be in use */
-  HOST_MEMBERS
 } cell_t;
 
 /* The region as the cell of seed `self`. Returns a PIECE status. */
@@ -118,7 +116,6 @@ static inline int cut_edge(cell_t* cell, int out, int k, int in, int cut) {
   cell->face[2][u] = left;
   cell->next[slot_to(cell, in, out)][in] = (index_t)u;
   cell->mark[left] = (index_t)u;
-  PLACE_VERTEX(cell, u);
   return u;
 }
 
@@ -175,7 +172,7 @@ static inline int cut_outside(cell_t* cell, int cut) {
 static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
   if (find_sides(&cell->at, q, level) < -tolerance) return CUT_NONE;
   int inside, vertices;
-  const int outside = COUNT_SIDES(cell, border, tolerance, &vertices, &inside);
+  const int outside = count_sides(&cell->at, tolerance, &vertices, &inside);
   if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
   if (outside == 0) return vertices - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
   if (cell->faces == FACE_CAPACITY) {

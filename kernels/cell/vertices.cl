@@ -10,11 +10,11 @@
 #define WORD_BITS 64
 
 typedef struct {
-  STORAGE_ROWS(real, x, DIMENSION, VERTEX_CAPACITY);
-  STORAGE(real, side, VERTEX_CAPACITY);  /* of the last plane tried */
-  STORAGE(ulong, used, VERTEX_WORDS);    /* a bit per slot: it is a vertex */
-  STORAGE(ulong, outside, VERTEX_WORDS); /* vertices outside the last plane that cut */
-  int blocks;                            /* in use */
+  real x[DIMENSION][VERTEX_CAPACITY];
+  real side[VERTEX_CAPACITY];  /* of the last plane tried */
+  ulong used[VERTEX_WORDS];    /* a bit per slot: it is a vertex */
+  ulong outside[VERTEX_WORDS]; /* vertices outside the last plane that cut */
+  int blocks;                  /* in use */
   real reach;  /* largest coordinate sum of the region's corners: the scale of rounding errors */
   real radius; /* no vertex is farther from the seed */
   real most;   /* largest of side[] */

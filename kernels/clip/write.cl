@@ -52,10 +52,10 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     find_radius2(&cell->at);
     certain = quickly_certain(&cell->at);
     cell_finish(cell, !certain);
-    certain = certain || WHOLE_IS_CERTAIN(cell);
+    certain = certain || whole_is_certain(cell);
     cell_moments(cell, moments);
     certain = certain && measure_is_good(cell, moments[0]);
-    if (CELL_IS_FLAT(cell, moments)) {
+    if (cell_is_flat(cell, moments[0])) {
       status = PIECE_FLAT;
       certain = false;
       UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;

@@ -6,7 +6,7 @@
 #include "base/lanes.cl"
 #include "neighbors/tree.cl"
 
-#if !defined(__cplusplus) && REAL_BITS == 32
+#if REAL_BITS == 32
 #define BLOCK_PARTS 2
 #else
 #define BLOCK_PARTS 1
@@ -31,7 +31,7 @@ typedef struct {
   real low[DIMENSION + 1];
 } origin_t;
 
-#if !defined(__cplusplus) && REAL_BITS == 32
+#if REAL_BITS == 32
 static inline origin_t origin_of(seed_t p) {
   origin_t o;
   o.high[0] = p.high.x;

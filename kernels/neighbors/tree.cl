@@ -7,7 +7,6 @@
 #define TREE_LEVELS 12 /* 8^11 leaves hold more seeds than a rank can number */
 #define TREE_STACK (7 * TREE_LEVELS + 8)
 #define NEAR_LEAVES (CELL_DIMENSION == 3 ? 8 : 4) /* leaves whose seeds are tried first */
-#define NEAR_SEEDS 64                             /* most in them */
 #define NEAREST_MOST 12
 
 typedef struct {

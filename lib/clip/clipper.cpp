@@ -259,10 +259,6 @@ void Clipper::finish_on_host(const List& pairs) {
   const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task,
                     first_batch = memory_.pieces.used;
   for (std::size_t task = 0; task < tasks; ++task) memory_.pieces.add_batch().clear();
-  List ranks(pairs.size());
-  std::transform(pairs.begin(), pairs.end(), ranks.begin(),
-                 [&](std::uint32_t pair) { return pair_seed_[pair]; });
-  list_near(*host_scene_, ranks, options_.threads);
   std::vector<double> moments(pairs.size() * count);
   std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
   parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {

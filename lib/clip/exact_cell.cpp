@@ -29,20 +29,19 @@ int infinitesimal_sign(const std::array<Factor, count>& factor, const std::array
                        std::int32_t self) {
   std::int32_t first = INT32_MAX;
   int sign = 0;
-  const auto take = [&](std::int32_t rank, const Factor& f) {
-    if (rank >= first) return;
-    const int sign_here = sign_of(f);
-    if (sign_here == 0) return;
-    first = rank;
-    sign = sign_here;
-  };
-  Factor own{};
   for (std::size_t k = 0; k < count; ++k) {
-    if (seed[k] < 0) continue;
-    own = own - factor[k];
-    take(seed[k], factor[k]);
+    if (seed[k] < 0 || seed[k] >= first) continue;
+    const int sign_here = sign_of(factor[k]);
+    if (sign_here == 0) continue;
+    first = seed[k];
+    sign = sign_here;
   }
-  take(self, own);
+  if (first < self) return sign;
+  Factor own{};
+  for (std::size_t k = 0; k < count; ++k)
+    if (seed[k] >= 0) own = own - factor[k];
+  const int sign_here = sign_of(own);
+  if (sign_here != 0) return sign_here;
   return sign;  // not 0: the last factor is the denominator of the vertex
 }
 

@@ -114,13 +114,7 @@ void level_of(const Unbounded& square, const ExactDifference& weight, int expone
   level = square + integer<Unbounded>(weight, exponent);
 }
 
-std::array<double, 4> packed(const std::vector<std::byte>& points, std::size_t at) {
-  std::array<double, 4> point;
-  std::memcpy(point.data(), points.data() + at * sizeof point, sizeof point);
-  return point;
-}
-
-using Point = std::array<ExactDifference, 3>;
+using ExactPoint = std::array<ExactDifference, 3>;
 using Vector = std::array<Unbounded, 3>;
 
 Vector operator-(const Vector& a, const Vector& b) {
@@ -177,8 +171,8 @@ void ExactPlanes<Row>::set_unit(int exponent) {
 template <class Row>
 bool ExactPlanes<Row>::make_short_bisector(std::int32_t other, Row& row) const {
   if constexpr (std::is_same_v<typename Row::Normal, Wide<1>>) {
-    const std::array<double, 4> here = packed(scene_->points, rank_),
-                                there = packed(scene_->points, static_cast<std::size_t>(other));
+    const std::array<double, 4> here = scene_->points[rank_],
+                                there = scene_->points[static_cast<std::size_t>(other)];
     if (!any_ || scale_ == 0 || here[3] != there[3]) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const ExactDifference q = exact_difference(there[k], here[k]);
@@ -197,10 +191,10 @@ bool ExactPlanes<Row>::make_short_bisector(std::int32_t other, Row& row) const {
 template <class Row>
 bool ExactPlanes<Row>::make_bisector(std::int32_t other, Row& row) {
   if (make_short_bisector(other, row)) return true;
-  const std::array<double, 4> here = packed(scene_->points, rank_),
-                              there = packed(scene_->points, static_cast<std::size_t>(other));
+  const std::array<double, 4> here = scene_->points[rank_],
+                              there = scene_->points[static_cast<std::size_t>(other)];
   const auto d = static_cast<std::size_t>(scene_->mesh->dimension);
-  Point q{};
+  ExactPoint q{};
   int low = INT_MAX / 2, high = INT_MIN / 2;
   for (std::size_t k = 0; k < d; ++k) {
     q[k] = exact_difference(there[k], here[k]);
@@ -220,12 +214,12 @@ bool ExactPlanes<Row>::make_bisector(std::int32_t other, Row& row) {
 template <class Row>
 bool ExactPlanes<Row>::make_facet(std::int32_t border, Row& row) {
   const RegionMesh& mesh = *scene_->mesh;
-  const std::array<double, 4> here = packed(scene_->points, rank_);
+  const std::array<double, 4> here = scene_->points[rank_];
   const auto d = static_cast<std::size_t>(mesh.dimension);
-  std::vector<Point> corner(static_cast<std::size_t>(corners_));
+  std::vector<ExactPoint> corner(static_cast<std::size_t>(corners_));
   int low = INT_MAX / 2;
   for (std::size_t v = 0; v < corner.size(); ++v) {
-    const std::array<double, 4> y = packed(scene_->corners, mesh.region_vertex[first_ + v]);
+    const std::array<double, 4> y = scene_->corners[mesh.region_vertex[first_ + v]];
     for (std::size_t k = 0; k < d; ++k) {
       corner[v][k] = exact_difference(y[k], here[k]);
       low = std::min(low, lowest_bit_of(corner[v][k]));
@@ -301,12 +295,12 @@ std::uint32_t corner_of_region(const RegionMesh& mesh, std::uint32_t region, std
 }
 
 int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner, std::int32_t other) {
-  const std::array<double, 4> here = packed(scene.points, rank),
-                              there = packed(scene.points, static_cast<std::size_t>(other)),
-                              at = packed(scene.corners, corner);
+  const std::array<double, 4> here = scene.points[rank],
+                              there = scene.points[static_cast<std::size_t>(other)],
+                              at = scene.corners[corner];
   const auto d = static_cast<std::size_t>(scene.mesh->dimension);
   const ExactDifference weight = exact_difference(here[3], there[3]);
-  Point q{}, y{};
+  ExactPoint q{}, y{};
   int unit = weight.high != 0 ? lowest_bit_of(weight) >> 1 : INT_MAX / 2;
   for (std::size_t k = 0; k < d; ++k) {
     q[k] = exact_difference(there[k], here[k]);
@@ -323,9 +317,9 @@ int corner_side(const HostScene& scene, std::uint32_t rank, std::uint32_t corner
 
 bool is_in_line_of_facet(const HostScene& scene, std::uint32_t region, std::uint32_t corner,
                          std::uint32_t facet) {
-  const auto from = packed(scene.corners, corner_of_region(*scene.mesh, region, facet)),
-             to = packed(scene.corners, corner_of_region(*scene.mesh, region, facet + 1)),
-             point = packed(scene.corners, corner);
+  const auto from = scene.corners[corner_of_region(*scene.mesh, region, facet)],
+             to = scene.corners[corner_of_region(*scene.mesh, region, facet + 1)],
+             point = scene.corners[corner];
   return orient2d(from.data(), to.data(), point.data()) == 0;
 }
 

@@ -1,23 +1,154 @@
 #include "lib/clip/host_clip.hpp"
 
-#include "kernels/layout.h"
-#include "lib/base/threads.hpp"
+#include <algorithm>
+#include <string>
+
+#include "lib/clip/host_polygon.hpp"
+#include "lib/clip/host_polyhedron.hpp"
+#include "lib/clip/host_search.hpp"
+#include "lib/clip/host_walls.hpp"
 
 namespace powercell {
+namespace {
 
-namespace host_polygon2 {
-std::unique_ptr<HostClipper> make_clipper(const HostScene&, bool);
-void pack_blocks(HostScene&);
-void list_near_leaf(HostScene&, std::uint32_t);
-}  // namespace host_polygon2
-namespace host_polygon3 {
-std::unique_ptr<HostClipper> make_clipper(const HostScene&, bool);
+/// \tparam Cell  HostPolygon or HostPolyhedron
+template <class Cell>
+class PieceClipper final : public HostClipper {
+ public:
+  PieceClipper(const HostScene& scene, bool geometry)
+      : scene_(scene), geometry_(geometry), exact_(scene), search_(scene) {}
+
+  int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) override {
+    start(rank, region);
+    std::array<double, 5> sums{};
+    std::vector<Wall> walls;
+    int status = cut_by_all() ? PIECE_WHOLE : PIECE_EMPTY;
+    if (status == PIECE_WHOLE) {
+      cell_.finish({exact_, radius_, true});
+      sums = cell_.moments();
+      HostWalls<Cell> finished(cell_, exact_, radius_);
+      if (finished.is_flat(sums)) {
+        status = PIECE_FLAT;
+        sums = {};
+      }
+      walls =
+          finished.settle(region_, &scene_.behind[scene_.mesh->facet_offset[region]], status == PIECE_FLAT);
+      const auto is_wall = [](const Wall& wall) { return wall.border >= 0 && wall.measure > 0; };
+      if (status == PIECE_FLAT && std::none_of(walls.begin(), walls.end(), is_wall)) status = PIECE_EMPTY;
+    }
+    std::copy_n(sums.begin(), moments.size() - 1, moments.begin());
+    moments.back() = sums.back();
+    append_row(status, walls, rows);
+    return status;
+  }
+
+ private:
+  using Wall = typename HostWalls<Cell>::Wall;
+
+  void start(std::uint32_t rank, std::uint32_t region) {
+    const RegionMesh& mesh = *scene_.mesh;
+    rank_ = rank;
+    exact_.start(rank, region);
+    search_.start(rank);
+    region_ = {{}, 0, mesh.dimension != mesh.cell_dimension, &scene_.shape};
+    double reach = 0;
+    for (std::uint32_t k = mesh.region_offset[region]; k < mesh.region_offset[region + 1]; ++k) {
+      region_.corner.push_back(position(scene_.corners[mesh.region_vertex[k]]) -
+                               position(scene_.points[rank]));
+      reach = std::max(reach, sum_of_sizes(region_.corner.back()));
+    }
+    region_.corner_error = 2 * rounding_unit * reach;
+    cell_.start(region_);
+    find_radius();
+  }
+
+  /// False if nothing is left.
+  bool cut_by_all() {
+    const auto vertices = [&] {
+      std::vector<Point> points(cell_.size());
+      for (std::size_t v = 0; v < points.size(); ++v) points[v] = cell_.vertex(v).at;
+      return points;
+    };
+    while (const auto other = search_.next(radius_, vertices))
+      if (!cut_by(*other)) return false;
+    return true;
+  }
+
+  /// Cuts the cell by the bisector with a seed. No vertex is on it: where the errors leave a side open, it is
+  /// decided exactly. False if nothing is left.
+  bool cut_by(std::uint32_t other) {
+    const std::array<double, 4>&here = scene_.points[rank_], &there = scene_.points[other];
+    const Point q = position(there) - position(here);
+    const Bisector bisector{q, dot(q, q), here[3] - there[3]};
+    const double rounding = bisector.rounding(radius_), size = 2 * sum_of_sizes(q), level = bisector.level();
+    const std::size_t count = cell_.size();
+    std::size_t inside = 0, outside = 0;
+    side_.resize(count);
+    for (std::size_t v = 0; v < count; ++v) {
+      const HostPoint& p = cell_.vertex(v);
+      const double side = 2 * dot(q, p.at) - level, error = rounding + size * p.error;
+      const int is_outside = side > error, is_inside = side < -error;
+      side_[v] = is_outside - is_inside;
+      inside += is_inside;
+    }
+    if (inside == count) return true;
+    const auto border = static_cast<std::int32_t>(other);
+    for (std::size_t v = 0; v < count; ++v) {
+      if (side_[v] == 0) side_[v] = exact_.is_outside(cell_.borders(v), border) ? 1 : -1;
+      outside += side_[v] > 0;
+    }
+    if (outside == 0) return true;
+    if (outside == count) return false;
+    if (!cell_.cut(side_, {border, plane_of(bisector)}, {exact_, radius_, false}))
+      throw Error(ErrorCode::internal, "the cell of the seed at position " + std::to_string(rank_) +
+                                           " of the Hilbert order could not be clipped without contradiction "
+                                           "even on the host; please report the input");
+    find_radius();
+    return true;
+  }
+
+  void find_radius() {
+    double square = 0;
+    for (std::size_t v = 0; v < cell_.size(); ++v)
+      square = std::max(square, dot(cell_.vertex(v).at, cell_.vertex(v).at));
+    radius_ = std::sqrt(square) * (1 + 8 * rounding_unit);
+  }
+
+  void append_row(int status, const std::vector<Wall>& walls, PieceBatch& rows) const {
+    if (rows.face_offset.empty()) rows.face_offset = rows.vertex_offset = {0};
+    if (status != PIECE_EMPTY) {
+      for (const auto& [border, measure] : walls) {
+        rows.border.push_back(border);
+        rows.wall.push_back(measure);
+      }
+      if (geometry_) cell_.write_vertices(rows, coordinates());
+    }
+    rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));
+    if (geometry_)
+      rows.vertex_offset.push_back(static_cast<std::uint32_t>(rows.vertex.size() / coordinates()));
+  }
+  std::size_t coordinates() const { return static_cast<std::size_t>(scene_.mesh->dimension); }
+
+  const HostScene& scene_;
+  const bool geometry_;
+  ExactCell exact_;
+  HostSearch search_;
+  Cell cell_;
+  HostRegion region_;
+  std::uint32_t rank_ = 0;
+  double radius_ = 0;  ///< no vertex is farther from the seed
+  std::vector<double> side_;
+};
+
+std::vector<std::array<double, 4>> pack(const Frame& frame, int dimension, std::span<const double> positions,
+                                        std::span<const double> weights) {
+  std::vector<std::array<double, 4>> points(positions.size() / static_cast<std::size_t>(dimension));
+  static_assert(sizeof points[0] == Frame::point_bytes);
+  frame.pack_to(reinterpret_cast<std::byte*>(points.data()), dimension, positions, weights, 1);
+  return points;
 }
-namespace host_polyhedron {
-std::unique_ptr<HostClipper> make_clipper(const HostScene&, bool);
-void pack_blocks(HostScene&);
-void list_near_leaf(HostScene&, std::uint32_t);
-}  // namespace host_polyhedron
+
+}  // namespace
 
 HostScene make_host_scene(const Scene& scene) {
   Frame frame = scene.frame();
@@ -26,42 +157,23 @@ HostScene make_host_scene(const Scene& scene) {
   const SeedSet& seeds = scene.seeds();
   const PackedTree& tree = scene.tree();
   const RegionMesh& mesh = scene.mesh();
-  HostScene host{frame.pack(mesh.dimension, mesh.vertices, {}),
-                 frame.pack(seeds.dimension, seeds.positions, seeds.weights),
-                 frame.pack(tree.dimension, tree.low, tree.weight),
-                 frame.pack(tree.dimension, tree.high, {}),
-                 regions_behind(mesh),
-                 region_shape(mesh.shape),
-                 &mesh,
+  HostScene host{&mesh,
                  &tree,
+                 pack(frame, mesh.dimension, mesh.vertices, {}),
+                 pack(frame, seeds.dimension, seeds.positions, seeds.weights),
                  {},
-                 {},
-                 {},
-                 {},
-                 {}};
-  mesh.dimension == 3 ? host_polyhedron::pack_blocks(host) : host_polygon2::pack_blocks(host);
+                 regions_behind(mesh),
+                 region_shape(mesh.shape)};
+  const auto low = pack(frame, tree.dimension, tree.low, tree.weight);
+  const auto high = pack(frame, tree.dimension, tree.high, {});
+  for (std::size_t k = 0; k < low.size(); ++k)
+    host.nodes.push_back({position(low[k]), position(high[k]), low[k][3]});
   return host;
 }
 
-void list_near(HostScene& scene, std::span<const std::uint32_t> ranks, int threads) {
-  const std::size_t leaves = scene.near_count.size();
-  if (!scene.near) scene.near = std::make_unique_for_overwrite<std::uint32_t[]>(leaves * NEAR_MOST);
-  std::vector<std::uint32_t> homes;
-  for (const std::uint32_t rank : ranks) {
-    const std::uint32_t home = rank / PackedTree::fan;
-    if (scene.near_count[home] == 0 && (homes.empty() || homes.back() != home)) homes.push_back(home);
-  }
-  const auto list =
-      scene.mesh->dimension == 3 ? host_polyhedron::list_near_leaf : host_polygon2::list_near_leaf;
-  parallel_for(threads, homes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) list(scene, homes[k]);
-  });
-}
-
 std::unique_ptr<HostClipper> HostClipper::make(const HostScene& scene, bool geometry) {
-  return scene.mesh->cell_dimension == 3 ? host_polyhedron::make_clipper(scene, geometry)
-         : scene.mesh->dimension == 3    ? host_polygon3::make_clipper(scene, geometry)
-                                         : host_polygon2::make_clipper(scene, geometry);
+  if (scene.mesh->cell_dimension == 3) return std::make_unique<PieceClipper<HostPolyhedron>>(scene, geometry);
+  return std::make_unique<PieceClipper<HostPolygon>>(scene, geometry);
 }
 
 }  // namespace powercell

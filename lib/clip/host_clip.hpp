@@ -1,38 +1,41 @@
 /// \file
-/// One piece clipped on the host, with exact decisions and arrays that grow, by the kernels' own source
-/// compiled as C++: for pieces that rounding may have decided on the device, or that fit none of its
-/// variants.
+/// One piece clipped on the host, with exact decisions: for pieces that rounding may have decided on the
+/// device, or that fit none of its variants.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "lib/clip/exact_cell.hpp"
+#include "lib/base/vectors.hpp"
 #include "lib/clip/pieces.hpp"
 #include "lib/scene/scene.hpp"
 
 namespace powercell {
 
-/// Points packed as kernels see them, in double.
-struct HostScene {
-  std::vector<std::byte> corners, points, node_low, node_high;
-  std::vector<std::int32_t> behind;
-  region_shape_t shape;
-  const RegionMesh* mesh;
-  const PackedTree* tree;
-  std::vector<double> seed_block, node_block;  ///< kernels/neighbors/blocks.cl
-  std::unique_ptr<std::uint32_t[]>
-      near;  ///< of the leaves that list_near has seen (kernels/neighbors/near.cl)
-  std::vector<std::uint32_t> near_count;  ///< per leaf: 0 for the others
-  std::vector<double> near_bound;
+/// A node of the packed tree.
+struct HostNode {
+  Vector3<double> low, high;
+  double weight;  ///< the largest in it
 };
 
-HostScene make_host_scene(const Scene& scene);
+/// Domain, seeds and tree in double precision, scaled as for devices.
+struct HostScene {
+  const RegionMesh* mesh = nullptr;
+  const PackedTree* tree = nullptr;
+  std::vector<std::array<double, 4>> corners, points;  ///< x y z weight
+  std::vector<HostNode> nodes;                         ///< numbered as in the tree
+  std::vector<std::int32_t> behind;                    ///< of the facets (regions_behind)
+  region_shape_t shape{};
 
-/// Lists what is near the leaves of the seeds `ranks`, ascending: quicker where many cells are clipped, else
-/// not needed.
-void list_near(HostScene& scene, std::span<const std::uint32_t> ranks, int threads);
+  const HostNode& node(std::uint32_t at, std::int32_t level) const {
+    return nodes[tree->level_offset[static_cast<std::size_t>(level)] + at];
+  }
+};
+
+/// The scene must outlive the result.
+HostScene make_host_scene(const Scene& scene);
 
 /// Clips one piece after the other; each thread needs its own.
 class HostClipper {

@@ -1,121 +1,194 @@
-// What the walls of a finished cell measure, and which lie in facets of its region (docs/mathematics.md,
-// "Walls in facets"). Included inside the namespace of a host clipper, after Row.
+/// \file
+/// What a finished cell and its walls measure once the infinitesimals of ties are dropped, and which walls
+/// lie in facets of the region (docs/mathematics.md, "Certain decisions", "Walls in facets").
+#pragma once
 
-/// A facet of the region that some vertex of the cell may lie in.
-struct NearFacet {
-  int facet;
-  certain_plane_t plane;
-  bool may_hold(const cell_t& cell, int v) const {
-    real s = -plane.plane.w;
-    const real n[3] = {plane.plane.x, plane.plane.y, plane.plane.z};
-    for (int k = 0; k < DIMENSION; ++k) s += n[k] * cell.at.x[k][v];
-    return fabs(s) <= final_error * cell.at.radius + cell.error[v] + plane.doubt;
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "lib/clip/host_plane.hpp"
+
+namespace powercell {
+
+/// \tparam Cell  HostPolygon or HostPolyhedron, finished and with its moments taken
+template <class Cell>
+class HostWalls {
+ public:
+  struct Wall {
+    std::int32_t border;
+    double measure;
+  };
+
+  HostWalls(const Cell& cell, ExactCell& exact, double radius)
+      : cell_(cell), exact_(exact), radius_(radius) {}
+
+  /// Whether the cell is exactly flat. One that is not, but is no thicker than the rounding of its vertices,
+  /// gets the least measure there is and the mean of its vertices as centroid.
+  bool is_flat(std::array<double, 5>& moments) {
+    if (moments[0] > plainly_solid * power_of_radius(Cell::dimension)) return false;
+    if (is_degenerate()) return true;
+    double surface = 0;
+    for (std::size_t f = 0; f < cell_.faces(); ++f) surface += cell_.measure(f);
+    if (moments[0] > 64 * rounding_unit * radius_ * surface) return false;
+    Point mean{};
+    for (std::size_t v = 0; v < cell_.size(); ++v) mean = mean + cell_.vertex(v).at;
+    mean = 1 / static_cast<double>(cell_.size()) * mean;
+    const double measure = std::max(moments[0], std::numeric_limits<double>::min());
+    moments = {measure, measure * mean[0], measure * mean[1], measure * mean[2], measure * dot(mean, mean)};
+    return false;
   }
+
+  /// The faces of the cell as its row has them.
+  /// \param flat    whether the cell is
+  /// \param behind  what lies behind the facets of the region (BEHIND_NOTHING in kernels/layout.h)
+  std::vector<Wall> settle(const HostRegion& region, const std::int32_t* behind, bool flat) {
+    for (std::size_t facet = 0; facet < cell_.facets().size(); ++facet)
+      for (std::size_t v = 0; v < cell_.size(); ++v)
+        if (may_lie_in(v, facet)) {
+          near_.push_back(facet);
+          break;
+        }
+    std::vector<Wall> walls;
+    for (std::size_t f = 0; f < cell_.faces(); ++f) {
+      walls.push_back({cell_.border(f), measure_of(f)});
+      if (walls.back().border >= 0 && walls.back().measure > 0 && !near_.empty())
+        settle_in_facets(f, region, behind, flat, walls.back());
+    }
+    return walls;
+  }
+
+ private:
+  /// A face or cell this part of the square or cube of the radius large plainly has its dimension.
+  static constexpr double plainly_solid = 1e-9;
+  /// Of what is plainly a wall: far below rounding, far above the least number.
+  static constexpr double next_to_nothing = 1e-50;
+
+  double power_of_radius(int dimension) const {
+    return dimension == 1 ? radius_ : radius_ * power_of_radius(dimension - 1);
+  }
+
+  /// Whether the ends of an edge are one point: then the plane that u has and v does not have holds v too.
+  bool coincide(std::size_t v, std::size_t u) {
+    const HostPoint &a = cell_.vertex(v), &b = cell_.vertex(u);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::fabs(a.at[k] - b.at[k]) > 2 * (a.error + b.error)) return false;
+    const ExactVertex here = cell_.borders(v), there = cell_.borders(u);
+    const auto end = here.begin() + Cell::dimension;
+    const auto* other = std::find_if(there.begin(), there.begin() + Cell::dimension - 1,
+                                     [&](int border) { return std::find(here.begin(), end, border) == end; });
+    return exact_.lies_in(here, *other);
+  }
+
+  /// Whether a face, or a polygon, has no area: all edges with a length are parallel.
+  bool has_no_area(std::size_t f) {
+    std::optional<std::int32_t> first;
+    return cell_.all_edges(f, [&](std::size_t v, std::size_t u, std::int32_t border) {
+      if (coincide(v, u)) return true;
+      if (first) return exact_.are_parallel(cell_.border(f), *first, border);
+      first = border;
+      return true;
+    });
+  }
+
+  bool is_degenerate_wall(std::size_t f) {
+    if constexpr (Cell::dimension == 2)
+      return coincide(f, cell_.after(f));
+    else
+      return has_no_area(f);
+  }
+
+  bool is_degenerate() {
+    if (Cell::dimension == 2) return has_no_area(0);
+    for (std::size_t f = 0; f < cell_.faces(); ++f) {
+      if (has_no_area(f)) continue;
+      for (std::size_t v = 0; v < cell_.size(); ++v)
+        if (!exact_.lies_in(cell_.borders(v), cell_.border(f))) return false;
+    }
+    return true;
+  }
+
+  /// Walls whose measure is 0 without the infinitesimals measure 0, to the bit, and no others: what rounding
+  /// made nothing measures next to nothing.
+  double measure_of(std::size_t f) {
+    const double plain = plainly_solid * power_of_radius(Cell::dimension - 1), measure = cell_.measure(f);
+    if (measure > plain) return measure;
+    return is_degenerate_wall(f) ? 0 : std::max(measure, next_to_nothing * plain);
+  }
+
+  bool may_lie_in(std::size_t v, std::size_t facet) const {
+    const HostPlane& plane = cell_.facets()[facet];
+    const HostPoint& p = cell_.vertex(v);
+    return std::fabs(dot(plane.normal, p.at) - plane.offset) <=
+           HostPlacer::final_error * radius_ + p.error + plane.error;
+  }
+
+  bool lies_in_facet(std::size_t f, std::size_t facet) {
+    for (std::size_t v = 0; v < cell_.size(); ++v)
+      if (cell_.is_on(v, f) &&
+          !(may_lie_in(v, facet) && exact_.lies_in(cell_.borders(v), ~static_cast<std::int32_t>(facet))))
+        return false;
+    return true;
+  }
+
+  /// Sets what lies behind a wall in the plane of a facet: the seed, if it has the region behind the facet
+  /// (or, for a flat piece, if the cell itself has it), else the facet.
+  void settle_in_facets(std::size_t f, const HostRegion& region, const std::int32_t* behind, bool flat,
+                        Wall& wall) {
+    std::vector<std::size_t> in;  // of a polygon whose corners are in line there may be several
+    for (const std::size_t facet : near_)
+      if (lies_in_facet(f, facet)) in.push_back(facet);
+    if (in.empty()) return;
+    if constexpr (Cell::dimension == 2)
+      if (in.size() > 1 && !region.on_surface) {
+        const double open = open_length(f, in, region, behind, next_to_nothing * wall.measure);
+        if (open > 0) wall.measure = open;
+        if (open != 0) return;
+      }
+    const std::int32_t there = behind[in.front()];
+    if (there == BEHIND_NOTHING ||
+        (region.on_surface &&
+         exact_.is_corner_outside(static_cast<std::uint32_t>(there), wall.border) == flat))
+      wall.border = ~static_cast<std::int32_t>(in.front());
+  }
+
+  /// Whether edge f ends before a facet does, or where it begins: exactly.
+  bool ends_before(std::size_t f, std::size_t facet) {
+    for (const std::size_t beside : {cell_.before(f), cell_.after(f)})
+      if (cell_.border(beside) >= 0 &&
+          exact_.is_facet_outside(static_cast<std::uint32_t>(facet), cell_.border(beside)))
+        return true;
+    return false;
+  }
+
+  /// Of a wall in the line of several facets only what has a region behind it is one: its length, below 0 if
+  /// that is all of it.
+  double open_length(std::size_t f, const std::vector<std::size_t>& facets, const HostRegion& region,
+                     const std::int32_t* behind, double least) {
+    const Point from = cell_.vertex(f).at, way = cell_.vertex(cell_.after(f)).at - from;
+    const double length = norm(way);
+    const auto place = [&](std::size_t k) { return dot(region.corner[k] - from, way) / length; };
+    double open = 0;
+    bool closed = false;
+    for (const std::size_t facet : facets) {
+      if (ends_before(f, facet)) continue;
+      if (behind[facet] == BEHIND_NOTHING) {
+        closed = true;
+        continue;
+      }
+      const auto [low, high] =
+          std::minmax({place(facet), place(facet + 1 == region.corner.size() ? 0 : facet + 1)});
+      open += std::max(std::min(length, high) - std::max(0.0, low), least);
+    }
+    return closed ? std::min(open, length) : -1;
+  }
+
+  const Cell& cell_;
+  ExactCell& exact_;
+  const double radius_;
+  std::vector<std::size_t> near_;  ///< facets that some vertex may lie in
 };
 
-std::vector<NearFacet> near_facets(const cell_t& cell, int facets) {
-  std::vector<NearFacet> near;
-  for (int f = 0; f < facets; ++f) {
-    const NearFacet facet{f, facet_of_region(&cell, f)};
-    bool any = false;
-    for (int w = 0; w < words_of(&cell.at); ++w)
-      for (ulong bits = cell.at.used[w]; bits != 0 && !any; bits &= bits - 1)
-        any = facet.may_hold(cell, w * WORD_BITS + lowest_bit(bits));
-    if (any) near.push_back(facet);
-  }
-  return near;
-}
-
-/// The facets in whose plane face `face` lies: of a polygon whose corners are in line there may be several.
-std::vector<int> facets_of_face(const cell_t& cell, int face, const std::vector<NearFacet>& near) {
-  std::vector<int> facets;
-  for (const NearFacet& facet : near) {
-    bool within = true;
-    for (int w = 0; w < words_of(&cell.at); ++w)
-      for (ulong bits = cell.at.used[w]; bits != 0 && within; bits &= bits - 1) {
-        const int v = w * WORD_BITS + lowest_bit(bits);
-        within = !is_on_face(&cell, v, face) ||
-                 (facet.may_hold(cell, v) && cell.exact->lies_in(vertex_planes(&cell, v), ~facet.facet));
-      }
-    if (within) facets.push_back(facet.facet);
-  }
-  return facets;
-}
-
-/// What lies behind a face with `border` in the plane of facet f, once ties have no thickness: the seed, if
-/// it has the region behind the facet (or, for a flat piece, if the cell itself has it), else the facet
-/// (docs/mathematics.md, "Walls in facets").
-int border_in_facet(const cell_t& cell, int border, int f, bool flat) {
-  const int behind = cell.at.behind[f];
-  if (behind == BEHIND_NOTHING) return ~f;
-  if (DIMENSION == CELL_DIMENSION) return border;
-  return cell.exact->is_corner_outside(static_cast<uint>(behind), border) != flat ? border : ~f;
-}
-
-/// Of what is plainly a wall: far below rounding, far above the least number.
-constexpr real next_to_nothing = 1e-50;
-
-/// Walls whose measure is 0 without the infinitesimals of ties measure 0, to the bit, and no others: what
-/// rounding made nothing measures next to nothing.
-void settle_small_walls(const cell_t& cell, Row& row) {
-  const real plain = plainly_solid * (CELL_DIMENSION == 3 ? cell.at.radius * cell.at.radius : cell.at.radius);
-  int face = first_face(cell);
-  for (std::size_t k = 0; k < row.faces; ++k) {
-    if (!(row.wall[k] > plain))
-      row.wall[k] = is_degenerate_wall(&cell, face) ? 0 : fmax(row.wall[k], next_to_nothing * plain);
-    face = after_face(cell, face);
-  }
-}
-
-#if DIMENSION == 2
-/// Whether a wall that is edge `face` of a polygon ends before facet f does, or where it begins: exactly.
-bool ends_before(const cell_t& cell, int face, int f) {
-  const auto before = static_cast<int>(cell.previous[face]), behind = static_cast<int>(cell.next[face]);
-  for (const int border : {cell.border[before], cell.border[behind]})
-    if (border >= 0 && cell.exact->is_facet_outside(static_cast<uint>(f), border)) return true;
-  return false;
-}
-
-/// Of a wall in the line of several facets only what has a region behind it is one: its length, below 0 if
-/// that is all of it.
-real open_length(const cell_t& cell, int face, const std::vector<int>& facets, real least) {
-  const int end = static_cast<int>(cell.next[face]);
-  real way[2] = {cell.at.x[0][end] - cell.at.x[0][face], cell.at.x[1][end] - cell.at.x[1][face]};
-  const real length = hypot(way[0], way[1]);
-  const auto place = [&](const real4& corner) {
-    return ((corner.x - cell.at.x[0][face]) * way[0] + (corner.y - cell.at.x[1][face]) * way[1]) / length;
-  };
-  real open = 0;
-  bool closed = false;
-  for (const int f : facets) {
-    if (ends_before(cell, face, f)) continue;
-    if (cell.at.behind[f] == BEHIND_NOTHING) {
-      closed = true;
-      continue;
-    }
-    const real from = place(region_corner(&cell.at, f)),
-               to = place(region_corner(&cell.at, f + 1 == cell.corners ? 0 : f + 1));
-    open += fmax(fmin(length, fmax(from, to)) - fmax(0, fmin(from, to)), least);
-  }
-  return closed ? fmin(open, length) : -1;
-}
-#endif
-
-void settle_walls_in_facets(const cell_t& cell, int facets, bool flat, Row& row) {
-  const std::vector<NearFacet> near = near_facets(cell, facets);
-  if (near.empty()) return;
-  int face = first_face(cell);
-  for (std::size_t k = 0; k < row.faces; ++k, face = after_face(cell, face)) {
-    if (row.border[k] < 0 || row.wall[k] == 0) continue;
-    const std::vector<int> in = facets_of_face(cell, face, near);
-    if (in.empty()) continue;
-#if DIMENSION == 2
-    if (in.size() > 1) {
-      const real open = open_length(cell, face, in, next_to_nothing * row.wall[k]);
-      if (open > 0) row.wall[k] = open;
-      if (open != 0) continue;
-    }
-#endif
-    row.border[k] = border_in_facet(cell, row.border[k], in.front(), flat);
-  }
-}
+}  // namespace powercell
