@@ -88,7 +88,7 @@ void require_golden(const cl::Context& context, std::string_view program, const 
 namespace {
 
 std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
-  const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds().size();
+  const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds.size();
   std::vector<double> measures(n);
   std::vector<float> narrow(n * stride);
   std::vector<double> wide(n * stride);
@@ -105,18 +105,17 @@ std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
 }  // namespace
 
 void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates,
-                 const Variant& variant, std::size_t rung) {
+                 const Variant& variant, std::size_t capacity) {
   const RegionMesh mesh = golden_mesh(variant);
   const SeedSet seeds = golden_seeds(variant.dimension);
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(context, mesh, variant.float32);
-  scene.set_seeds(seeds, tree);
-  const std::unique_ptr<Candidates> source = candidates.for_scene(scene);
-  Clipper clipper(scene, *source, variant.outputs);
+  const OwnScene own(context, mesh, variant.float32, seeds, tree);
+  const std::unique_ptr<Candidates> source = candidates.for_scene(own.scene);
+  Clipper clipper(own.scene, *source, variant.outputs);
   std::vector<std::uint32_t> pair_seed, pair_region(seeds.size(), 0);
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank) pair_seed.push_back(rank);
-  clipper.clip_with(rung, pair_seed, pair_region);
-  const std::vector<double> measures = read_measures(clipper, scene);
+  clipper.clip_with(capacity, pair_seed, pair_region);
+  const std::vector<double> measures = read_measures(clipper, own.scene);
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
     require_golden(*context, candidates.file(), variant, seeds.input[rank], measures[rank]);
 }

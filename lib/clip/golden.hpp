@@ -22,9 +22,9 @@ void require_golden(const cl::Context& context, std::string_view program, const 
                     std::uint32_t s, double measure);
 
 /// Clips two layers of seeds along each axis, whose cells are boxes known in closed form, with the
-/// program of `variant` (rung `rung` of the ladder).
+/// program of `variant` (number `capacity` of capacities()).
 /// \throw Error self_test_failed naming the device, the variant and the wrong figure
 void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates,
-                 const Variant& variant, std::size_t rung);
+                 const Variant& variant, std::size_t capacity);
 
 }  // namespace powercell

@@ -88,11 +88,9 @@ class OuterCells {
         seeds_(seeds),
         tree_(build_packed_tree(seeds_, threads)),
         domain_(extent.box(far_room)),
-        scene_(device.context(), domain_.mesh(), false),
-        known_(seeds_.size(), false) {
-    scene_.set_seeds(seeds_, tree_);
-    host_ = make_host_scene(scene_);
-  }
+        scene_(device.context(), domain_.mesh(), false, seeds_, tree_),
+        host_(make_host_scene(scene_.scene)),
+        known_(seeds_.size(), false) {}
 
   /// \param inside  per seed as given: its cell is known and does not leave the near box
   /// Appends rows of seed indices.
@@ -159,7 +157,7 @@ class OuterCells {
   const SeedSet& seeds_;
   PackedTree tree_;
   Domain domain_;
-  Scene scene_;
+  OwnScene scene_;
   HostScene host_;
   std::vector<bool> known_;
 };
@@ -200,7 +198,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   for (std::size_t i = 0; i < inside.size(); ++i)
     inside[i] = diagram.measures().status[i] == SeedStatus::ok && !leaves[i];
   std::vector<std::uint32_t> rows;
-  OuterCells(device, extent, diagram.state().seeds, threads).collect(inside, leaves, rows);
+  OuterCells(device, extent, diagram.state().input->seeds, threads).collect(inside, leaves, rows);
   return extend_dual(diagram.dual(), rows, rounded);
 }
 

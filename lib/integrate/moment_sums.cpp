@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
 
-cl::Kernel gather_kernel(const Scene& scene) {
+cl::Kernel gather_kernel(const DomainBuffers& domain) {
   Variant variant;
-  variant.dimension = scene.mesh().dimension;
-  variant.cell_dimension = scene.mesh().cell_dimension;
-  variant.float32 = scene.float32();
+  variant.dimension = domain.mesh().dimension;
+  variant.cell_dimension = domain.mesh().cell_dimension;
+  variant.float32 = domain.float32();
   variant.capacity = {1, 1};
-  return {scene.context(), scene.context()->program("integrate/gather.cl", variant.defines()), "gather"};
+  return {domain.context(), domain.context()->program("integrate/gather.cl", variant.defines()), "gather"};
 }
 
 /// Value `k` of reals of the device's precision.
@@ -36,17 +36,17 @@ double real_at(const std::byte* reals, std::size_t k, bool float32) {
 
 }  // namespace
 
-MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_measure, int threads)
-    : scene_(scene),
+MomentSums::MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double domain_measure, int threads)
+    : domain_(domain),
       seeds_(seeds),
       threads_(threads),
-      columns_(2 + static_cast<std::size_t>(scene.mesh().dimension)),
-      row_bytes_(columns_ * (scene.float32() ? sizeof(float) : sizeof(double))),
-      offset_(scene.context()),
-      before_(scene.context()),
-      device_sums_(scene.context()) {
+      columns_(2 + static_cast<std::size_t>(domain.mesh().dimension)),
+      row_bytes_(columns_ * (domain.float32() ? sizeof(float) : sizeof(double))),
+      offset_(domain.context()),
+      before_(domain.context()),
+      device_sums_(domain.context()) {
   const std::size_t n = seeds.input_count;
-  measures_.dimension = scene.mesh().dimension;
+  measures_.dimension = domain.mesh().dimension;
   measures_.domain_measure = domain_measure;
   resize_populated(measures_.mass, n, threads);
   resize_populated(measures_.centroid, n * static_cast<std::size_t>(measures_.dimension), threads,
@@ -77,7 +77,7 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
   before_.reserve(row_bytes_);
   if (goes_on) before_.write(open_.data(), row_bytes_);
   device_sums_.reserve(count * row_bytes_);
-  if (!gather_) gather_.emplace(gather_kernel(scene_));
+  if (!gather_) gather_.emplace(gather_kernel(domain_));
   gather_
       ->args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
              device_sums_)
@@ -86,15 +86,15 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
 
 void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
-  const bool float32 = scene_.float32();
+  const bool float32 = domain_.float32();
   constexpr std::size_t ahead = 16;
-  const double scale = scene_.frame().scale, unit = scene_.frame().unit(1);
+  const double scale = domain_.frame().scale, unit = domain_.frame().unit(1);
   // Step by step: the power of a long domain's size may be out of range where its measure is not.
   const auto unscaled = [&](double integral, int power) {
     for (; power > 0; --power) integral *= unit;
     return integral;
   };
-  const int power = scene_.mesh().cell_dimension;
+  const int power = domain_.mesh().cell_dimension;
   parallel_for(
       last - first < share_count ? 1 : threads_, last - first, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {

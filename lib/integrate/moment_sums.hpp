@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "lib/cl/program.hpp"
-#include "lib/scene/scene.hpp"
+#include "lib/scene/domain_buffers.hpp"
+#include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 
@@ -17,7 +18,7 @@ namespace powercell {
 class MomentSums {
  public:
   /// Every seed starts as hidden, or as duplicate. Keeps references to all but `domain_measure`.
-  MomentSums(const Scene& scene, const SeedSet& seeds, double domain_measure, int threads);
+  MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double domain_measure, int threads);
 
   /// Adds the pairs [begin, end), which are of the ranks [first, last]; the last one may go on in the next
   /// chunk, which begins with pair `end`. If this throws nothing has been added.
@@ -38,7 +39,7 @@ class MomentSums {
   /// \param sums  rows of the ranks from `first` on
   void set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums);
 
-  const Scene& scene_;
+  const DomainBuffers& domain_;
   const SeedSet& seeds_;
   int threads_;
   std::size_t columns_, row_bytes_;

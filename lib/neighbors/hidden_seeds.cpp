@@ -87,12 +87,12 @@ class HiddenSearch {
 
 std::vector<std::uint8_t> hidden_seeds(const Scene& scene) {
   std::vector<std::uint8_t> hidden = HiddenSearch(scene).ask(1);
-  hidden.resize(scene.seeds().size());
+  hidden.resize(scene.seeds.size());
   return hidden;
 }
 
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {
-  const SeedSet& seeds = scene.seeds();
+  const SeedSet& seeds = scene.seeds;
   const RegionMesh& mesh = scene.mesh();
   const bool surface = mesh.cell_dimension < mesh.dimension;
   if (surface && seeds.size() < seeds_a_region * mesh.region_count()) return {};

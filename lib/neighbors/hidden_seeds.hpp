@@ -9,7 +9,7 @@
 
 namespace powercell {
 
-/// For each rank of scene.seeds() 1 if it is certain that the seed has no cell in the box around the domain,
+/// For each rank of scene.seeds 1 if it is certain that the seed has no cell in the box around the domain,
 /// since a few seeds nearby beat it everywhere there (docs/mathematics.md, "Hidden seeds";
 /// kernels/neighbors/hidden.cl), else 0. \pre more than PackedTree::fan seeds   \throw Error opencl,
 /// out_of_device_memory, build_failed

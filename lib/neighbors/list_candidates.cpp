@@ -22,14 +22,14 @@ std::size_t initial_neighbors(const Options& options, int cell_dimension) {
 }  // namespace
 
 ListCandidates::ListCandidates(const Scene& scene, const Options& options)
-    : ListCandidates(scene, options, lift_heights(scene.seeds(), options.lift_eta, scene.frame())) {}
+    : ListCandidates(scene, options, lift_heights(scene.seeds, options.lift_eta, scene.frame())) {}
 
 ListCandidates::ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights)
     : scene_(scene),
       initial_(initial_neighbors(options, scene.mesh().cell_dimension)),
       twins_(options.twin_queries),
       threads_(thread_count(options.threads)),
-      index_(scene.seeds(), scene.frame().scale, heights),
+      index_(scene.seeds, scene.frame().scale, heights),
       lift_(scene.context()),
       neighbor_(scene.context()),
       active_list_(scene.context()),
@@ -45,7 +45,7 @@ ListCandidates::ListCandidates(const Scene& scene, const Options& options, const
 }
 
 std::size_t ListCandidates::neighbors(int round) const {
-  const std::size_t others = scene_.seeds().size() - 1;
+  const std::size_t others = scene_.seeds.size() - 1;
   return round > 40 ? others : std::min(others, initial_ << round);
 }
 
@@ -106,8 +106,8 @@ void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
   use_.entries += distinct_.size() * count_;
 }
 
-void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) {
-  kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), lift_, neighbor_,
+void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) const {
+  kernel.args_from(first, scene_.buffers.points, static_cast<cl_uint>(scene_.seeds.size()), lift_, neighbor_,
                    active_list_, static_cast<cl_uint>(count_), static_cast<cl_uint>(count_),
                    static_cast<cl_int>(twins_), list_use_);
 }

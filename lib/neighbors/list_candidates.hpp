@@ -6,7 +6,6 @@
 
 #include "lib/neighbors/candidates.hpp"
 #include "lib/neighbors/flann_index.hpp"
-#include "lib/scene/scene.hpp"
 
 namespace powercell {
 
@@ -28,7 +27,7 @@ class ListCandidates : public Candidates {
   std::string_view kernel() const override { return "clip_by_list_kernel"; }
   std::size_t most_pairs(int round) const override;
   void prepare(std::span<const std::uint32_t> ranks, int round) override;
-  void set_arguments(cl::Kernel& kernel, unsigned first) override;
+  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
   int outputs() const override;
   double host_seconds() const override { return host_seconds_; }
@@ -45,7 +44,7 @@ class ListCandidates : public Candidates {
   std::size_t neighbors(int round) const;  ///< length of a list in this round
   void take_in_use();                      ///< adds what the last launch wrote
 
-  const Scene& scene_;
+  const Scene scene_;
   std::size_t initial_;
   bool twins_;
   int threads_;

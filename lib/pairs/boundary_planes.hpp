@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/domain/region_mesh.hpp"
-#include "lib/neighbors/cell_planes.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
 #include "lib/pairs/cell_hull.hpp"
 #include "lib/regions/region_blocks.hpp"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "lib/neighbors/cell_walls.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
 #include "lib/pairs/wall_loops.hpp"
 
 namespace powercell::pairs {

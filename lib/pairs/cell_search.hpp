@@ -9,7 +9,7 @@
 
 #include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_hull.hpp"
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "lib/pairs/wall_loops.hpp"
 #include "lib/regions/region_blocks.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -64,7 +64,7 @@ struct CellsSearch {
   const std::function<bool(double)>& progress;
 };
 
-/// PairFinder::of_cells
+/// PairFinder::by_cells
 Pairs search_cells(const CellsSearch& search);
 
 }  // namespace powercell::pairs

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lib/primitives/scan.hpp"
-#include "lib/scene/scene.hpp"
+#include "lib/scene/domain_buffers.hpp"
 #include "lib/seeds/device_seeds.hpp"
 #include "lib/seeds/device_tree.hpp"
 
@@ -20,8 +20,8 @@ class DevicePairs {
   static constexpr std::uint32_t most_pairs = 0xffff0000u;
 
   /// Uploads the tree of the regions and builds the kernels; this waits.
-  /// \param scene  its regions are read, also in enqueue()
-  DevicePairs(const Scene& scene, const std::vector<std::string>& defines);
+  /// \param domain  its regions are read, also in enqueue()
+  DevicePairs(const DomainBuffers& domain, const std::vector<std::string>& defines);
 
   /// Enqueues the search. A domain of one region has all its pairs; of several, their number is read back,
   /// which waits for the queue, unless `most` says how many there is room for: of more, the last are left
@@ -38,7 +38,7 @@ class DevicePairs {
  private:
   /// The regions' packed tree, and the seed that owns the middle of each region and node.
   struct RegionTree {
-    RegionTree(const Scene& scene, const std::vector<std::string>& defines);
+    RegionTree(const DomainBuffers& domain, const std::vector<std::string>& defines);
     std::uint32_t count = 0;
     cl::Buffer<std::uint32_t> region;  ///< in curve order
     cl::RawBuffer low, high;           ///< seed_t: boxes, in curve order
@@ -52,7 +52,7 @@ class DevicePairs {
   void find(const DeviceSeeds& seeds, const DeviceTree& tree, std::uint32_t n, bool write);
   std::uint32_t read_number(std::uint32_t n) const;
 
-  const Scene& scene_;
+  const DomainBuffers& domain_;
   std::optional<RegionTree> regions_;   // for several regions
   std::optional<cl::Kernel> pair_all_;  // for one
   ExclusiveScan scan_;

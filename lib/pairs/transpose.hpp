@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 
 namespace powercell::pairs {
 

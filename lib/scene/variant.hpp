@@ -7,7 +7,8 @@
 
 namespace powercell {
 
-/// Capacities of one rung of the ladder; a piece that does not fit goes to the next, at last to the host.
+/// Room for one cell in a kernel's private memory. A piece that does not fit is clipped again with the next
+/// larger capacity, and at last on the host.
 struct Capacity {
   int vertices;
   int faces;
@@ -24,7 +25,7 @@ struct Variant {
   std::vector<std::string> defines() const;
 };
 
-/// The rungs for a cell dimension, small to large.
+/// The capacities for a cell dimension, small to large.
 /// 2D: white noise has 6 edges and seldom 14; a convex piece starts with up to 24.
 /// 3D: white noise has 15.5 faces and 27 vertices, in 10^6 cells at most about 40 and 76.
 const std::vector<Capacity>& capacities(int cell_dimension);

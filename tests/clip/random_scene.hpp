@@ -31,9 +31,7 @@ struct RandomScene {
       : domain(unit_box(dimension)),
         seeds(make_seed_set({dimension, values.first, values.second}, dimension, 1)),
         tree(build_packed_tree(seeds, 1)),
-        scene(context, domain.mesh(), float32) {
-    scene.set_seeds(seeds, tree);
-  }
+        own(context, domain.mesh(), float32, seeds, tree) {}
 
   static std::pair<std::vector<double>, std::vector<double>> random_values(int dimension, std::size_t n,
                                                                            double weights) {
@@ -49,7 +47,8 @@ struct RandomScene {
   Domain domain;
   SeedSet seeds;
   PackedTree tree;
-  Scene scene;
+  OwnScene own;
+  const Scene& scene = own.scene;
 };
 
 }  // namespace powercell::test

@@ -21,9 +21,8 @@ struct Found {
 
 std::vector<std::uint8_t> find(const Domain& domain, const SeedSet& seeds, bool float32) {
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(main_setups().front().device.context(), domain.mesh(), float32);
-  scene.set_seeds(seeds, tree);
-  return hidden_seeds(scene);
+  return hidden_seeds(
+      OwnScene(main_setups().front().device.context(), domain.mesh(), float32, seeds, tree).scene);
 }
 
 /// Checks that what is found is hidden by definition; counts.

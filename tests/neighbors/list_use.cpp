@@ -9,7 +9,6 @@
 #include "kernels/layout.h"
 #include "lib/clip/clipper.hpp"
 #include "lib/neighbors/list_candidates.hpp"
-#include "lib/pairs/enumerate.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 
@@ -22,13 +21,12 @@ ListUse count_use(const Device& device, const Domain& domain, const SeedArray& a
                   const Options& options) {
   const SeedSet seeds = make_seed_set(array.view(), domain.dimension(), 1);
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(device.context(), domain.mesh(), false);
-  scene.set_seeds(seeds, tree);
-  ListCandidates lists(scene, options);
+  const OwnScene own(device.context(), domain.mesh(), false, seeds, tree);
+  ListCandidates lists(own.scene, options);
   lists.count_use();
   std::vector<std::uint32_t> ranks(seeds.size());
   std::iota(ranks.begin(), ranks.end(), 0U);
-  Clipper(scene, lists, OUTPUT_MOMENTS).clip(ranks, std::vector<std::uint32_t>(seeds.size(), 0));
+  Clipper(own.scene, lists, OUTPUT_MOMENTS).clip(ranks, std::vector<std::uint32_t>(seeds.size(), 0));
   return lists.use();
 }
 

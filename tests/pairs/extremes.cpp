@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "tests/pairs/region_meshes.hpp"
 #include "tests/pairs/true_pairs.hpp"
 #include "tests/support/brute_force.hpp"
@@ -25,7 +25,7 @@ Enumerated enumerate(const RegionMesh& mesh, std::size_t n, WeightRange range) {
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, range, n, mesh.dimension, random);
   Enumerated all{make_seed_set(seeds.view(), mesh.dimension, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  all.pairs = PairFinder(mesh, 2).by_regions(all.seeds, build_packed_tree(all.seeds, 2));
   return all;
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("clusters far below the size of the regions that they straddle stay ch
     for (int k = 0; k < 2; ++k) seeds.coordinate(i, k) = 0.5 + 1e-7 * random.uniform(-1, 1);
   const RegionMesh mesh = square_of_triangles(1);
   Enumerated all{make_seed_set(seeds.view(), 2, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  all.pairs = PairFinder(mesh, 2).by_regions(all.seeds, build_packed_tree(all.seeds, 2));
   CHECK(all.pairs.region.size() < 20000 + 7 * 142);
   check_owners(mesh, all, 300);
 }
@@ -121,7 +121,7 @@ TEST_CASE("seeds far outside whose weights bring their cells into the domain") {
   const RegionMesh mesh = square_of_triangles(1);
   const auto start = std::chrono::steady_clock::now();
   Enumerated all{make_seed_set(seeds.view(), 2, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  all.pairs = PairFinder(mesh, 2).by_regions(all.seeds, build_packed_tree(all.seeds, 2));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   CHECK(seconds.count() < 30);  // pair by pair it took minutes
   CHECK(all.pairs.region.size() < 16000 + 4 * 127);
@@ -136,7 +136,7 @@ TEST_CASE("weights over six decades: nodes of mixed weights are refined, not giv
   for (double& w : seeds.weights) w = h * h * std::pow(10.0, random.uniform(-3, 3));
   const RegionMesh mesh = cube_surface(10);
   Enumerated all{make_seed_set(seeds.view(), 3, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  all.pairs = PairFinder(mesh, 2).by_regions(all.seeds, build_packed_tree(all.seeds, 2));
   // A few hundred heavy seeds share the 1200 triangles.
   CHECK(all.pairs.region.size() < 3 * mesh.region_count());
   check_owners(mesh, all, 300);
@@ -152,7 +152,8 @@ TEST_CASE("one region, no seeds, no regions") {
   CHECK(all.pairs.offset.back() == all.seeds.size());
 
   const SeedSet none = make_seed_set(SeedsView{2, {}, {}}, 2, 1);
-  const Pairs without_seeds = enumerate_pairs(square_of_triangles(2), none, build_packed_tree(none, 1), 1);
+  const Pairs without_seeds =
+      PairFinder(square_of_triangles(2), 1).by_regions(none, build_packed_tree(none, 1));
   CHECK(without_seeds.offset == std::vector<std::uint64_t>{0});
   CHECK(without_seeds.region.empty());
 
@@ -168,7 +169,7 @@ TEST_CASE("progress is told, and stops the work when asked") {
   const SeedSet set = make_seed_set(seeds.view(), 2, 1);
   const PackedTree tree = build_packed_tree(set, 1);
   double last = 0;
-  enumerate_pairs(mesh, set, tree, 1, [&](double fraction) {
+  PairFinder(mesh, 1).by_regions(set, tree, [&](double fraction) {
     CHECK(fraction > last);
     last = fraction;
     return true;
@@ -177,7 +178,7 @@ TEST_CASE("progress is told, and stops the work when asked") {
   for (const int threads : {1, 3}) {
     int calls = 0;
     try {
-      enumerate_pairs(mesh, set, tree, threads, [&](double) { return ++calls < 2; });
+      PairFinder(mesh, threads).by_regions(set, tree, [&](double) { return ++calls < 2; });
       // With more threads the caller may find fewer than two tasks to do.
       CHECK(threads > 1);
       CHECK(calls < 2);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "tests/pairs/region_meshes.hpp"
 #include "tests/pairs/true_pairs.hpp"
 
@@ -62,16 +62,16 @@ void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& e
       if (j != i) walls.neighbor.push_back(j);
   }
   walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
-  const Pairs pairs = PairFinder(mesh, 1).of_cells(set, all, walls, false);
+  const Pairs pairs = PairFinder(mesh, 1).by_cells(set, all, walls, false);
   check_rows(pairs, set.size());
   check_none_lost(as_set(pairs), expected);
-  const Pairs again = PairFinder(mesh, 3).of_cells(set, all, walls, false);
+  const Pairs again = PairFinder(mesh, 3).by_cells(set, all, walls, false);
   CHECK(again.offset == pairs.offset);
   CHECK(again.region == pairs.region);
 
   // Of others than those asked for the cells are whole.
   ranks.erase(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(ranks.size() / 2));
-  const Pairs half = PairFinder(mesh, 1).of_cells(set, all, walls, false);
+  const Pairs half = PairFinder(mesh, 1).by_cells(set, all, walls, false);
   check_rows(half, set.size());
   for (std::size_t i = 0; i < set.size() / 2; ++i) {
     REQUIRE(half.offset[i + 1] == half.offset[i] + 1);
@@ -85,7 +85,7 @@ void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& e
 double check(const RegionMesh& mesh, const SeedArray& seeds) {
   const SeedSet set = make_seed_set(seeds.view(), mesh.dimension, 1);
   const PackedTree tree = build_packed_tree(set, 1);
-  const Pairs pairs = enumerate_pairs(mesh, set, tree, 1);
+  const Pairs pairs = PairFinder(mesh, 1).by_regions(set, tree);
   check_rows(pairs, set.size());
 
   const PairSet expected = true_pairs(mesh, set);
@@ -94,7 +94,7 @@ double check(const RegionMesh& mesh, const SeedArray& seeds) {
   REQUIRE(!expected.empty());
 
   for (const int threads : {2, 5}) {
-    const Pairs again = enumerate_pairs(mesh, set, tree, threads);
+    const Pairs again = PairFinder(mesh, threads).by_regions(set, tree);
     CHECK(again.offset == pairs.offset);
     CHECK(again.region == pairs.region);
   }

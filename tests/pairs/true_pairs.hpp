@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 
 namespace powercell::test {
 

@@ -1,11 +1,10 @@
-#include "lib/diagram/whole_cells.hpp"
+#include "lib/diagram/unrestricted.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "lib/base/threads.hpp"
-#include "lib/regions/region_locator.hpp"
 
 namespace powercell {
 namespace {
@@ -23,16 +22,17 @@ enum class Place : unsigned char { inside, outside, unclear };
 /// Tells where cells lie by a point near the centroid (docs/mathematics.md, "Cells inside the domain").
 class Places {
  public:
-  Places(const RegionMesh& mesh, PairFinder& finder, bool float32)
-      : dimension_(mesh.dimension),
-        error_(moment_errors * (float32 ? 0x1p-24 : 0x1p-53)),
-        locator_(finder.locator()) {
+  explicit Places(const Setup& setup)
+      : dimension_(setup.domain.dimension()),
+        error_(moment_errors * (setup.float32() ? 0x1p-24 : 0x1p-53)),
+        locator_(setup.pairs.locator()) {
+    const RegionMesh& mesh = setup.domain.mesh();
     double extent = 0, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       extent = std::max(extent, mesh.high[k] - mesh.low[k]);
       reach = std::max({reach, std::abs(mesh.low[k]), std::abs(mesh.high[k])});
     }
-    least_radius_ = std::max((float32 ? least_radius_float : least_radius_double) * extent,
+    least_radius_ = std::max((setup.float32() ? least_radius_float : least_radius_double) * extent,
                              64 * std::numeric_limits<double>::epsilon() * reach);
   }
 
@@ -72,17 +72,17 @@ class Places {
 
 }  // namespace
 
-std::vector<std::uint32_t> settle_whole_cells(const RegionMesh& mesh, PairFinder& finder, const Pairs& pairs,
-                                              const SeedSet& seeds, bool float32, int threads,
-                                              Measures& measures) {
-  const Places places(mesh, finder, float32);
-  const auto d = static_cast<std::size_t>(mesh.dimension);
+std::vector<std::uint32_t> settle_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
+                                                     const Pairs& pairs, Measures& measures) {
+  const Places places(setup);
+  const std::size_t container = setup.domain.region_count();
+  const auto d = static_cast<std::size_t>(seeds.dimension);
   std::vector<Place> place(seeds.size(), Place::inside);
-  parallel_for(threads, seeds.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_for(setup.threads, seeds.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {
       const std::uint64_t pair = pairs.offset[rank];
       const std::size_t i = seeds.input[rank];
-      if (pair == pairs.offset[rank + 1] || pairs.region[pair] < mesh.region_count()) continue;
+      if (pair == pairs.offset[rank + 1] || pairs.region[pair] < container) continue;
       const bool cut = std::binary_search(pairs.planes.rank.begin(), pairs.planes.rank.end(), rank);
       if (cut) place[rank] = Place::unclear;
       if (!(measures.mass[i] > 0)) continue;

@@ -86,7 +86,7 @@ TEST_CASE("cells of any number of faces come out whole") {
     int dimension, around;
     bool on_host;
   };
-  // Beyond the first rung, beyond the second, beyond 255 and beyond the host's first try.
+  // Beyond the first capacity, beyond the second, beyond 255 and beyond the host's first try.
   for (const Case c : {Case{2, 50, false}, Case{2, 200, true}, Case{2, 1500, true}, Case{3, 60, false},
                        Case{3, 300, true}, Case{3, 1200, true}}) {
     CAPTURE(c.dimension);
