@@ -1,6 +1,7 @@
 #include "bench/paper/list_use.hpp"
 
 #include "kernels/layout.h"
+#include "lib/base/threads.hpp"
 #include "lib/clip/clipper.hpp"
 #include "lib/diagram/state.hpp"
 
