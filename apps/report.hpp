@@ -32,7 +32,7 @@ struct RunReport {
 /// Fills in everything but the seconds of reading and writing and the files. Computes the measures.
 RunReport report_of(Diagram& diagram);
 
-/// The keys that programs may rely on are written down in README.md.
+/// The keys that programs may rely on are written down in docs/guide.md.
 nlohmann::json as_json(const RunReport& report);
 
 /// Indented. Names of files may be no UTF-8: what is not is replaced by U+FFFD.
