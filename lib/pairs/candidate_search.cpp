@@ -18,14 +18,6 @@ constexpr std::size_t enough_for_box = 64;
 // Splits in a row that may fail to thin out the seeds in question before splitting is given up.
 constexpr int most_failures = 5;
 
-template <int D>
-double radius(const Part<D>& part, const Point<D>& centroid) {
-  double most = 0;
-  for (std::size_t v = 0; v < part.corners; ++v)
-    most = std::max(most, squared_distance<D>(part.corner[v], centroid));
-  return std::sqrt(most);
-}
-
 }  // namespace
 
 template <int D>
@@ -140,7 +132,7 @@ void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
 template <int D>
 void CandidateSearch<D>::refine(Step& step, const Frontier& from, const Testers& known, std::size_t enough,
                                 bool settle) {
-  step.bounds = PowerBounds(reach_, radius<D>(step.part, step.part.centroid()));
+  step.bounds = PowerBounds(reach_, step.part.radius());
   step.frontier.clear();
   step.open = 0;
   choose_testers(step, from, known);

@@ -9,6 +9,7 @@
 #include <powercell/error.hpp>
 
 #include "lib/base/threads.hpp"
+#include "lib/base/vectors.hpp"
 
 namespace powercell::pairs {
 namespace {
@@ -91,17 +92,11 @@ bool CellSearch::beyond_a_facet(std::uint32_t region) const {
     }
   }
   if (mesh_.shape != RegionShape::tetrahedron) return false;
-  constexpr std::uint32_t facet_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  for (const auto& facet : facet_corner) {
-    const double *a = corner(facet[0]), *b = corner(facet[1]), *c = corner(facet[2]);
-    double s[3], t[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      s[k] = b[k] - a[k];
-      t[k] = c[k] - a[k];
-    }
-    const double outward[3] = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2],
-                               s[0] * t[1] - s[1] * t[0]};
-    if (parted_along(outward, region)) return true;
+  for (const auto& facet : tetrahedron_facet) {
+    const double* a = corner(facet[0]);
+    const auto outward =
+        cross(difference<double>(corner(facet[1]), a), difference<double>(corner(facet[2]), a));
+    if (parted_along(outward.data(), region)) return true;
   }
   return false;
 }

@@ -38,14 +38,6 @@ void without_excess(std::size_t count, const std::vector<double>& excess, std::v
   place.resize(kept);
 }
 
-template <int D>
-double radius(const Part<D>& part, const Point<D>& centroid) {
-  double most = 0;
-  for (std::size_t v = 0; v < part.corners; ++v)
-    most = std::max(most, squared_distance<D>(part.corner[v], centroid));
-  return std::sqrt(most);
-}
-
 }  // namespace
 
 template <int D>
@@ -107,7 +99,7 @@ typename ListSearch<D>::Source ListSearch<D>::source_of(const Level& level) {
 template <int D>
 void ListSearch<D>::search(const Part<D>& part, std::span<const CornerValues> known) {
   if (seeds_->size() == 0) return;
-  bounds_ = PowerBounds(reach_, radius<D>(part, part.centroid()));
+  bounds_ = PowerBounds(reach_, part.radius());
   root_.part = part;
   narrow_to(all_, known, root_);
   visit(root_, 0, 0);

@@ -42,6 +42,13 @@ struct Part {
     for (double& x : sum) x /= static_cast<double>(corners);
     return sum;
   }
+  /// The largest distance of a corner from the centroid.
+  double radius() const {
+    const Point<D> middle = centroid();
+    double most = 0;
+    for (std::size_t v = 0; v < corners; ++v) most = std::max(most, squared_distance<D>(corner[v], middle));
+    return std::sqrt(most);
+  }
 };
 
 namespace detail {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "lib/base/vectors.hpp"
 #include "lib/domain/region_mesh.hpp"
 #include "lib/pairs/part.hpp"
 
@@ -65,12 +66,8 @@ class RegionInterior {
         const Point<D>& a = c[(k + 1) % 4];
         const Point<D>& b = c[(k + 2) % 4];
         const Point<D>& e = c[(k + 3) % 4];
-        const Point<D> s = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-        const Point<D> t = {e[0] - a[0], e[1] - a[1], e[2] - a[2]};
-        Point<D> normal = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
-        double side = 0;  // of the corner opposite the face
-        for (std::size_t i = 0; i < 3; ++i) side += normal[i] * (c[k][i] - a[i]);
-        if (side < 0)
+        Point<D> normal = cross(b - a, e - a);
+        if (dot(normal, c[k] - a) < 0)  // the corner opposite the face
           for (double& x : normal) x = -x;
         add(normal, a);
       }

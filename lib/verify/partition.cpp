@@ -66,10 +66,9 @@ class Gradients {
 
   /// A third of the area vector of the facet opposite, turned towards the corner.
   void add_tetrahedron(const std::uint32_t* corner) {
-    constexpr std::array<std::array<int, 3>, 4> opposite{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto [a, b, c] = opposite[k];
-      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[b]), edge(corner[a], corner[c])));
+      const auto& [a, b, c] = tetrahedron_facet[k];
+      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[c]), edge(corner[a], corner[b])));
     }
   }
 
