@@ -6,7 +6,6 @@
 
 #include "lib/base/threads.hpp"
 #include "lib/base/vector_copies.hpp"
-#include "lib/collect/sort_row.hpp"
 #include "lib/collect/walls.hpp"
 
 namespace powercell {

@@ -1,5 +1,3 @@
-#include "lib/collect/sort_row.hpp"
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "lib/base/vector_copies.hpp"
+#include "lib/collect/walls.hpp"
 
 namespace powercell {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
-#include "lib/collect/sort_row.hpp"
 
 namespace powercell {
 namespace {

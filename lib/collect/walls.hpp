@@ -55,6 +55,11 @@ class WallRows {
   Memory memory_;
 };
 
+/// Sorts `count` keys below 2^31 ascending into `sorted_key`, and the values with them; equal keys keep their
+/// order. Returns whether there are equal keys. Input and output must not overlap.
+bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
+              double* sorted_value);
+
 class WallCollector {
  public:
   WallCollector(std::size_t ranks, int threads, WallRows::Memory memory = {});

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/pairs/exclusion.hpp"
-#include "lib/pairs/frontier.hpp"
 #include "lib/pairs/list_search.hpp"
 #include "lib/pairs/local_tree.hpp"
 #include "lib/pairs/node_search.hpp"

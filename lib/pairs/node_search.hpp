@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "lib/pairs/frontier.hpp"
 #include "lib/pairs/local_tree.hpp"
 #include "lib/pairs/part.hpp"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/pairs/pair_finder.hpp"
-#include "lib/pairs/transpose.hpp"
 #include "lib/regions/region_groups.hpp"
 
 namespace powercell::pairs {
@@ -20,6 +19,12 @@ struct RegionSearch {
   const PackedTree& tree;
   int threads;
   const std::function<bool(double)>& progress;
+};
+
+/// The candidate ranks of one region, ascending; memory owned elsewhere.
+struct RankList {
+  const std::uint32_t* first = nullptr;
+  std::uint32_t count = 0;
 };
 
 /// The candidates found; lists point into memory of the struct.

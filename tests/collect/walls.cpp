@@ -9,7 +9,6 @@
 #include <random>
 
 #include "kernels/layout.h"
-#include "lib/collect/sort_row.hpp"
 
 using namespace powercell;
 
