@@ -30,10 +30,10 @@ struct CellWalls {
   }
 };
 
-/// The plane of a boundary facet, relative to a seed: the domain is where normal . y <= height.
+/// The plane of a boundary facet, relative to a seed: the domain is where normal . y <= offset.
 struct LocalPlane {
   std::array<double, 3> normal;  ///< of unit length
-  double height;
+  double offset;
   double error;  ///< bound of its distance from the true plane within the cell
 };
 

@@ -12,13 +12,13 @@ namespace {
 std::vector<double> plane_rows(const CellPlanes& planes, double scale) {
   std::vector<double> rows;
   for (const LocalPlane& plane : planes.plane) {
-    const double height = scale * plane.height, length = std::max(std::abs(height), 0x1p-20);
+    const double offset = scale * plane.offset, length = std::max(std::abs(offset), 0x1p-20);
     double q2 = 0;
     for (const double n : plane.normal) {
       rows.push_back(n * length);
       q2 += rows.back() * rows.back();
     }
-    rows.push_back(2 * height * length - q2);
+    rows.push_back(2 * offset * length - q2);
     rows.push_back(scale * plane.error);
   }
   return rows;

@@ -37,7 +37,7 @@ bool has_vertex_inside(const CellHull& cell, std::span<const LocalPlane> planes)
   for (std::size_t v = 0; v < count; ++v) {
     const Vector y = {cell.vertex[v], cell.vertex[count + v], cell.vertex[2 * count + v]};
     if (std::all_of(planes.begin(), planes.end(),
-                    [&](const LocalPlane& p) { return dot(p.normal, y) < p.height - 4 * cell.error; }))
+                    [&](const LocalPlane& p) { return dot(p.normal, y) < p.offset - 4 * cell.error; }))
       return true;
   }
   return false;
@@ -83,11 +83,12 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
 }
 
 const double* PlaneSearch::corner(std::uint32_t facet, std::size_t k) const {
-  return &b_.mesh_.vertices[std::size_t{b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]} * 3];
+  return &boundary_.mesh_
+              .vertices[std::size_t{boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]} * 3];
 }
 
 std::uint32_t PlaneSearch::vertex(std::uint32_t facet, std::size_t k) const {
-  return b_.vertex_[b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]];
+  return boundary_.vertex_[boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]];
 }
 
 /// Whether a facet meets the box of the cell: a direction among these thirteen parts two convex bodies, or
@@ -101,7 +102,7 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
     for (std::size_t c = 0; c < 3; ++c) x[c][k] = corner(facet, c)[k] - seed[k] - middle[k];
   }
   bool clear = true;
-  const auto parted = [&](const Vector& axis) {
+  const auto separated = [&](const Vector& axis) {
     double low = dot(axis, x[0]), high = low, radius = 0, terms = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       low = std::min(low, dot(axis, x[c]));
@@ -118,17 +119,17 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
   for (std::size_t k = 0; k < 3; ++k) {
     Vector axis{};
     axis[k] = 1;
-    if (parted(axis)) return Meeting::none;
+    if (separated(axis)) return Meeting::none;
   }
   const Vector edge[3] = {difference<double>(x[1].data(), x[0].data()),
                           difference<double>(x[2].data(), x[1].data()),
                           difference<double>(x[0].data(), x[2].data())};
-  if (parted(cross(edge[0], edge[1]))) return Meeting::none;
+  if (separated(cross(edge[0], edge[1]))) return Meeting::none;
   for (const Vector& e : edge)
     for (std::size_t k = 0; k < 3; ++k) {
       Vector axis{};
       axis[k] = 1;
-      if (parted(cross(axis, e))) return Meeting::none;
+      if (separated(cross(axis, e))) return Meeting::none;
     }
   return clear ? Meeting::some : Meeting::unclear;
 }
@@ -136,15 +137,15 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
 /// Returns whether all facets are clear.
 bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* seed, const CellHull& cell) {
   if (level == 0) {
-    const std::uint32_t facet = b_.groups_.order[group];
+    const std::uint32_t facet = boundary_.groups_.order[group];
     const Meeting meeting = meets_box(facet, seed, cell);
     if (meeting == Meeting::some) near_.push_back(facet);
     return meeting != Meeting::unclear;
   }
-  const std::size_t below = b_.groups_.level[level - 1].low.size() / 3;
+  const std::size_t below = boundary_.groups_.level[level - 1].low.size() / 3;
   const std::size_t members = std::min(RegionGroups::fan, below - group * RegionGroups::fan);
   Lanes gap;
-  b_.blocks_.find_gaps(level - 1, group, seed, cell.low.data(), cell.high.data(), gap);
+  boundary_.blocks_.find_gaps(level - 1, group, seed, cell.low.data(), cell.high.data(), gap);
   for (std::size_t lane = 0; lane < members; ++lane)
     // Boxes that touch to rounding are looked at.
     if (!(gap[lane] > cell.error) && !gather(level - 1, group * RegionGroups::fan + lane, seed, cell))
@@ -156,7 +157,7 @@ bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* see
 void PlaneSearch::gather_vertices(std::uint32_t plane) {
   in_plane_.clear();
   for (const std::uint32_t f : near_)
-    if (b_.plane_[f] == plane)
+    if (boundary_.plane_[f] == plane)
       for (std::size_t k = 0; k < 3; ++k) in_plane_.push_back(vertex(f, k));
   std::sort(in_plane_.begin(), in_plane_.end());
 }
@@ -164,9 +165,9 @@ void PlaneSearch::gather_vertices(std::uint32_t plane) {
 /// Where a corner is, after gather_vertices(plane).
 int PlaneSearch::side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const {
   if (std::binary_search(in_plane_.begin(), in_plane_.end(), vertex(facet, k))) return 0;
-  const std::uint32_t* a = &b_.mesh_.region_vertex[std::size_t{plane} * 3];
-  return side_of_plane(b_.mesh_.vertices, a[0], a[1], a[2],
-                       b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
+  const std::uint32_t* a = &boundary_.mesh_.region_vertex[std::size_t{plane} * 3];
+  return side_of_plane(boundary_.mesh_.vertices, a[0], a[1], a[2],
+                       boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
 }
 
 /// Whether each facet is inside the planes of all others, and in none of them.
@@ -175,7 +176,7 @@ bool PlaneSearch::convex_around() {
   for (const std::uint32_t plane : plane_) {
     gather_vertices(plane);
     for (const std::uint32_t facet : near_) {
-      if (b_.plane_[facet] == plane) continue;
+      if (boundary_.plane_[facet] == plane) continue;
       bool within = true;
       for (std::size_t k = 0; k < 3; ++k) {
         const int s = side(plane, facet, k);
@@ -195,7 +196,7 @@ LocalPlane PlaneSearch::plane_of(std::uint32_t facet, const double* seed, double
   const double size = norm(n);
   LocalPlane plane;
   for (std::size_t k = 0; k < 3; ++k) plane.normal[k] = n[k] / size;
-  plane.height = dot(plane.normal, y);
+  plane.offset = dot(plane.normal, y);
   reach += std::abs(y[0]) + std::abs(y[1]) + std::abs(y[2]);
   plane.error = 16 * std::numeric_limits<double>::epsilon() * reach * (norm(a) * norm(b) / size);
   return plane;
@@ -203,14 +204,14 @@ LocalPlane PlaneSearch::plane_of(std::uint32_t facet, const double* seed, double
 
 PlaneSearch::Found PlaneSearch::find(const double* seed, const CellHull& cell,
                                      std::vector<LocalPlane>& planes) {
-  if (cell.empty() || b_.plane_.empty()) return Found::unclear;
+  if (cell.empty() || boundary_.plane_.empty()) return Found::unclear;
   near_.clear();
   plane_.clear();
-  if (!gather(b_.groups_.level.size() - 1, 0, seed, cell)) return Found::unclear;
+  if (!gather(boundary_.groups_.level.size() - 1, 0, seed, cell)) return Found::unclear;
   for (const std::uint32_t facet : near_)
-    if (std::find(plane_.begin(), plane_.end(), b_.plane_[facet]) == plane_.end()) {
+    if (std::find(plane_.begin(), plane_.end(), boundary_.plane_[facet]) == plane_.end()) {
       if (plane_.size() == most_planes) return Found::unclear;
-      plane_.push_back(b_.plane_[facet]);
+      plane_.push_back(boundary_.plane_[facet]);
     }
   if (plane_.empty()) return Found::nothing;
   if (!convex_around()) return Found::unclear;
@@ -221,7 +222,7 @@ PlaneSearch::Found PlaneSearch::find(const double* seed, const CellHull& cell,
     LocalPlane best{};
     best.error = std::numeric_limits<double>::infinity();
     for (const std::uint32_t facet : near_) {
-      if (b_.plane_[facet] != first) continue;
+      if (boundary_.plane_[facet] != first) continue;
       const LocalPlane plane = plane_of(facet, seed, reach);
       if (plane.error < best.error) best = plane;
     }

@@ -32,7 +32,7 @@ class BoundaryPlanes {
 /// One worker's search with its scratch memory; not thread-safe.
 class PlaneSearch {
  public:
-  explicit PlaneSearch(const BoundaryPlanes& boundary) : b_(boundary) {}
+  explicit PlaneSearch(const BoundaryPlanes& boundary) : boundary_(boundary) {}
 
   enum class Found {
     nothing,  ///< the cell does not meet the boundary
@@ -53,7 +53,7 @@ class PlaneSearch {
   int side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const;
   LocalPlane plane_of(std::uint32_t facet, const double* seed, double reach) const;
 
-  const BoundaryPlanes& b_;
+  const BoundaryPlanes& boundary_;
   std::vector<std::uint32_t> near_;      // facets that meet the box of the cell
   std::vector<std::uint32_t> plane_;     // planes of those
   std::vector<std::uint32_t> in_plane_;  // ascending: vertices of those in the plane that is looked at

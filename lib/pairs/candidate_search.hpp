@@ -47,7 +47,7 @@ class CandidateSearch {
     PowerBounds bounds;
     Testers testers;
     Frontier frontier;
-    std::uint64_t open = 0;  // seeds below entries that are not settled
+    std::uint64_t undecided = 0;  // seeds below entries that are not accepted
   };
   struct Halves {
     Step first, second;
@@ -59,12 +59,11 @@ class CandidateSearch {
   void search(const Frontier& from);
   void gather(const Frontier& frontier, SeedList<D>& list);
   void visit(Step& step, std::size_t depth, int failures);
-  void refine(Step& step, const Frontier& from, const Testers& known, std::size_t enough, bool settle);
+  void refine(Step& step, const Frontier& from, const Testers& known, std::size_t min_entries);
   void choose_testers(Step& step, const Frontier& from, const Testers& known);
-  void take(Step& step, Entry entry, bool settle, bool fresh);
-  void expand(Step& step, std::size_t enough, bool settle);
+  void keep_unless_excluded(Step& step, Entry entry, bool is_new);
+  void expand(Step& step, std::size_t min_entries);
   void finish(Step& step);
-  void emit(RankRange range) { found_.push_back(range); }
 
   const RegionMesh& mesh_;
   const SeedSet& seeds_;

@@ -19,25 +19,25 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Of the terms of a scalar product with coordinates relative to the seed.
 constexpr double rounding = 0x1p-48;
 
-loops::Wall wall_of(const SeedSet& seeds, std::uint32_t i, std::uint32_t j) {
+loops::Bisector bisector_of(const SeedSet& seeds, std::uint32_t i, std::uint32_t j) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
-  loops::Wall wall{};
+  loops::Bisector bisector{};
   double q2 = 0;
   for (std::size_t k = 0; k < d; ++k) {
-    wall.q[k] = seeds.positions[j * d + k] - seeds.positions[i * d + k];
-    q2 += wall.q[k] * wall.q[k];
+    bisector.q[k] = seeds.positions[j * d + k] - seeds.positions[i * d + k];
+    q2 += bisector.q[k] * bisector.q[k];
   }
   const double dw = seeds.weights[i] - seeds.weights[j];
-  wall.level = q2 + dw;
-  wall.terms = q2 + std::abs(dw);
-  return wall;
+  bisector.offset = q2 + dw;
+  bisector.magnitude = q2 + std::abs(dw);
+  return bisector;
 }
 
 }  // namespace
 
-void CellSearch::set_walls(std::uint32_t rank) {
-  walls_.clear();
-  for (const std::uint32_t j : cells_.of(rank)) walls_.push_back(wall_of(seeds_, rank, j));
+void CellSearch::set_bisectors(std::uint32_t rank) {
+  bisectors_.clear();
+  for (const std::uint32_t j : cells_.of(rank)) bisectors_.push_back(bisector_of(seeds_, rank, j));
 }
 
 void CellSearch::find(std::uint32_t rank, const CellHull& hull, std::vector<std::uint32_t>& regions) {
@@ -46,9 +46,9 @@ void CellSearch::find(std::uint32_t rank, const CellHull& hull, std::vector<std:
   const std::size_t begin = regions.size();
   found_ = &regions;
   seed_ = &seeds_.positions[std::size_t{rank} * static_cast<std::size_t>(seeds_.dimension)];
-  set_walls(rank);
+  set_bisectors(rank);
   hull_ = &hull;
-  visit(groups_.level.size() - 1, 0, 0, walls_.size());
+  visit(groups_.level.size() - 1, 0, 0, bisectors_.size());
   std::sort(regions.begin() + static_cast<std::ptrdiff_t>(begin), regions.end());
 }
 
@@ -58,7 +58,7 @@ void CellSearch::add_all(std::size_t level, std::size_t group) {
     found_->push_back(groups_.order[k]);
 }
 
-bool CellSearch::parted_along(const double* direction, std::uint32_t region) const {
+bool CellSearch::separated_along(const double* direction, std::uint32_t region) const {
   const auto d = static_cast<std::size_t>(seeds_.dimension);
   double farthest = -infinite, terms = 0, size = 0;
   for (std::uint32_t slot = mesh_.region_offset[region]; slot < mesh_.region_offset[region + 1]; ++slot) {
@@ -88,7 +88,7 @@ bool CellSearch::beyond_a_facet(std::uint32_t region) const {
     for (std::uint32_t k = 0; k < corners; ++k) {
       const double *a = corner(k), *b = corner(k + 1 == corners ? 0 : k + 1);
       const double outward[2] = {b[1] - a[1], a[0] - b[0]};
-      if (parted_along(outward, region)) return true;
+      if (separated_along(outward, region)) return true;
     }
   }
   if (mesh_.shape != RegionShape::tetrahedron) return false;
@@ -96,7 +96,7 @@ bool CellSearch::beyond_a_facet(std::uint32_t region) const {
     const double* a = corner(facet[0]);
     const auto outward =
         cross(difference<double>(corner(facet[1]), a), difference<double>(corner(facet[2]), a));
-    if (parted_along(outward.data(), region)) return true;
+    if (separated_along(outward.data(), region)) return true;
   }
   return false;
 }
@@ -109,9 +109,9 @@ void CellSearch::visit_regions(std::size_t group, std::size_t members, std::size
   Lanes gap, beyond;
   blocks_.find_gaps(0, group, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
-  reach_.resize(std::max(reach_.size(), (last - first) * fan));
-  loops::test_corners(&walls_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner], corners,
-                      seed_, beyond, reach_.data());
+  greatest_.resize(std::max(greatest_.size(), (last - first) * fan));
+  loops::test_corners(&bisectors_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner],
+                      corners, seed_, beyond, greatest_.data());
   for (std::size_t lane = 0; lane < members; ++lane) {
     const std::uint32_t region = groups_.order[group * fan + lane];
     if (gap[lane] > 0 || beyond[lane] > 0) continue;
@@ -129,24 +129,24 @@ void CellSearch::visit(std::size_t level, std::size_t group, std::size_t first, 
   const Lanes* const box = blocks_.boxes(level - 1, group);
   blocks_.find_gaps(level - 1, group, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
-  reach_.resize(std::max(reach_.size(), count * fan));
-  loops::test_boxes(&walls_[first], count, seeds_.dimension, box, seed_, beyond, reach_.data());
-  // Each member has its walls behind all others before it goes down, as reach_ is used again there.
+  greatest_.resize(std::max(greatest_.size(), count * fan));
+  loops::test_boxes(&bisectors_[first], count, seeds_.dimension, box, seed_, beyond, greatest_.data());
+  // Each member has its walls behind all others before it goes down, as greatest_ is used again there.
   std::array<std::size_t, fan + 1> end;
-  end[0] = walls_.size();
+  end[0] = bisectors_.size();
   for (std::size_t lane = 0; lane < members; ++lane) {
     beyond[lane] = std::max(beyond[lane], gap[lane]);
     if (!(beyond[lane] > 0))
-      for (std::size_t w = 0; w < count; ++w)
-        if (!(reach_[w * fan + lane] < 0)) {
-          const loops::Wall wall = walls_[first + w];
-          walls_.push_back(wall);
+      for (std::size_t j = 0; j < count; ++j)
+        if (!(greatest_[j * fan + lane] < 0)) {
+          const loops::Bisector bisector = bisectors_[first + j];
+          bisectors_.push_back(bisector);
         }
-    end[lane + 1] = walls_.size();
+    end[lane + 1] = bisectors_.size();
   }
   for (std::size_t lane = 0; lane < members; ++lane)
     if (!(beyond[lane] > 0)) visit(level - 1, group * fan + lane, end[lane], end[lane + 1]);
-  walls_.resize(end[0]);
+  bisectors_.resize(end[0]);
 }
 
 namespace {
@@ -162,7 +162,7 @@ struct Task {
 
 class Worker {
  public:
-  explicit Worker(const CellsSearch& search)
+  explicit Worker(const CellSearchInput& search)
       : s_(search), cells_(search.mesh, search.groups, search.blocks, search.seeds, search.walls) {
     if (search.boundary != nullptr) planes_.emplace(*search.boundary);
   }
@@ -188,7 +188,7 @@ class Worker {
     return true;
   }
 
-  const CellsSearch& s_;
+  const CellSearchInput& s_;
   CellSearch cells_;
   std::optional<PlaneSearch> planes_;
   CellHull hull_;
@@ -202,7 +202,7 @@ auto row_of(const Values& values, const std::vector<std::uint64_t>& end, std::si
 }
 
 /// Pairs of all ranks in order: of those searched for what was found, of the others one with the last region.
-Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
+Pairs gather(const CellSearchInput& search, const std::vector<Task>& tasks) {
   const auto around = static_cast<std::uint32_t>(search.mesh.region_count());
   const std::vector<std::uint32_t>& ranks = search.ranks.ranks;
   std::uint64_t total = search.seeds.size() - ranks.size();
@@ -210,12 +210,12 @@ Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
   Pairs pairs;
   pairs.offset.reserve(search.seeds.size() + 1);
   pairs.region.reserve(total);
-  const auto whole_up_to = [&](std::size_t rank) {
+  const auto fill_up_to = [&](std::size_t rank) {
     for (; pairs.offset.size() < rank; pairs.region.push_back(around))
       pairs.offset.push_back(pairs.region.size());
   };
   for (std::size_t at = 0; at < ranks.size(); ++at) {
-    whole_up_to(ranks[at]);
+    fill_up_to(ranks[at]);
     pairs.offset.push_back(pairs.region.size());
     const Task& task = tasks[at / task_size];
     const auto regions = row_of(task.regions, task.end, at % task_size);
@@ -226,14 +226,14 @@ Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
     pairs.planes.plane.insert(pairs.planes.plane.end(), planes.begin(), planes.end());
     pairs.planes.end.push_back(pairs.planes.plane.size());
   }
-  whole_up_to(search.seeds.size());
+  fill_up_to(search.seeds.size());
   pairs.offset.push_back(pairs.region.size());
   return pairs;
 }
 
 }  // namespace
 
-Pairs search_cells(const CellsSearch& search) {
+Pairs search_cells(const CellSearchInput& search) {
   const std::span<const std::uint32_t> ranks = search.ranks.ranks;
   std::vector<Task> tasks((ranks.size() + task_size - 1) / task_size);
   std::deque<Worker> workers;

@@ -30,14 +30,14 @@ class CellSearch {
   void find(std::uint32_t rank, const CellHull& hull, std::vector<std::uint32_t>& regions);
 
  private:
-  void set_walls(std::uint32_t rank);
+  void set_bisectors(std::uint32_t rank);
   /// What the group has, cut by the walls [first, last) of walls_.
   void visit(std::size_t level, std::size_t group, std::size_t first, std::size_t last);
   void visit_regions(std::size_t group, std::size_t members, std::size_t first, std::size_t last);
   void add_all(std::size_t level, std::size_t group);
   bool beyond_a_facet(std::uint32_t region) const;
   /// Whether the region lies on the side of this direction where no vertex of the cell is.
-  bool parted_along(const double* direction, std::uint32_t region) const;
+  bool separated_along(const double* direction, std::uint32_t region) const;
 
   const RegionMesh& mesh_;
   const RegionGroups& groups_;
@@ -45,14 +45,14 @@ class CellSearch {
   const SeedSet& seeds_;
   const CellWalls& cells_;
   const double* seed_ = nullptr;
-  std::vector<loops::Wall> walls_;  // those of the cell, then those of each group on the way down
+  std::vector<loops::Bisector> bisectors_;  // those of the cell, then those of each group on the way down
   const CellHull* hull_ = nullptr;
-  std::vector<double> reach_;
+  std::vector<double> greatest_;
   std::vector<std::uint32_t>* found_ = nullptr;
 };
 
 /// What a search is about; references to what outlives it.
-struct CellsSearch {
+struct CellSearchInput {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const RegionBlocks& blocks;
@@ -65,6 +65,6 @@ struct CellsSearch {
 };
 
 /// PairFinder::by_cells
-Pairs search_cells(const CellsSearch& search);
+Pairs search_cells(const CellSearchInput& search);
 
 }  // namespace powercell::pairs

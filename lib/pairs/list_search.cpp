@@ -106,7 +106,7 @@ void ListSearch<D>::search(const Part<D>& part, std::span<const CornerValues> kn
 }
 
 template <int D>
-void ListSearch<D>::take_marked(std::vector<std::uint32_t>& ranks) const {
+void ListSearch<D>::append_marked(std::vector<std::uint32_t>& ranks) const {
   for (std::size_t s = 0; s < marked_.size(); ++s)
     if (marked_[s] != 0) ranks.push_back(seeds_->rank[s]);
 }
@@ -120,9 +120,9 @@ void ListSearch<D>::visit(Level& level, std::size_t depth, int failures) {
   std::tie(halves.first.part, halves.second.part) = split(level.part);
   narrow_to(source_of(level), {}, halves.first);
   narrow_to(source_of(level), {}, halves.second);
-  const bool paid = halves.first.count() + halves.second.count() < level.count() + level.count() / 5 * 4;
-  visit(halves.first, depth + 1, paid ? 0 : failures + 1);
-  visit(halves.second, depth + 1, paid ? 0 : failures + 1);
+  const bool helped = halves.first.count() + halves.second.count() < level.count() + level.count() / 5 * 4;
+  visit(halves.first, depth + 1, helped ? 0 : failures + 1);
+  visit(halves.second, depth + 1, helped ? 0 : failures + 1);
 }
 
 template <int D>
@@ -159,7 +159,7 @@ void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> 
     }
     without_excess(from.count, excess_, kept_);
   }
-  keep(from, half);
+  keep_unexcluded(from, half);
 }
 
 /// Sets lower_ for the corners of the part, to what the source has where it has the corner.
@@ -182,7 +182,7 @@ void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
 
 /// Fills `half` with those at kept_.
 template <int D>
-void ListSearch<D>::keep(const Source& from, Level& half) {
+void ListSearch<D>::keep_unexcluded(const Source& from, Level& half) {
   const std::size_t kept = kept_.size();
   half.index.resize(kept);
   for (std::size_t s = 0; s < kept; ++s)

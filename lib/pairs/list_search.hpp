@@ -61,7 +61,7 @@ class ListSearch {
   /// \param known  excludes as well, by upper bounds at the corners of the part
   void search(const Part<D>& part, std::span<const CornerValues> known = {});
   /// Appends the marked ranks, ascending.
-  void take_marked(std::vector<std::uint32_t>& ranks) const;
+  void append_marked(std::vector<std::uint32_t>& ranks) const;
 
  private:
   struct Level {
@@ -90,7 +90,7 @@ class ListSearch {
   void narrow_to(const Source& from, std::span<const CornerValues> known, Level& half);
   void find_bounds(const Source& from, const Part<D>& part);
   void add_tester(const Source& from, const Part<D>& part, std::size_t seed);
-  void keep(const Source& from, Level& half);
+  void keep_unexcluded(const Source& from, Level& half);
   void finish(Level& level);
 
   const SeedList<D>* seeds_ = nullptr;

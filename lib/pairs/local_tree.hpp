@@ -19,7 +19,7 @@ struct Entry {
   std::uint32_t index;
   std::int8_t level;
   /// All its seeds are candidates already; it stays only because they may exclude others.
-  bool settled;
+  bool accepted;
 
   bool is_seed() const { return level < 0; }
 };

@@ -19,8 +19,8 @@ class NodeSearch {
   /// From the seeds below `from`, nodes of one level, to the nodes of one level that hold all that can meet
   /// the box [low, high]: of so low a level that they are `enough` or hold at most `few` seeds.
   /// \return the number of seeds below them
-  std::uint64_t narrow(const Point<D>& low, const Point<D>& high, const Frontier& from, std::size_t enough,
-                       std::uint64_t few, Frontier& to);
+  std::uint64_t narrow(const Point<D>& low, const Point<D>& high, const Frontier& from, std::size_t min_nodes,
+                       std::uint64_t max_seeds, Frontier& to);
 
  private:
   void choose_testers(const Point<D>& size, const Frontier& from);

@@ -138,10 +138,10 @@ BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tr
                                       const std::function<bool(double)>& progress) const {
   std::vector<bool> marked(seeds.size());
   for (const std::uint32_t rank : by_region) marked[rank] = true;
-  std::function<bool(double)> asked;
-  if (progress) asked = [&](double) { return progress(0); };
+  std::function<bool(double)> report_start;
+  if (progress) report_start = [&](double) { return progress(0); };
   const RegionLists found =
-      search_regions({boundary().mesh, boundary().groups, seeds, tree, threads_, asked});
+      search_regions({boundary().mesh, boundary().groups, seeds, tree, threads_, report_start});
   for (const RankList& list : found.list)
     for (std::uint32_t k = 0; k < list.count; ++k) marked[list.first[k]] = true;
   BoundaryRanks all;

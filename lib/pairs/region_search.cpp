@@ -31,7 +31,7 @@ using Task = RegionLists::Task;
 template <int D>
 class Worker {
  public:
-  Worker(const RegionSearch& search, double reference)
+  Worker(const RegionSearchInput& search, double reference)
       : groups_(search.groups),
         search_(search.mesh, search.seeds, search.tree, reference),
         narrowed_(groups_.level.size() + 1),
@@ -74,7 +74,7 @@ class Worker {
 };
 
 template <int D>
-RegionLists search_all(const RegionSearch& search) {
+RegionLists search_all(const RegionSearchInput& search) {
   const std::size_t regions = search.groups.order.size();
   const double reference = typical_weight(search.seeds.weights);
   RegionLists found;
@@ -107,7 +107,7 @@ RegionLists search_all(const RegionSearch& search) {
 
 }  // namespace
 
-RegionLists search_regions(const RegionSearch& search) {
+RegionLists search_regions(const RegionSearchInput& search) {
   if (search.seeds.size() == 0) return {{}, std::vector<RankList>(search.mesh.region_count())};
   return search.mesh.dimension == 2 ? search_all<2>(search) : search_all<3>(search);
 }

@@ -12,7 +12,7 @@
 namespace powercell::pairs {
 
 /// What a search is about; references to what outlives it.
-struct RegionSearch {
+struct RegionSearchInput {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const SeedSet& seeds;
@@ -38,6 +38,6 @@ struct RegionLists {
 };
 
 /// The candidates of every region.
-RegionLists search_regions(const RegionSearch& search);
+RegionLists search_regions(const RegionSearchInput& search);
 
 }  // namespace powercell::pairs
