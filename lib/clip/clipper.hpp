@@ -90,7 +90,7 @@ class Clipper {
   cl::Kernel& kernel(std::size_t capacity);
   std::size_t rows_that_fit(std::size_t capacity) const;
   /// Takes in the pairs of a chunk; returns all of them as pending.
-  List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
+  List begin_chunk(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
   /// Clips `active` with one capacity until no pair asks for more candidates.
   void run(std::size_t capacity, const List& active, Outcome& outcome);
   void launch(std::size_t capacity, std::span<const std::uint32_t> active, int round, Outcome& outcome);
@@ -100,7 +100,7 @@ class Clipper {
   void reserve_rows(std::size_t rows, const Capacity& capacity);
   void read_rows(const Capacity& capacity, PieceBatch& batch);
   /// Copies the rows of this chunk that lie in device memory, before the next launch overwrites them.
-  void take_back_rows();
+  void unmap_rows();
   bool wants_rows() const;
 
   // clipper_host.cpp

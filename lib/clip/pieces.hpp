@@ -14,15 +14,15 @@ namespace powercell {
 /// units, coordinates relative to the seed. Row r has the faces [face_offset[r], face_offset[r+1]): all of
 /// them where geometry was asked for, else the walls alone.
 struct PieceBatch {
-  std::vector<std::uint32_t> face_offset;     ///< rows + 1
-  std::vector<std::int32_t> border;           ///< per face: rank, or ~facet slot of the region
-  std::vector<double> wall;                   ///< per face: its measure
-  std::vector<std::uint32_t> vertex_offset;   ///< rows + 1
-  std::vector<double> vertex;                 ///< dimension per vertex
-  std::vector<std::uint32_t> link;            ///< 6 per vertex (polyhedra)
-  const std::int32_t* lent_border = nullptr;  ///< if not null, borders are here, rows `room` entries apart
-  const double* lent_wall = nullptr;
-  std::size_t room = 0;
+  std::vector<std::uint32_t> face_offset;       ///< rows + 1
+  std::vector<std::int32_t> border;             ///< per face: rank, or ~facet slot of the region
+  std::vector<double> wall;                     ///< per face: its measure
+  std::vector<std::uint32_t> vertex_offset;     ///< rows + 1
+  std::vector<double> vertex;                   ///< dimension per vertex
+  std::vector<std::uint32_t> link;              ///< 6 per vertex (polyhedra)
+  const std::int32_t* mapped_border = nullptr;  ///< if not null, borders are here, rows `room` entries apart
+  const double* mapped_wall = nullptr;
+  std::size_t stride = 0;
   /// Rows may have a seed more than once: those made of several pieces, and those of cells left to rounding,
   /// where a bisector may touch several faces.
   bool repeats = false;
@@ -35,19 +35,19 @@ struct PieceBatch {
     vertex_offset.clear();
     vertex.clear();
     link.clear();
-    lent_border = nullptr;
-    lent_wall = nullptr;
+    mapped_border = nullptr;
+    mapped_wall = nullptr;
     repeats = false;
   }
   /// Whether row r has a seed more than once.
   bool row_repeats(std::size_t row) const;
   /// Copies what is lent.
-  void keep();
+  void copy_mapped();
   const std::int32_t* borders(std::size_t row) const {
-    return lent_border ? lent_border + row * room : border.data() + face_offset[row];
+    return mapped_border ? mapped_border + row * stride : border.data() + face_offset[row];
   }
   const double* walls(std::size_t row) const {
-    return lent_border ? lent_wall + row * room : wall.data() + face_offset[row];
+    return mapped_border ? mapped_wall + row * stride : wall.data() + face_offset[row];
   }
   std::uint32_t faces(std::size_t row) const { return face_offset[row + 1] - face_offset[row]; }
   std::uint32_t vertices(std::size_t row) const { return vertex_offset[row + 1] - vertex_offset[row]; }
@@ -59,7 +59,7 @@ struct PieceSet {
   std::vector<std::uint32_t> batch;   ///< per pair: which batch
   std::vector<std::uint32_t> row;     ///< per pair: which row of it
   std::vector<PieceBatch> batches;    ///< those in use come first
-  std::size_t used = 0;               ///< batches in use; the rest keep their memory for the next chunk
+  std::size_t used = 0;  ///< batches in use; the rest copy_mapped their memory for the next chunk
 
   PieceBatch& add_batch() {
     if (used == batches.size()) batches.emplace_back();

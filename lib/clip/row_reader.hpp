@@ -23,18 +23,18 @@ class RowReader {
   /// \param counts   per row, then a 0; undefined afterwards, to be kept for the reads
   /// \param offset   written: where the rows begin when put together, rows + 1
   /// \throw Error build_failed, opencl
-  /// \param may_lend  whether rows may be taken where they are
-  void begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity, std::vector<std::uint32_t>& offset,
-             bool may_lend);
+  /// \param allow_map  whether rows may be taken where they are
+  void read_counts(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
+                   std::vector<std::uint32_t>& offset, bool allow_map);
 
-  /// Whether these rows are to be taken where they are, by lend(), not by the reads.
-  bool lends() const { return lends_; }
-  /// Rows `capacity` entries apart, until take_back(). Kernels must not write to them before.
+  /// Whether these rows are to be taken where they are, by map(), not by the reads.
+  bool maps() const { return maps_; }
+  /// Rows `capacity` entries apart, until unmap(). Kernels must not write to them before.
   template <class T>
-  const T* lend(const cl::RawBuffer& rows) {
-    return reinterpret_cast<const T*>(lent_.emplace_back(rows, rows_ * capacity_ * sizeof(T)).data());
+  const T* map(const cl::RawBuffer& rows) {
+    return reinterpret_cast<const T*>(mappings_.emplace_back(rows, rows_ * capacity_ * sizeof(T)).data());
   }
-  void take_back();
+  void unmap();
 
   /// Reads rows of entries of `width` values each.
   void read(const cl::Buffer<std::int32_t>& rows, std::size_t width, std::vector<std::int32_t>& to);
@@ -61,10 +61,10 @@ class RowReader {
   std::optional<Packer> packer_;  // of many rows
   std::vector<std::byte> raw_;
   std::vector<float> narrow_;
-  std::vector<cl::Mapping> lent_;
+  std::vector<cl::Mapping> mappings_;
   cl_mem device_offset_ = nullptr;
   const std::vector<std::uint32_t>* offset_ = nullptr;
-  bool few_ = false, lends_ = false;
+  bool few_ = false, maps_ = false;
   std::size_t rows_ = 0, capacity_ = 0, total_ = 0;
 };
 

@@ -16,9 +16,9 @@ constexpr std::size_t chunk_cells = std::size_t{1} << 15, least_chunk_cells = 10
 constexpr double vertex_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  vertex_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
 
-class WallCollection {
+class CellWallsBuilder {
  public:
-  explicit WallCollection(const Scene& scene) : unit_(scene.frame().unit(1)) {
+  explicit CellWallsBuilder(const Scene& scene) : unit_(scene.frame().unit(1)) {
     walls.dimension = scene.mesh().dimension;
     walls.vertex_error = scene.float32() ? vertex_error_float : vertex_error_double;
   }
@@ -61,7 +61,7 @@ CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
   const auto container = static_cast<std::uint32_t>(scene.mesh().region_count() - 1);
   const std::size_t chunk = std::min(chunk_cells, ranks.size());
   const std::vector<std::uint32_t> regions(chunk, container);
-  WallCollection cells(scene);
+  CellWallsBuilder cells(scene);
   in_chunks(
       ranks.size(), {chunk, least_chunk_cells, "cells"},
       [&](std::size_t begin, std::size_t end) {

@@ -24,7 +24,7 @@ bool same_ends(const Edge& a, const Edge& b) {
 std::vector<Polygon> faces_left(const CellWeld& weld) {
   std::vector<Polygon> polygons;
   for (std::size_t f = 0; f < weld.face_count(); ++f) {
-    if (weld.gone(f)) continue;
+    if (weld.removed(f)) continue;
     Polygon polygon{{}, weld.border(f)};
     for (const std::uint32_t v : weld.face(f))
       if (polygon.loop.empty() || polygon.loop.back() != weld.same(v)) polygon.loop.push_back(weld.same(v));
@@ -135,7 +135,8 @@ class SplitVertices {
     for (const Polygon& polygon : polygons) {
       const auto& loop = polygon.loop;
       for (std::size_t k = 0; k < loop.size(); ++k)
-        note(loop[k], loop[(k + loop.size() - 1) % loop.size()], loop[(k + 1) % loop.size()], polygon.border);
+        add_use(loop[k], loop[(k + loop.size() - 1) % loop.size()], loop[(k + 1) % loop.size()],
+                polygon.border);
     }
     for (std::uint32_t v = 0; v < uses_.size(); ++v) {
       const Use& u = uses_[v];
@@ -154,7 +155,7 @@ class SplitVertices {
     std::uint32_t count = 0;
   };
 
-  void note(std::uint32_t v, std::uint32_t before, std::uint32_t after, const Border& border) {
+  void add_use(std::uint32_t v, std::uint32_t before, std::uint32_t after, const Border& border) {
     Use& u = uses_[v];
     if (u.count < 2) {
       u.ends[u.count] = std::minmax(before, after);

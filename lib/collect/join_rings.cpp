@@ -18,7 +18,7 @@ class RingWalk {
  public:
   RingWalk(const CellWeld& weld, JoinedFaces& faces) : weld_(weld), faces_(faces) {
     for (std::size_t f = 0; f < weld.face_count(); ++f) {
-      if (weld.gone(f)) continue;
+      if (weld.removed(f)) continue;
       const std::uint32_t a = weld.same(weld.face(f)[0]), b = weld.same(weld.face(f)[1]);
       if (a != b) edges_.push_back({a, b, weld.border(f)});
     }
@@ -35,7 +35,7 @@ class RingWalk {
         at_[edge->from] = static_cast<std::uint32_t>(path_.size());
         path_.push_back(edge);
         if (at_[edge->to] == none) continue;
-        take_ring(at_[edge->to]);  // what is left of the path ends at the same vertex
+        close_ring(at_[edge->to]);  // what is left of the path ends at the same vertex
         if (path_.empty()) break;
       }
     }
@@ -65,7 +65,7 @@ class RingWalk {
     return best;
   }
 
-  void take_ring(std::size_t begin) {
+  void close_ring(std::size_t begin) {
     const std::size_t n = path_.size() - begin;
     const auto edge = [&](std::size_t k) -> const Edge& { return *path_[begin + k % n]; };
     const auto stays = [&](std::size_t k) {

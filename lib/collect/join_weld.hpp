@@ -1,6 +1,6 @@
 /// \file
 /// Finds which vertices of the pieces of one cell are the same point, and which interior facets between
-/// the pieces are gone once the pieces are joined. Internal.
+/// the pieces are removed once the pieces are joined. Internal.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ class CellWeld {
     return std::span(corners_).subspan(face_[f], face_[f + 1] - face_[f]);
   }
   const Border& border(std::size_t f) const { return cells_.border[first_face_ + f]; }
-  bool gone(std::size_t f) const { return gone_[f] != 0; }
+  bool removed(std::size_t f) const { return removed_[f] != 0; }
   std::size_t piece_count() const { return piece_.size() - 1; }
   /// The faces of piece p are [piece(p), piece(p + 1)).
   std::size_t piece(std::size_t p) const { return piece_[p]; }
@@ -55,11 +55,11 @@ class CellWeld {
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
   void gather(std::size_t cell);
-  void match_by_name();
-  void match_sheets(std::uint32_t f, const Facet& facet);
+  void match_facets();
+  void match_surface_edge(std::uint32_t f, const Facet& facet);
   void seal(const std::vector<Facet>& open);
-  void meet_at_boundary_vertices();
-  void close_short_edges();
+  void unite_at_boundary_vertices();
+  void unite_short_edges();
   std::uint32_t root(std::uint32_t v);
   void unite(std::uint32_t a, std::uint32_t b);
   void unite(const Pairs& pairs);
@@ -71,13 +71,13 @@ class CellWeld {
   const Cells& cells_;
   const RegionMesh& mesh_;
   bool surface_;
-  double size_;      ///< diagonal of the domain
+  double diagonal_;  ///< diagonal of the domain
   double rounding_;  ///< what rounding to double moves a coordinate by
   std::size_t first_vertex_ = 0, first_face_ = 0;
   std::vector<std::uint32_t> parent_, corners_;
   std::vector<std::array<std::uint32_t, 2>> boundary_ends_;  ///< polygon: vertices of each boundary facet
   std::vector<std::size_t> face_, piece_;
-  std::vector<std::uint8_t> on_interior_, gone_;
+  std::vector<std::uint8_t> on_interior_, removed_;
   std::vector<Facet> facets_;
   std::vector<double> mismatch2_;
 };

@@ -38,7 +38,7 @@ struct Difference {
   std::uint32_t from = 0, to = 0;  // ranks
 
   /// Of equal ones the same is kept in whatever order they are seen.
-  void see(const Difference& other) {
+  void update(const Difference& other) {
     const auto order = [](const Difference& d) { return std::tuple(-d.value, d.from, d.to); };
     if (order(other) < order(*this)) *this = other;
   }
@@ -130,7 +130,7 @@ class WallMatcher {
   void average(std::uint32_t first, std::uint32_t last) {
     const Difference worst = average_rows(rows_, ok_, first, last);
     const std::lock_guard lock(mutex_);
-    worst_.see(worst);
+    worst_.update(worst);
   }
 
   /// Brings rows into their final form where they are, but for the order: without what is dropped, by input
@@ -151,7 +151,7 @@ class WallMatcher {
     }
     const std::lock_guard lock(mutex_);
     one_sided_.insert(one_sided_.end(), alone.begin(), alone.end());
-    for (const OneSided& wall : alone) worst_.see({wall.measure / unit_, wall.from, wall.to});
+    for (const OneSided& wall : alone) worst_.update({wall.measure / unit_, wall.from, wall.to});
   }
 
   /// Leaves in a row what stays of it, and notes what only this side has.

@@ -57,7 +57,7 @@ void WallCollector::reopen(std::uint32_t rank) {
   open_rank_ = open_neighbor_.empty() ? no_rank : rank;
 }
 
-void WallCollector::share_out(std::span<const std::uint32_t> pair_seed) {
+void WallCollector::divide(std::span<const std::uint32_t> pair_seed) {
   const std::size_t pairs = pair_seed.size();
   const std::size_t wanted = pairs < share_count ? 1 : static_cast<std::size_t>(std::max(threads_, 1));
   parts_.resize(wanted);
@@ -155,7 +155,7 @@ void WallCollector::fill(std::size_t part, std::span<const std::uint32_t> pair_s
 void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
   if (pair_seed.empty()) return;
   reopen(pair_seed.front());
-  share_out(pair_seed);
+  divide(pair_seed);
   parallel_for(static_cast<int>(parts_.size()), parts_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) fill(p, pair_seed, pieces);
   });

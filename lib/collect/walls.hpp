@@ -93,7 +93,7 @@ class WallCollector {
   };
   /// The walls of a rank so far, for it may go on in this chunk.
   void reopen(std::uint32_t rank);
-  void share_out(std::span<const std::uint32_t> pair_seed);
+  void divide(std::span<const std::uint32_t> pair_seed);
   void fill(std::size_t part, std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
   /// The row of a rank with one piece, in which each neighbour is once.
   void add_row(std::size_t part, std::uint32_t rank, const PieceBatch& batch, std::size_t row);

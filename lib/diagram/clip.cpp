@@ -175,7 +175,7 @@ Clipped Pass::finish() {
   std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
   results.flat = std::move(flat_);
   if (!results.flat.empty()) return results;
-  if (plan_.unrestricted) results.unclear = settle_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
+  if (plan_.unrestricted) results.unclear = classify_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
   if (!results.unclear.empty()) return results;
   if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status,

@@ -20,9 +20,9 @@ namespace powercell {
 namespace {
 
 /// Half the side of the box on the device, in extents of the seeds: few cells inside leave it.
-constexpr double near_room = 2;
+constexpr double near_half_side = 2;
 /// The same of the box on the host: 2^80.
-constexpr double far_room = 0x1p80;
+constexpr double far_half_side = 0x1p80;
 
 struct Extent {
   std::vector<double> middle;
@@ -45,8 +45,8 @@ struct Extent {
   void check() const {
     double near = 0, far = 0;
     for (const double x : middle) {
-      near = std::max(near, std::abs(x) + near_room * size);
-      far = std::max(far, std::abs(x) + far_room * size);
+      near = std::max(near, std::abs(x) + near_half_side * size);
+      far = std::max(far, std::abs(x) + far_half_side * size);
     }
     if (near >= 1e-100 && far <= 1e100) return;
     throw Error(
@@ -56,11 +56,11 @@ struct Extent {
             "at most; scale them");
   }
 
-  Domain box(double room) const {
+  Domain box(double half_side) const {
     std::vector<double> low, high;
     for (const double x : middle) {
-      low.push_back(x - room * size);
-      high.push_back(x + room * size);
+      low.push_back(x - half_side * size);
+      high.push_back(x + half_side * size);
     }
     return Domain::box(low, high);
   }
@@ -74,7 +74,7 @@ struct FarSeeds {
   FarSeeds(const SeedsView& seeds, const Extent& extent)
       : positions(seeds.positions.begin(), seeds.positions.end()),
         weights(seeds.weights.begin(), seeds.weights.end()) {
-    const Frame frame = Frame::of(extent.box(far_room).mesh(), false);
+    const Frame frame = Frame::of(extent.box(far_half_side).mesh(), false);
     for (double& x : positions) x = frame.to_device(x, 0) / frame.scale;
     for (double& w : weights) w = frame.weight_to_device(w) / frame.scale / frame.scale;
   }
@@ -87,7 +87,7 @@ class OuterCells {
       : threads_(threads),
         seeds_(seeds),
         tree_(build_packed_tree(seeds_, threads)),
-        domain_(extent.box(far_room)),
+        domain_(extent.box(far_half_side)),
         scene_(device.context(), domain_.mesh(), false, seeds_, tree_),
         host_(make_host_scene(scene_.scene)),
         known_(seeds_.size(), false) {}
@@ -99,7 +99,7 @@ class OuterCells {
     std::vector<std::uint32_t> front;
     for (std::uint32_t rank = 0; rank < seeds_.size(); ++rank) {
       known_[rank] = inside[seeds_.input[rank]];
-      if (leaves[seeds_.input[rank]]) reach(rank, front);
+      if (leaves[seeds_.input[rank]]) visit_once(rank, front);
     }
     while (!front.empty()) {
       std::vector<Piece> pieces(front.size());
@@ -113,7 +113,7 @@ class OuterCells {
       for (std::size_t k = 0; k < front.size(); ++k) {
         if (pieces[k].status == PIECE_EMPTY) continue;
         for (const std::int32_t border : pieces[k].row.border)
-          if (border >= 0) reach(static_cast<std::uint32_t>(border), next);
+          if (border >= 0) visit_once(static_cast<std::uint32_t>(border), next);
         add_corners(front[k], pieces[k].row, rows);
       }
       front = std::move(next);
@@ -126,7 +126,7 @@ class OuterCells {
     PieceBatch row;
   };
 
-  void reach(std::uint32_t rank, std::vector<std::uint32_t>& front) {
+  void visit_once(std::uint32_t rank, std::vector<std::uint32_t>& front) {
     if (known_[rank]) return;
     known_[rank] = true;
     front.push_back(rank);
@@ -190,7 +190,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   const SeedsView rounded{seeds.dimension, far.positions, far.weights};
   Options exact = options;
   exact.decisions = Decisions::exact;
-  Diagram diagram(device, extent.box(near_room), exact);
+  Diagram diagram(device, extent.box(near_half_side), exact);
   diagram.set_seeds(rounded);
   diagram.compute(false, true);
   const std::vector<bool> leaves = at_boundary(diagram.cells());

@@ -14,7 +14,7 @@ namespace powercell {
 /// is inside. Those outside become hidden in `measures`. Any point of a cell that was cut by planes of the
 /// boundary must be inside, in one region. \return the ranks of cells for which this cannot be told: too
 /// thin, or where regions overlap
-std::vector<std::uint32_t> settle_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
-                                                     const Pairs& pairs, Measures& measures);
+std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
+                                                       const Pairs& pairs, Measures& measures);
 
 }  // namespace powercell

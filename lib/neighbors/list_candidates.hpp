@@ -42,7 +42,7 @@ class ListCandidates : public Candidates {
   ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights);
 
   std::size_t neighbors(int round) const;  ///< length of a list in this round
-  void take_in_use();                      ///< adds what the last launch wrote
+  void read_use();                         ///< adds what the last launch wrote
 
   const Scene scene_;
   std::size_t initial_;

@@ -67,10 +67,10 @@ bool RegionLocator::count_below(std::size_t level, std::size_t group, const Vect
   constexpr Vector here{};
   Lanes gap;
   blocks_.find_gaps(level - 1, group, x.data(), here.data(), here.data(), gap);
-  bool doubt = false;
+  bool unclear_inside = false;
   for (std::size_t lane = 0; lane < members; ++lane)
-    if (!(gap[lane] > 0)) doubt |= count_below(level - 1, first + lane, x, found);
-  return doubt;
+    if (!(gap[lane] > 0)) unclear_inside |= count_below(level - 1, first + lane, x, found);
+  return unclear_inside;
 }
 
 int RegionLocator::regions_at(const Vector& x) const {
