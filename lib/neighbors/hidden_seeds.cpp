@@ -9,17 +9,17 @@
 namespace powercell {
 namespace {
 
-/// Fewer seeds are clipped before it is known which are hidden.
+/// The search pays from this number of seeds on.
 constexpr std::size_t least_seeds = 2048;
-/// Leaves tested first, and the part of their seeds that must be hidden for the others to be tested.
+/// Number of leaves in a first sample, and the share of its seeds that must be hidden for a full search.
 constexpr std::uint32_t sample_leaves = 256;
 constexpr double least_share = 0.15;
-/// Seeds of the sample that costs no kernel, and how many ranks on either side each is compared with.
+/// Number of seeds in a sample on the host, and how many ranks on either side each is compared with.
 constexpr std::size_t sample_seeds = 512, ranks_beside = 8;
-/// With fewer, the search for the seeds that meet a region of a surface leaves the hidden ones out.
+/// On a surface with fewer seeds per region, the search for pairs excludes the hidden ones anyway.
 constexpr std::size_t seeds_a_region = 8;
 
-/// Whether the bisector of seeds a and b leaves a outside of its own side.
+/// Whether seed a lies beyond its bisector with b: s_ab < 0 in (4).
 bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   double distance2 = 0;
@@ -30,8 +30,8 @@ bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
   return distance2 < seeds.weights[b] - seeds.weights[a];
 }
 
-/// A guess from seeds next to each other on the curve. Of white noise that is beyond some bisector a quarter
-/// to a half is hidden.
+/// An estimate from neighbours along the curve. Of seeds of white noise that lie beyond a bisector, a quarter
+/// to a half are hidden.
 bool may_hide_many(const SeedSet& seeds) {
   std::size_t tested = 0, beyond = 0;
   for (std::size_t a = ranks_beside; a + ranks_beside < seeds.size(); a += seeds.size() / sample_seeds) {
@@ -63,7 +63,7 @@ class HiddenSearch {
     blocks_.pack(tree_);
   }
 
-  /// Of the seeds of every `stride`-th leaf.
+  /// Searches the seeds of every `stride`-th leaf.
   std::vector<std::uint8_t> find(std::uint32_t stride) {
     const std::uint32_t leaves = (tree_.seed_count - 1) / PackedTree::fan + 1,
                         count = (leaves - 1) / stride + 1;

@@ -11,7 +11,7 @@ namespace powercell {
 
 namespace {
 
-/// Entries of neighbour lists in device memory at once.
+/// Maximum number of list entries in device memory at once.
 constexpr std::size_t most_entries = std::size_t{1} << 25;
 
 std::size_t initial_neighbors(const Options& options, int cell_dimension) {

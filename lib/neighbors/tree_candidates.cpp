@@ -7,8 +7,8 @@
 namespace powercell {
 namespace {
 
-/// Rows of a plane as the kernel reads them: 2 q.y = |q|^2 + dw with q about as long as the plane is far, so
-/// that nothing cancels; then the error.
+/// The rows (q, dw, error) that the kernel reads, for the plane 2 q.y = |q|^2 + dw. |q| is about the distance
+/// of the plane, so that nothing cancels.
 std::vector<double> plane_rows(const CellPlanes& planes, double scale) {
   std::vector<double> rows;
   for (const LocalPlane& plane : planes.plane) {
@@ -24,7 +24,7 @@ std::vector<double> plane_rows(const CellPlanes& planes, double scale) {
   return rows;
 }
 
-/// By rank, then the end: where the planes of each cell begin.
+/// The first plane of each rank, then the number of planes.
 std::vector<std::uint32_t> plane_offsets(const CellPlanes& planes, std::size_t seeds) {
   std::vector<std::uint32_t> offset;
   for (std::size_t at = 0; at < planes.rank.size(); ++at)

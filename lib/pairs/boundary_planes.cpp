@@ -13,13 +13,14 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// More would cost more than the regions.
+/// With more planes, clipping by regions is cheaper.
 constexpr std::size_t most_planes = 24;
-/// Of the terms: more than the rounding of a determinant of differences of corners, or of a scalar product
-/// with a cross product.
+/// Relative to the terms. Bounds the rounding of a determinant of differences of corners, and of a scalar
+/// product with a cross product.
 constexpr double rounding = 1e-14;
 
-/// The sign of the place of vertex x: above 0 outside the plane of a facet seen from outside as a, b, c.
+/// The side of vertex x, exactly: positive outside the plane of the facet a b c, counter-clockwise from
+/// outside.
 int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                   std::uint32_t x) {
   const auto at = [&](std::uint32_t v) { return &vertices[std::size_t{v} * 3]; };
@@ -31,7 +32,7 @@ int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uin
   return exact_orientation(vertices, corners);
 }
 
-/// Whether some vertex is inside all planes, so that something is left of the cell.
+/// Whether some vertex of the cell is inside all planes, so that they leave a part of it.
 bool has_vertex_inside(const CellHull& cell, std::span<const LocalPlane> planes) {
   const std::size_t count = cell.vertex.size() / 3;
   for (std::size_t v = 0; v < count; ++v) {
@@ -74,8 +75,7 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
     if (other == edges.end() || ends.first > ends.second) continue;
     const std::uint32_t f = edge.facet, g = other->second.facet;
     const std::uint32_t *a = corners(f), x = corners(g)[(other->second.from + 2) % 3];
-    // Turned round against each other along the edge, two triangles in one plane face the same way unless
-    // folded.
+    // Coplanar triangles with a common edge have equal normals unless they are folded onto each other.
     if (side_of_plane(mesh_.vertices, a[0], a[1], a[2], x) == 0 && dot(normal(f), normal(g)) > 0)
       plane_[std::max(root(f), root(g))] = std::min(root(f), root(g));
   }
@@ -91,8 +91,8 @@ std::uint32_t PlaneSearch::vertex(std::uint32_t facet, std::size_t k) const {
   return boundary_.vertex_[boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]];
 }
 
-/// Whether a facet meets the box of the cell: a direction among these thirteen parts two convex bodies, or
-/// none does.
+/// Whether a facet meets the box of the cell, by the thirteen possible separating axes of a triangle and a
+/// box.
 PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* seed,
                                             const CellHull& cell) const {
   Vector middle, half, x[3];
@@ -112,7 +112,7 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
     }
     for (std::size_t k = 0; k < 3; ++k) radius += std::abs(axis[k]) * half[k];
     const double gap = std::max(low, -high) - radius, error = rounding * (terms + radius);
-    // A direction of 0, of an edge along an axis, parts nothing.
+    // The axis is 0 for an edge along a coordinate axis; it separates nothing.
     if (std::abs(gap) <= error && radius > 0) clear = false;
     return gap > error;
   };
@@ -134,7 +134,7 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
   return clear ? Meeting::some : Meeting::unclear;
 }
 
-/// Returns whether all facets are clear.
+/// Appends the facets of a group that meet the cell's box to near_. Returns false if one is unclear.
 bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* seed, const CellHull& cell) {
   if (level == 0) {
     const std::uint32_t facet = boundary_.groups_.order[group];
@@ -147,13 +147,13 @@ bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* see
   Lanes gap;
   boundary_.blocks_.find_gaps(level - 1, group, seed, cell.low.data(), cell.high.data(), gap);
   for (std::size_t lane = 0; lane < members; ++lane)
-    // Boxes that touch to rounding are looked at.
+    // Boxes that touch to within rounding count as overlapping.
     if (!(gap[lane] > cell.error) && !gather(level - 1, group * RegionGroups::fan + lane, seed, cell))
       return false;
   return true;
 }
 
-/// Sets in_plane_ to the vertices of the near facets in the plane.
+/// Sets in_plane_ to the vertices of the near facets in a plane.
 void PlaneSearch::gather_vertices(std::uint32_t plane) {
   in_plane_.clear();
   for (const std::uint32_t f : near_)
@@ -162,7 +162,7 @@ void PlaneSearch::gather_vertices(std::uint32_t plane) {
   std::sort(in_plane_.begin(), in_plane_.end());
 }
 
-/// Where a corner is, after gather_vertices(plane).
+/// The side of a facet's corner k, exactly. \pre gather_vertices(plane)
 int PlaneSearch::side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const {
   if (std::binary_search(in_plane_.begin(), in_plane_.end(), vertex(facet, k))) return 0;
   const std::uint32_t* a = &boundary_.mesh_.region_vertex[std::size_t{plane} * 3];
@@ -170,7 +170,7 @@ int PlaneSearch::side(std::uint32_t plane, std::uint32_t facet, std::size_t k) c
                        boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
 }
 
-/// Whether each facet is inside the planes of all others, and in none of them.
+/// Whether (12c) holds: each facet lies inside all planes of the others, and in none of them.
 bool PlaneSearch::convex_around() {
   if (plane_.size() < 2) return true;
   for (const std::uint32_t plane : plane_) {

@@ -7,15 +7,15 @@
 namespace powercell::pairs {
 namespace {
 
-// At most this many seeds in question are put in a list, all of which is tested at once.
+// Up to this many undecided seeds are put in a list and tested at once.
 constexpr std::uint64_t few_seeds = 2048;
-// Where splitting does not thin them out even so many are: there weights vary with the position, as those of
-// seeds far outside whose cells lie in the domain, so that all nodes of the tree are too coarse.
+// The same after splits that excluded few seeds. There weights vary with the position, as those of seeds far
+// outside whose cells lie in the domain, and all nodes of the tree are too coarse.
 constexpr std::uint64_t few_after_failures = std::uint64_t{1} << 18;
-// Entries a frontier is expanded to. Coarser ones test worse, finer ones cost each part more.
+// Number of entries to which a frontier is expanded. Fewer exclude less, more cost time in each part.
 constexpr std::size_t min_entries_of_part = 32;
 constexpr std::size_t min_entries_of_box = 64;
-// Splits in a row that may fail to thin out the seeds in question before splitting is given up.
+// Splitting ends after so many splits in a row that exclude few seeds.
 constexpr int most_failures = 5;
 
 }  // namespace
@@ -46,15 +46,15 @@ void CandidateSearch<D>::find(std::uint32_t region, const Narrowed<D>& from,
   interior_.set(corners_, mesh_);
   found_.clear();
   for_parts(corners_, [&] { search(from.frontier); });
-  // Parts share candidates, and a node may be accepted from several parts.
+  // Parts share candidates, and several parts may accept a node.
   std::sort(found_.begin(), found_.end(), [](RankRange a, RankRange b) { return a.begin < b.begin; });
   std::uint32_t next = 0;
   for (const RankRange range : found_)
     for (next = std::max(next, range.begin); next < range.end; ++next) ranks.push_back(next);
 }
 
-/// Calls body() for each part of the region, in root_.part. Polygons of many corners are halved by chords,
-/// without a test, until they fit a Part.
+/// Calls body() with root_.part set to each part of the region. Polygons with too many corners for a Part are
+/// halved by chords, without a test.
 template <int D>
 template <class Body>
 void CandidateSearch<D>::for_parts(std::span<const Point<D>> corners, const Body& body) {
@@ -73,7 +73,7 @@ void CandidateSearch<D>::for_parts(std::span<const Point<D>> corners, const Body
   for_parts(rest, body);
 }
 
-/// The seeds in question below a frontier.
+/// Sets `list` to the undecided seeds below a frontier.
 template <int D>
 void CandidateSearch<D>::gather(const Frontier& frontier, SeedList<D>& list) {
   gathered_.clear();
@@ -107,8 +107,8 @@ void CandidateSearch<D>::search(const Frontier& from) {
   visit(root_, 0, 0);
 }
 
-/// Decides a refined part, or splits it. `failures` counts the splits in a row above it whose halves both
-/// kept nearly all seeds: then more seeds meet in a point than splitting can tell apart.
+/// Decides a refined part, or splits it. `failures` counts the splits in a row above it whose halves kept
+/// nearly all seeds, as where more cells meet in a point than splitting can separate.
 template <int D>
 void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
   if (step.undecided == 0) return;
@@ -119,7 +119,7 @@ void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
   std::tie(halves.first.part, halves.second.part) = split(step.part);
-  // Where splitting did not help, the nodes may be too coarse for the spread of their weights.
+  // Where splitting does not help, nodes may be too coarse for the spread of their weights.
   const std::size_t min_entries = min_entries_of_part << failures;
   refine(halves.first, step.frontier, step.testers, min_entries);
   refine(halves.second, step.frontier, step.testers, min_entries);
@@ -129,7 +129,8 @@ void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
   visit(halves.second, depth + 1, helped ? 0 : failures + 1);
 }
 
-/// Fills the frontier of `step` with what is left of `from` for its part. `known` are seeds worth trying.
+/// Sets the frontier of `step` to the entries of `from` that its part does not exclude. The seeds of `known`
+/// are tried as testers.
 template <int D>
 void CandidateSearch<D>::refine(Step& step, const Frontier& from, const Testers& known,
                                 std::size_t min_entries) {
@@ -161,8 +162,8 @@ void CandidateSearch<D>::choose_testers(Step& step, const Frontier& from, const 
   for (std::size_t v = 0; v < step.part.corners; ++v) choose_at(step.part.corner[v]);
 }
 
-/// Keeps `entry` unless it is excluded; a `fresh` node inside the region is accepted at once: a seed in the
-/// region nearly always meets it, and there are no more of them than seeds.
+/// Adds `entry` to the frontier unless it is excluded. Accepts a new node that lies inside the region without
+/// further tests: a seed in the region nearly always meets it, and each seed lies in one region.
 template <int D>
 void CandidateSearch<D>::keep_unless_excluded(Step& step, Entry entry, bool is_new) {
   if (excluded(step.testers, tree_.lower(entry, step.part, step.bounds), step.part.corners)) return;
@@ -180,7 +181,8 @@ void CandidateSearch<D>::keep_unless_excluded(Step& step, Entry entry, bool is_n
   }
 }
 
-/// Replaces open nodes by their children, the largest first, until there are `enough` entries or seeds only.
+/// Replaces undecided nodes by their children, the largest first, until there are `min_entries` entries or
+/// all undecided ones are seeds.
 template <int D>
 void CandidateSearch<D>::expand(Step& step, std::size_t min_entries) {
   while (step.frontier.size() < min_entries) {
@@ -202,7 +204,7 @@ void CandidateSearch<D>::expand(Step& step, std::size_t min_entries) {
   }
 }
 
-/// Emits the seeds that the testers leave, and of few ones those that no other excludes.
+/// Appends the undecided seeds to found_; if they are few, only those that no other seed excludes.
 template <int D>
 void CandidateSearch<D>::finish(Step& step) {
   if (step.undecided <= few_after_failures) {

@@ -15,7 +15,7 @@
 
 namespace powercell::pairs {
 
-/// The seeds that can meet a box: below the entries of a frontier or, once they are few, in a list.
+/// The seeds that can meet a box: those below a frontier or, once they are few, those of a list.
 template <int D>
 struct Narrowed {
   Frontier frontier;
@@ -23,7 +23,7 @@ struct Narrowed {
   bool listed = false;
 };
 
-/// One worker's search with its scratch memory; not thread-safe.
+/// The search of one thread, with its scratch memory.
 template <int D>
 class CandidateSearch {
  public:
@@ -34,11 +34,10 @@ class CandidateSearch {
         tree_(seeds, tree, reference),
         node_search_(tree_) {}
 
-  /// From the seeds in `from`, those that can meet the box [low, high], in a form fine enough to begin a
-  /// search with.
+  /// Sets `to` to the seeds of `from` that can meet the box [low, high], fine enough to start a search from.
   void narrow(const Point<D>& low, const Point<D>& high, const Narrowed<D>& from, Narrowed<D>& to);
 
-  /// Appends to `ranks` the candidates of `region`, ascending, among the seeds in `from`.
+  /// Appends the candidates of `region` among the seeds of `from` to `ranks`, ascending.
   void find(std::uint32_t region, const Narrowed<D>& from, std::vector<std::uint32_t>& ranks);
 
  private:
@@ -47,7 +46,7 @@ class CandidateSearch {
     PowerBounds bounds;
     Testers testers;
     Frontier frontier;
-    std::uint64_t undecided = 0;  // seeds below entries that are not accepted
+    std::uint64_t undecided = 0;  // seeds below entries that are not yet accepted
   };
   struct Halves {
     Step first, second;
@@ -70,8 +69,8 @@ class CandidateSearch {
   const double reference_;
   LocalTree<D> tree_;
   NodeSearch<D> node_search_;
-  std::vector<Point<D>> corners_;   // of the region, relative to its first
-  const double* origin_ = nullptr;  // its first corner
+  std::vector<Point<D>> corners_;   // of the region, relative to the first
+  const double* origin_ = nullptr;  // the first corner
   double reach_ = 0;                // largest distance of a corner from the first
   RegionInterior<D> interior_;
   std::uint64_t steps_left_ = 0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t fan = RegionGroups::fan;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Of the terms of a scalar product with coordinates relative to the seed.
+/// Rounding of a scalar product with coordinates relative to the seed, relative to its terms.
 constexpr double rounding = 0x1p-48;
 
 loops::Bisector bisector_of(const SeedSet& seeds, std::uint32_t i, std::uint32_t j) {
@@ -74,7 +74,7 @@ bool CellSearch::separated_along(const double* direction, std::uint32_t region) 
   }
   for (std::size_t k = 0; k < d; ++k) size += std::abs(direction[k]);
   const double nearest = hull_->least_along(direction);
-  // Rounding in the sums over the vertices of the cell is far below the error of those.
+  // The rounding of the scalar products with the cell's vertices is far below the error of the vertices.
   return nearest - farthest > size * hull_->error + rounding * terms;
 }
 
@@ -131,7 +131,7 @@ void CellSearch::visit(std::size_t level, std::size_t group, std::size_t first, 
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
   greatest_.resize(std::max(greatest_.size(), count * fan));
   loops::test_boxes(&bisectors_[first], count, seeds_.dimension, box, seed_, beyond, greatest_.data());
-  // Each member has its walls behind all others before it goes down, as greatest_ is used again there.
+  // The bisectors of all members are appended before the descent, which overwrites greatest_.
   std::array<std::size_t, fan + 1> end;
   end[0] = bisectors_.size();
   for (std::size_t lane = 0; lane < members; ++lane) {
@@ -177,7 +177,7 @@ class Worker {
   }
 
  private:
-  /// Whether the cell has one pair, with the region around the domain.
+  /// Returns true if the cell has a single pair, with the container.
   bool find_planes(std::uint32_t rank, Task& task) {
     if (!planes_ || std::binary_search(s_.ranks.by_region.begin(), s_.ranks.by_region.end(), rank))
       return false;
@@ -194,14 +194,14 @@ class Worker {
   CellHull hull_;
 };
 
-/// Row `row` of rows that end at these places.
+/// Row `row` of consecutive rows with these ends.
 template <class Values>
 auto row_of(const Values& values, const std::vector<std::uint64_t>& end, std::size_t row) {
   const std::uint64_t begin = row == 0 ? 0 : end[row - 1];
   return std::span(values).subspan(begin, end[row] - begin);
 }
 
-/// Pairs of all ranks in order: of those searched for what was found, of the others one with the last region.
+/// The pairs of all ranks in order: those found, and one with the container for each rank not searched.
 Pairs gather(const CellSearchInput& search, const std::vector<Task>& tasks) {
   const auto around = static_cast<std::uint32_t>(search.mesh.region_count());
   const std::vector<std::uint32_t>& ranks = search.ranks.ranks;
@@ -244,10 +244,10 @@ Pairs search_cells(const CellSearchInput& search) {
     workers[static_cast<std::size_t>(w)].run(ranks.subspan(first, std::min(task_size, ranks.size() - first)),
                                              tasks[t]);
     const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
-    // Only the calling thread, which is worker 0, calls back.
+    // The callback runs on the calling thread only, which is worker 0.
     if (w == 0 && search.progress && !search.progress(share))
       throw Error(ErrorCode::interrupted,
-                  "stopped by the progress callback while seeking which cells meet which regions");
+                  "stopped by the progress callback while finding the regions that cells meet");
   });
   return gather(search, tasks);
 }

@@ -9,15 +9,15 @@
 namespace powercell::pairs {
 namespace {
 
-// Of at most this many seeds all are tried against all; of more, the part is split.
+// Up to this many seeds are all tested against all. With more, the part is split.
 constexpr std::size_t few_seeds = 32;
-// All against all is also the last resort where splitting does not help, up to this many.
+// Up to this many are tested against all where splitting does not help.
 constexpr std::size_t most_seeds = 128;
-// Splits in all; of long lists, which come from splits that failed on the tree, there may be clusters far
-// below the size of the part.
+// Maximum depth of splits. Long lists come from the tree where splits failed, and may hold clusters far
+// smaller than the part.
 constexpr std::size_t most_depth = 12, most_depth_of_long = 64;
 constexpr std::size_t long_list = 2048;
-// Splits in a row that may fail to thin out the seeds before splitting is given up.
+// Splitting ends after so many splits in a row that exclude few seeds.
 constexpr int most_failures = 3;
 
 template <int D>
@@ -27,7 +27,7 @@ std::array<const double*, D + 1> pointers(const SeedColumns<D>& columns) {
   return to;
 }
 
-/// `place` becomes those of 0 .. count-1 that have no excess.
+/// Sets `place` to those of 0 .. count-1 with no positive excess.
 void without_excess(std::size_t count, const std::vector<double>& excess, std::vector<std::uint32_t>& place) {
   place.resize(count);
   std::size_t kept = 0;
@@ -60,7 +60,7 @@ void ListSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Seed
     loops::raise_box_excess(list.size(), D, column.data(), low.data(), size.data(), tester.data(),
                             excess_.data());
   };
-  // The owner of the middle excludes what is far away, so that the others need not look at it.
+  // The owner of the middle excludes seeds far away, which shortens the lists for the other owners.
   excess_.assign(from.size(), 0.0);
   test_by_owner(from);
   without_excess(from.size(), excess_, kept_);
@@ -74,7 +74,7 @@ void ListSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Seed
   to.pick(near_, kept_);
 }
 
-/// The place of the seed of least power distance.
+/// The place of the seed of least power distance at x.
 template <int D>
 std::size_t ListSearch<D>::owner_of(const Point<D>& x, const Source& from) {
   power_.resize(from.count);
@@ -162,7 +162,7 @@ void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> 
   keep_unexcluded(from, half);
 }
 
-/// Sets lower_ for the corners of the part, to what the source has where it has the corner.
+/// Sets lower_ for the corners of the part, reusing the columns of corners that the source has.
 template <int D>
 void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
   const std::size_t known = from.level != nullptr ? from.level->part.corners : 0;
@@ -180,7 +180,7 @@ void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
   }
 }
 
-/// Fills `half` with those at kept_.
+/// Sets the seeds of `half` to those at the places kept_.
 template <int D>
 void ListSearch<D>::keep_unexcluded(const Source& from, Level& half) {
   const std::size_t kept = kept_.size();
@@ -196,7 +196,8 @@ void ListSearch<D>::keep_unexcluded(const Source& from, Level& half) {
   for (std::size_t v = 0; v < half.part.corners; ++v) pick(lower_[v], 0, half.lower[v]);
 }
 
-/// Marks what no other seed excludes. What an excluded seed excludes, the one that excludes it does as well.
+/// Marks the seeds that no other excludes. Excluded seeds need no test as testers: the seed that excludes one
+/// also excludes all that it would exclude.
 template <int D>
 void ListSearch<D>::finish(Level& level) {
   const std::size_t count = level.count();

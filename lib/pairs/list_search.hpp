@@ -1,5 +1,5 @@
 /// \file
-/// Exact exclusion among few seeds, all at once. Internal.
+/// The seeds of a list that can meet a box or region. Internal.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace powercell::pairs {
 template <int D>
 using SeedColumns = std::array<std::vector<double>, D + 1>;
 
-/// Seeds by ascending rank, with coordinates as given and weights relative to a reference.
+/// Seeds by ascending rank, with absolute coordinates, and weights relative to a reference.
 template <int D>
 struct SeedList {
   std::vector<std::uint32_t> rank;
@@ -34,7 +34,7 @@ struct SeedList {
     for (std::size_t k = 0; k < D; ++k) column[k].push_back(seeds.positions[std::size_t{r} * D + k]);
     column[D].push_back(seeds.weights[r] - reference);
   }
-  /// Becomes the seeds of `from` at these places.
+  /// Sets this to the seeds of `from` at these places.
   void pick(const SeedList& from, const std::vector<std::uint32_t>& place) {
     const std::size_t count = place.size();
     rank.resize(count);
@@ -46,19 +46,20 @@ struct SeedList {
   }
 };
 
-/// One worker's search with its scratch memory; not thread-safe. The powers of all seeds at each corner of a
-/// part are a column: a part that is split inherits those of the corners that stay.
+/// The search of one thread, with its scratch memory. The power distances of all seeds at a corner of a part
+/// are a column; the halves of a split part inherit the columns of common corners.
 template <int D>
 class ListSearch {
  public:
-  /// The seeds of `from` that can meet the box [low, high].
+  /// Sets `to` to the seeds of `from` that can meet the box [low, high].
   void narrow(const Point<D>& low, const Point<D>& high, const SeedList<D>& from, SeedList<D>& to);
 
-  /// Begins with a region: coordinates will be relative to `origin`, `reach` is as in PowerBounds.
-  /// Keeps a reference to `seeds`.
+  /// Starts with a region. Keeps a reference to `seeds`.
+  /// \param origin  of coordinates in search()
+  /// \param reach   as in PowerBounds
   void begin(const SeedList<D>& seeds, const double* origin, double reach);
   /// Marks the seeds that can meet the part.
-  /// \param known  excludes as well, by upper bounds at the corners of the part
+  /// \param known  upper bounds of further testers at the corners of the part
   void search(const Part<D>& part, std::span<const CornerValues> known = {});
   /// Appends the marked ranks, ascending.
   void append_marked(std::vector<std::uint32_t>& ranks) const;
@@ -75,18 +76,18 @@ class ListSearch {
     Level first, second;
   };
 
-  /// Seeds to be narrowed down: a whole list, or those of a level.
+  /// Seeds to search: a whole list, or those of a level.
   struct Source {
     std::size_t count;
     std::array<const double*, D + 1> column;
     const double* origin;  // of the columns
-    const Level* level;    // or none
+    const Level* level;    // null for a list
   };
   static Source source_of(const Level& level);
 
   std::size_t owner_of(const Point<D>& x, const Source& from);
   void visit(Level& level, std::size_t depth, int failures);
-  /// Fills `half`, whose part is set, with what can meet it.
+  /// Sets the seeds of `half` to those of `from` that can meet its part.
   void narrow_to(const Source& from, std::span<const CornerValues> known, Level& half);
   void find_bounds(const Source& from, const Part<D>& part);
   void add_tester(const Source& from, const Part<D>& part, std::size_t seed);

@@ -1,5 +1,6 @@
 /// \file
-/// The packed tree seen from an origin near a region: distances, power bounds, seed of least power. Internal.
+/// The packed tree relative to an origin near a region: distances, bounds, nearest seed in power distance.
+/// Internal.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +19,12 @@ namespace powercell::pairs {
 struct Entry {
   std::uint32_t index;
   std::int8_t level;
-  /// All its seeds are candidates already; it stays only because they may exclude others.
-  bool accepted;
+  bool accepted;  ///< all its seeds are candidates already; it stays because they may exclude others
 
   bool is_seed() const { return level < 0; }
 };
 
-/// Disjoint entries that hold all seeds not yet excluded.
+/// Disjoint entries that contain all seeds not yet excluded.
 using Frontier = std::vector<Entry>;
 
 /// Ranks [begin, end).
@@ -46,7 +46,7 @@ inline RankRange ranks(const PackedTree& tree, Entry e) {
 }
 static_assert(PackedTree::fan == 8, "ranks() counts in powers of 8");
 
-/// Calls body(child) for the children of a node that is no seed.
+/// Calls body(child) for the children of a node. \pre not e.is_seed()
 template <class Body>
 void for_children(const PackedTree& tree, Entry e, const Body& body) {
   const std::size_t below = e.level == 0 ? tree.seeds
@@ -58,8 +58,8 @@ void for_children(const PackedTree& tree, Entry e, const Body& body) {
     body(Entry{static_cast<std::uint32_t>(k), static_cast<std::int8_t>(e.level - 1), false});
 }
 
-/// Coordinates are relative to `origin`, so that a domain far from zero does not cancel; weights are
-/// relative to `reference`, so that a constant added to all of them does not either.
+/// Coordinates are relative to `origin` and weights to `reference`, so that neither a domain far from zero
+/// nor a constant added to all weights causes cancellation.
 template <int D>
 class LocalTree {
  public:
@@ -77,7 +77,7 @@ class LocalTree {
 
   struct Box {
     Point<D> low, high;
-    double weight;  // the largest below
+    double weight;  // the largest of its seeds
   };
   Box box(Entry e) const {
     const double *low, *high;
@@ -107,7 +107,7 @@ class LocalTree {
     return sum;
   }
 
-  /// Lower bounds, at the corners of `part`, of the power distance to every seed below `e`.
+  /// Lower bounds of the power distances of all seeds below `e` at the corners of `part`.
   CornerValues lower(Entry e, const Part<D>& part, const PowerBounds& bounds) const {
     const Box b = box(e);
     CornerValues values;
@@ -128,8 +128,8 @@ class LocalTree {
     return squared_distance_to(b, x) - b.weight;
   }
 
-  /// The seed of least power at `x` below the frontier if it is less than `least`, else `least`.
-  /// Exact ties may go either way: any seed of small power will do as a tester.
+  /// The seed below the frontier of least power distance at `x` if that is less than `least`, else `least`.
+  /// Ties may go either way: testers need not be nearest.
   Least least_power(const Point<D>& x, const Frontier& frontier, Least least) {
     queue_.clear();
     for (const Entry e : frontier) {
@@ -140,7 +140,7 @@ class LocalTree {
       else
         queue_.push_back({bound, e});
     }
-    // Most of the queue is never looked at, so the least is taken out as needed instead of sorting.
+    // Most of the queue is never read, so the least is extracted as needed instead of sorting.
     while (!queue_.empty()) {
       const auto next = std::min_element(queue_.begin(), queue_.end());
       const Bounded node = *next;

@@ -34,7 +34,7 @@ std::uint64_t NodeSearch<D>::seeds_below(const Frontier& nodes) const {
   return count;
 }
 
-/// The seeds of least power in the middle and at the corners of the box.
+/// Sets the testers to the owners of the middle and the corners of the box.
 template <int D>
 void NodeSearch<D>::choose_testers(const Point<D>& size, const Frontier& from) {
   tester_.clear();

@@ -14,11 +14,10 @@ namespace {
 
 using namespace pairs;
 
-/// Longer lists cost more than a search in the tree of the seeds (LISTED_SEEDS in
-/// kernels/neighbors/region.cl).
+/// The tree of the seeds is searched faster than a longer list (LISTED_SEEDS in kernels/neighbors/region.cl).
 constexpr std::uint32_t most_listed = 96;
 
-/// Only clipping tells which cells meet the one region.
+/// Pairs every seed with the only region: clipping decides which cells meet it.
 Pairs all_with_one_region(std::size_t seeds) {
   Pairs pairs;
   pairs.offset.resize(seeds + 1);
@@ -27,7 +26,7 @@ Pairs all_with_one_region(std::size_t seeds) {
   return pairs;
 }
 
-/// Bounds of `parts` consecutive ranges of regions with about the same number of pairs each.
+/// The bounds of `parts` consecutive ranges of regions with about equal numbers of pairs.
 std::vector<std::size_t> balanced(const std::vector<RankList>& lists, std::uint64_t total,
                                   std::size_t parts) {
   std::vector<std::size_t> bound{0};
@@ -41,13 +40,15 @@ std::vector<std::size_t> balanced(const std::vector<RankList>& lists, std::uint6
   return bound;
 }
 
-/// From the seeds of each region to the regions of each seed.
-/// \param lists  by region   \param seeds  number of ranks
+/// Turns the seeds of each region into the regions of each seed.
+/// \param lists  by region
+/// \param seeds  number of ranks
 Pairs transpose(const std::vector<RankList>& lists, std::size_t seeds, int threads) {
   std::uint64_t total = 0;
   for (const RankList& list : lists) total += list.count;
   threads = threads_for(total, threads);
-  // A counting sort. Each part counts for itself: no more parts than keep the counters linear in the output.
+  // A counting sort, in parts with counters of their own. The number of parts keeps the counters linear in
+  // the output.
   const std::size_t parts = static_cast<std::size_t>(
       std::clamp<std::uint64_t>(total / std::max<std::size_t>(seeds, 1), 1, static_cast<unsigned>(threads)));
   const std::vector<std::size_t> bound = balanced(lists, total, parts);
@@ -76,7 +77,7 @@ Pairs transpose(const std::vector<RankList>& lists, std::size_t seeds, int threa
   }
   pairs.offset[seeds] = sum;
   pairs.region.resize(total);
-  // Parts are in ascending order of regions, and so is each part: rows come out ascending.
+  // Regions ascend within parts and from part to part, so rows ascend.
   for_pairs([&](std::uint64_t& at, std::size_t r) { pairs.region[at++] = static_cast<std::uint32_t>(r); });
   return pairs;
 }
@@ -92,11 +93,11 @@ void keep_short_lists(const std::vector<RankList>& lists, Pairs& pairs) {
 
 }  // namespace
 
-/// The boundary facets as regions of their own.
+/// The boundary facets as regions.
 struct PairFinder::Boundary {
   RegionMesh mesh;
   RegionGroups groups;
-  std::unique_ptr<BoundaryPlanes> planes;  // of tetrahedra
+  std::unique_ptr<BoundaryPlanes> planes;  // only for tetrahedra
 
   Boundary(const RegionMesh& domain, int threads) : mesh(boundary_of(domain)), groups(mesh, threads) {}
 };

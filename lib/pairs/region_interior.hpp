@@ -12,8 +12,8 @@
 
 namespace powercell::pairs {
 
-/// The inside of one region, relative to its first corner. Answers only decide which seeds are taken as
-/// candidates without a test, so they need no exactness.
+/// The interior of one region, relative to its first corner. It only decides which seeds become candidates
+/// without a test, so it need not be exact.
 template <int D>
 class RegionInterior {
  public:
@@ -38,7 +38,7 @@ class RegionInterior {
     if (shape_ == RegionShape::box) return true;
     if (!ready_) make_half_spaces();
     return std::all_of(half_spaces_.begin(), half_spaces_.end(), [&](const HalfSpace& h) {
-      double value = h.offset;  // at the corner of the box that lies deepest against the normal
+      double value = h.offset;  // at the corner of the box farthest along the outward normal
       for (std::size_t k = 0; k < D; ++k) value += std::min(h.normal[k] * low[k], h.normal[k] * high[k]);
       return value >= 0;
     });
@@ -50,7 +50,7 @@ class RegionInterior {
     double offset;
   };
 
-  // Made when first asked for: most regions of a fine mesh never hold a node.
+  // Made on first use: most regions of a fine mesh never contain a node.
   void make_half_spaces() {
     ready_ = true;
     half_spaces_.clear();

@@ -8,18 +8,18 @@
 namespace powercell::pairs::loops {
 namespace {
 
-/// Of the absolute terms: coordinates relative to the seed, products and sums together round less than 16
+/// Relative to the absolute terms: coordinates relative to the seed, products and sums round less than 16
 /// times.
 constexpr double rounding = 0x1p-48;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Where the terms are larger nothing is excluded.
+/// With larger terms nothing is excluded.
 constexpr double largest = std::numeric_limits<double>::max();
 /// For the absolute errors of subnormal terms.
 constexpr double tiny = std::numeric_limits<double>::min();
 
 using lanes::load, lanes::store, lanes::Vector;
 
-/// What eight boxes are to a wall: the error of 2 q.y - level at any of their points, or infinity.
+/// A bound for the error of 2 q.y - offset at all points of eight boxes, or infinity.
 template <int D>
 [[gnu::always_inline]] inline void find_error(const Bisector& bisector, const Vector (&extent)[D],
                                               Vector& error) {
@@ -41,7 +41,7 @@ template <int D>
   }
 }
 
-/// Enters one wall: 2 q.y - level is within [least, greatest] in each lane, but for its error.
+/// Records one bisector: 2 q.y - offset is within [least, most] in each lane, up to its error.
 [[gnu::always_inline]] inline void record(const Vector& least, const Vector& most, const Vector& error,
                                           Vector& beyond, double* greatest) {
   const Vector none = Vector{} - infinite;

@@ -1,5 +1,5 @@
 /// \file
-/// Eight doubles at a time, as vectors of the compiler: it does not find them by itself in short loops.
+/// Eight doubles as one vector of the compiler, which does not vectorise such short loops by itself.
 /// Internal.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace powercell {
 
 constexpr std::size_t lane_count = 8;
 
-/// One coordinate of eight things.
+/// One coordinate of eight boxes or points.
 using Lanes = std::array<double, lane_count>;
 
 namespace lanes {

@@ -10,7 +10,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Of the terms of a determinant: more than their rounding, also that of coordinates taken relative to a
+/// Relative to the terms of a determinant. Bounds their rounding, and that of coordinates relative to a
 /// corner.
 constexpr double rounding = 1e-14;
 
@@ -24,8 +24,8 @@ double size(const Vector& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }
 
-/// Positive inside, for the facet from a to b of a polygon, or a, b, c counter-clockwise from outside; 0
-/// within rounding.
+/// Positive if x is on the inner side of the edge a b of a polygon, or of the facet a b c of a tetrahedron,
+/// counter-clockwise from outside; 0 within rounding.
 double height(const Vector& ab, const Vector& ax) {
   const double value = ab[0] * ax[1] - ab[1] * ax[0];
   return std::abs(value) > rounding * size(ab) * size(ax) ? value : 0;
