@@ -11,10 +11,10 @@ namespace powercell {
 
 namespace {
 
-/// Bytes of output rows in device memory at once.
+/// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
-/// Arguments that all clip kernels share come first; those of the candidates follow.
+/// Number of arguments common to all clip kernels; those of the candidates follow.
 constexpr unsigned common_arguments = 17;
 
 }  // namespace
@@ -242,8 +242,8 @@ std::vector<std::uint32_t> Clipper::clip_on_device(std::span<const std::uint32_t
     if (number > 0) {
       statistics_.retried += pending.size();
       write_log(LogLevel::detail, [&] {
-        return "pieces tried again with room for " + std::to_string(capacity(number).vertices) +
-               " vertices: " + std::to_string(pending.size());
+        return "clipping " + std::to_string(pending.size()) + " pieces again with a capacity of " +
+               std::to_string(capacity(number).vertices) + " vertices";
       });
     }
     Outcome outcome;

@@ -7,7 +7,7 @@
 namespace powercell {
 namespace {
 
-/// Entries of all rows, full or not, that are read as they are.
+/// Up to this many entries, used or not, are read unpacked.
 constexpr std::size_t few_entries = std::size_t{1} << 16;
 
 }  // namespace
@@ -60,7 +60,7 @@ void RowReader::read_values(const cl::RawBuffer& rows, std::size_t width, std::v
   if (few_) return read_few(rows, width, to);
   const std::size_t bytes = to.size() * sizeof(T);
   cl::RawBuffer& packed = packer_->packed;
-  if (bytes > packed.bytes()) packed.reserve(bytes + bytes / 4);  // the next launch has about as many
+  if (bytes > packed.bytes()) packed.reserve(bytes + bytes / 4);  // the next launch needs about as much
   packer_->pack
       .args(static_cast<cl_uint>(rows_), static_cast<cl_uint>(capacity_),
             static_cast<cl_uint>(width * sizeof(T) / sizeof(cl_uint)), device_offset_, rows, packed)

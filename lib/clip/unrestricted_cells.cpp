@@ -12,7 +12,7 @@ namespace powercell {
 namespace {
 
 constexpr std::size_t chunk_cells = std::size_t{1} << 15, least_chunk_cells = 1024;
-/// The distance of vertices from the true ones that a certified cell guarantees (docs/mathematics.md (82)).
+/// Bounds for the error of the vertices of a proved cell, relative to its radius (docs/mathematics.md (82)).
 constexpr double vertex_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  vertex_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
 
@@ -34,7 +34,7 @@ class CellWallsBuilder {
     for (std::uint32_t f = batch.face_offset[row]; f < batch.face_offset[row + 1]; ++f)
       if (batch.border[f] >= 0) walls.neighbor.push_back(static_cast<std::uint32_t>(batch.border[f]));
     if (walls.neighbor.size() > std::numeric_limits<std::uint32_t>::max())
-      throw Error(ErrorCode::unsupported, "the cells have more than 2^32 walls");
+      throw Error(ErrorCode::unsupported, "the cells at the boundary have more than 2^32 walls");
     const auto d = static_cast<std::size_t>(walls.dimension);
     const std::size_t first = batch.vertex_offset[row] * d, count = batch.vertices(row) * d,
                       to = walls.vertex.size();

@@ -34,7 +34,7 @@ std::vector<Polygon> faces_left(const CellWeld& weld) {
   return polygons;
 }
 
-/// The one ring that the edges form, or nothing if they form several or meet in a vertex.
+/// The ring that the edges form; empty if they form several rings, or one that touches itself in a vertex.
 std::vector<std::uint32_t> single_ring(std::vector<Edge>& edges) {
   const auto by_start = [](const Edge& a, const Edge& b) { return a.from < b.from; };
   std::sort(edges.begin(), edges.end(), by_start);
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> single_ring(std::vector<Edge>& edges) {
   return ring.size() == edges.size() ? ring : std::vector<std::uint32_t>{};
 }
 
-/// Polygons of one border, joined where they share edges.
+/// Joins polygons with the same border along common edges.
 class Merge {
  public:
   explicit Merge(std::span<Polygon> polygons) : polygons_(polygons), group_(polygons.size()) {
@@ -82,7 +82,7 @@ class Merge {
     return p;
   }
 
-  /// Drops each edge that two polygons have in opposite directions, and puts the two in one group.
+  /// Removes the edges that two polygons share in opposite directions, and unites the groups of the two.
   void drop_shared_edges() {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tuple(std::minmax(a.from, a.to), a.polygon) <
@@ -126,8 +126,8 @@ std::vector<Polygon> merge_walls(std::vector<Polygon> polygons) {
   return out;
 }
 
-/// Which vertices only split an edge between two walls: exactly two faces have them, of different walls,
-/// both between the same two neighbours. Both planes hold the edge, so it is straight there.
+/// The vertices that only split an edge between two walls: they belong to exactly two faces, of different
+/// walls, with the same neighbouring vertices in both. Both planes contain the edge, so it is straight there.
 class SplitVertices {
  public:
   SplitVertices(const CellWeld& weld, const std::vector<Polygon>& polygons)
@@ -164,7 +164,7 @@ class SplitVertices {
     ++u.count;
   }
 
-  /// A face needs three corners: a sliver whose sides are all split keeps its vertices, in both its faces.
+  /// Keeps all vertices of faces that would be left with fewer than three.
   void keep_polygons(const std::vector<Polygon>& polygons) {
     for (const Polygon& polygon : polygons) {
       const auto corners = std::count_if(polygon.loop.begin(), polygon.loop.end(),

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Corners that share a name are taken for one if rounding in float can have moved them apart by so much
-/// of the domain's diagonal, or if they are nearer than half the facet's extent.
+/// Corresponding corners are welded if they are closer than this times the domain's diagonal, a bound for
+/// rounding in float, or than half the extent of the facet.
 constexpr double float_rounding = 1e-5;
 
-/// Facets left without a partner are sealed within so many times the median distance of welded corners.
+/// Facets without a partner are sealed within this times the median distance of welded corners.
 constexpr double seal_ratio = 16;
 
 }  // namespace
@@ -101,7 +101,7 @@ void CellWeld::gather(std::size_t cell) {
   }
 }
 
-/// Pairs each corner of either facet with the nearest of the other; the largest squared distance.
+/// Pairs each corner of either facet with the nearest one of the other. Returns the largest squared distance.
 double CellWeld::pair_nearest(std::uint32_t a, std::uint32_t b, Pairs& pairs) const {
   double most = 0;
   for (const auto& [from, to] : {std::pair{face(a), face(b)}, std::pair{face(b), face(a)}}) {
@@ -116,8 +116,8 @@ double CellWeld::pair_nearest(std::uint32_t a, std::uint32_t b, Pairs& pairs) co
   return most;
 }
 
-/// Pairs the corners of facet a, in order, with those of facet b in the opposite (or the same) order, in the
-/// turn that brings them nearest; where rounding has given one of them an edge more, by distance alone.
+/// Pairs the corners of facet a, in order, with those of facet b in the opposite (or the same) order, with
+/// the rotation that brings them closest. If rounding has given one facet more edges, pairs by distance only.
 /// \return the largest squared distance
 double CellWeld::pair_corners(std::uint32_t a, std::uint32_t b, bool opposite, Pairs& pairs) const {
   pairs.clear();
@@ -130,7 +130,7 @@ double CellWeld::pair_corners(std::uint32_t a, std::uint32_t b, bool opposite, P
   };
   double least = infinite;
   std::size_t best = 0;
-  // Facets of a surface have ends that correspond by direction; a ring of an edge has only that turn.
+  // The ends of an edge correspond by direction, so there is only one rotation.
   for (std::size_t turn = 0; turn < (n == 2 ? 1 : n); ++turn) {
     double most = 0;
     for (std::size_t k = 0; k < n && most < least; ++k)
@@ -146,8 +146,8 @@ double CellWeld::pair_corners(std::uint32_t a, std::uint32_t b, bool opposite, P
   return least;
 }
 
-/// An edge of a surface may be shared by several triangles, each naming the next, in any orientation, so
-/// its partner is whichever edge of the triangle behind it lies nearest.
+/// Several triangles may share an edge of a surface, each with the next one behind it, in any orientation. So
+/// the partner is the nearest edge of the triangle behind.
 void CellWeld::match_surface_edge(std::uint32_t f, const Facet& facet) {
   Pairs pairs, best;
   double least = infinite;
@@ -199,8 +199,8 @@ void CellWeld::match_facets() {
   }
 }
 
-/// Facets whose partner is missing since the piece behind was too flat to be kept: small ones shrink to a
-/// point, and two that face each other across the missing piece are joined. Larger ones stay.
+/// Closes facets without a partner, because the piece behind was too flat to be kept: shrinks small ones to a
+/// point, and joins two that face each other across the missing piece. Larger ones stay.
 void CellWeld::seal(const std::vector<Facet>& open) {
   double median = 0;
   if (!mismatch2_.empty()) {
@@ -244,7 +244,7 @@ void CellWeld::unite_at_boundary_vertices() {
     const std::size_t begin = piece(p), n = piece(p + 1) - begin;
     for (std::size_t k = 0; k < n; ++k) {
       if (border(begin + k).kind != Border::Kind::boundary) continue;
-      // An edge of the boundary starts or ends in its domain vertex unless a wall cuts it short there.
+      // An edge of the boundary starts and ends in vertices of the domain, except where a wall cuts it.
       const std::array<std::uint32_t, 2> ends = boundary_ends_[border(begin + k).index];
       const bool open[2] = {wall(begin + (k + n - 1) % n), wall(begin + (k + 1) % n)};
       for (std::size_t e = 0; e < 2; ++e)

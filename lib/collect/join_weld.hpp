@@ -1,6 +1,6 @@
 /// \file
-/// Finds which vertices of the pieces of one cell are the same point, and which interior facets between
-/// the pieces are removed once the pieces are joined. Internal.
+/// Finds which vertices of the pieces of one cell are the same point, and which facets between pieces
+/// disappear when they are joined. Internal.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@
 
 namespace powercell {
 
-/// Vertices are welded facet by facet: the facet of a piece in region r that names region s is the facet of
-/// the piece in s that names r, corner by corner. So how far rounding has moved a corner matters only for
-/// telling corners of one facet apart, which holds in double and in float, and no tolerance can tie together
-/// what only lies close. In polygons, parts of a cell that touch in a vertex of the domain's boundary share
-/// it, so that rings can be told apart there; elsewhere parts that share no facet share no vertex. Vertices
-/// and faces are numbered from 0 within the cell.
+/// Welds vertices facet by facet: the facet to region s of a piece in region r is the facet to r of the piece
+/// in s, and their corners correspond. So rounding must only be smaller than the distance between the corners
+/// of one facet, in double and in float, and no tolerance can weld points that are merely close. In polygons,
+/// parts of a cell that touch in a vertex of the domain's boundary share it, which separates rings there;
+/// elsewhere parts without a common facet share no vertex. Vertices and faces are numbered from 0 within the
+/// cell.
 class CellWeld {
  public:
   CellWeld(const Domain& domain, const Cells& cells);
@@ -29,16 +29,16 @@ class CellWeld {
   void weld(std::size_t cell);
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(parent_.size()); }
-  /// The vertex that stands for v and all that are welded to it: the least of them.
+  /// The representative of v: the lowest vertex that is welded to it.
   std::uint32_t same(std::uint32_t v) const { return parent_[v]; }
   const double* position(std::uint32_t v) const {
     return &cells_.vertices[(first_vertex_ + v) * static_cast<std::size_t>(cells_.dimension)];
   }
-  /// Is v on an interior facet, so that only the cutting of the domain may have put it there?
+  /// Whether v lies on an interior facet, so that it may come from the cutting of the domain only.
   bool on_interior(std::uint32_t v) const { return on_interior_[parent_[v]] != 0; }
 
   std::size_t face_count() const { return face_.size() - 1; }
-  /// An edge (two vertices) of a polygon or surface, or a face's loop, welded vertices not yet looked up.
+  /// An edge (two vertices) of a polygon or surface, or the loop of a face, before welding: see same().
   std::span<const std::uint32_t> face(std::size_t f) const {
     return std::span(corners_).subspan(face_[f], face_[f + 1] - face_[f]);
   }
@@ -71,8 +71,8 @@ class CellWeld {
   const Cells& cells_;
   const RegionMesh& mesh_;
   bool surface_;
-  double diagonal_;  ///< diagonal of the domain
-  double rounding_;  ///< what rounding to double moves a coordinate by
+  double diagonal_;  ///< of the domain
+  double rounding_;  ///< bound for the rounding of a coordinate to double
   std::size_t first_vertex_ = 0, first_face_ = 0;
   std::vector<std::uint32_t> parent_, corners_;
   std::vector<std::array<std::uint32_t, 2>> boundary_ends_;  ///< polygon: vertices of each boundary facet

@@ -9,17 +9,17 @@
 namespace powercell {
 namespace {
 
-/// The cell's ball about its centroid must be larger than what rounding moved its vertices by, in units of
-/// the domain's size.
+/// The least radius (12a) of the ball in a cell, relative to the domain's extent: more than the rounding of
+/// vertices.
 constexpr double least_radius_double = 1e-11, least_radius_float = 1e-3;
-/// Units of roundoff, of the distance from the seed, within which moments are known.
+/// The error of moments in units of roundoff, relative to the distance from the seed.
 constexpr double moment_errors = 64;
 
 using Vector = std::array<double, 3>;
 
 enum class Location : unsigned char { inside, outside, unclear };
 
-/// Tells where cells lie by a point near the centroid (docs/mathematics.md, "Cells inside the domain").
+/// Locates a cell that does not meet the boundary by a point near its centroid.
 class CellLocator {
  public:
   explicit CellLocator(const Setup& setup)
@@ -37,8 +37,8 @@ class CellLocator {
   }
 
   Location of(const double* seed, const double* centroid, double mass, double second_moment) const {
-    // Far from its seed a cell has the difference of nearly equal numbers left: with their rounding added it
-    // is never too small, and then the radius never too large.
+    // For a cell far from its seed the variance is a difference of nearly equal numbers. Adding their
+    // rounding makes sure that it is never too small, and so the radius never too large.
     const double from_seed = second_moment / mass;
     double centroid_from_seed = 0, rounding = error_ * from_seed;
     for (int k = 0; k < dimension_; ++k) {
@@ -50,7 +50,7 @@ class CellLocator {
     const double radius = dimension_ == 3 ? 0.055 * mass / variance : 0.11 * mass / std::sqrt(variance);
     const double least = std::max(least_radius_, error_ * std::sqrt(from_seed));
     if (!(variance > 0) || !(radius > least)) return Location::unclear;
-    // Of meshes made by rule some directions stay within facets, but hardly all of these.
+    // In a regular mesh a direction may stay within a facet, but hardly all three.
     constexpr Vector directions[] = {{0.61, 0.29, 0.37}, {-0.23, 0.67, -0.41}, {0.13, -0.47, 0.71}};
     for (const Vector& direction : directions) {
       Vector x{};
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const
       if (!(measures.mass[i] > 0)) continue;
       location[rank] = locator.of(&seeds.positions[rank * d], &measures.centroid[i * d], measures.mass[i],
                                   measures.second_moment[i]);
-      // What planes of the boundary leave is next to it, inside, unless regions overlap.
+      // A piece cut by planes of the boundary lies inside, unless regions overlap.
       if (cut && location[rank] == Location::outside) location[rank] = Location::unclear;
       if (location[rank] != Location::outside) continue;
       measures.mass[i] = measures.second_moment[i] = 0;
