@@ -93,7 +93,7 @@ class OpenJob : public Job {
   std::optional<Device> device_;
 };
 
-/// A buffer of the caller; its failures are errors like those of the library.
+/// A buffer of the caller; throws errors as the library does.
 class Memory {
  public:
   Memory(const Device& device, std::size_t bytes) : device_(device), bytes_(bytes) {
@@ -227,8 +227,8 @@ std::vector<SmallCase> small_cases() {
     Random random(test_seed());
     cases.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, 12, random)});
   }
-  // Strips, and seeds so near each other that the cells between them cannot be told to be inside: the
-  // computation starts again with those region by region.
+  // Strips, and seeds so close together that the cells between them cannot be classified: the computation is
+  // repeated with those clipped region by region.
   Parts strips;
   for (int k = 0; k < 7; ++k)
     strips.push_back({{{k / 7., 0}, {(k + 1) / 7., 0}, {(k + 1) / 7., 1}, {k / 7., 1}}, {}});
