@@ -15,8 +15,8 @@ namespace {
 [[noreturn]] void refuse(std::size_t seed, const std::string& what, double value, bool float32) {
   throw Error(ErrorCode::invalid_seed,
               "seed " + std::to_string(seed) + ": " + what + " is " + digits(value) +
-                  ", too large beside the domain for " + (float32 ? "single" : "double") +
-                  " precision, in which its square would not be finite; remove this seed" +
+                  ", too large relative to the domain for " + (float32 ? "single" : "double") +
+                  " precision, in which its square would overflow; remove this seed" +
                   (float32 ? " or use double precision" : ""));
 }
 

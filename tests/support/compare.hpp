@@ -14,10 +14,11 @@ using Differences = std::vector<std::string>;
 
 /// The allowed differences from the reference, by seed, derived from the precision and the input only.
 ///
-/// A computation with unit roundoff u is exact for bisectors moved by `shift` = c u (reach + |q| + |w_i -
-/// w_j| / |q|), where `reach` is the extent of the domain as seen from the seed. Moving the planes of a cell
-/// by `shift` changes its measure by at most shift times its surface. Returned coordinates are doubles in
-/// either precision; far from 0 their rounding counts too.
+/// A computation with unit roundoff u is exact for bisectors moved by
+///     shift = c u (reach + |q| + |w_i - w_j| / |q|)
+/// where `reach` is the largest distance of the domain from the seed. Moving the planes of a cell by `shift`
+/// changes its measure by at most shift times its surface. Returned coordinates are doubles in either
+/// precision; far from 0 their rounding counts too.
 class Tolerances {
  public:
   Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView& seeds,

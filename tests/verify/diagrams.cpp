@@ -72,8 +72,8 @@ TEST_CASE("diagrams with all walls shorter than rounding obey the laws") {
       }
 }
 
-TEST_CASE("seeds close together, whose bisectors with others are all but parallel, obey the laws") {
-  // Below some 1e-8 exact decisions take over, and the geometry is exact but for its last places.
+TEST_CASE("seeds close together, whose bisectors with others are nearly parallel, obey the laws") {
+  // Below about 1e-8 all decisions are exact, and so is the geometry, up to units in the last place.
   for (const Setup& setup : main_setups())
     for (const auto& list : {surface_domains(), volume_domains(), box_domains()})
       for (const NamedDomain& named : list)
