@@ -19,21 +19,12 @@ using namespace powercell::test;
 
 namespace {
 
-struct Case {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-
-std::vector<Case> cases(std::size_t n) {
-  std::vector<Case> list;
-  for (const NamedDomain& named : {NamedDomain{"islands", Domain::polygon(islands())},
-                                   {"torus", surface_of(torus(12, 7))},
-                                   {"ball", volume_of(ball_tetrahedra(0))},
-                                   {"cube", unit_box(3)}}) {
-    Random random(test_seed());
-    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
-  }
-  return list;
+std::vector<SeededDomain> cases(std::size_t n) {
+  return with_seeds({{"islands", Domain::polygon(islands())},
+                     {"torus", surface_of(torus(12, 7))},
+                     {"ball", volume_of(ball_tetrahedra(0))},
+                     {"cube", unit_box(3)}},
+                    n);
 }
 
 Results results(const Device& device, const Domain& domain, const SeedArray& seeds, const Options& options) {
@@ -85,7 +76,7 @@ void write_results(const std::filesystem::path& path) {
     file.write(reinterpret_cast<const char*>(values.data()),
                static_cast<std::streamsize>(values.size() * sizeof(values[0])));
   };
-  for (const Case& c : cases(300))
+  for (const SeededDomain& c : cases(300))
     for (const Setup& setup : main_setups()) {
       const Results r = results(setup.device, c.domain.domain, c.seeds, setup.options);
       put(r.measures.mass), put(r.measures.centroid), put(r.measures.second_moment), put(r.measures.status);
@@ -104,7 +95,7 @@ constexpr const char* results_file = "POWERCELL_TEST_RESULTS";
 }  // namespace
 
 TEST_CASE("chunks and host threads change no bit") {
-  for (const Case& c : cases(300))
+  for (const SeededDomain& c : cases(300))
     for (const Setup& setup : all_setups()) {
       INFO(c.domain.name << ", " << setup.name);
       const Results expected = results(setup.device, c.domain.domain, c.seeds, setup.options);
@@ -122,7 +113,7 @@ TEST_CASE("chunks and host threads change no bit") {
 }
 
 TEST_CASE("chunks of one pair change no bit") {
-  const Case cube = cases(60).back();
+  const SeededDomain cube = cases(60).back();
   for (const Setup& setup : all_setups()) {
     INFO(setup.name);
     Options options = setup.options;
@@ -133,7 +124,7 @@ TEST_CASE("chunks of one pair change no bit") {
 }
 
 /// Compares runs with work-groups of these sizes, for which the driver may have to compile again.
-void check_groups(const Case& c, const Setup& setup, std::initializer_list<std::size_t> sizes) {
+void check_groups(const SeededDomain& c, const Setup& setup, std::initializer_list<std::size_t> sizes) {
   const shim::Scope scope;
   INFO(c.domain.name << ", " << setup.name);
   const auto run = [&] {
@@ -160,13 +151,13 @@ TEST_CASE("the size of work-groups changes no bit") {
 }
 
 TEST_CASE("campaign: the size of work-groups changes no bit" * doctest::skip()) {
-  for (const Case& c : cases(200))
+  for (const SeededDomain& c : cases(200))
     for (const Setup& setup : all_setups())
       if (has_tree(setup)) check_groups(c, setup, {1, 8, 24, 128});
 }
 
 TEST_CASE("DeviceDiagram: launches and the order of the seeds change no bit") {
-  for (const Case& c : cases(300))
+  for (const SeededDomain& c : cases(300))
     for (const Setup& setup : all_setups()) {
       if (!has_tree(setup)) continue;
       INFO(c.domain.name << ", " << setup.name);

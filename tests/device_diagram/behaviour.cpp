@@ -223,10 +223,10 @@ TEST_CASE("seeds that are not finite are reported and do not change the others")
   }
 }
 
-TEST_CASE("a cell of many faces is clipped by the larger variant") {
+TEST_CASE("a cell of many faces is clipped with the larger capacity") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
-  // 100 seeds on a circle around one: its cell has 100 edges, more than the 32 of the small variant.
+  // 100 seeds on a circle around one: its cell has 100 edges, more than the smaller capacity of 32.
   SeedArray seeds = cospherical(100, 2);
   seeds.push({0.5, 0.5}, 0);
   const Output output = run(caller, diagram, seeds.view());
@@ -238,7 +238,7 @@ TEST_CASE("a cell of many faces is clipped by the larger variant") {
   CHECK(std::abs(output.mass[100] - expected.mass[100]) <= 1e-5 * expected.mass[100]);
 }
 
-TEST_CASE("a cell that fits no variant is unfinished, not partial") {
+TEST_CASE("a cell that fits no capacity is unfinished, not partial") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
   SeedArray seeds = cospherical(1000, 2);

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<JobKind> jobs_on(const Setup& setup) {
   std::vector<JobKind> jobs;
-  for (const SmallCase& small : small_cases()) {
+  for (const SeededDomain& small : small_cases()) {
     jobs.push_back(diagram_job(setup, small.domain, small.seeds));
     if (setup.options.neighbors == Neighbors::tree)
       jobs.push_back(device_diagram_job(setup, small.domain, small.seeds));
@@ -62,7 +62,7 @@ void report(const JobKind& job, cl_int code, const Tally& tally) {
 }  // namespace
 
 TEST_CASE("every call of a run fails once: an error, no leak, and the object stays usable") {
-  const SmallCase cube = small_cases()[3];
+  const SeededDomain cube = small_cases()[3];
   const JobKind job = diagram_job(main_setups().front(), cube.domain, cube.seeds);
   report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries()));
 }
@@ -74,7 +74,7 @@ TEST_CASE("calls of every entry point fail in every kind of run") {
 }
 
 TEST_CASE("faults with a cell of more faces than the kernels' capacities") {
-  const SmallCase many = many_faces(300);
+  const SeededDomain many = many_faces(300);
   for (const Setup& setup : main_setups()) {
     const JobKind job = diagram_job(setup, many.domain, many.seeds);
     report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
@@ -95,7 +95,7 @@ TEST_CASE("opening a device fails at every call") {
 TEST_CASE("every program of a run fails to build") {
   // A program from the disk cache that fails to build would be compiled instead.
   const Environment compiled("POWERCELL_CACHE", "never");
-  const SmallCase cube = small_cases()[3];
+  const SeededDomain cube = small_cases()[3];
   const JobKind job = device_job(main_setups().front(), cube.domain, cube.seeds);
   report(job, CL_BUILD_PROGRAM_FAILURE,
          fail_every_call(job, CL_BUILD_PROGRAM_FAILURE, {shim::Entry::clBuildProgram}));
@@ -118,7 +118,7 @@ TEST_CASE("campaign: the device is lost at every call" * doctest::skip()) {
 // buffers of the device's self-test and the first diagrams are left out; the first test fails all such calls.
 TEST_CASE("campaign: every call fails that opens the device and builds its programs" * doctest::skip()) {
   const Environment compiled("POWERCELL_CACHE", "never");
-  const SmallCase polygon = small_cases().front();  // needs the most programs of all kinds of domain
+  const SeededDomain polygon = small_cases().front();  // needs the most programs of all kinds of domain
   for (const Setup& setup : all_setups()) {
     if (setup.options.neighbors != Neighbors::tree) continue;
     const JobKind job = device_job(setup, polygon.domain, polygon.seeds);

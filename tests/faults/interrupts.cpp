@@ -29,7 +29,7 @@ struct Progress {
 
 TEST_CASE("a diagram stopped at any call of the callback continues to the same bits") {
   for (const Setup& setup : main_setups())
-    for (const SmallCase& small : small_cases()) {
+    for (const SeededDomain& small : small_cases()) {
       INFO(small.domain.name << ", " << setup.name);
       Progress progress;
       Options options = setup.options;

@@ -39,14 +39,10 @@ JobKind open_job(const Setup& setup);
 /// Device::choose and a small diagram on that device, so that every program is built in the job.
 JobKind device_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 
-/// A domain with few seeds.
-struct SmallCase {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-/// Polygon, surface, volume, box, and strips with cells too thin to be classified as inside or outside.
-std::vector<SmallCase> small_cases();
+/// Few seeds in a polygon, on a surface, in a volume, in a box, and in strips, with cells too thin to be
+/// classified as inside or outside.
+std::vector<SeededDomain> small_cases();
 /// A square with one cell of this many faces.
-SmallCase many_faces(std::size_t faces);
+SeededDomain many_faces(std::size_t faces);
 
 }  // namespace powercell::test

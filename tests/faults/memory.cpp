@@ -13,22 +13,13 @@ namespace {
 
 constexpr std::size_t MiB = std::size_t{1} << 20;
 
-struct Case {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-
 /// Cases with enough pairs for several chunks of the smallest size.
-std::vector<Case> cases() {
-  std::vector<Case> list;
-  for (const NamedDomain& named : {NamedDomain{"square", unit_box(2)},
-                                   {"cube", unit_box(3)},
-                                   {"torus", surface_of(torus(12, 7))},
-                                   {"ball", volume_of(ball_tetrahedra(0))}}) {
-    Random random(test_seed());
-    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, 4000, random)});
-  }
-  return list;
+std::vector<SeededDomain> cases() {
+  return with_seeds({{"square", unit_box(2)},
+                     {"cube", unit_box(3)},
+                     {"torus", surface_of(torus(12, 7))},
+                     {"ball", volume_of(ball_tetrahedra(0))}},
+                    4000);
 }
 
 /// The results that need device memory.
@@ -57,7 +48,7 @@ std::uint64_t uploads() {
 TEST_CASE("decreasing device memory: smaller chunks with the same bits, then an error, then recovery") {
   const shim::Scope scope;
   const Setup& setup = main_setups().front();
-  for (const Case& c : cases()) {
+  for (const SeededDomain& c : cases()) {
     INFO(c.domain.name << ", " << setup.name);
     Output expected;
     std::uint64_t uploads_at_best = 0;
@@ -102,7 +93,7 @@ TEST_CASE("decreasing device memory: smaller chunks with the same bits, then an 
 
 TEST_CASE("a largest allocation far smaller than the memory: smaller chunks with the same bits") {
   const shim::Scope scope;
-  for (const Case& c : cases()) {
+  for (const SeededDomain& c : cases()) {
     const Setup& setup = main_setups().front();
     INFO(c.domain.name << ", " << setup.name);
     Diagram plain(setup.device, c.domain.domain, setup.options);
@@ -151,12 +142,12 @@ TEST_CASE("a chunk repeated after a failed unmap counts once") {
   setup.options.decisions = Decisions::fast;
   Random random(test_seed());
   const NamedDomain torus_surface{"torus", surface_of(torus(40, 20))};
-  const std::vector<Case> several_chunks = {
+  const std::vector<SeededDomain> several_chunks = {
       // Cells of many pieces, which extend over several chunks.
       {torus_surface, seeds_for(torus_surface.domain, Distribution::white, WeightRange::W0, 500, random)},
       // Rounding decides every cell.
       {{"cube", unit_box(3)}, grid(16, 3)}};
-  for (const Case& c : several_chunks) {
+  for (const SeededDomain& c : several_chunks) {
     INFO(c.domain.name);
     const auto measured = [&] {
       Diagram diagram(setup.device, c.domain.domain, setup.options);
@@ -194,7 +185,7 @@ TEST_CASE("if the smallest chunk exceeds the largest allocation, the message nam
   const Setup& setup = main_setups().front();
   shim::pretend(CL_DEVICE_MAX_MEM_ALLOC_SIZE, 64 << 10);
   const Device small = Device::choose(setup.device.info().selector());
-  const Case c = cases()[1];
+  const SeededDomain c = cases()[1];
   Diagram diagram(small, c.domain.domain, setup.options);
   try {
     compute(diagram, c.seeds);

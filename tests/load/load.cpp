@@ -28,24 +28,15 @@ std::size_t resident() {
   return resident_pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-struct Case {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-
-std::vector<Case> cases(std::size_t n, std::uint64_t seed) {
-  std::vector<Case> list;
-  for (const NamedDomain& named : {NamedDomain{"letter U", Domain::polygon(letter_u())},
-                                   {"torus", surface_of(torus(12, 7))},
-                                   {"ball", volume_of(ball_tetrahedra(0))},
-                                   {"cube", unit_box(3)}}) {
-    Random random(seed);
-    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
-  }
-  return list;
+std::vector<SeededDomain> cases(std::size_t n) {
+  return with_seeds({{"letter U", Domain::polygon(letter_u())},
+                     {"torus", surface_of(torus(12, 7))},
+                     {"ball", volume_of(ball_tetrahedra(0))},
+                     {"cube", unit_box(3)}},
+                    n);
 }
 
-Results fresh(const Setup& setup, const Case& c) {
+Results fresh(const Setup& setup, const SeededDomain& c) {
   Diagram diagram(setup.device, c.domain.domain, setup.options);
   diagram.set_seeds(c.seeds.view());
   return results_of(diagram);
@@ -80,9 +71,9 @@ class Baseline {
 /// Makes and destroys `count` diagrams after `warm_up` others. Memory may grow by at most `allowed`.
 void many_diagrams(std::size_t warm_up, std::size_t count, std::size_t allowed) {
   const Setup& setup = main_setups().front();
-  const std::vector<Case> list = cases(100, test_seed());
+  const std::vector<SeededDomain> list = cases(100);
   std::vector<Results> expected;
-  for (const Case& c : list) expected.push_back(fresh(setup, c));
+  for (const SeededDomain& c : list) expected.push_back(fresh(setup, c));
   const auto make = [&](std::size_t k) {
     CHECK(bit_differences(fresh(setup, list[k % list.size()]), expected[k % list.size()]) == "");
   };
@@ -96,7 +87,7 @@ void many_diagrams(std::size_t warm_up, std::size_t count, std::size_t allowed) 
 /// Sets `count` sets of weights in one diagram, and compares it to a new diagram at times.
 void many_updates(std::size_t warm_up, std::size_t count, std::size_t every, std::size_t allowed) {
   const Setup& setup = main_setups().front();
-  for (Case c : cases(60, test_seed())) {
+  for (SeededDomain c : cases(60)) {
     INFO(c.domain.name);
     Random random(test_seed());
     const double h = spacing(c.domain.domain.measure(), c.seeds.size(), c.domain.domain.cell_dimension());
@@ -128,9 +119,9 @@ void many_updates(std::size_t warm_up, std::size_t count, std::size_t every, std
 void many_threads(std::size_t threads, std::size_t rounds) {
   for (const Setup& setup : main_setups()) {
     INFO(setup.name);
-    const std::vector<Case> list = cases(80, test_seed());
+    const std::vector<SeededDomain> list = cases(80);
     std::vector<Results> expected;
-    for (const Case& c : list) expected.push_back(fresh(setup, c));
+    for (const SeededDomain& c : list) expected.push_back(fresh(setup, c));
     const shim::Alive objects = shim::alive();
     // A new device without programs: the first thread to need one builds and tests it.
     const Device device = Device::choose(setup.device.info().selector());

@@ -193,4 +193,13 @@ SeedArray seeds_for(const Domain& domain, Distribution distribution, WeightRange
   return seeds;
 }
 
+std::vector<SeededDomain> with_seeds(const std::vector<NamedDomain>& domains, std::size_t n) {
+  std::vector<SeededDomain> list;
+  for (const NamedDomain& named : domains) {
+    Random random(test_seed());
+    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
+  }
+  return list;
+}
+
 }  // namespace powercell::test

@@ -42,4 +42,11 @@ std::vector<double> points_in(const Domain& domain, std::size_t n, Random& rando
 SeedArray seeds_for(const Domain& domain, Distribution distribution, WeightRange range, std::size_t n,
                     Random& random);
 
+struct SeededDomain {
+  NamedDomain domain;
+  SeedArray seeds;
+};
+/// Each domain with n white seeds of weights W1, which depend on the test seed and the domain only.
+std::vector<SeededDomain> with_seeds(const std::vector<NamedDomain>& domains, std::size_t n);
+
 }  // namespace powercell::test
