@@ -91,9 +91,9 @@ void ListSearch<D>::begin(const SeedList<D>& seeds, const double* origin, double
 }
 
 template <int D>
-typename ListSearch<D>::Source ListSearch<D>::source_of(const Level& level) {
+typename ListSearch<D>::Source ListSearch<D>::source_of(const Subset& subset) {
   static constexpr std::array<double, D> zero{};
-  return {level.count(), pointers<D>(level.local), zero.data(), &level};
+  return {subset.count(), pointers<D>(subset.local), zero.data(), &subset};
 }
 
 template <int D>
@@ -112,15 +112,15 @@ void ListSearch<D>::append_marked(std::vector<std::uint32_t>& ranks) const {
 }
 
 template <int D>
-void ListSearch<D>::visit(Level& level, std::size_t depth, int failures) {
+void ListSearch<D>::visit(Subset& subset, std::size_t depth, int failures) {
   const std::size_t most = seeds_->size() > long_list ? most_depth_of_long : most_depth;
-  if (level.count() <= few_seeds || depth == most || failures == most_failures) return finish(level);
+  if (subset.count() <= few_seeds || depth == most || failures == most_failures) return finish(subset);
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
-  std::tie(halves.first.part, halves.second.part) = split(level.part);
-  narrow_to(source_of(level), {}, halves.first);
-  narrow_to(source_of(level), {}, halves.second);
-  const bool helped = halves.first.count() + halves.second.count() < level.count() + level.count() / 5 * 4;
+  std::tie(halves.first.part, halves.second.part) = split(subset.part);
+  narrow_to(source_of(subset), {}, halves.first);
+  narrow_to(source_of(subset), {}, halves.second);
+  const bool helped = halves.first.count() + halves.second.count() < subset.count() + subset.count() / 5 * 4;
   visit(halves.first, depth + 1, helped ? 0 : failures + 1);
   visit(halves.second, depth + 1, helped ? 0 : failures + 1);
 }
@@ -142,7 +142,7 @@ void ListSearch<D>::add_tester(const Source& from, const Part<D>& part, std::siz
 
 /// Excludes by the seed of least power at the centroid and, if that leaves many, at the corners.
 template <int D>
-void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> known, Level& half) {
+void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> known, Subset& half) {
   find_bounds(from, half.part);
   excess_.assign(from.count, 0.0);
   tester_.assign(1, static_cast<std::uint32_t>(owner_of(half.part.centroid(), from)));
@@ -165,12 +165,12 @@ void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> 
 /// Sets lower_ for the corners of the part, reusing the columns of corners that the source has.
 template <int D>
 void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
-  const std::size_t known = from.level != nullptr ? from.level->part.corners : 0;
+  const std::size_t known = from.subset != nullptr ? from.subset->part.corners : 0;
   for (std::size_t v = 0; v < part.corners; ++v) {
     std::size_t at = 0;
-    while (at < known && from.level->part.corner[at] != part.corner[v]) ++at;
+    while (at < known && from.subset->part.corner[at] != part.corner[v]) ++at;
     if (at < known) {
-      lower_[v] = from.level->lower[at].data();
+      lower_[v] = from.subset->lower[at].data();
       continue;
     }
     fresh_[v].resize(from.count);
@@ -182,11 +182,11 @@ void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
 
 /// Sets the seeds of `half` to those at the places kept_.
 template <int D>
-void ListSearch<D>::keep_unexcluded(const Source& from, Level& half) {
+void ListSearch<D>::keep_unexcluded(const Source& from, Subset& half) {
   const std::size_t kept = kept_.size();
   half.index.resize(kept);
   for (std::size_t s = 0; s < kept; ++s)
-    half.index[s] = from.level != nullptr ? from.level->index[kept_[s]] : kept_[s];
+    half.index[s] = from.subset != nullptr ? from.subset->index[kept_[s]] : kept_[s];
   const auto pick = [&](const double* values, double origin, std::vector<double>& to) {
     to.resize(kept);
     for (std::size_t s = 0; s < kept; ++s) to[s] = values[kept_[s]] - origin;
@@ -199,15 +199,15 @@ void ListSearch<D>::keep_unexcluded(const Source& from, Level& half) {
 /// Marks the seeds that no other excludes. Excluded seeds need no test as testers: the seed that excludes one
 /// also excludes all that it would exclude.
 template <int D>
-void ListSearch<D>::finish(Level& level) {
-  const std::size_t count = level.count();
-  for (std::size_t v = 0; v < level.part.corners; ++v) lower_[v] = level.lower[v].data();
+void ListSearch<D>::finish(Subset& subset) {
+  const std::size_t count = subset.count();
+  for (std::size_t v = 0; v < subset.part.corners; ++v) lower_[v] = subset.lower[v].data();
   excess_.assign(count, 0.0);
   if (count <= most_seeds)
     for (std::size_t s = 0; s < count; ++s)
-      if (!(excess_[s] > 0)) add_tester(source_of(level), level.part, s);
+      if (!(excess_[s] > 0)) add_tester(source_of(subset), subset.part, s);
   for (std::size_t s = 0; s < count; ++s)
-    if (!(excess_[s] > 0)) marked_[level.index[s]] = 1;
+    if (!(excess_[s] > 0)) marked_[subset.index[s]] = 1;
 }
 
 template class ListSearch<2>;

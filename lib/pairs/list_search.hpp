@@ -65,7 +65,7 @@ class ListSearch {
   void append_marked(std::vector<std::uint32_t>& ranks) const;
 
  private:
-  struct Level {
+  struct Subset {
     Part<D> part;
     std::vector<std::uint32_t> index;                     // into the list
     SeedColumns<D> local;                                 // coordinates relative to the origin
@@ -73,26 +73,26 @@ class ListSearch {
     std::size_t count() const { return index.size(); }
   };
   struct Halves {
-    Level first, second;
+    Subset first, second;
   };
 
-  /// Seeds to search: a whole list, or those of a level.
+  /// Seeds to search: a whole list, or those of a subset.
   struct Source {
     std::size_t count;
     std::array<const double*, D + 1> column;
     const double* origin;  // of the columns
-    const Level* level;    // null for a list
+    const Subset* subset;  // null for a list
   };
-  static Source source_of(const Level& level);
+  static Source source_of(const Subset& subset);
 
   std::size_t owner_of(const Point<D>& x, const Source& from);
-  void visit(Level& level, std::size_t depth, int failures);
+  void visit(Subset& subset, std::size_t depth, int failures);
   /// Sets the seeds of `half` to those of `from` that can meet its part.
-  void narrow_to(const Source& from, std::span<const CornerValues> known, Level& half);
+  void narrow_to(const Source& from, std::span<const CornerValues> known, Subset& half);
   void find_bounds(const Source& from, const Part<D>& part);
   void add_tester(const Source& from, const Part<D>& part, std::size_t seed);
-  void keep_unexcluded(const Source& from, Level& half);
-  void finish(Level& level);
+  void keep_unexcluded(const Source& from, Subset& half);
+  void finish(Subset& subset);
 
   const SeedList<D>* seeds_ = nullptr;
   std::vector<unsigned char> marked_;
@@ -101,7 +101,7 @@ class ListSearch {
   PowerBounds bounds_;
   double reach_ = 0;
   std::deque<Halves> halves_;  // by depth; references stay valid as it grows
-  Level root_;
+  Subset root_;
   std::vector<double> power_, excess_;
   std::vector<std::uint32_t> tester_, kept_;
   std::array<std::vector<double>, most_corners> fresh_;
