@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 
 #include "lib/collect/join_faces.hpp"
@@ -52,7 +51,6 @@ std::vector<std::uint32_t> single_ring(std::vector<Edge>& edges) {
 class Merge {
  public:
   explicit Merge(std::span<Polygon> polygons) : polygons_(polygons), group_(polygons.size()) {
-    std::iota(group_.begin(), group_.end(), 0u);
     for (std::uint32_t p = 0; p < polygons.size(); ++p) {
       const auto& loop = polygons[p].loop;
       for (std::size_t k = 0; k < loop.size(); ++k)
@@ -63,7 +61,7 @@ class Merge {
 
   void append_to(std::vector<Polygon>& out) {
     std::vector<std::vector<Edge>> outline(polygons_.size());
-    for (const Edge& e : edges_) outline[root(e.polygon)].push_back(e);
+    for (const Edge& e : edges_) outline[group_.root(e.polygon)].push_back(e);
     std::vector<std::uint8_t> merged(polygons_.size(), 0);
     for (std::uint32_t g = 0; g < polygons_.size(); ++g) {
       if (outline[g].empty()) continue;
@@ -73,15 +71,10 @@ class Merge {
       out.push_back({std::move(ring), polygons_[g].border});
     }
     for (std::uint32_t p = 0; p < polygons_.size(); ++p)
-      if (!merged[root(p)]) out.push_back(std::move(polygons_[p]));
+      if (!merged[group_.root(p)]) out.push_back(std::move(polygons_[p]));
   }
 
  private:
-  std::uint32_t root(std::uint32_t p) {
-    while (group_[p] != p) p = group_[p] = group_[group_[p]];
-    return p;
-  }
-
   /// Removes the edges that two polygons share in opposite directions, and unites the groups of the two.
   void drop_shared_edges() {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
@@ -92,8 +85,7 @@ class Merge {
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       if (k + 1 < edges_.size() && same_ends(edges_[k], edges_[k + 1]) &&
           edges_[k].from == edges_[k + 1].to) {
-        const std::uint32_t a = root(edges_[k].polygon), b = root(edges_[k + 1].polygon);
-        group_[std::max(a, b)] = std::min(a, b);
+        group_.unite(edges_[k].polygon, edges_[k + 1].polygon);
         ++k;
       } else {
         edges_[kept++] = edges_[k];
@@ -103,7 +95,7 @@ class Merge {
   }
 
   std::span<Polygon> polygons_;
-  std::vector<std::uint32_t> group_;
+  DisjointSets group_;
   std::vector<Edge> edges_;
 };
 

@@ -41,19 +41,8 @@ CellWeld::CellWeld(const Domain& domain, const Cells& cells)
   }
 }
 
-std::uint32_t CellWeld::root(std::uint32_t v) {
-  while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-  return v;
-}
-
-void CellWeld::unite(std::uint32_t a, std::uint32_t b) {
-  a = root(a);
-  b = root(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
 void CellWeld::unite(const Pairs& pairs) {
-  for (const auto& [a, b] : pairs) unite(a, b);
+  for (const auto& [a, b] : pairs) welded_.unite(a, b);
 }
 
 double CellWeld::distance2(std::uint32_t a, std::uint32_t b) const {
@@ -73,9 +62,8 @@ void CellWeld::gather(std::size_t cell) {
   const std::uint64_t begin = cells_.cell_offset[cell], end = cells_.cell_offset[cell + 1];
   first_vertex_ = cells_.vertex_offset[begin];
   first_face_ = cells_.face_offset[begin];
-  parent_.resize(cells_.vertex_offset[end] - first_vertex_);
-  for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = v;
-  on_interior_.assign(parent_.size(), 0);
+  welded_.reset(cells_.vertex_offset[end] - first_vertex_);
+  on_interior_.assign(welded_.size(), 0);
   removed_.assign(cells_.face_offset[end] - first_face_, 0);
   corners_.clear();
   face_ = {0};
@@ -213,7 +201,7 @@ void CellWeld::seal(const std::vector<Facet>& open) {
   for (const Facet& facet : open) {
     const std::span<const std::uint32_t> corners = face(facet.face);
     if (extent2(facet.face) <= within * within) {
-      for (const std::uint32_t v : corners) unite(corners[0], v);
+      for (const std::uint32_t v : corners) welded_.unite(corners[0], v);
       removed_[facet.face] = 1;
       continue;
     }
@@ -255,7 +243,7 @@ void CellWeld::unite_at_boundary_vertices() {
   }
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
   for (std::size_t k = 1; k < places.size(); ++k)
-    if (places[k].vertex == places[k - 1].vertex) unite(places[k].corner, places[k - 1].corner);
+    if (places[k].vertex == places[k - 1].vertex) welded_.unite(places[k].corner, places[k - 1].corner);
 }
 
 void CellWeld::unite_short_edges() {
@@ -263,7 +251,7 @@ void CellWeld::unite_short_edges() {
     const std::span<const std::uint32_t> corners = face(f);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const std::uint32_t a = corners[k], b = corners[(k + 1) % corners.size()];
-      if (distance2(a, b) <= rounding_ * rounding_) unite(a, b);
+      if (distance2(a, b) <= rounding_ * rounding_) welded_.unite(a, b);
     }
   }
 }
@@ -279,9 +267,10 @@ void CellWeld::weld(std::size_t cell) {
   }
   if (!boundary_ends_.empty() && piece_count() > 1) unite_at_boundary_vertices();
   unite_short_edges();
-  for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = root(v);
+  same_.resize(welded_.size());
+  for (std::uint32_t v = 0; v < same_.size(); ++v) same_[v] = welded_.root(v);
   for (const Facet& facet : facets_)
-    for (const std::uint32_t v : face(facet.face)) on_interior_[parent_[v]] = 1;
+    for (const std::uint32_t v : face(facet.face)) on_interior_[same_[v]] = 1;
 }
 
 }  // namespace powercell

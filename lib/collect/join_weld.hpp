@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/base/disjoint_sets.hpp"
 #include "lib/domain/region_mesh.hpp"
 
 namespace powercell {
@@ -28,14 +29,14 @@ class CellWeld {
 
   void weld(std::size_t cell);
 
-  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(parent_.size()); }
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(same_.size()); }
   /// The representative of v: the lowest vertex that is welded to it.
-  std::uint32_t same(std::uint32_t v) const { return parent_[v]; }
+  std::uint32_t same(std::uint32_t v) const { return same_[v]; }
   const double* position(std::uint32_t v) const {
     return &cells_.vertices[(first_vertex_ + v) * static_cast<std::size_t>(cells_.dimension)];
   }
   /// Whether v lies on an interior facet, so that it may come from the cutting of the domain only.
-  bool on_interior(std::uint32_t v) const { return on_interior_[parent_[v]] != 0; }
+  bool on_interior(std::uint32_t v) const { return on_interior_[same_[v]] != 0; }
 
   std::size_t face_count() const { return face_.size() - 1; }
   /// An edge (two vertices) of a polygon or surface, or the loop of a face, before welding: see same().
@@ -60,8 +61,6 @@ class CellWeld {
   void seal(const std::vector<Facet>& open);
   void unite_at_boundary_vertices();
   void unite_short_edges();
-  std::uint32_t root(std::uint32_t v);
-  void unite(std::uint32_t a, std::uint32_t b);
   void unite(const Pairs& pairs);
   double distance2(std::uint32_t a, std::uint32_t b) const;
   double extent2(std::uint32_t face) const;
@@ -74,7 +73,8 @@ class CellWeld {
   double diagonal_;  ///< of the domain
   double rounding_;  ///< bound for the rounding of a coordinate to double
   std::size_t first_vertex_ = 0, first_face_ = 0;
-  std::vector<std::uint32_t> parent_, corners_;
+  DisjointSets welded_;
+  std::vector<std::uint32_t> same_, corners_;
   std::vector<std::array<std::uint32_t, 2>> boundary_ends_;  ///< polygon: vertices of each boundary facet
   std::vector<std::size_t> face_, piece_;
   std::vector<std::uint8_t> on_interior_, removed_;

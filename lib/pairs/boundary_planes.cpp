@@ -1,9 +1,9 @@
 #include "lib/pairs/boundary_planes.hpp"
 
 #include <map>
-#include <numeric>
 #include <span>
 
+#include "lib/base/disjoint_sets.hpp"
 #include "lib/base/vectors.hpp"
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/exact_orientation.hpp"
@@ -52,11 +52,7 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
       blocks_(boundary, groups),
       vertex_(weld(boundary.vertices, 3)),
       plane_(boundary.region_count()) {
-  std::iota(plane_.begin(), plane_.end(), 0U);
-  const auto root = [&](std::uint32_t f) {
-    while (plane_[f] != f) f = plane_[f] = plane_[plane_[f]];
-    return f;
-  };
+  DisjointSets coplanar(plane_.size());
   const auto corners = [&](std::uint32_t f) { return &mesh_.region_vertex[std::size_t{f} * 3]; };
   const auto normal = [&](std::uint32_t f) {
     const auto at = [&](std::size_t k) { return &mesh_.vertices[std::size_t{corners(f)[k]} * 3]; };
@@ -77,9 +73,9 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
     const std::uint32_t *a = corners(f), x = corners(g)[(other->second.from + 2) % 3];
     // Coplanar triangles with a common edge have equal normals unless they are folded onto each other.
     if (side_of_plane(mesh_.vertices, a[0], a[1], a[2], x) == 0 && dot(normal(f), normal(g)) > 0)
-      plane_[std::max(root(f), root(g))] = std::min(root(f), root(g));
+      coplanar.unite(f, g);
   }
-  for (std::uint32_t f = 0; f < plane_.size(); ++f) plane_[f] = root(f);
+  for (std::uint32_t f = 0; f < plane_.size(); ++f) plane_[f] = coplanar.root(f);
 }
 
 const double* PlaneSearch::corner(std::uint32_t facet, std::size_t k) const {

@@ -65,6 +65,7 @@ class ListSearch {
   void append_marked(std::vector<std::uint32_t>& ranks) const;
 
  private:
+  /// The seeds that can meet a part.
   struct Subset {
     Part<D> part;
     std::vector<std::uint32_t> index;                     // into the list
