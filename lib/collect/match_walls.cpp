@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t share_count = 4096;  // with fewer ranks, threads cost more than they save
 
 // A vector of the compiler, which does not vectorise such short loops by itself.
-typedef std::uint32_t Vector __attribute__((vector_size(WallRow::lanes * sizeof(std::uint32_t))));
+using Vector [[gnu::vector_size(WallRow::lanes * sizeof(std::uint32_t))]] = std::uint32_t;
 static_assert(WallRow::lanes == 8);
 
 /// The place of neighbour i in a row, or the row's count. Uses no unpredictable branches, and whole vectors,

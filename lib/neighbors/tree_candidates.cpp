@@ -94,14 +94,14 @@ std::unique_ptr<Candidates> RegionCandidates::for_scene(const Scene& scene) cons
 
 CellCandidates::CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes)
     : TreeCandidates(std::move(tree)),
-      wall_offset_(scene_.context()),
-      neighbor_(scene_.context()),
-      plane_offset_(scene_.context()),
-      plane_(scene_.context()) {
+      wall_offset_(scene().context()),
+      neighbor_(scene().context()),
+      plane_offset_(scene().context()),
+      plane_(scene().context()) {
   wall_offset_.upload(walls.offset);
   neighbor_.upload(walls.neighbor);
-  plane_offset_.upload(plane_offsets(planes, scene_.seeds.size()));
-  const std::vector<double> rows = plane_rows(planes, scene_.frame().scale);
+  plane_offset_.upload(plane_offsets(planes, scene().seeds.size()));
+  const std::vector<double> rows = plane_rows(planes, scene().frame().scale);
   plane_.reserve(rows.size() * sizeof(double));
   if (!rows.empty()) plane_.write(rows.data(), rows.size() * sizeof(double));
 }

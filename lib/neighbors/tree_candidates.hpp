@@ -27,9 +27,10 @@ class TreeCandidates : public Candidates {
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
 
  protected:
-  const Scene scene_;
+  const Scene& scene() const { return scene_; }
 
  private:
+  const Scene scene_;
   TreeBlocks blocks_;
 };
 

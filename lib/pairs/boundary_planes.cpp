@@ -100,11 +100,11 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
   bool clear = true;
   const auto separated = [&](const Vector& axis) {
     double low = dot(axis, x[0]), high = low, radius = 0, terms = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      low = std::min(low, dot(axis, x[c]));
-      high = std::max(high, dot(axis, x[c]));
+    for (const Vector& corner : x) {
+      low = std::min(low, dot(axis, corner));
+      high = std::max(high, dot(axis, corner));
       for (std::size_t k = 0; k < 3; ++k)
-        terms += std::abs(axis[k]) * (std::abs(x[c][k]) + std::abs(seed[k]) + std::abs(middle[k]));
+        terms += std::abs(axis[k]) * (std::abs(corner[k]) + std::abs(seed[k]) + std::abs(middle[k]));
     }
     for (std::size_t k = 0; k < 3; ++k) radius += std::abs(axis[k]) * half[k];
     const double gap = std::max(low, -high) - radius, error = rounding * (terms + radius);

@@ -16,7 +16,7 @@ using Lanes = std::array<double, lane_count>;
 
 namespace lanes {
 
-typedef double Vector __attribute__((vector_size(lane_count * sizeof(double))));
+using Vector [[gnu::vector_size(lane_count * sizeof(double))]] = double;
 
 [[gnu::always_inline]] inline void load(const void* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);
