@@ -11,10 +11,10 @@ namespace powercell {
 
 namespace {
 
-/// Bytes of output rows in device memory at once.
+/// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
-/// Arguments that all clip kernels share come first; those of the candidates follow.
+/// Number of arguments common to all clip kernels; those of the candidates follow.
 constexpr unsigned common_arguments = 17;
 
 }  // namespace
@@ -101,28 +101,29 @@ void Clipper::reserve_rows(std::size_t rows, const Capacity& capacity) {
 
 void Clipper::read_rows(const Capacity& capacity, PieceBatch& batch) {
   if (!reader_) reader_.emplace(scene_.context());
-  const auto room = static_cast<std::size_t>(capacity.faces);
+  const auto stride = static_cast<std::size_t>(capacity.faces);
   const bool walls_alone = (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) == OUTPUT_WALLS;
-  reader_->begin(memory_.faces, room, batch.face_offset, walls_alone && !scene_.float32());
-  if (reader_->lends()) {
-    batch.lent_border = reader_->lend<std::int32_t>(memory_.border.raw());
-    batch.lent_wall = reader_->lend<double>(memory_.wall);
-    batch.room = room;
+  reader_->read_counts(memory_.faces, stride, batch.face_offset, walls_alone && !scene_.float32());
+  if (reader_->maps()) {
+    batch.mapped_border = reader_->map<std::int32_t>(memory_.border.raw());
+    batch.mapped_wall = reader_->map<double>(memory_.wall);
+    batch.stride = stride;
     return;
   }
   reader_->read(memory_.border, 1, batch.border);
   if (outputs_ & OUTPUT_WALLS) reader_->read_reals(memory_.wall, scene_.float32(), 1, batch.wall);
   if (!(outputs_ & OUTPUT_GEOMETRY)) return;
-  reader_->begin(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset, false);
+  reader_->read_counts(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset,
+                       false);
   reader_->read_reals(memory_.vertex, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),
                       batch.vertex);
   if (scene_.mesh().cell_dimension == 3) reader_->read(memory_.link, 6, batch.link);
 }
 
-void Clipper::take_back_rows() {
+void Clipper::unmap_rows() {
   if (!reader_) return;
-  for (std::size_t k = 0; k < memory_.pieces.used; ++k) memory_.pieces.batches[k].keep();
-  reader_->take_back();
+  for (std::size_t k = 0; k < memory_.pieces.used; ++k) memory_.pieces.batches[k].copy_mapped();
+  reader_->unmap();
 }
 
 void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, int round, Outcome& outcome) {
@@ -131,7 +132,7 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
   std::transform(active.begin(), active.end(), launch_ranks_.begin(),
                  [&](std::uint32_t pair) { return pair_seed_[pair]; });
   candidates_.prepare(launch_ranks_, round);
-  take_back_rows();
+  unmap_rows();
   memory_.active.upload(active);
   memory_.status.resize(rows);
   reserve_rows(rows, capacity(number));
@@ -148,7 +149,7 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
   const std::size_t first_uncertain = outcome.uncertain.size();
   read_statuses(active, outcome);
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
-  rows_of_launch.lent_border = nullptr;
+  rows_of_launch.mapped_border = nullptr;
   rows_of_launch.repeats = false;
   if (!wants_rows()) return;
   read_rows(capacity(number), rows_of_launch);
@@ -198,14 +199,14 @@ void Clipper::run(std::size_t number, const List& active, Outcome& outcome) {
 
 ClipMemory Clipper::release() && {
   memory_.pieces.used = 0;
-  take_back_rows();
+  unmap_rows();
   return std::move(memory_);
 }
 
-Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
-                             std::span<const std::uint32_t> pair_region) {
+Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
+                                   std::span<const std::uint32_t> pair_region) {
   memory_.pieces.used = 0;
-  take_back_rows();
+  unmap_rows();
   pair_seed_ = pair_seed;
   pair_region_ = pair_region;
   const std::size_t count = pair_seed.size();
@@ -224,7 +225,7 @@ Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
 const PieceSet& Clipper::clip_with(std::size_t number, std::span<const std::uint32_t> pair_seed,
                                    std::span<const std::uint32_t> pair_region) {
   Outcome outcome;
-  run(number, begin(pair_seed, pair_region), outcome);
+  run(number, begin_chunk(pair_seed, pair_region), outcome);
   return memory_.pieces;
 }
 
@@ -235,14 +236,14 @@ const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
 
 std::vector<std::uint32_t> Clipper::clip_on_device(std::span<const std::uint32_t> pair_seed,
                                                    std::span<const std::uint32_t> pair_region) {
-  List pending = begin(pair_seed, pair_region), for_host;
+  List pending = begin_chunk(pair_seed, pair_region), for_host;
   const std::size_t numbers = capacities(scene_.mesh().cell_dimension).size();
   for (std::size_t number = 0; number < numbers && !pending.empty(); ++number) {
     if (number > 0) {
       statistics_.retried += pending.size();
       write_log(LogLevel::detail, [&] {
-        return "pieces tried again with room for " + std::to_string(capacity(number).vertices) +
-               " vertices: " + std::to_string(pending.size());
+        return "clipping " + std::to_string(pending.size()) + " pieces again with a capacity of " +
+               std::to_string(capacity(number).vertices) + " vertices";
       });
     }
     Outcome outcome;

@@ -1,4 +1,4 @@
-// What a Clipper leaves to the host: pairs that rounding may have decided, and those that fit no capacity.
+// The host's part of a Clipper: pairs that rounding may have decided, and those that fit no capacity.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -12,7 +12,7 @@
 namespace powercell {
 namespace {
 
-/// Pairs that a thread takes at once.
+/// Pairs of one parallel task.
 constexpr std::size_t pairs_of_task = 64;
 
 const SplitPair* find_split(std::span<const SplitPair> split, std::uint32_t pair) {
@@ -29,8 +29,8 @@ void Clipper::write_moments(const List& pairs, std::span<const double> moments) 
   const auto patch = [&](auto& all) {
     using Real = typename std::remove_reference_t<decltype(all)>::value_type;
     memory_.moments.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
-    // A measure above 0 says that there is a cell. In single precision, where devices may take numbers below
-    // 2^-126 for 0, it stays above 0, and so do the moments that go with it.
+    // A measure above 0 marks a non-empty cell. In single precision, where devices may flush numbers below
+    // 2^-126 to 0, tiny measures are raised, and the other moments with them.
     constexpr double least = std::is_same_v<Real, float> ? 0x1p-100 : std::numeric_limits<double>::min();
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const double measure = moments[k * count],
@@ -62,7 +62,7 @@ int Clipper::clip_split(HostClipper& host, const SplitPair& split, std::span<dou
     if (status != PIECE_WHOLE) status = of_part;
     std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
   }
-  // The rows of the parts become one row, of walls alone: parts have no geometry in common.
+  // The rows of the parts become one row of walls; there is no common geometry.
   rows.repeats = true;
   rows.face_offset.resize(row + 1);
   rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));

@@ -12,14 +12,15 @@
 namespace powercell {
 
 struct ChunkSizes {
-  std::uint64_t chunk;  ///< items at once, to begin with
-  std::uint64_t least;  ///< with fewer, an error of memory is passed on
+  std::uint64_t chunk;  ///< initial number of items of a chunk
+  std::uint64_t least;  ///< smallest number of items of a chunk
   const char* items;    ///< e.g. "pairs", for the log
 };
 
-/// Calls body(begin, end) for consecutive ranges that cover [0, total). When a call runs out of device
-/// memory, calls free_memory(), halves the chunk and repeats the range. \pre a call that throws has had no
-/// effect
+/// Calls body(begin, end) for consecutive ranges that cover [0, total). If a call runs out of device memory,
+/// halves the chunk, calls free_memory() and repeats the range.
+/// \pre a call that throws has no effect
+/// \throw Error out_of_device_memory if the smallest chunk does not fit
 template <class Body, class FreeMemory>
 void in_chunks(std::uint64_t total, ChunkSizes sizes, const Body& body, const FreeMemory& free_memory) {
   std::uint64_t chunk = sizes.chunk;
@@ -32,7 +33,7 @@ void in_chunks(std::uint64_t total, ChunkSizes sizes, const Body& body, const Fr
       if (error.code() != ErrorCode::out_of_device_memory || chunk <= sizes.least) throw;
       chunk = std::max(sizes.least, chunk / 2);
       write_log(LogLevel::info, [&] {
-        return "out of device memory; going on with chunks of " + std::to_string(chunk) + " " + sizes.items;
+        return "out of device memory; continuing with chunks of " + std::to_string(chunk) + " " + sizes.items;
       });
       free_memory();
     }

@@ -12,13 +12,13 @@ namespace powercell {
 namespace {
 
 constexpr std::size_t chunk_cells = std::size_t{1} << 15, least_chunk_cells = 1024;
-/// The distance of vertices from the true ones that a certified cell guarantees (docs/mathematics.md (82)).
+/// Bounds for the error of the vertices of a proved cell, relative to its radius (docs/mathematics.md (82)).
 constexpr double vertex_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  vertex_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
 
-class WallCollection {
+class CellWallsBuilder {
  public:
-  explicit WallCollection(const Scene& scene) : unit_(scene.frame().unit(1)) {
+  explicit CellWallsBuilder(const Scene& scene) : unit_(scene.frame().unit(1)) {
     walls.dimension = scene.mesh().dimension;
     walls.vertex_error = scene.float32() ? vertex_error_float : vertex_error_double;
   }
@@ -34,7 +34,7 @@ class WallCollection {
     for (std::uint32_t f = batch.face_offset[row]; f < batch.face_offset[row + 1]; ++f)
       if (batch.border[f] >= 0) walls.neighbor.push_back(static_cast<std::uint32_t>(batch.border[f]));
     if (walls.neighbor.size() > std::numeric_limits<std::uint32_t>::max())
-      throw Error(ErrorCode::unsupported, "the cells have more than 2^32 walls");
+      throw Error(ErrorCode::unsupported, "the cells at the boundary have more than 2^32 walls");
     const auto d = static_cast<std::size_t>(walls.dimension);
     const std::size_t first = batch.vertex_offset[row] * d, count = batch.vertices(row) * d,
                       to = walls.vertex.size();
@@ -61,7 +61,7 @@ CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
   const auto container = static_cast<std::uint32_t>(scene.mesh().region_count() - 1);
   const std::size_t chunk = std::min(chunk_cells, ranks.size());
   const std::vector<std::uint32_t> regions(chunk, container);
-  WallCollection cells(scene);
+  CellWallsBuilder cells(scene);
   in_chunks(
       ranks.size(), {chunk, least_chunk_cells, "cells"},
       [&](std::size_t begin, std::size_t end) {

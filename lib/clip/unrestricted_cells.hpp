@@ -1,5 +1,5 @@
 /// \file
-/// Cells of the whole space around the domain, each clipped in one piece. Internal.
+/// Cells clipped in the container around the domain instead of in its regions. Internal.
 #pragma once
 
 #include "lib/neighbors/candidates.hpp"
@@ -8,8 +8,9 @@
 namespace powercell {
 
 /// Clips the cells of `ranks`, ascending, in the last region of the scene, and reads their neighbours and
-/// vertices. Waits for the device. \pre the last region holds all others (with_container) \throw Error as
-/// Clipper
+/// vertices.
+/// \pre the last region contains all others (with_container)
+/// \throw Error as Clipper::clip
 CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
                                   std::span<const std::uint32_t> ranks);
 

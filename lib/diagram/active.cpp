@@ -9,8 +9,8 @@
 namespace powercell {
 namespace {
 
-/// So low that a cell with it is empty everywhere: the power distance exceeds all others by several squares
-/// of the size of the domain and seeds together. A power of two keeps exact integers short.
+/// So low that the cell is empty everywhere: the power distance exceeds all others by several squares of the
+/// common extent of domain and seeds. A power of two keeps exact integers short.
 double excluding_weight(const Domain& domain, const SeedSet& seeds) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   double diagonal2 = 0, largest = 0;
@@ -38,7 +38,7 @@ Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std
     tree_ = build_packed_tree(seeds(), setup.threads);
     buffers_.upload(setup.on_device.frame(), seeds(), tree_, setup.threads);
   }
-  // The lists of FLANN are the paper's method and an oracle for the tree: they get all seeds.
+  // The lists of FLANN are the paper's method and an oracle for the tree, so they use all seeds.
   if (setup.neighbors == Neighbors::tree) set_hidden_aside();
 }
 

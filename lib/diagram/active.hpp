@@ -1,5 +1,5 @@
 /// \file
-/// The seeds that may have cells, ready to be searched. Internal.
+/// The seeds that may have cells, on the host and on the device. Internal.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@
 
 namespace powercell {
 
-/// The active seeds in their order, their tree, and both on the device. Stays where it is, since scenes and
+/// The active seeds in Hilbert order, their tree, and both on the device. Not movable, because scenes and
 /// plans refer to it.
 class Active {
  public:
-  /// Orders the seeds and sets aside those that a search finds hidden, if they are many.
-  /// \param buffers  those that the seeds go to; must outlive this
-  /// \param tree     of an earlier one for the same positions: used unless that had set seeds aside
+  /// Builds the tree, uploads the seeds, and sets seeds aside that are proved hidden, if they are many.
+  /// \param buffers  receive the seeds; must outlive this
+  /// \param tree     released by earlier active seeds at the same positions; used if those were all seeds
   Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<PackedTree> tree);
   Active(const Active&) = delete;
   Active& operator=(const Active&) = delete;
@@ -27,12 +27,12 @@ class Active {
   const PackedTree& tree() const { return tree_; }
   Scene scene() const { return {setup_.on_device, buffers_, seeds(), tree_}; }
 
-  /// The ranks whose cells must be clipped region by region: whether they lie inside the domain could not be
-  /// told.
+  /// Ranks whose cells must be clipped region by region, because it is unclear whether they lie inside the
+  /// domain.
   std::vector<std::uint32_t> by_region;
 
-  /// Gives the seeds of exactly flat cells, by rank, a weight so low that they have no cell anywhere. Their
-  /// walls lie between the cells on both sides of them.
+  /// Lowers the weights of seeds with exactly flat cells, by rank, until they have no cell anywhere. The
+  /// cells on both sides of a flat cell then share its walls.
   void exclude_flat_cells(std::span<const std::uint32_t> ranks);
 
   PackedTree release_tree() && { return std::move(tree_); }
@@ -43,7 +43,7 @@ class Active {
   const Setup& setup_;
   const Input& input_;
   SeedBuffers& buffers_;
-  std::optional<SeedSet> own_;  // where it is not the input's: seeds set aside, or weights changed
+  std::optional<SeedSet> own_;  // if not all seeds of the input with their weights
   PackedTree tree_;
 };
 

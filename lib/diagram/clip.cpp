@@ -14,24 +14,24 @@ namespace powercell {
 
 namespace {
 
-/// Pairs in device memory at once, unless options say otherwise. A GPU needs many to be busy; a core of a CPU
-/// needs some groups, and then what a chunk leaves is still in its cache when it is collected.
+/// Pairs of a chunk, unless Options::chunk_pairs is set. A GPU needs many to be busy. A core of a CPU needs a
+/// few groups, and collects the output of a small chunk from its cache.
 constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 14;
-/// PoCL compiles a kernel once for less than 2^16 work-items and once for more: no chunk needs both.
+/// PoCL compiles a kernel once for fewer than 2^16 work-items and once for more; this avoids the second.
 constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 constexpr std::uint64_t least_chunk_pairs = 1024;
-/// Rows of vertices and faces within a chunk are numbered by 32 bits, at most some 750 to a pair.
+/// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
-/// Larger buffers are given back: what follows needs memory, and so may others until the next pass.
+/// Larger buffers are freed after a pass, because other work needs the memory.
 constexpr std::size_t kept_bytes = std::size_t{16} << 20;
-/// Of a cell's largest wall, where decisions are fast: a one-sided wall below it is rounding.
+/// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 int outputs_of(Wanted want) {
   return OUTPUT_MOMENTS | (want.adjacency ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
 }
 
-/// Pairs of a chunk, of `total`.
+/// The number of pairs of a chunk, of `total`.
 std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
   if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
   const DeviceInfo& device = setup.device.info();
@@ -39,7 +39,7 @@ std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
       device.type != DeviceInfo::Type::cpu
           ? chunk_pairs_gpu
           : std::min(chunk_pairs_cpu, std::max(1u, device.compute_units) * chunk_pairs_core);
-  // Equal chunks: the cores could not share a last one of a few pairs well.
+  // Chunks of equal size, because a small last chunk would not keep all cores busy.
   return (total - 1) / ((total - 1) / most + 1) + 1;
 }
 
@@ -85,7 +85,7 @@ class Pass {
   WallCollector walls_;
   GeometryCollector geometry_;
   std::vector<std::uint32_t> pair_seed_;  // of a chunk
-  std::vector<std::uint32_t> flat_;       // ranks with a flat piece, once for each
+  std::vector<std::uint32_t> flat_;       // the rank of each flat piece
   double collect_seconds_ = 0;
 };
 
@@ -111,7 +111,7 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   const PieceSet& pieces =
       clipper_->finish_on_host(for_host, plan_.split(setup_, active_, pair_seed_, pair_region, for_host));
   const Stopwatch watch(setup_.device);
-  // The last step that may run out of device memory; it then has added nothing.
+  // This step may run out of device memory, and then adds nothing. No later step uses device memory.
   measures_.add(plan_.pairs.offset, begin, end, pair_seed_.front(), pair_seed_.back(), clipper_->moments());
   if (exact_)
     for (std::size_t k = 0; k < pair_seed_.size(); ++k)
@@ -130,7 +130,7 @@ void Pass::clip_all(Timings& timings) {
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const double list_seconds_before = candidates.host_seconds();
-  ClipStatistics done, before;  // of clippers that were given up; at the beginning of the chunk
+  ClipStatistics done, before;  // of discarded clippers; at the beginning of a chunk
   const Stopwatch watch(setup_.device);
   in_chunks(
       total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
@@ -175,7 +175,7 @@ Clipped Pass::finish() {
   std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
   results.flat = std::move(flat_);
   if (!results.flat.empty()) return results;
-  if (plan_.unrestricted) results.unclear = settle_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
+  if (plan_.unrestricted) results.unclear = classify_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
   if (!results.unclear.empty()) return results;
   if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status,

@@ -11,28 +11,28 @@
 
 namespace powercell {
 
-/// What to compute besides the measures.
+/// The results to compute besides the measures.
 struct Wanted {
   bool adjacency = false, cells = false;
 };
 
-/// What a pass came to. Where `flat` or `unclear` has ranks there are no results: it has to be repeated.
+/// The outcome of a pass: results, or ranks because of which it must be repeated.
 struct Clipped {
   std::optional<Measures> measures;
   std::optional<Adjacency> adjacency;
   std::optional<Cells> cells;
-  std::vector<std::uint32_t> flat;     ///< cells that are exactly flat: to be excluded
-  std::vector<std::uint32_t> unclear;  ///< unrestricted cells that have to be clipped by region
+  std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
+  std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
 };
 
-/// Buffers of little size that are kept from pass to pass.
+/// Small buffers that are reused by the next pass.
 struct Workspace {
   std::optional<ClipMemory> clip;
   WallRows::Memory walls;
 };
 
-/// \param timings  `clip`, `collect` and the counts are set
-/// \throw Error interrupted, out_of_device_memory, opencl, build_failed, internal
+/// \param timings  sets `clip`, `collect` and the counts; adds the time of lists to `neighbors`
+/// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
 Clipped clip(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace,
              Timings& timings);
 

@@ -21,10 +21,10 @@ static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
 static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
 static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
 
-/// Pairs of one launch, unless options say otherwise: short enough for a display driver's watchdog.
+/// Pairs of one launch, unless Options::chunk_pairs is set: short enough for a display driver's watchdog.
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
-/// Its arguments from here on are those of the search.
+/// The first of its arguments that belong to the search.
 constexpr unsigned tree_argument = 16;
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
@@ -32,7 +32,7 @@ Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
           OUTPUT_MOMENTS};
 }
 
-/// Of the kernels that hold no cell.
+/// The defines of kernels that hold no cell.
 std::vector<std::string> plain_defines(const Domain& domain, Precision precision) {
   return variant(domain, precision, {1, 1}).defines();
 }
@@ -44,7 +44,7 @@ cl::Buffer<Real> uploaded(const Device& device, const std::vector<double>& value
   return buffer;
 }
 
-/// Computes the known diagram (lib/clip/golden.hpp) in device memory, beginning with one capacity.
+/// Computes the golden diagram (lib/clip/golden.hpp) in device memory. \throw Error self_test_failed
 template <class Real>
 void run_golden(DeviceDiagram::State& state, const Variant& variant) {
   const SeedSet seeds = golden_seeds(variant.dimension);
@@ -62,7 +62,8 @@ void run_golden(DeviceDiagram::State& state, const Variant& variant) {
     require_golden(*state.device.context(), clip_file, variant, seeds.input[i], rows[i * columns]);
 }
 
-/// A program that a driver miscompiles is refused, not believed. \throw Error self_test_failed
+/// Computes the golden diagram with one capacity, to detect drivers that miscompile its program.
+/// \throw Error self_test_failed
 void test_capacity(const Device& device, const Variant& variant, std::size_t capacity) {
   Options options;
   options.precision = variant.float32 ? Precision::float32 : Precision::float64;
@@ -109,7 +110,7 @@ void DeviceDiagram::State::upload_frame() {
   const auto fits = [](double x) { return std::isnormal(static_cast<float>(x)); };
   if (frame.split && !(fits(frame.scale) && fits(1 / frame.scale) && fits(domain.measure())))
     throw Error(ErrorCode::unsupported,
-                "the size or measure of the domain is not in the range of single precision; choose "
+                "the size or measure of the domain is outside the range of single precision; choose "
                 "Precision::float64");
   std::array<double, FRAME_SIZE> numbers{};
   for (std::size_t k = 0; k < 3; ++k) {

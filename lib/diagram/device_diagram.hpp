@@ -1,5 +1,5 @@
 /// \file
-/// The pipeline from device memory to device memory. Internal.
+/// The pipeline of a DeviceDiagram, from device memory to device memory. Internal.
 #pragma once
 
 #include <powercell/opencl.hpp>
@@ -21,16 +21,16 @@ struct DeviceDiagram::State {
   Options options;
   Precision precision;
   DomainBuffers domain_buffers;
-  std::uint32_t pair_capacity = 0;  // 0: as many as there are
-  std::size_t first_capacity = 0;   // the smallest that is used
+  std::uint32_t pair_capacity = 0;  // 0: as many as needed
+  std::size_t first_capacity = 0;   // number of the smallest capacity to use
 
  private:
   void upload_frame();
-  /// The program of a capacity; computes a known diagram with it if it has not yet.
+  /// Builds the program of a capacity, tested with the golden diagram before its first use.
   void add_capacity(std::size_t capacity);
   TreeBlocks::Tree device_tree(std::uint32_t n) const;
   void clip(std::uint32_t n);
-  /// One capacity over all pairs, or over those listed.
+  /// Launches one capacity over all pairs, or over those in list_.
   void clip_with(std::size_t capacity, bool listed, std::uint32_t n);
 
   cl::RawBuffer frame_;
@@ -40,7 +40,7 @@ struct DeviceDiagram::State {
   DevicePairs pairs_;
   Compaction compaction_;
   cl::Kernel finish_;
-  std::vector<cl::Kernel> clip_;  // per capacity
+  std::vector<cl::Kernel> clip_;  // by number of the capacity
   cl::Buffer<std::uint32_t> piece_status_, list_, found_;
   cl::RawBuffer moments_;
 };

@@ -15,14 +15,13 @@ namespace {
 [[noreturn]] void refuse(std::size_t seed, const std::string& what, double value, bool float32) {
   throw Error(ErrorCode::invalid_seed,
               "seed " + std::to_string(seed) + ": " + what + " is " + digits(value) +
-                  ", too large beside the domain for " + (float32 ? "single" : "double") +
-                  " precision, in which its square would not be finite; remove this seed" +
+                  ", too large relative to the domain for " + (float32 ? "single" : "double") +
+                  " precision, in which its square would overflow; remove this seed" +
                   (float32 ? " or use double precision" : ""));
 }
 
-/// Distances are squared: a position or weight may be finite and its square not. In units of the domain's
-/// size coordinates reach to 1e140 and weights to 1e280, in single precision to 1e17 and 1e34 (as in
-/// kernels/base/point.cl).
+/// Squares of distances must be finite. In units of the domain's size, coordinates may be up to 1e140 and
+/// weights up to 1e280, in single precision 1e17 and 1e34 (as in kernels/base/point.cl).
 void require_in_range(const Setup& setup, const SeedsView& seeds) {
   const Frame& frame = setup.on_device.frame();
   const auto d = static_cast<std::size_t>(seeds.dimension);
@@ -81,7 +80,7 @@ Input with_weights(const Setup& setup, Input&& input, std::span<const double> we
                                                  std::to_string(input.seeds.input_count) + " seeds");
   const SeedsView view{setup.domain.dimension(), {}, weights};
   if (!input.seeds.duplicate.empty()) {
-    // The weights decide which of several seeds at one position stays.
+    // Of several seeds at one position, the weights decide which one is kept.
     const SeedRows given = input.given();
     return make_input(setup, {view.dimension, given.positions, weights});
   }

@@ -1,5 +1,5 @@
 /// \file
-/// The seeds that a Diagram was given. Internal.
+/// The seeds of a Diagram, as given by the caller. Internal.
 #pragma once
 
 #include <powercell/seeds.hpp>
@@ -16,21 +16,21 @@ struct SeedRows {
   std::vector<double> positions, weights;
 };
 
-/// Checked seeds, without those that share their position with one of larger weight.
+/// Validated seeds in Hilbert order, and the duplicates left out of them.
 struct Input {
   SeedSet seeds;
-  SeedRows duplicates;  ///< those left out, in the order of SeedSet::duplicate
+  SeedRows duplicates;  ///< in the order of SeedSet::duplicate
 
   /// All seeds in the caller's order.
   SeedRows given() const;
 };
 
-/// \throw Error invalid_argument (sizes), invalid_seed: NaN or infinity, or so large that the square is not
-/// finite (which seed and value)
+/// \throw Error invalid_argument (sizes); invalid_seed (NaN, infinity or a square that overflows; names seed
+///        and value)
 Input make_input(const Setup& setup, const SeedsView& seeds);
 
-/// The same seeds with n other weights. \throw Error invalid_argument (size), invalid_seed; then `input` is
-/// as it was
+/// The same seeds with new weights, in the caller's order.
+/// \throw Error invalid_argument (size), invalid_seed; `input` is then unchanged
 Input with_weights(const Setup& setup, Input&& input, std::span<const double> weights);
 
 }  // namespace powercell

@@ -15,10 +15,10 @@
 namespace powercell {
 namespace {
 
-/// Pieces a cell from which on it is faster to clip unrestricted cells first (docs/performance.md).
+/// With more pieces per cell it is faster to clip unrestricted cells first (docs/performance.md).
 constexpr std::size_t pieces_that_pay = 3;
 
-/// Lists from FLANN, or none where the tree is searched.
+/// Lists from FLANN, or null if the tree is to be searched.
 std::unique_ptr<Candidates> make_lists([[maybe_unused]] const Setup& setup,
                                        [[maybe_unused]] const Scene& scene) {
 #ifdef POWERCELL_HAS_FLANN
@@ -27,8 +27,9 @@ std::unique_ptr<Candidates> make_lists([[maybe_unused]] const Setup& setup,
   return nullptr;
 }
 
-/// Unrestricted cells where they may meet the boundary; the regions of each from its walls, or planes where
-/// the domain is convex around the cell. All other cells stay unrestricted.
+/// Clips the unrestricted cells that may meet the boundary first. Their walls determine the regions that each
+/// is then cut by, or planes of the boundary if the domain is convex around the cell. All other cells stay
+/// unrestricted.
 Plan plan_by_cells(const Setup& setup, const Active& active, Timings& timings) {
   const Scene scene = active.scene();
   Plan plan;
@@ -85,7 +86,7 @@ Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings)
   timings.pairs = pair_watch.seconds();
   const Stopwatch neighbor_watch(setup.device);
   plan.candidates = candidates_by_regions(setup, active.scene(), plan.pairs);
-  plan.pairs.list_offset = {};  // they are on the device now
+  plan.pairs.list_offset = {};  // the device has them now
   plan.pairs.list_seed = {};
   timings.neighbors = neighbor_watch.seconds();
   return plan;

@@ -20,7 +20,7 @@ Neighbors choose_neighbors(Neighbors asked) {
 #ifndef POWERCELL_HAS_FLANN
   if (asked == Neighbors::flann)
     throw Error(ErrorCode::unsupported,
-                "this build has no FLANN; use the tree, or build with POWERCELL_FLANN=ON");
+                "this build does not include FLANN; use the tree, or build with POWERCELL_FLANN=ON");
 #endif
   return asked == Neighbors::automatic ? Neighbors::tree : asked;
 }

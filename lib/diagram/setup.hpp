@@ -1,5 +1,5 @@
 /// \file
-/// The part of a Diagram that never changes. Internal.
+/// The constant part of a Diagram. Internal.
 #pragma once
 
 #include <powercell/device.hpp>
@@ -11,22 +11,22 @@
 
 namespace powercell {
 
-/// The precision that the option means on this device. \throw Error no_fp64
+/// Resolves Precision::automatic for a device. \throw Error no_fp64
 Precision choose_precision(const Device& device, Precision asked);
 
 struct Setup {
   Device device;
   Domain domain;
   Options options;
-  Precision precision;  ///< as chosen
-  Neighbors neighbors;  ///< as chosen
+  Precision precision;  ///< not automatic
+  Neighbors neighbors;  ///< not automatic
   int threads;
-  bool has_inside;          ///< a cell can lie inside the domain and meet several of its regions
-  RegionMesh clip_mesh;     ///< where it can: the regions, and the container behind them
+  bool has_inside;          ///< whether a cell inside the domain can meet several of its regions
+  RegionMesh clip_mesh;     ///< if has_inside: the regions, then the container
   DomainBuffers on_device;  ///< of `clip_mesh`, or of the domain
   PairFinder pairs;
 
-  /// \throw Error no_fp64; invalid_argument, unsupported (options); opencl
+  /// \throw Error no_fp64; invalid_argument, unsupported (options); opencl, out_of_device_memory
   Setup(Device device, Domain domain, Options options);
   bool float32() const { return on_device.float32(); }
 };

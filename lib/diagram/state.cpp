@@ -33,7 +33,7 @@ void Diagram::State::set_seeds(const SeedsView& seeds) {
 }
 
 void Diagram::State::set_weights(std::span<const double> weights) {
-  if (!input) throw Error(ErrorCode::invalid_argument, "set_weights before set_seeds: give the seeds first");
+  if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   const Stopwatch watch(setup.device);
   const bool same_positions = input->seeds.duplicate.empty();
   Input next = with_weights(setup, std::move(*input), weights);
@@ -74,11 +74,11 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       clipped = clip_once(kind, want);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::out_of_device_memory || !workspace.clip) throw;
-      workspace.clip.reset();  // it may be the memory that was missing
+      workspace.clip.reset();  // free the cached buffers and retry
       continue;
     }
     if (clipped.measures) {
-      // Measures of unrestricted cells stay when the geometry is asked for later.
+      // The measures of an earlier pass by unrestricted cells are kept.
       if (!results.measures) results.measures = std::move(clipped.measures);
       if (clipped.adjacency) results.adjacency = std::move(clipped.adjacency);
       if (clipped.cells) results.cells = std::move(clipped.cells);
@@ -96,7 +96,7 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 
 void Diagram::State::compute_missing(Wanted want) {
   if (want.cells && setup.has_inside) {
-    // Measures and adjacency come from the same pairs, whether the geometry is asked for before or after.
+    // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
     if (!results.measures || want.adjacency) pass(PlanKind::integrals, {.adjacency = want.adjacency});
     pass(PlanKind::geometry, {.cells = true});
   } else {

@@ -1,5 +1,5 @@
 /// \file
-/// What a Diagram keeps between calls: a chain of values, each made from those before it. Internal.
+/// The state of a Diagram: a chain of values, each made from those before it. Internal.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ struct Diagram::State {
   } results;
   Timings timings;
 
-  // Memory that the next values are made in.
+  // Memory reused by the next values.
   SeedBuffers seed_buffers;
   std::optional<PackedTree> tree;  // of the last active seeds, while the positions are the same
   Workspace workspace;
@@ -35,19 +35,19 @@ struct Diagram::State {
 
   void set_seeds(const SeedsView& seeds);
   void set_weights(std::span<const double> weights);
-  /// Computes the measures, and what else is wanted and missing. \throw as Diagram::compute
+  /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
   void compute(Wanted want);
   const Dual& dual();
 
  private:
-  /// Forgets all that depends on the seeds.
+  /// Discards everything that depends on the seeds, except their tree.
   void retire_active();
   Plan& plan(PlanKind kind);
-  /// Clips until no cell is left to be excluded or restricted, and takes the results over.
+  /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
   void pass(PlanKind kind, Wanted want);
   Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);
-  /// \throw Error internal unless the results keep their laws; forgets them then
+  /// Checks the laws of the results; discards the results if one fails. \throw Error internal
   void certify();
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// Internal.
+/// Wall time without compilation. Internal.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace powercell {
 
-/// Seconds of wall time since construction, without those in which the device's kernels were compiled.
+/// Measures the wall time since its construction, without the time in which the device compiled kernels.
 class Stopwatch {
  public:
   explicit Stopwatch(const Device& device) : device_(device), built_before_(device.build_seconds()) {}

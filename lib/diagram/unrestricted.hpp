@@ -1,5 +1,5 @@
 /// \file
-/// Cells that were clipped without the regions of the domain: which of them lie inside it? Internal.
+/// Decides which unrestricted cells lie inside the domain. Internal.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace powercell {
 
-/// An unrestricted cell does not meet the boundary of the domain, so one point of it tells whether all of it
-/// is inside. Those outside become hidden in `measures`. Any point of a cell that was cut by planes of the
-/// boundary must be inside, in one region. \return the ranks of cells for which this cannot be told: too
-/// thin, or where regions overlap
-std::vector<std::uint32_t> settle_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
-                                                     const Pairs& pairs, Measures& measures);
+/// Marks unrestricted cells outside the domain as hidden in `measures`. They do not meet the boundary, so one
+/// point of a cell decides (docs/mathematics.md, "Cells inside the domain"). A cell cut by planes of the
+/// boundary must have its point in exactly one region.
+/// \return the ranks of cells for which this is unclear: too thin, or in overlapping regions
+std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
+                                                       const Pairs& pairs, Measures& measures);
 
 }  // namespace powercell

@@ -9,6 +9,9 @@
 
 namespace powercell {
 
+/// The corners of facet k of a positive tetrahedron, opposite corner k, counter-clockwise seen from outside.
+inline constexpr std::uint32_t tetrahedron_facet[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
 struct RegionMesh {
   DomainKind kind = DomainKind::polygon;
   int dimension = 0;       ///< coordinates of a vertex

@@ -21,9 +21,6 @@ long double determinant(const std::array<const double*, 4>& v) {
   return std::fabs(value) <= flat_ratio * std::sqrt(longest2) * std::sqrt(facet2) ? 0 : value;
 }
 
-/// The three vertices of facet k of a positive tetrahedron, counter-clockwise seen from outside.
-constexpr std::uint32_t facet_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
 std::string name_sources(const RegionMesh& mesh, std::span<const FacetKey<3>> shared) {
   std::string names;
   for (std::size_t k = 0; k < shared.size(); ++k) {
@@ -41,7 +38,7 @@ bool same_side(const RegionMesh& mesh, const std::vector<std::uint32_t>& same,
     const std::uint32_t slot = shared[k].slot;
     const std::uint32_t* region = &mesh.region_vertex[slot / 4 * 4];
     std::uint32_t v[3];
-    for (int c = 0; c < 3; ++c) v[c] = same[region[facet_corner[slot % 4][c]]];
+    for (int c = 0; c < 3; ++c) v[c] = same[region[tetrahedron_facet[slot % 4][c]]];
     even[k] = ((v[0] < v[1]) + (v[1] < v[2]) + (v[2] < v[0])) == 2;
   }
   return even[0] == even[1];
@@ -53,7 +50,7 @@ void connect(RegionMesh& mesh) {
   std::vector<FacetKey<3>> facets(mesh.region_vertex.size());
   for (std::uint32_t slot = 0; slot < facets.size(); ++slot) {
     const std::uint32_t* region = &mesh.region_vertex[slot / 4 * 4];
-    for (int c = 0; c < 3; ++c) facets[slot].vertex[c] = same[region[facet_corner[slot % 4][c]]];
+    for (int c = 0; c < 3; ++c) facets[slot].vertex[c] = same[region[tetrahedron_facet[slot % 4][c]]];
     std::sort(facets[slot].vertex.begin(), facets[slot].vertex.end());
     facets[slot].slot = slot;
   }

@@ -1,5 +1,5 @@
 /// \file
-/// Where a clip kernel gets its candidate neighbours: the seam between search and clipping. Internal.
+/// Candidate neighbours for the clip kernels: the interface between search and clipping. Internal.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace powercell {
 
-/// A kernel of kernels/clip/by_*.cl, and the buffers that it finds candidates in.
+/// A clip kernel (kernels/clip/by_*.cl) and the buffers that it reads candidates from.
 class Candidates {
  public:
   virtual ~Candidates() = default;
   virtual std::string_view file() const = 0;    ///< kernel source
   virtual std::string_view kernel() const = 0;  ///< kernel name
-  /// Sets the arguments behind the common ones of the clip kernels, from `first` on.
+  /// Sets the arguments that follow those common to all clip kernels, from index `first` on.
   virtual void set_arguments(cl::Kernel& kernel, unsigned first) const = 0;
-  /// Candidates of the same kind for a small scene in which every seed may be a neighbour of every other and
-  /// meet every region: what the golden diagram is clipped with.
+  /// Candidates of the same kind for the golden diagram: a small scene in which every seed may be a neighbour
+  /// of every other and meet every region.
   virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;
 
-  // Lists of candidates are made for each launch; the tree needs none of what follows.
+  // For lists of candidates, which are made for each launch. The tree needs none of this.
 
-  /// The most pairs of one launch in this round.
+  /// Maximum number of pairs in one launch of this round.
   virtual std::size_t most_pairs(int /*round*/) const { return std::numeric_limits<std::uint32_t>::max(); }
-  /// Makes the lists of these ranks, ascending. In round r > 0 they are longer, for pairs that ended with
+  /// Makes the lists of these ranks, ascending. Round r > 0 makes longer lists for the pairs that ended with
   /// PIECE_MORE in round r-1.
   virtual void prepare(std::span<const std::uint32_t> /*ranks*/, int /*round*/) {}
-  /// OUTPUT_... of kernels/layout.h to add to those of the clipper.
+  /// OUTPUT_... (kernels/layout.h) in addition to those of the clipper.
   virtual int outputs() const { return 0; }
   /// Seconds spent in prepare() on the host since construction.
   virtual double host_seconds() const { return 0; }

@@ -1,5 +1,5 @@
 /// \file
-/// What bounds a cell: its walls with other cells, and planes of the domain's boundary. Internal.
+/// The bounds of a cell: its walls with other cells, and planes of the domain's boundary. Internal.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace powercell {
 
-/// The neighbours and vertices of unrestricted cells, by rank; cells that were not asked for have none. A
-/// seed whose cell is empty is its own only neighbour.
+/// Neighbours and vertices of unrestricted cells, by rank. A cell that was not clipped has none; a seed whose
+/// cell is empty has itself as its only neighbour.
 struct CellWalls {
   int dimension = 0;
   std::vector<std::uint32_t> offset;  ///< seeds + 1
   std::vector<std::uint32_t> neighbor;
-  std::vector<std::uint64_t> vertex_offset;  ///< seeds + 1, in vertices; empty if they are not known
+  std::vector<std::uint64_t> vertex_offset;  ///< seeds + 1, in vertices; empty if vertices are not known
   std::vector<double> vertex;                ///< relative to the seed
-  double vertex_error = 0;  ///< of a vertex, as a fraction of the distance of the farthest vertex of its cell
+  double vertex_error = 0;  ///< bound for a vertex, relative to the distance of its cell's farthest vertex
 
   std::span<const std::uint32_t> of(std::uint32_t rank) const {
     return std::span(neighbor).subspan(offset[rank], offset[rank + 1] - offset[rank]);
@@ -30,14 +30,14 @@ struct CellWalls {
   }
 };
 
-/// The plane of a boundary facet, relative to a seed: the domain is where normal . y <= height.
+/// The plane of a boundary facet, relative to a seed: the domain is where normal . y <= offset.
 struct LocalPlane {
   std::array<double, 3> normal;  ///< of unit length
-  double height;
-  double error;  ///< bound of its distance from the true plane within the cell
+  double offset;
+  double error;  ///< bound for its distance from the true plane within the cell
 };
 
-/// The cells that are cut by planes of the boundary instead of the regions of the domain
+/// The cells that are cut by planes of the boundary instead of by the regions of the domain
 /// (docs/mathematics.md, "Cells at the boundary").
 struct CellPlanes {
   std::vector<std::uint32_t> rank;  ///< ascending

@@ -11,7 +11,7 @@ namespace powercell {
 
 namespace {
 
-/// Entries of neighbour lists in device memory at once.
+/// Maximum number of list entries in device memory at once.
 constexpr std::size_t most_entries = std::size_t{1} << 25;
 
 std::size_t initial_neighbors(const Options& options, int cell_dimension) {
@@ -63,7 +63,7 @@ int ListCandidates::outputs() const {
   return counting_ ? OUTPUT_LIST_USE : 0;
 }
 
-void ListCandidates::take_in_use() {
+void ListCandidates::read_use() {
   if (launched_rows_ == 0) return;
   std::vector<std::uint32_t> rows(launched_rows_ * 3);
   list_use_.download(std::span(rows));
@@ -80,12 +80,12 @@ void ListCandidates::take_in_use() {
 }
 
 const ListUse& ListCandidates::use() {
-  take_in_use();
+  read_use();
   return use_;
 }
 
 void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
-  take_in_use();
+  read_use();
   const auto start = std::chrono::steady_clock::now();
   distinct_.clear();
   pair_row_.clear();

@@ -7,24 +7,24 @@
 namespace powercell {
 namespace {
 
-/// Rows of a plane as the kernel reads them: 2 q.y = |q|^2 + dw with q about as long as the plane is far, so
-/// that nothing cancels; then the error.
+/// The rows (q, dw, error) that the kernel reads, for the plane 2 q.y = |q|^2 + dw. |q| is about the distance
+/// of the plane, so that nothing cancels.
 std::vector<double> plane_rows(const CellPlanes& planes, double scale) {
   std::vector<double> rows;
   for (const LocalPlane& plane : planes.plane) {
-    const double height = scale * plane.height, length = std::max(std::abs(height), 0x1p-20);
+    const double offset = scale * plane.offset, length = std::max(std::abs(offset), 0x1p-20);
     double q2 = 0;
     for (const double n : plane.normal) {
       rows.push_back(n * length);
       q2 += rows.back() * rows.back();
     }
-    rows.push_back(2 * height * length - q2);
+    rows.push_back(2 * offset * length - q2);
     rows.push_back(scale * plane.error);
   }
   return rows;
 }
 
-/// By rank, then the end: where the planes of each cell begin.
+/// The first plane of each rank, then the number of planes.
 std::vector<std::uint32_t> plane_offsets(const CellPlanes& planes, std::size_t seeds) {
   std::vector<std::uint32_t> offset;
   for (std::size_t at = 0; at < planes.rank.size(); ++at)
@@ -94,14 +94,14 @@ std::unique_ptr<Candidates> RegionCandidates::for_scene(const Scene& scene) cons
 
 CellCandidates::CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes)
     : TreeCandidates(std::move(tree)),
-      wall_offset_(scene_.context()),
-      neighbor_(scene_.context()),
-      plane_offset_(scene_.context()),
-      plane_(scene_.context()) {
+      wall_offset_(scene().context()),
+      neighbor_(scene().context()),
+      plane_offset_(scene().context()),
+      plane_(scene().context()) {
   wall_offset_.upload(walls.offset);
   neighbor_.upload(walls.neighbor);
-  plane_offset_.upload(plane_offsets(planes, scene_.seeds.size()));
-  const std::vector<double> rows = plane_rows(planes, scene_.frame().scale);
+  plane_offset_.upload(plane_offsets(planes, scene().seeds.size()));
+  const std::vector<double> rows = plane_rows(planes, scene().frame().scale);
   plane_.reserve(rows.size() * sizeof(double));
   if (!rows.empty()) plane_.write(rows.data(), rows.size() * sizeof(double));
 }

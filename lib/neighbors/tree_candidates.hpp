@@ -1,6 +1,6 @@
 /// \file
-/// Candidates from the packed tree of the seeds, searched in the kernel, and from lists that spare the
-/// search. Internal.
+/// Candidates from a search of the packed tree in the kernel, or from lists that replace the search.
+/// Internal.
 #pragma once
 
 #include "lib/neighbors/candidates.hpp"
@@ -10,16 +10,16 @@
 
 namespace powercell {
 
-/// The tree of the scene as it is on the device.
+/// The scene's tree on the device.
 TreeBlocks::Tree device_tree(const Scene& scene);
-/// The precision and dimensions of the scene, for programs without cells.
+/// A variant with the scene's precision and dimensions, for programs that hold no cell.
 Variant without_cells(const Scene& scene);
 
-/// Each pair searches the tree (kernels/clip/by_tree.cl).
+/// Searches the tree for each pair (kernels/clip/by_tree.cl).
 class TreeCandidates : public Candidates {
  public:
-  /// Makes the blocks of the tree; enqueues without waiting. \param searched  whether any pair will be
-  /// searched for in the tree
+  /// Enqueues the construction of the tree's blocks, without waiting.
+  /// \param searched  false if no pair will need the tree
   explicit TreeCandidates(const Scene& scene, bool searched = true);
   std::string_view file() const override { return "clip/by_tree.cl"; }
   std::string_view kernel() const override { return "clip_by_tree_kernel"; }
@@ -27,17 +27,18 @@ class TreeCandidates : public Candidates {
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
 
  protected:
-  const Scene scene_;
+  const Scene& scene() const { return scene_; }
 
  private:
+  const Scene scene_;
   TreeBlocks blocks_;
 };
 
-/// Pairs with a region that has a list of seeds try these, the others search the tree
+/// Takes candidates from the list of seeds of a pair's region, or searches the tree if it has none
 /// (kernels/clip/by_region.cl).
 class RegionCandidates : public TreeCandidates {
  public:
-  /// Uploads the lists (Pairs::list_offset, list_seed); regions behind the last list have none.
+  /// Uploads the lists (Pairs::list_offset, list_seed). Regions after the last list have none.
   /// \param all_listed  whether every region with a pair has a list
   RegionCandidates(const Scene& scene, std::span<const std::uint64_t> list_offset,
                    std::span<const std::uint32_t> list_seed, bool all_listed);
@@ -51,10 +52,9 @@ class RegionCandidates : public TreeCandidates {
   cl::Buffer<std::uint32_t> list_seed_;
 };
 
-/// Pairs with a cell whose neighbours are known try these, and the planes of the boundary where the cell has
-/// any; the others search the tree (kernels/clip/by_cell.cl). Pays where a cell meets several regions, in
-/// domains of full dimension: there the piece of seed i in a region is the region cut by the bisectors of i
-/// that bound its unrestricted cell, and by no others.
+/// Takes the known neighbours of a pair's cell, and the planes of the boundary that cut it, or searches the
+/// tree if they are not known (kernels/clip/by_cell.cl). Pays where a cell meets several regions. For domains
+/// of full dimension, where no other bisector than those of its unrestricted cell cuts a piece.
 class CellCandidates : public TreeCandidates {
  public:
   /// Uploads walls and planes. \pre planes are for double precision and fewer than BORDER_PLANE seeds

@@ -79,10 +79,10 @@ std::uint32_t DevicePairs::read_number(std::uint32_t n) const {
   std::uint64_t number = 0;
   offset.download(std::span(&number, 1), n);
   if (number > most_pairs)
-    throw Error(ErrorCode::out_of_device_memory,
-                std::to_string(number) +
-                    " pairs of a seed and a region that may meet are more than a diagram in "
-                    "device memory can hold; use Diagram, which takes them in chunks");
+    throw Error(
+        ErrorCode::out_of_device_memory,
+        "the seeds and regions make " + std::to_string(number) +
+            " pairs, more than a diagram in device memory can hold; use Diagram, which works in chunks");
   return static_cast<std::uint32_t>(number);
 }
 

@@ -14,16 +14,71 @@ namespace {
 
 using namespace pairs;
 
-/// Longer lists cost more than a search in the tree of the seeds (LISTED_SEEDS in
-/// kernels/neighbors/region.cl).
+/// The tree of the seeds is searched faster than a longer list (LISTED_SEEDS in kernels/neighbors/region.cl).
 constexpr std::uint32_t most_listed = 96;
 
-/// Only clipping tells which cells meet the one region.
+/// Pairs every seed with the only region: clipping decides which cells meet it.
 Pairs all_with_one_region(std::size_t seeds) {
   Pairs pairs;
   pairs.offset.resize(seeds + 1);
   std::iota(pairs.offset.begin(), pairs.offset.end(), std::uint64_t{0});
   pairs.region.assign(seeds, 0);
+  return pairs;
+}
+
+/// The bounds of `parts` consecutive ranges of regions with about equal numbers of pairs.
+std::vector<std::size_t> balanced(const std::vector<RankList>& lists, std::uint64_t total,
+                                  std::size_t parts) {
+  std::vector<std::size_t> bound{0};
+  std::uint64_t sum = 0;
+  for (std::size_t r = 0; r < lists.size(); ++r) {
+    if (sum * parts >= total * bound.size() && bound.size() < parts) bound.push_back(r);
+    sum += lists[r].count;
+  }
+  bound.resize(parts, lists.size());
+  bound.push_back(lists.size());
+  return bound;
+}
+
+/// Turns the seeds of each region into the regions of each seed.
+/// \param lists  by region
+/// \param seeds  number of ranks
+Pairs transpose(const std::vector<RankList>& lists, std::size_t seeds, int threads) {
+  std::uint64_t total = 0;
+  for (const RankList& list : lists) total += list.count;
+  threads = threads_for(total, threads);
+  // A counting sort, in parts with counters of their own. The number of parts keeps the counters linear in
+  // the output.
+  const std::size_t parts = static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(total / std::max<std::size_t>(seeds, 1), 1, static_cast<unsigned>(threads)));
+  const std::vector<std::size_t> bound = balanced(lists, total, parts);
+  std::vector<std::vector<std::uint64_t>> cursor(parts);
+  const auto for_pairs = [&](const auto& body) {
+    parallel_for(threads, parts, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t part = begin; part < end; ++part) {
+        cursor[part].resize(seeds);
+        for (std::size_t r = bound[part]; r < bound[part + 1]; ++r)
+          for (std::uint32_t k = 0; k < lists[r].count; ++k) body(cursor[part][lists[r].first[k]], r);
+      }
+    });
+  };
+
+  for_pairs([](std::uint64_t& count, std::size_t) { ++count; });
+  Pairs pairs;
+  pairs.offset.resize(seeds + 1);
+  std::uint64_t sum = 0;
+  for (std::size_t rank = 0; rank < seeds; ++rank) {
+    pairs.offset[rank] = sum;
+    for (std::vector<std::uint64_t>& c : cursor) {
+      const std::uint64_t count = c[rank];
+      c[rank] = sum;
+      sum += count;
+    }
+  }
+  pairs.offset[seeds] = sum;
+  pairs.region.resize(total);
+  // Regions ascend within parts and from part to part, so rows ascend.
+  for_pairs([&](std::uint64_t& at, std::size_t r) { pairs.region[at++] = static_cast<std::uint32_t>(r); });
   return pairs;
 }
 
@@ -38,11 +93,11 @@ void keep_short_lists(const std::vector<RankList>& lists, Pairs& pairs) {
 
 }  // namespace
 
-/// The boundary facets as regions of their own.
+/// The boundary facets as regions.
 struct PairFinder::Boundary {
   RegionMesh mesh;
   RegionGroups groups;
-  std::unique_ptr<BoundaryPlanes> planes;  // of tetrahedra
+  std::unique_ptr<BoundaryPlanes> planes;  // only for tetrahedra
 
   Boundary(const RegionMesh& domain, int threads) : mesh(boundary_of(domain)), groups(mesh, threads) {}
 };
@@ -84,10 +139,10 @@ BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tr
                                       const std::function<bool(double)>& progress) const {
   std::vector<bool> marked(seeds.size());
   for (const std::uint32_t rank : by_region) marked[rank] = true;
-  std::function<bool(double)> asked;
-  if (progress) asked = [&](double) { return progress(0); };
+  std::function<bool(double)> report_start;
+  if (progress) report_start = [&](double) { return progress(0); };
   const RegionLists found =
-      search_regions({boundary().mesh, boundary().groups, seeds, tree, threads_, asked});
+      search_regions({boundary().mesh, boundary().groups, seeds, tree, threads_, report_start});
   for (const RankList& list : found.list)
     for (std::uint32_t k = 0; k < list.count; ++k) marked[list.first[k]] = true;
   BoundaryRanks all;

@@ -1,5 +1,5 @@
 /// \file
-/// Which seeds can meet which regions of the domain.
+/// Finds which seeds can meet which regions of the domain. Internal.
 #pragma once
 
 #include <cstdint>
@@ -17,65 +17,70 @@
 namespace powercell {
 
 /// Candidate pairs by seed: rank i may meet the regions region[offset[i] .. offset[i+1]), ascending. The
-/// number behind the last region stands for the container, a region around the whole domain (with_container):
-/// a pair with it takes the cell unrestricted.
+/// number after the last region stands for the container, a region around the whole domain (with_container):
+/// a pair with it is the unrestricted cell.
 struct Pairs {
   std::vector<std::uint64_t> offset;  ///< seeds + 1
   std::vector<std::uint32_t> region;
-  /// By region: all seeds that can meet it, ascending, where they are few and the region has a pair; else
-  /// none. Empty if the domain has one region.
+  /// Per region: all seeds that can meet it, ascending, if they are few, else no seeds. Empty if the domain
+  /// has one region.
   std::vector<std::uint64_t> list_offset;  ///< regions + 1
   std::vector<std::uint32_t> list_seed;
   bool all_listed = false;  ///< every region with a pair has a list
-  /// The unrestricted cells that have to be cut by planes of the boundary as well.
+  /// The unrestricted cells that must be cut by planes of the boundary.
   CellPlanes planes;
 };
 
 /// Cells that may meet the boundary of the domain.
 struct BoundaryRanks {
   std::vector<std::uint32_t> ranks;      ///< ascending
-  std::vector<std::uint32_t> by_region;  ///< those of them, ascending, that have pairs with regions only
+  std::vector<std::uint32_t> by_region;  ///< those of them, ascending, that are clipped region by region
 };
 
 namespace pairs {
 class BoundaryPlanes;
 }
 
-/// Finds pairs for one domain; keeps what depends on the regions alone from call to call. Not thread-safe
-/// except where said.
+/// Finds pairs for one domain. Structures that depend on the regions only are made once. Thread-safe only
+/// where stated.
 class PairFinder {
  public:
-  /// Keeps a reference to the mesh. \param threads 0 for all
+  /// Keeps a reference to the mesh. \param threads  0 for all
   PairFinder(const RegionMesh& mesh, int threads);
   ~PairFinder();
 
-  /// A superset of the pairs whose region and cell meet in more than a set of measure 0, close to the true
-  /// set: seed i is left out for a region only if some j has pow_j < pow_i at all corners of each part of the
-  /// region (exact exclusion with a safe margin, so that rounding never loses a pair). A domain of one
-  /// region gives every seed. No quadratic work or memory: a million seeds in one region and ten seeds
-  /// on a million triangles are both near-linear. The result does not depend on `threads`.
-  /// \param progress as Options::progress
+  /// A close superset of the pairs whose region and cell meet in more than a set of measure 0. Seed i is left
+  /// out for a region only if for each part of the region some j has pow_j < pow_i at all corners (11), with
+  /// a margin so that rounding never loses a pair. In a domain of one region every seed has a pair. Work and
+  /// memory are near-linear for a million seeds in one region and for ten seeds on a million triangles. The
+  /// result does not depend on `threads`.
+  /// \param progress  as Options::progress
+  /// \throw Error interrupted
   Pairs by_regions(const SeedSet& seeds, const PackedTree& tree,
                    const std::function<bool(double)>& progress = {}) const;
 
-  /// The ranks whose cells can meet the boundary of the domain, and those in `by_region`, in any order.
-  /// \param progress  called with 0 only; the expensive stage comes later
+  /// The ranks whose cells can meet the boundary of the domain, and those of `by_region`.
+  /// \param by_region  in any order
+  /// \param progress   called with 0 only; the expensive stage comes later
+  /// \throw Error interrupted
   BoundaryRanks at_boundary(const SeedSet& seeds, const PackedTree& tree,
                             std::span<const std::uint32_t> by_region,
                             const std::function<bool(double)>& progress = {}) const;
 
-  /// The pairs of cells whose unrestricted walls and vertices are known: a region is left out only if one of
-  /// the walls or one of its own facets separates it from the cell. Pairs have no lists by region. A cell
-  /// that the domain is convex around has one pair, with the container, and planes. \param ranks  of
-  /// at_boundary(); others have one pair, with the container \param planes whether cells may be cut by planes
+  /// The pairs of cells whose unrestricted walls and vertices are known. A region is left out only if one of
+  /// the walls or one of its facets separates it from the cell. A cell around which the domain is convex has
+  /// one pair, with the container, and planes. There are no lists by region.
+  /// \param ranks   of at_boundary(); all others have one pair, with the container
+  /// \param planes  whether cells may be cut by planes
+  /// \throw Error interrupted
   Pairs by_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls, bool planes,
                  const std::function<bool(double)>& progress = {}) const;
 
-  /// The regions that by_cells() finds for one cell without planes. Thread-safe after by_cells().
+  /// The regions of one cell, found as by by_cells() without planes. Thread-safe after by_cells().
   std::vector<std::uint32_t> regions_of(const SeedSet& seeds, std::uint32_t rank,
                                         const CellWalls& walls) const;
 
-  /// Finds the regions at points. Keeps references to the finder; thread-safe.
+  /// Point location in the regions; refers to the finder.
   RegionLocator locator() const;
 
  private:

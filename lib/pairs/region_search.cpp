@@ -12,7 +12,7 @@
 namespace powercell::pairs {
 namespace {
 
-/// The middle of some weights: a reference that one heavy seed does not move.
+/// The median of a sample of weights: a reference that a few heavy seeds do not affect.
 double typical_weight(const std::vector<double>& weights) {
   constexpr std::size_t samples = 1001;
   std::vector<double> sample;
@@ -23,7 +23,8 @@ double typical_weight(const std::vector<double>& weights) {
   return *middle;
 }
 
-/// Regions of one task: few enough that tasks can be shared out, more than pay for narrowing anew.
+/// Regions of one task: few enough to balance the threads, many enough that narrowing anew does not cost
+/// much.
 constexpr std::size_t task_size = 64;
 
 using Task = RegionLists::Task;
@@ -31,7 +32,7 @@ using Task = RegionLists::Task;
 template <int D>
 class Worker {
  public:
-  Worker(const RegionSearch& search, double reference)
+  Worker(const RegionSearchInput& search, double reference)
       : groups_(search.groups),
         search_(search.mesh, search.seeds, search.tree, reference),
         narrowed_(groups_.level.size() + 1),
@@ -50,8 +51,8 @@ class Worker {
  private:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  /// Those of the parent group's seeds that can meet the group's box: what is far from all members is
-  /// excluded once. It depends on the groups alone, not on the tasks, so the result does not depend on the
+  /// The seeds of the parent group that can meet the group's box, so that seeds far from all members are
+  /// excluded once. They depend on the groups, not on the tasks, so the result does not depend on the
   /// threads.
   const Narrowed<D>& narrowed(std::size_t level, std::size_t group) {
     if (level + 1 >= narrowed_.size()) return narrowed_.back();
@@ -69,12 +70,12 @@ class Worker {
 
   const RegionGroups& groups_;
   CandidateSearch<D> search_;
-  std::vector<Narrowed<D>> narrowed_;  // by level; above the last one are all seeds
-  std::vector<std::size_t> group_;     // by level: whose they are
+  std::vector<Narrowed<D>> narrowed_;  // per level of groups, then all seeds
+  std::vector<std::size_t> group_;     // per level: the group that narrowed_ is for
 };
 
 template <int D>
-RegionLists search_all(const RegionSearch& search) {
+RegionLists search_all(const RegionSearchInput& search) {
   const std::size_t regions = search.groups.order.size();
   const double reference = typical_weight(search.seeds.weights);
   RegionLists found;
@@ -87,11 +88,10 @@ RegionLists search_all(const RegionSearch& search) {
     const std::size_t first = t * task_size, last = std::min(first + task_size, regions);
     workers[static_cast<std::size_t>(w)].run(first, last, found.tasks[t]);
     const double share = static_cast<double>(++done) / static_cast<double>(found.tasks.size());
-    // Only the calling thread, which is worker 0, calls back.
+    // The callback runs on the calling thread only, which is worker 0.
     if (w == 0 && search.progress && !search.progress(share))
       throw Error(ErrorCode::interrupted,
-                  "stopped by the progress callback while seeking which seeds meet "
-                  "which regions");
+                  "stopped by the progress callback while finding the seeds that meet regions");
   });
 
   found.list.resize(regions);
@@ -107,7 +107,7 @@ RegionLists search_all(const RegionSearch& search) {
 
 }  // namespace
 
-RegionLists search_regions(const RegionSearch& search) {
+RegionLists search_regions(const RegionSearchInput& search) {
   if (search.seeds.size() == 0) return {{}, std::vector<RankList>(search.mesh.region_count())};
   return search.mesh.dimension == 2 ? search_all<2>(search) : search_all<3>(search);
 }

@@ -1,5 +1,5 @@
 /// \file
-/// The candidates of all regions, in parallel. Internal.
+/// Finds the candidates of all regions, in parallel. Internal.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "lib/pairs/pair_finder.hpp"
-#include "lib/pairs/transpose.hpp"
 #include "lib/regions/region_groups.hpp"
 
 namespace powercell::pairs {
 
-/// What a search is about; references to what outlives it.
-struct RegionSearch {
+/// Everything must outlive the search.
+struct RegionSearchInput {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const SeedSet& seeds;
@@ -22,7 +21,13 @@ struct RegionSearch {
   const std::function<bool(double)>& progress;
 };
 
-/// The candidates found; lists point into memory of the struct.
+/// A view of the candidate ranks of one region, ascending.
+struct RankList {
+  const std::uint32_t* first = nullptr;
+  std::uint32_t count = 0;
+};
+
+/// The candidates found. The lists point into `tasks`.
 struct RegionLists {
   struct Task {
     std::vector<std::uint32_t> ranks;  ///< region after region in the order of the groups
@@ -32,7 +37,7 @@ struct RegionLists {
   std::vector<RankList> list;  ///< by region
 };
 
-/// The candidates of every region.
-RegionLists search_regions(const RegionSearch& search);
+/// \throw Error interrupted
+RegionLists search_regions(const RegionSearchInput& search);
 
 }  // namespace powercell::pairs

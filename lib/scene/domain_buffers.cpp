@@ -6,12 +6,13 @@ namespace powercell {
 
 namespace {
 
-/// Corner 0 of a right-handed corner (axes x, y, z) has the neighbours x, z, y counter-clockwise seen
-/// from outside; `facet[k]` is the facet that does not contain the neighbour along axis k.
+/// Sets the neighbours and faces of one vertex. `along[k]` is its neighbour along axis k, `facet[k]` the
+/// facet that does not contain this neighbour. If the axes are right-handed, the neighbours x, z, y are
+/// counter-clockwise seen from outside; `flip` says that they are left-handed.
 void set_corner(region_shape_t& shape, int vertex, const int (&along)[3], const int (&facet)[3], bool flip) {
   const int order[3] = {0, flip ? 1 : 2, flip ? 2 : 1};
   for (int k = 0; k < 3; ++k) {
-    const int missing = 3 - order[k] - order[(k + 1) % 3];  // the axis off the face between the two
+    const int missing = 3 - order[k] - order[(k + 1) % 3];  // the face between the two lacks this axis
     shape.next[k][vertex] = along[order[k]];
     shape.face[k][vertex] = facet[missing];
   }
@@ -39,8 +40,8 @@ region_shape_t region_shape(RegionShape kind) {
 
 namespace {
 
-/// The corner of triangle `region` that is at neither end of edge `slot` of triangle `beside`, by position,
-/// since meshes may repeat vertices.
+/// The corner of triangle `region` opposite the edge that it shares with triangle `beside`, edge `slot`
+/// there. Compares positions, since meshes may repeat vertices.
 std::int32_t corner_off_edge(const RegionMesh& mesh, std::uint32_t region, std::uint32_t beside,
                              std::uint32_t slot) {
   const auto same = [&](std::uint32_t a, std::uint32_t b) {
@@ -52,7 +53,7 @@ std::int32_t corner_off_edge(const RegionMesh& mesh, std::uint32_t region, std::
     const std::uint32_t corner = mesh.region_vertex[k];
     if (!same(corner, from) && !same(corner, to)) return static_cast<std::int32_t>(corner);
   }
-  return BEHIND_NOTHING;  // the same edge twice: a flat triangle, which domains leave out
+  return BEHIND_NOTHING;  // only in a flat triangle, which domains do not contain
 }
 
 }  // namespace

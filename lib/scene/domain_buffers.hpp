@@ -10,13 +10,13 @@
 
 namespace powercell {
 
-/// The graph that all volume regions of one shape start from.
+/// The vertices and faces of a volume region before it is clipped.
 region_shape_t region_shape(RegionShape shape);
 
-/// Per facet of `mesh`, what the kernels need of the region behind it (BEHIND_NOTHING in kernels/layout.h).
+/// Per facet of `mesh`: BEHIND_NOTHING, or a number for the region behind it (kernels/layout.h).
 std::vector<std::int32_t> regions_behind(const RegionMesh& mesh);
 
-/// The regions of a domain, in units of a frame. Immutable.
+/// The regions of a domain, in the units of its frame. Immutable.
 class DomainBuffers {
  public:
   /// Keeps a reference to the mesh. \throw Error opencl, out_of_device_memory

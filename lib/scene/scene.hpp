@@ -8,21 +8,21 @@
 
 namespace powercell {
 
-/// Seeds and packed tree in device memory. The buffers are kept from upload to upload.
+/// Seeds and packed tree in device memory. Later uploads reuse the buffers.
 class SeedBuffers {
  public:
   explicit SeedBuffers(const std::shared_ptr<cl::Context>& context)
       : points(context), node_low(context), node_high(context), level_offset(context) {}
 
   void upload(const Frame& frame, const SeedSet& seeds, const PackedTree& tree, int threads);
-  /// The same after a change of the weights alone: the far corners of the boxes stay.
+  /// Uploads what depends on the weights only.
   void upload_weights(const Frame& frame, const SeedSet& seeds, const PackedTree& tree, int threads);
 
   cl::RawBuffer points, node_low, node_high;  ///< seed_t
   cl::Buffer<std::uint32_t> level_offset;
 };
 
-/// A view of the parts, on the device and on the host; it must not outlive them.
+/// A view of domain and seeds on host and device; must not outlive them.
 struct Scene {
   const DomainBuffers& domain;
   const SeedBuffers& buffers;
@@ -35,7 +35,7 @@ struct Scene {
   bool float32() const { return domain.float32(); }
 };
 
-/// A scene that owns its buffers, for one-off work. Keeps references to the rest.
+/// A scene that owns its buffers, for one-off work. Refers to mesh, seeds and tree.
 struct OwnScene {
   DomainBuffers domain;
   SeedBuffers buffers;

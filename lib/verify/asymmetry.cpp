@@ -10,15 +10,15 @@
 namespace powercell {
 namespace {
 
-/// The least sine of an angle of a triangle of seeds: that between the two longer sides.
+/// The least sine of the angles of a triangle of seeds, which is that between the two longer sides.
 long double least_sine(const Vector& a, const Vector& b, const Vector& c) {
   std::array<long double, 3> side{norm(b - a), norm(c - b), norm(a - c)};
   std::ranges::sort(side);
   return norm(cross(b - a, c - a)) / (side[1] * side[2]);
 }
 
-/// How far rounding may move the ends of the wall of two seeds, to first order: the sum over the planes that
-/// it may end at, each by the rounding of both over the sine of their angle.
+/// How far rounding may move the ends of the wall of two seeds, to first order: the sum, over the planes at
+/// which it may end, of the rounding of both planes over the sine of their angle.
 class Ends {
  public:
   Ends(const Adjacency& adjacency, const RegionMesh& mesh, const Rounding& rounding)
@@ -42,7 +42,7 @@ class Ends {
  private:
   bool is_surface() const { return mesh_.kind == DomainKind::surface; }
 
-  /// The bisector of i and k has some of the points on either side, or to rounding on it.
+  /// Whether the bisector of i and k has points on both sides, or on it to within rounding.
   bool is_met(const Corners& points, std::uint32_t k) const {
     const double slack = rounding_.wall_shift(i_, k);
     bool before = false, behind = false;
@@ -54,7 +54,7 @@ class Ends {
     return before && behind;
   }
 
-  /// Of the bisectors of both seeds with a third, at which their sides of the wall end.
+  /// The rounding of the bisectors of both seeds with a third, where the two sides of the wall end.
   double shift(std::uint32_t k) const { return rounding_.wall_shift(i_, k) + rounding_.wall_shift(j_, k); }
   long double sine(std::uint32_t k) const {
     return least_sine(rounding_.position(i_), rounding_.position(j_), rounding_.position(k));
@@ -67,7 +67,7 @@ class Ends {
                                                            ? sine_to_plane(facet[1] - facet[0], normal_)
                                                            : sine_between(normal_of(facet), normal_));
     if (!is_surface()) return;
-    // Bisectors meet in a line, and the triangle in a point of it.
+    // The bisectors meet in a line, which meets the triangle in a point.
     for (const std::uint32_t k : common_) {
       const Vector line = cross(normal_, rounding_.position(k) - rounding_.position(i_));
       if (is_met(corners, k)) add(shift(k), sine(k) * sine_to_plane(line, normal_of(corners)));

@@ -1,5 +1,5 @@
 /// \file
-/// How far the two sides of a wall may be apart. Internal.
+/// The tolerance for the difference between the two sides of a wall. Internal.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace powercell {
 
-/// What Adjacency::asymmetry may be. The ends of a wall are where its plane meets others, and move by the
-/// planes' rounding over the sine of the angle between them. Of many random angles the least is about one
-/// over their number; the angles of the wall concerned are looked at where more is wanted. However small they
-/// are, no large wall may lack a side; where planes meet at right angles, one of a few tens of roundings may.
-/// \param adjacency  with rows in order and from both sides
+/// The largest allowed Adjacency::asymmetry. A wall ends where its plane meets others; there it moves by the
+/// rounding of the planes over the sine of their angle. The least of many random angles is about one over
+/// their number. If the asymmetry exceeds that, the angles of the wall concerned are computed. In no case may
+/// half of the largest wall be missing, and differences of a few tens of roundings, as at right angles, are
+/// always allowed.
+/// \pre the rows are ascending and symmetric
 double allowed_asymmetry(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding);
 
-/// What is said where it is more.
+/// Describes the asymmetry, for messages.
 std::string text_of_asymmetry(const Adjacency& adjacency);
 
 }  // namespace powercell

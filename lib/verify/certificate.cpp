@@ -18,9 +18,9 @@ namespace powercell {
 namespace {
 
 constexpr double partition_double = 1e-12, partition_float = 1e-6;
-/// Of the largest wall. The sides of a wall are measured in the coordinates of two seeds.
+/// Relative to the largest wall. The two sides of a wall are measured in the coordinates of two seeds.
 constexpr double asymmetry_double = 1e-9, asymmetry_float = 1e-3;
-/// Roundings that add up in a place seen from a seed, and in a power distance.
+/// Number of roundings in a position relative to a seed, and in a power distance.
 constexpr double place_roundings = 64, power_roundings = 16;
 constexpr std::size_t points = 8;
 
@@ -32,8 +32,8 @@ double unit_of(const Certified& r) {
   return r.float32 ? 0x1p-24 : 0x1p-53;
 }
 
-/// How far outside of the domain's box seeds with cells are, along an axis: what these seeds see moves by the
-/// rounding of that distance.
+/// The largest distance of a seed with a cell from the domain's box, along an axis. Positions relative to
+/// these seeds carry the rounding of that distance.
 double farthest_outside(const Certified& r) {
   const auto d = static_cast<std::size_t>(r.seeds.dimension);
   const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
@@ -46,7 +46,7 @@ double farthest_outside(const Certified& r) {
   return farthest;
 }
 
-/// The seeds in the caller's order, as tolerances want them that are seldom asked for.
+/// The seeds in the caller's order, for tolerances that are seldom needed.
 class Callers {
  public:
   explicit Callers(const Certified& r)
@@ -85,7 +85,7 @@ void require_partition(const Certified& r, double outside) {
          digits(r.measures.domain_measure));
 }
 
-/// The first seed whose figures no cell of the domain can have.
+/// Refuses the first seed with measures that no cell of the domain can have.
 void require_numbers(const Certified& r, double outside) {
   const auto d = static_cast<std::size_t>(r.measures.dimension);
   const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
@@ -133,7 +133,7 @@ Power power(const SeedSet& seeds, std::size_t i, const std::array<double, 3>& x)
   return {square - seeds.weights[i], square + std::abs(seeds.weights[i])};
 }
 
-/// The rank of least power distance from x: the least first, in lanes, then whose it is.
+/// The rank of least power distance from x. Finds the least value first, in lanes, then its rank.
 template <std::size_t d>
 std::size_t owner_of(const SeedSet& seeds, const std::array<double, 3>& x) {
   constexpr std::size_t lanes = 8;
@@ -151,7 +151,7 @@ std::size_t owner_of(const SeedSet& seeds, const std::array<double, 3>& x) {
   return i;
 }
 
-/// The rank of a seed with a cell whose power distance from x is the least to rounding, or else of any other.
+/// The owner of x to within rounding; a seed with a cell if there is one.
 template <std::size_t d>
 std::size_t owner_with_cell(const Certified& r, const std::array<double, 3>& x) {
   const auto has_cell = [&](std::size_t rank) {

@@ -8,7 +8,7 @@
 namespace powercell {
 namespace {
 
-/// How far a point lies outside a piece, and how much of that rounding explains.
+/// The distance of a point outside a piece, and how much of it rounding explains.
 struct Outside {
   double distance = 0, allowed = 1;
   double ratio() const { return distance / allowed; }
@@ -27,7 +27,7 @@ Vector plane_normal(const RegionMesh& mesh, std::uint32_t region) {
 struct Face {
   Vector normal{};  // outward, unit; 0 for a face of no extent
   Vector middle{};
-  double slant = 0;  // by how much its direction turns, at most, if its corners move by one
+  double slant = 0;  // bound for the turn of the normal if the corners move by 1
 };
 
 Face face_of(const std::vector<Vector>& corners, const Vector& plane) {
@@ -54,7 +54,8 @@ class Owners {
   Owners(const RegionMesh& mesh, const Cells& cells, const Rounding& rounding)
       : mesh_(mesh), cells_(cells), rounding_(rounding), count_(cells.cell_count()) {}
 
-  /// By trying all of them. At one place the heavier, also where its weight is lost beside the distance.
+  /// The owner of x among all seeds. Of seeds at one position the heavier, even if the weights do not change
+  /// the power distance.
   std::size_t least_power(const Vector& x) const {
     std::size_t best = 0;
     long double least = 0;
@@ -71,7 +72,7 @@ class Owners {
     return best;
   }
 
-  /// How far a sample lies outside the cell of seed i.
+  /// The distance of a sample outside the cell of seed i.
   Outside outside_cell(const Sample& sample, std::size_t i) const {
     Outside best{1e300, 1};
     bool in_region = false;
@@ -80,13 +81,14 @@ class Owners {
       in_region = true;
       best = nearer(best, outside_piece(sample.point, i, p));
     }
-    // Too flat a piece is not kept: then the point is next to one in the region beside.
+    // A piece too flat to be kept is missing; the sample is then close to a piece in a neighbouring region.
     for (std::uint64_t p = cells_.cell_offset[i]; !in_region && p < cells_.cell_offset[i + 1]; ++p)
       best = nearer(best, outside_piece(sample.point, i, p));
     return best;
   }
 
-  /// The best answer of all seeds whose bisector with the owner is as near as rounding.
+  /// The best of `best` and the results for all seeds whose bisector with the owner is within rounding of the
+  /// sample.
   Outside outside_ties(const Sample& sample, std::size_t owner, Outside best) const {
     const Vector p = rounding_.position(owner);
     for (std::size_t j = 0; j < count_; ++j) {

@@ -8,10 +8,10 @@
 namespace powercell {
 namespace {
 
-/// Reach times gradient over measure of a cube seen from its corner.
+/// Reach times gradient over measure, for a cube and a seed in its corner.
 constexpr double usual_ratio = 6;
 
-/// Gradients by all corners, added up over the regions.
+/// The gradients with respect to all corners, summed over the regions.
 class Gradients {
  public:
   explicit Gradients(const RegionMesh& mesh)
@@ -48,7 +48,7 @@ class Gradients {
     }
   }
 
-  /// Half the edge between the neighbours, turned outwards in the plane.
+  /// The gradient is half the edge between the neighbouring corners, rotated outwards.
   void add_polygon(const std::uint32_t* corner, std::size_t count) {
     Vector normal{};
     for (std::size_t k = 2; k < count; ++k) {
@@ -64,16 +64,15 @@ class Gradients {
     }
   }
 
-  /// A third of the area vector of the facet opposite, turned towards the corner.
+  /// The gradient is a third of the area vector of the opposite facet, towards the corner.
   void add_tetrahedron(const std::uint32_t* corner) {
-    constexpr std::array<std::array<int, 3>, 4> opposite{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto [a, b, c] = opposite[k];
-      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[b]), edge(corner[a], corner[c])));
+      const auto& [a, b, c] = tetrahedron_facet[k];
+      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[c]), edge(corner[a], corner[b])));
     }
   }
 
-  /// A corner takes a quarter of each of its three facets along.
+  /// The gradient is a quarter of the area vectors of the three facets at the corner.
   void add_box(const std::uint32_t* corner) {
     const Vector x = edge(corner[0], corner[1]), y = edge(corner[0], corner[2]),
                  z = edge(corner[0], corner[4]);
@@ -87,7 +86,7 @@ class Gradients {
   std::vector<Vector> sums_;
 };
 
-/// The same of one piece, at most its triangle for each of its walls.
+/// The same for one piece; each of its walls contributes at most the area of the triangle.
 long double slanted_area(const Cells& cells, std::size_t seed, std::uint64_t piece, const Corners& triangle,
                          const Rounding& rounding) {
   const Vector normal = normal_of(triangle);

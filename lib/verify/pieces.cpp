@@ -27,7 +27,7 @@ struct Sums {
   }
 };
 
-/// Of sums of products of vertices.
+/// A bound for the rounding of sums of products of `power` coordinates.
 double rounding_of(const Sums& sums, int power) {
   return static_cast<double>(64 * std::numeric_limits<long double>::epsilon() * std::pow(sums.extent, power));
 }
@@ -93,7 +93,7 @@ std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells,
     const Vector seed = rounding.position(i);
     const Sums sums = sums_of(cells, i, seed);
     // Moving the faces of a cell by the rounding of its planes changes its measure by that times its surface.
-    // Beside that the sum here has its own rounding, which counts where a needle is far longer than thick.
+    // The sum here has a rounding of its own, which counts for needles far longer than thick.
     const double moved = rounding.shift(i) * static_cast<double>(sums.surface) +
                          rounding_of(sums, cells.cell_dimension) +
                          rounding.least_measure(cells.cell_dimension);

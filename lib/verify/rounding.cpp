@@ -6,7 +6,7 @@
 namespace powercell {
 namespace {
 
-/// Roundings that add up in a plane: the dot products of a cut and the interpolation of its vertices.
+/// Number of roundings in a plane: the scalar products of a cut and the interpolation of its vertices.
 constexpr double roundings = 64;
 
 }  // namespace

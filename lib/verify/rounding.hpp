@@ -1,5 +1,5 @@
 /// \file
-/// How far rounding may move what a diagram computes. Internal.
+/// Bounds for the rounding errors of a diagram. Internal.
 #pragma once
 
 #include <powercell/domain.hpp>
@@ -11,17 +11,17 @@
 
 namespace powercell {
 
-/// Longest edge of the domain's box.
+/// The longest edge of the domain's bounding box.
 double extent_of(const Domain& domain);
 
-/// Length of the edges of a wall of this area, which is at most as many times longer than wide as the domain;
-/// of a wall that is a line, its two ends.
+/// A bound for the perimeter of a wall of this area, assuming that it is not slimmer than the domain; 2, the
+/// number of ends, if walls are lines.
 double rim_of(double wall, const Domain& domain);
 
-/// A cell computed with unit roundoff u is the exact one for planes moved by a few tens of u times the
-/// lengths that enter: how far the domain reaches from the seed, the distance |q| to the other seed, and the
-/// part of the bisector's offset that comes from the weights, |w_i - w_j| / |q|. Coordinates given back are
-/// rounded to double once more.
+/// A cell computed with unit roundoff u is exact for planes moved by a few tens of u times the lengths
+/// involved: the reach of the domain from the seed, the distance |q| to the other seed, and the part of the
+/// bisector's offset that comes from the weights, |w_i - w_j| / |q|. Returned coordinates are rounded to
+/// double once more.
 class Rounding {
  public:
   Rounding(const Domain& domain, const SeedsView& seeds, Precision precision);
@@ -29,19 +29,20 @@ class Rounding {
   const SeedsView& seeds() const { return seeds_; }
   double unit() const { return unit_; }  ///< u: 2^-53 or 2^-24
   double diagonal() const { return diagonal_; }
-  /// Of a cell that is decided to be there; in double precision as good as 0 (Clipper::write_moments).
+  /// The least measure of a cell known to be non-empty; 0 in double precision (Clipper::write_moments).
   double least_measure(int cell_dimension) const;
   /// Distance from seed i to the farthest corner of the domain's box.
   double reach(std::size_t i) const;
-  /// How far a plane of cell i that is a facet of the domain may be off.
+  /// A bound for the error of a plane of cell i that is a facet of the domain.
   double shift(std::size_t i) const;
-  /// The same for a plane with `border` behind it.
+  /// The same for a plane that is facet or bisector, as `border` says.
   double shift(std::size_t i, const Border& border) const;
+  /// The same for the bisector of i and j.
   double wall_shift(std::size_t i, std::size_t j) const;
 
   Vector position(std::size_t i) const;
   long double weight(std::size_t i) const { return seeds_.weights.empty() ? 0.0L : seeds_.weights[i]; }
-  /// Signed distance from x, relative to seed i, to the bisector of i and j, positive on j's side.
+  /// The signed distance of x from the bisector of i and j, positive on j's side.
   long double beyond(std::size_t i, std::size_t j, const Vector& x) const;
 
  private:

@@ -25,7 +25,7 @@ std::vector<double> read_moments(const Clipper& clipper, std::size_t count) {
   return values;
 }
 
-/// One seed in the middle and `around` seeds on a circle or sphere about it, whose bisectors all cut it.
+/// One seed in the middle of `around` seeds on a circle or sphere, whose bisectors all cut its cell.
 std::pair<std::vector<double>, std::vector<double>> surrounded(int dimension, int around) {
   std::vector<double> positions(static_cast<std::size_t>(dimension), 0.5);
   const double golden = (std::sqrt(5.0) - 1) / 2, pi = std::acos(-1.0);
@@ -79,14 +79,14 @@ TEST_CASE("the host clips as the device does") {
   }
 }
 
-TEST_CASE("cells of any number of faces come out whole") {
+TEST_CASE("cells with any number of faces are clipped completely") {
   const auto context = test_context();
   if (!context->info().fp64) return;
   struct Case {
     int dimension, around;
     bool on_host;
   };
-  // Beyond the first capacity, beyond the second, beyond 255 and beyond the host's first try.
+  // More faces than the first capacity, than the second, than 255, and than the host's first try.
   for (const Case c : {Case{2, 50, false}, Case{2, 200, true}, Case{2, 1500, true}, Case{3, 60, false},
                        Case{3, 300, true}, Case{3, 1200, true}}) {
     CAPTURE(c.dimension);

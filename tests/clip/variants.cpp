@@ -18,7 +18,7 @@ std::size_t capacity_of(const Variant& variant) {
   return all.size();
 }
 
-/// A source that hides all seeds but the first from the kernel, as a broken driver might.
+/// Hides all seeds but the first from the kernel, as a broken driver might.
 class BlindCandidates : public TreeCandidates {
  public:
   explicit BlindCandidates(const Scene& scene)
@@ -72,7 +72,7 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
   }
 }
 
-TEST_CASE("a device that computes the golden diagram wrongly is refused by name") {
+TEST_CASE("a device that computes the golden diagram wrongly is refused, and named") {
   const auto context = test_context();
   const RandomScene scene(context, 2, 20, 0.5, true);
   Variant variant = all_variants(true).front();

@@ -39,7 +39,7 @@ Pieces clip_all(const Scene& scene, Candidates& candidates, const std::vector<st
   return pieces;
 }
 
-/// All pairs with every region, so that many pieces are empty.
+/// Clips all pairs of seeds and regions both ways and compares the pieces, many of which are empty.
 void check_same_pieces(const Domain& domain, const SeedArray& input, bool float32) {
   const Device& device = main_setups().front().device;
   const SeedSet seeds = make_seed_set(input.view(), domain.dimension(), 1);
@@ -94,7 +94,7 @@ TEST_CASE("clip by cell: the pieces are those of the search in every region") {
     }
 }
 
-TEST_CASE("clip by cell: a cell of very many walls is searched for in each region") {
+TEST_CASE("clip by cell: a cell with hundreds of walls") {
   // One heavy seed in the middle of a ring of 300, whose cell has a wall with each.
   SeedArray seeds;
   seeds.dimension = 2;

@@ -1,5 +1,5 @@
 /// \file
-/// Pairs by definition, and checks of the enumeration against them.
+/// Pairs by definition, to check the search for pairs.
 #pragma once
 
 #include <set>

@@ -50,7 +50,7 @@ constexpr const char* names[entry_count] = {"clBuildProgram",
                                             "clSetKernelArg",
                                             "clWaitForEvents"};
 
-/// What does not reach a device that is gone.
+/// Whether an entry point needs the device, and fails if it is lost.
 bool needs_device(Entry entry) {
   const char* text = name(entry);
   return std::strncmp(text, "clEnqueue", 9) == 0 || entry == Entry::clCreateBuffer ||

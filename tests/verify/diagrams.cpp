@@ -57,7 +57,7 @@ TEST_CASE("degenerate seeds obey the laws") {
   }
 }
 
-TEST_CASE("diagrams all of whose walls are shorter than rounding obey the laws") {
+TEST_CASE("diagrams with all walls shorter than rounding obey the laws") {
   // Bisectors that cut the corners (1, 1) or (1, 1, 1) off, by some roundings of the way from the seeds to
   // it.
   for (const Setup& setup : main_setups())
@@ -72,8 +72,8 @@ TEST_CASE("diagrams all of whose walls are shorter than rounding obey the laws")
       }
 }
 
-TEST_CASE("seeds close together, whose bisectors with others are all but parallel, obey the laws") {
-  // Below some 1e-8 exact decisions take over, and the geometry is exact but for its last places.
+TEST_CASE("seeds close together, whose bisectors with others are nearly parallel, obey the laws") {
+  // Below about 1e-8 all decisions are exact, and so is the geometry, up to units in the last place.
   for (const Setup& setup : main_setups())
     for (const auto& list : {surface_domains(), volume_domains(), box_domains()})
       for (const NamedDomain& named : list)
@@ -98,7 +98,7 @@ TEST_CASE("cells that measure less than the least number of single precision obe
   }
 }
 
-TEST_CASE("other seeds than the diagram's are refused, or found out") {
+TEST_CASE("other seeds than the diagram's are refused, or fail the laws") {
   Random random(test_seed());
   const SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
   const SeedArray others = scatter(Distribution::white, 50, 2, {}, random);

@@ -1,4 +1,4 @@
-// Each law finds the fault it is there for, put into results that were right.
+// Each law finds the fault it is for, introduced into correct results.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -12,7 +12,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Results of a diagram of white seeds in the unit square or cube, to be spoilt.
+/// Results of a diagram of white seeds in the unit square or cube, for tests to falsify.
 struct Results {
   explicit Results(int dimension)
       : domain(unit_box(dimension)),
@@ -60,7 +60,7 @@ TEST_CASE("a moved vertex breaks the law of pieces") {
   }
 }
 
-TEST_CASE("a wrong centroid breaks the law of centroids, and not-a-number too") {
+TEST_CASE("a wrong centroid breaks the law of centroids, and NaN too") {
   Results results(2);
   const double right = results.measures.centroid[7];
   for (const double wrong : {right + 1e-4, std::numeric_limits<double>::quiet_NaN()}) {

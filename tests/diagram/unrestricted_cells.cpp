@@ -1,5 +1,5 @@
-// Cells inside domains of many regions, which are clipped whole and then told to be inside, outside, or
-// neither.
+// Unrestricted cells in domains of many regions, which are clipped in one piece and then classified as
+// inside, outside or unclear.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ SeedArray dense(int dimension, int per_axis, double low, double high, Random& ra
 
 }  // namespace
 
-TEST_CASE("whole cells: those in a hole are hidden, those around it keep their measure") {
+TEST_CASE("unrestricted cells: those in a hole are hidden, those around it keep their measure") {
   INFO(replay_hint());
   Random random(test_seed());
   const Ring hole = {{0.2, 0.2}, {0.2, 0.8}, {0.8, 0.8}, {0.8, 0.2}};
@@ -77,7 +77,7 @@ TEST_CASE("whole cells: those in a hole are hidden, those around it keep their m
   }
 }
 
-TEST_CASE("whole cells: where meshes overlap, cells count once in each") {
+TEST_CASE("unrestricted cells: where meshes overlap, cells count once in each") {
   INFO(replay_hint());
   Random random(test_seed());
   const Mesh one = cube_tetrahedra(3, 0.1, random);
@@ -99,8 +99,9 @@ TEST_CASE("whole cells: where meshes overlap, cells count once in each") {
   }
 }
 
-TEST_CASE("whole cells: cells too thin to be told inside are clipped region by region") {
-  // Columns of seeds 1e-13 apart: the cells between them are thinner than the rounding of the domain.
+TEST_CASE("unrestricted cells: cells too thin to be classified are clipped region by region") {
+  // Rows of seeds 1e-13 apart: the cells between them are thinner than the rounding of the domain's
+  // coordinates.
   SeedArray seeds;
   seeds.dimension = 2;
   for (int row = 0; row < 20; ++row)
@@ -109,16 +110,16 @@ TEST_CASE("whole cells: cells too thin to be told inside are clipped region by r
   REQUIRE(domain.region_count() == 7);
   for (const Setup& setup : main_setups()) {
     if (setup.options.precision == Precision::float32)
-      continue;  // positions 1e-13 apart are more than floats can hold
+      continue;  // two floats do not represent positions 1e-13 apart
     const Measures measures = measures_of(setup, domain, seeds);
     CHECK(std::abs(sum(measures.mass) - 1) <= 1e-12);
-    for (int row = 0; row < 20; ++row)  // the outer two of each row share all but nothing of it
+    for (int row = 0; row < 20; ++row)  // the outer two seeds of a row share nearly all of it
       CHECK(std::abs(measures.mass[static_cast<std::size_t>(row) * 20] - 0.5 / 20) <= 1e-6);
   }
 }
 
 TEST_CASE(
-    "whole cells: facets that are grid planes through seeds and centroids do not leave cells undecided") {
+    "unrestricted cells: facets in grid planes through seeds and centroids do not leave cells unclear") {
   const Domain domain = volume_of([] {
     Random still(1);
     return cube_tetrahedra(4, 0, still);
@@ -133,9 +134,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("whole cells: a cell far from its seed keeps its mass") {
-  // The Voronoi cells of a cross of seven seeds y, as the power cells of seeds y + t with weights 2 t.y. Seen
-  // from t the second moment and the centroid tell little of a cell's size.
+TEST_CASE("unrestricted cells: a cell far from its seed keeps its mass") {
+  // The Voronoi cells of a cross of seven seeds y, as the power cells of seeds y + t with weights 2 t.y.
+  // Relative to such seeds, second moment and centroid determine a cell's size badly.
   const Domain domain = volume_of(ball_tetrahedra(1));
   const double arm = 0.3125, directions[3] = {825.2275390625, -702.692138671875, 719.823486328125};
   for (const double far : {0x1p-6, 0x1p-3, 1.0, 8.0}) {
