@@ -22,7 +22,7 @@ std::span<const double> span_of(const Vector& v) {
 
 bool damped_newton_can_go_on(const Iterate& at, const Vector& target) {
   if (at.empty > 0 || at.least(target) < repaired) return false;
-  return connected_parts(
+  return connected_components(
              make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, {}).matrix) == 1;
 }
 

@@ -25,7 +25,7 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
     if (course.at_limit()) return PhaseEnd::step_limit;
     const Laplacian system =
         make_laplacian(at.cells.walls.offset, at.cells.walls.neighbor, at.conductance, {});
-    if (connected_parts(system.matrix) > 1) return PhaseEnd::disconnected;
+    if (connected_components(system.matrix) > 1) return PhaseEnd::disconnected;
     const Vector gradient = at.gradient(target);
     const Direction direction = course.solve(system, gradient);
     if (direction.linear.broke_down) return PhaseEnd::stalled;
@@ -37,7 +37,7 @@ PhaseEnd newton(Course& course, Iterate& at, const Vector& target, double tolera
           if (!course.evaluator().possible(weights, at.weights)) return false;
           next = course.evaluator().evaluate(std::move(weights));
           return next.empty == 0 && next.least(target) >= least &&
-                 falls_enough(next.gradient(target).norm(), gradient.norm(), trial);
+                 decreases_enough(next.gradient(target).norm(), gradient.norm(), trial);
         },
         longest);
     if (length == 0) return PhaseEnd::stalled;

@@ -20,20 +20,6 @@ void check(const TransportOptions& options) {
 
 }  // namespace
 
-const char* name(LinearSolver solver) noexcept {
-  switch (solver) {
-    case LinearSolver::automatic:
-      return "automatic";
-    case LinearSolver::dense:
-      return "dense";
-    case LinearSolver::direct:
-      return "direct";
-    case LinearSolver::multilevel:
-      return "multilevel";
-  }
-  return "unknown";
-}
-
 const char* name(TransportPhase phase) noexcept {
   switch (phase) {
     case TransportPhase::start:

@@ -105,8 +105,8 @@ class DampedNewton {
       for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = from_[i] + trial * delta_[i];
       if (!evaluate(least_)) return false;
       reached = take_residual();
-      return falls_enough(reached, norm, trial) ||
-             (reached < rounding && falls_enough(outcome_.error, error, trial));
+      return decreases_enough(reached, norm, trial) ||
+             (reached < rounding && decreases_enough(outcome_.error, error, trial));
     });
     if (length > 0) {
       norm = reached;
