@@ -2,8 +2,7 @@
 
 #include <string_view>
 
-#include "lib/applications/density/checked_source.hpp"
-#include "lib/applications/density/make.hpp"
+#include "lib/applications/density/checked_values.hpp"
 #include "lib/applications/density/pointwise.hpp"
 #include "lib/base/text.hpp"
 
@@ -89,7 +88,9 @@ class FormulaSource : public CheckedSource {
   FormulaSource(const Domain& domain, const std::string& text) : CheckedSource(domain), expression_(text) {}
 
  private:
-  void ask(std::span<const Point> x, std::span<double> values) override { expression_.evaluate(x, values); }
+  void evaluate_unchecked(std::span<const Point> x, std::span<double> values) override {
+    expression_.evaluate(x, values);
+  }
 
   Expression expression_;
 };
@@ -98,10 +99,9 @@ class Formula : public PointwiseDensity {
  public:
   Formula(std::string_view text, double tolerance) : PointwiseDensity(tolerance), text_(text) {
     check_tolerance(tolerance);
-    Expression(text_).require_one_value();  // tells whether it is one
+    Expression(text_).require_one_value();
   }
 
- public:
   std::unique_ptr<PointSource> source(const Domain& domain) const override {
     return std::make_unique<FormulaSource>(domain, text_);
   }
@@ -117,7 +117,7 @@ class FunctionSource : public CheckedSource {
   FunctionSource(const Domain& domain, const Function& value) : CheckedSource(domain), value_(value) {}
 
  private:
-  void ask(std::span<const Point> x, std::span<double> values) override {
+  void evaluate_unchecked(std::span<const Point> x, std::span<double> values) override {
     for (std::size_t k = 0; k < x.size(); ++k) values[k] = value_(x[k]);
   }
 
@@ -131,7 +131,6 @@ class FunctionDensity : public PointwiseDensity {
     if (!value_) throw Error(ErrorCode::invalid_argument, "the density's function is empty");
   }
 
- public:
   std::unique_ptr<PointSource> source(const Domain& domain) const override {
     return std::make_unique<FunctionSource>(domain, value_);
   }

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "lib/applications/density/cell_integrals.hpp"
-#include "lib/applications/density/region_cells.hpp"
 #include "lib/base/sums.hpp"
 #include "lib/base/text.hpp"
 

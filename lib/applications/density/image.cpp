@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "lib/applications/density/geometric.hpp"
-#include "lib/applications/density/make.hpp"
 #include "lib/applications/density/pixels.hpp"
 #include "lib/base/text.hpp"
 

@@ -3,9 +3,8 @@
 #include <powercell/regions.hpp>
 #include <vector>
 
-#include "lib/applications/density/make.hpp"
+#include "lib/applications/density/checked_values.hpp"
 #include "lib/applications/density/pointwise.hpp"
-#include "lib/applications/density/value.hpp"
 
 namespace powercell {
 namespace {

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "lib/applications/density/geometric.hpp"
-#include "lib/applications/density/region_cells.hpp"
 #include "lib/applications/density/simplex.hpp"
 #include "lib/applications/density/simplex_rule.hpp"
 #include "lib/base/sums.hpp"
