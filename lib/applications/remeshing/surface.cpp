@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 #include <powercell/error.hpp>
 #include <string>
-#include <tuple>
 #include <utility>
+
+#include "lib/base/positions.hpp"
 
 namespace powercell::remeshing {
 namespace {
@@ -33,25 +33,11 @@ std::vector<Side> sides_of(const Surface& surface) {
   return sides;
 }
 
-/// For each vertex the first one at its position.
-std::vector<std::uint32_t> weld(const std::vector<Vec>& vertex) {
-  std::vector<std::uint32_t> order(vertex.size()), same(vertex.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t v) {
-    return std::tuple(vertex[v].x + 0.0, vertex[v].y + 0.0, vertex[v].z + 0.0);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  for (std::size_t k = 0; k < order.size(); ++k)
-    same[order[k]] = k > 0 && key(order[k]) == key(order[k - 1]) ? same[order[k - 1]] : order[k];
-  return same;
-}
-
 Surface read(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
   Surface surface;
   for (std::size_t k = 0; k < vertices.size(); k += 3)
     surface.vertex.push_back({vertices[k], vertices[k + 1], vertices[k + 2]});
-  const std::vector<std::uint32_t> same = weld(surface.vertex);
+  const std::vector<std::uint32_t> same = first_at_position(vertices, 3);
   for (std::size_t k = 0; k < triangles.size(); k += 3) {
     std::array<std::uint32_t, 3> row{};
     for (std::size_t c = 0; c < 3; ++c) row[c] = same[triangles[k + c]];

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "lib/applications/transport/course.hpp"
-#include "lib/applications/transport/merge.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/applications/transport/periodic_evaluator.hpp"
 #include "lib/base/text.hpp"
 

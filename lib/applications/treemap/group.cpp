@@ -1,15 +1,12 @@
 #include "lib/applications/treemap/group.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <tuple>
 
 #include "lib/applications/treemap/convex_polygon.hpp"
 #include "lib/applications/treemap/laplacian.hpp"
 #include "lib/applications/treemap/newton.hpp"
 #include "lib/applications/treemap/relax.hpp"
+#include "lib/base/positions.hpp"
 
 namespace powercell::treemap_detail {
 namespace {
@@ -56,23 +53,6 @@ struct HostSolver {
   }
 };
 
-// Of seeds at one place all but one go to their fresh places: together they would have one cell.
-void part_equal(Columns& seeds, const Columns& fresh) {
-  std::vector<std::size_t> order(seeds.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto place = [&](std::size_t i) { return std::tuple(seeds.x[i], seeds.y[i], i); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  double x = std::numeric_limits<double>::quiet_NaN(), y = x;
-  for (const std::size_t i : order) {
-    const bool taken = seeds.x[i] == x && seeds.y[i] == y;
-    x = seeds.x[i];
-    y = seeds.y[i];
-    if (!taken) continue;
-    seeds.x[i] = fresh.x[i];
-    seeds.y[i] = fresh.y[i];
-  }
-}
-
 }  // namespace
 
 Columns starting_seeds(const Group& group) {
@@ -95,7 +75,15 @@ Columns starting_seeds(const Group& group) {
       seeds.y[i] = fresh.y[i];
     }
   }
-  part_equal(seeds, fresh);
+  // Seeds at the same position would share one cell: all but the first get fresh positions.
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < n; ++i) rows.insert(rows.end(), {seeds.x[i], seeds.y[i]});
+  const std::vector<std::uint32_t> first = first_at_position(rows, 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (first[i] == i) continue;
+    seeds.x[i] = fresh.x[i];
+    seeds.y[i] = fresh.y[i];
+  }
   return seeds;
 }
 
