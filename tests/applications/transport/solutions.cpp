@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/applications/transport/iterate.hpp"
+#include "lib/applications/transport/evaluator.hpp"
 #include "tests/applications/transport/cases.hpp"
 
 using namespace powercell;
