@@ -13,10 +13,6 @@ namespace {
 
 using Row = std::array<std::uint32_t, 3>;
 
-std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{a} << 32 | b;
-}
-
 /// Corners between two walls, each seen from the three cells that meet there; the cell of the smallest seed
 /// makes the triangle. Cells around a corner of cell i follow as (i, behind the edge that ends there,
 /// behind the edge that starts there).
@@ -124,7 +120,7 @@ std::unordered_map<std::uint64_t, OnCurve> curve_edges(const Sampling& sampling)
   for (std::uint32_t c = 0; c < sampling.curve_count(); ++c) {
     const std::vector<std::uint32_t>& v = sampling.curve(c).vertex;
     for (std::size_t k = 0; k + 1 < v.size(); ++k)
-      result[pair_key(std::min(v[k], v[k + 1]), std::max(v[k], v[k + 1]))] = {c, k};
+      result[edge_key(std::min(v[k], v[k + 1]), std::max(v[k], v[k + 1]))] = {c, k};
   }
   return result;
 }
@@ -152,7 +148,7 @@ void find_intruders(const Sampling& sampling, Defects& defects) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (!surface.kept[t][k]) continue;
       const std::uint32_t a = surface.triangle[t][k], b = surface.triangle[t][(k + 1) % 3];
-      const OnCurve on = edges.at(pair_key(std::min(a, b), std::max(a, b)));
+      const OnCurve on = edges.at(edge_key(std::min(a, b), std::max(a, b)));
       const Curve& curve = sampling.curve(on.curve);
       for (const std::uint32_t p : diagram.pieces_in(t)) {
         const Piece& piece = diagram.piece(p);
@@ -176,13 +172,13 @@ void find_edge_defects(const Sampling& sampling, const MeshCheck& check, Defects
     const auto& seeds = sampling.on_curve(c);
     for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
       const std::uint32_t a = seeds[k], b = seeds[k + 1];
-      chords.insert(chords.end(), {pair_key(a, b), pair_key(b, a)});
+      chords.insert(chords.end(), {edge_key(a, b), edge_key(b, a)});
       if (!check.has_edge(a, b) && !check.has_edge(b, a)) defects.chords.emplace_back(c, k);
     }
   }
   std::sort(chords.begin(), chords.end());
   for (const auto& [a, b] : check.boundary_edges)
-    if (!std::binary_search(chords.begin(), chords.end(), pair_key(a, b)))
+    if (!std::binary_search(chords.begin(), chords.end(), edge_key(a, b)))
       defects.seeds.insert(defects.seeds.end(), {a, b});
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/applications/remeshing/interrupt.hpp"
+#include "lib/applications/remeshing/progress.hpp"
 #include "lib/applications/remeshing/sampling.hpp"
 
 namespace powercell::remeshing {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lib/applications/remeshing/interrupt.hpp"
+#include "lib/applications/remeshing/progress.hpp"
 #include "lib/applications/remeshing/sampling.hpp"
 
 namespace powercell::remeshing {

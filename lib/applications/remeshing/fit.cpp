@@ -1,9 +1,8 @@
-#include "lib/applications/remeshing/fit.hpp"
-
 #include <algorithm>
 #include <optional>
 
 #include "lib/applications/remeshing/nearest.hpp"
+#include "lib/applications/remeshing/relax.hpp"
 #include "lib/applications/remeshing/star.hpp"
 #include "lib/applications/remeshing/triangle.hpp"
 

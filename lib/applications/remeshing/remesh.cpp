@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "lib/applications/remeshing/dual.hpp"
-#include "lib/applications/remeshing/even_mass.hpp"
+#include "lib/applications/remeshing/equal_mass.hpp"
 #include "lib/applications/remeshing/farthest.hpp"
-#include "lib/applications/remeshing/fit.hpp"
 #include "lib/applications/remeshing/frame.hpp"
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/relax.hpp"

@@ -5,7 +5,15 @@
 #include <powercell/error.hpp>
 #include <string>
 
+#include "lib/base/random.hpp"
+
 namespace powercell::remeshing {
+namespace {
+
+// Relative random change of weights, which brings the seeds into general position.
+constexpr double jitter = 1e-7;
+
+}  // namespace
 
 Sampling::Sampling(const Surface& surface, const Sizing& sizing, std::vector<Curve> curves,
                    std::uint64_t random_seed)
@@ -19,7 +27,7 @@ Sampling::Sampling(const Surface& surface, const Sizing& sizing, std::vector<Cur
 
 std::uint32_t Sampling::add(const Hold& hold) {
   const double h = sizing_at(hold.place);
-  return add(hold, weight_share * h * h * (1 + 1e-7 * jitter()), h);
+  return add(hold, weight_share * h * h * (1 + jitter * uniform(random_)), h);
 }
 
 std::uint32_t Sampling::add(const Hold& hold, double weight, double h) {
@@ -46,11 +54,7 @@ std::uint32_t Sampling::add_between(const Hold& hold) {
         "the surface is too sharp or too thin for so few points: to tell its sides apart some would be as "
         "near to each other as rounding errors; ask for more, or cut the tip or the thin part off");
   // The distance is what tells the two apart, however small it is beside the weight.
-  return add(hold, of.weight + 1e-7 * jitter() * distance2, of.size);
-}
-
-double Sampling::jitter() {
-  return static_cast<double>(random_() >> 11) * 0x1p-53;
+  return add(hold, of.weight + jitter * uniform(random_) * distance2, of.size);
 }
 
 bool Sampling::give_cell(std::uint32_t seed) {

@@ -76,7 +76,6 @@ class Sampling {
   std::uint32_t add(const Hold& hold);
   std::uint32_t add(const Hold& hold, double weight, double h);
   std::uint32_t add_between(const Hold& hold);
-  double jitter();  ///< random, from 0 to 1
   std::uint32_t corner_seed(std::uint32_t vertex, const Place& place);
   void measure_changed();
   void link_curve(std::uint32_t c);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lib/applications/remeshing/interrupt.hpp"
+#include "lib/applications/remeshing/progress.hpp"
 #include "lib/applications/remeshing/surface.hpp"
 
 namespace powercell::remeshing {

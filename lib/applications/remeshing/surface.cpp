@@ -54,24 +54,6 @@ std::string edge_name(std::uint32_t a, std::uint32_t b) {
   return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b);
 }
 
-/// Fills in `across`, whatever the orientation.
-void connect(Surface& surface) {
-  surface.across.assign(surface.size(), {nothing, nothing, nothing});
-  const std::vector<Side> sides = sides_of(surface);
-  for (std::size_t k = 0; k < sides.size();) {
-    std::size_t end = k + 1;
-    while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high) ++end;
-    if (end - k > 2)
-      refuse("the surface is not a manifold: " + edge_name(sides[k].low, sides[k].high) + " belongs to " +
-             std::to_string(end - k) + " triangles");
-    if (end - k == 2) {
-      surface.across[sides[k].triangle][sides[k].edge] = sides[k + 1].triangle;
-      surface.across[sides[k + 1].triangle][sides[k + 1].edge] = sides[k].triangle;
-    }
-    k = end;
-  }
-}
-
 bool has_directed(const std::array<std::uint32_t, 3>& row, std::uint32_t a, std::uint32_t b) {
   for (std::size_t k = 0; k < 3; ++k)
     if (row[k] == a && row[(k + 1) % 3] == b) return true;
@@ -137,8 +119,7 @@ void keep_sharp_edges(Surface& surface, double sharp_angle) {
   const double least_cosine = std::cos(sharp_angle * std::numbers::pi / 180);
   surface.kept.assign(surface.size(), {false, false, false});
   std::vector<Vec> normal(surface.size());
-  for (std::uint32_t t = 0; t < surface.size(); ++t)
-    normal[t] = unit(normal_of(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)));
+  for (std::uint32_t t = 0; t < surface.size(); ++t) normal[t] = surface.normal(t);
   for (std::uint32_t t = 0; t < surface.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = surface.across[t][k];
@@ -147,6 +128,23 @@ void keep_sharp_edges(Surface& surface, double sharp_angle) {
 }
 
 }  // namespace
+
+void connect(Surface& surface) {
+  surface.across.assign(surface.size(), {nothing, nothing, nothing});
+  const std::vector<Side> sides = sides_of(surface);
+  for (std::size_t k = 0; k < sides.size();) {
+    std::size_t end = k + 1;
+    while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high) ++end;
+    if (end - k > 2)
+      refuse("the surface is not a manifold: " + edge_name(sides[k].low, sides[k].high) + " belongs to " +
+             std::to_string(end - k) + " triangles");
+    if (end - k == 2) {
+      surface.across[sides[k].triangle][sides[k].edge] = sides[k + 1].triangle;
+      surface.across[sides[k + 1].triangle][sides[k + 1].edge] = sides[k].triangle;
+    }
+    k = end;
+  }
+}
 
 int Surface::edge_towards(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
   for (int k = 0; k < 3; ++k) {

@@ -49,6 +49,10 @@ struct Place {
 Surface make_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
                      double sharp_angle);
 
+/// Fills in `across` from the triangles, whatever their orientation.
+/// \throw Error invalid_domain: an edge of more than two triangles
+void connect(Surface& surface);
+
 /// The same surface with every edge longer than `longest` cut in halves until none is; `value`, a number per
 /// vertex, is interpolated.
 Surface refined(const Surface& surface, double longest, std::vector<double>& value);

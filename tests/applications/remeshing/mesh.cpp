@@ -8,7 +8,6 @@
 
 #include "lib/applications/remeshing/cell_parts.hpp"
 #include "lib/applications/remeshing/farthest.hpp"
-#include "lib/applications/remeshing/fit.hpp"
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/nearest.hpp"
 #include "lib/applications/remeshing/relax.hpp"

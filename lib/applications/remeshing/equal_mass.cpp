@@ -1,4 +1,4 @@
-#include "lib/applications/remeshing/even_mass.hpp"
+#include "lib/applications/remeshing/equal_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +111,7 @@ std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing,
   options.density = Density::nodal(density);
   options.tolerance = 0.02;  // the next round moves the cells by more
   options.rescale = true;
-  if (progress.is_told()) options.diagram.progress = [&progress](double) { return progress.goes_on(); };
+  if (progress.has_callback()) options.diagram.progress = [&progress](double) { return progress.report(); };
   TransportSolver solver(device, domain_of(sampling.diagram().surface()), options);
   solver.set_seeds({3, points.positions(), {}});
   solver.set_masses(points.share);
