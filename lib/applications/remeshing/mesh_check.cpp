@@ -11,10 +11,10 @@
 namespace powercell::remeshing {
 namespace {
 
-/// Per vertex its triangles; a vertex of one fan is walked once round from the start of that fan. A closed
-/// fan of fewer than three triangles is flat: two triangles on the same three corners.
+/// Checks that the triangles of each vertex form one fan by walking around the vertex. A closed fan of fewer
+/// than three triangles is degenerate: two triangles with the same corners.
 void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshCheck& check) {
-  // Leaving vertex v: from its next corner the fan goes on to the one after.
+  // A triangle at vertex v: the fan goes on from its next corner to the one after.
   struct Step {
     std::uint32_t v, from, to;
     auto operator<=>(const Step&) const = default;
@@ -33,7 +33,7 @@ void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshChec
           std::lower_bound(first, last, from, [](const Step& s, std::uint32_t x) { return s.from < x; });
       return at != last && at->from == from ? at : last;
     };
-    // An open fan starts where nothing leads to.
+    // An open fan starts at the corner that no triangle leads to.
     std::vector<std::uint32_t> led_to;
     std::transform(first, last, std::back_inserter(led_to), [](const Step& s) { return s.to; });
     std::sort(led_to.begin(), led_to.end());

@@ -13,11 +13,11 @@ std::uint64_t undirected_key(std::uint32_t a, std::uint32_t b) {
   return edge_key(std::min(a, b), std::max(a, b));
 }
 
-/// Cuts triangle `row` where `middle` names the new vertex of an edge.
+/// Cuts a triangle at the new vertices in the middle of its edges, `nothing` where an edge is not cut.
 void cut(const Surface& surface, const std::array<std::uint32_t, 3>& row,
          const std::array<std::uint32_t, 3>& middle, std::vector<std::array<std::uint32_t, 3>>& out) {
   const auto count = 3 - std::count(middle.begin(), middle.end(), nothing);
-  std::size_t k = 0;  // turn the triangle so that the cases below are the only ones
+  std::size_t k = 0;  // rotation of the triangle that leaves only the cases below
   if (count == 1)
     while (middle[k] == nothing) ++k;
   if (count == 2)

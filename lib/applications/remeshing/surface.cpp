@@ -15,7 +15,7 @@ namespace {
   throw Error(ErrorCode::invalid_domain, message);
 }
 
-/// A side of a triangle, found by its two vertices.
+/// An edge of a triangle, sorted by its vertices.
 struct Side {
   std::uint32_t low, high, triangle, edge;
   friend auto operator<=>(const Side&, const Side&) = default;
@@ -44,7 +44,7 @@ Surface read(std::span<const double> vertices, std::span<const std::uint32_t> tr
     const Vec a = surface.vertex[row[0]], b = surface.vertex[row[1]], c = surface.vertex[row[2]];
     const double longest = std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
     if (!(norm(normal_of(a, b, c)) > 1e-12 * longest))
-      refuse("triangle " + std::to_string(k / 3) + " has no area; remove it and join what is beside it");
+      refuse("triangle " + std::to_string(k / 3) + " has no area; remove it and join its neighbours");
     surface.triangle.push_back(row);
   }
   return surface;
@@ -60,7 +60,7 @@ bool has_directed(const std::array<std::uint32_t, 3>& row, std::uint32_t a, std:
   return false;
 }
 
-/// Turns triangles so that neighbours run along their common edge in opposite directions.
+/// Turns triangles so that neighbours have their common edge in opposite directions.
 void orient(Surface& surface) {
   std::vector<bool> seen(surface.size(), false);
   std::vector<std::uint32_t> stack;
@@ -77,7 +77,7 @@ void orient(Surface& surface) {
         const std::uint32_t a = surface.triangle[t][k], b = surface.triangle[t][(k + 1) % 3];
         const bool agrees = !has_directed(surface.triangle[next], a, b);
         if (!agrees && seen[next])
-          refuse("the surface cannot be oriented: its sides change along " +
+          refuse("the surface cannot be oriented: its orientation changes across " +
                  edge_name(std::min(a, b), std::max(a, b)));
         if (seen[next]) continue;
         if (!agrees) {
@@ -91,14 +91,14 @@ void orient(Surface& surface) {
   }
 }
 
-/// A vertex whose triangles are not one fan around it joins sheets in a point.
+/// Refuses a vertex whose triangles do not form one fan: sheets of the surface touch there.
 void require_single_fans(const Surface& surface) {
   std::vector<std::uint32_t> count(surface.vertex.size(), 0), start(surface.vertex.size(), nothing);
   for (std::uint32_t t = 0; t < surface.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.triangle[t][k];
       ++count[v];
-      // A fan at the boundary is walked from its first triangle.
+      // A fan at the boundary is walked from its first triangle on.
       if (start[v] == nothing || surface.across[t][k] == nothing) start[v] = t;
     }
   for (std::uint32_t v = 0; v < surface.vertex.size(); ++v) {
@@ -111,7 +111,7 @@ void require_single_fans(const Surface& surface) {
       if (t == start[v]) break;
     }
     if (walked != count[v])
-      refuse("the surface is not a manifold: sheets touch in vertex " + std::to_string(v));
+      refuse("the surface is not a manifold: sheets touch at vertex " + std::to_string(v));
   }
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("surfaces that are no manifolds are refused, and the place is named") 
              "the edge between vertices 0 and 1 belongs to 3 triangles"));
   // Two triangles that share a corner only.
   CHECK(says(refusal({{0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0}, {0, 1, 2, 0, 3, 4}}),
-             "sheets touch in vertex 0"));
+             "sheets touch at vertex 0"));
   // A band of five triangles with a half turn.
   const double a = 2 * std::numbers::pi / 5;
   TriangleMesh moebius;
