@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "lib/applications/treemap/convex_polygon.hpp"
-#include "lib/applications/treemap/laplacian.hpp"
 #include "lib/applications/treemap/newton.hpp"
 #include "lib/applications/treemap/relax.hpp"
 #include "lib/base/positions.hpp"
@@ -11,21 +10,24 @@
 namespace powercell::treemap_detail {
 namespace {
 
-// Diagrams, Newton's method and linear systems of small groups, all on the calling thread.
+/// The solver of relax() for small groups, on the calling thread.
 struct HostSolver {
   ConvexDiagram diagram;
   LaplacianSolver laplacian;
   std::vector<double> weights;
   std::span<const double> target;
   std::uint64_t diagrams = 0, newton_steps = 0;
-  bool lost = false;
+  bool lost_cells = false;
 
   void start(const Columns& seeds) {
     diagram.set_seeds(seeds, true);
     weights.assign(seeds.size(), 0);
   }
-  bool voronoi() { return evaluate(weights, {}); }
-  bool has_lost_cells() const { return lost; }
+  bool voronoi() {
+    ++diagrams;
+    return diagram.compute(weights, {});
+  }
+  bool has_lost_cells() const { return lost_cells; }
   void move(const Columns& seeds) {
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const double x = seeds.x[i] - diagram.seeds().x[i], y = seeds.y[i] - diagram.seeds().y[i];
@@ -34,23 +36,13 @@ struct HostSolver {
     diagram.set_seeds(seeds, true);
   }
   bool solve(double tolerance) {
-    DampedNewton newton(*this, target, weights);
-    const NewtonOutcome outcome = newton.solve({tolerance});
+    const NewtonOutcome outcome = damped_newton(diagram, laplacian, target, weights, tolerance);
+    diagrams += static_cast<std::uint64_t>(outcome.diagrams);
     newton_steps += static_cast<std::uint64_t>(outcome.steps);
-    lost = !std::isfinite(outcome.error);
+    lost_cells = !std::isfinite(outcome.error);
     return outcome.converged;
   }
   const Columns& centroid() const { return diagram.centroid(); }
-
-  // For DampedNewton.
-  bool evaluate(std::span<const double> at, std::span<const double> least) {
-    ++diagrams;
-    return diagram.compute(at, least);
-  }
-  const std::vector<double>& mass() const { return diagram.mass(); }
-  bool step(std::span<const double> residual, std::vector<double>& delta) {
-    return laplacian.solve(diagram.walls(), residual, delta);
-  }
 };
 
 }  // namespace
@@ -65,7 +57,7 @@ Columns starting_seeds(const Group& group) {
       seeds.x[i] = fresh.x[i];
       seeds.y[i] = fresh.y[i];
     }
-    // The parent's polygon has another shape now; its centroid, 0, is inside (unless it is a sliver).
+    // The polygon has another shape now. Its centroid, the origin, is inside (unless it is a sliver).
     for (double t = 1; t > 1e-3 && !contains(group.outline, seeds.x[i], seeds.y[i]); t *= 0.9) {
       seeds.x[i] *= t;
       seeds.y[i] *= t;

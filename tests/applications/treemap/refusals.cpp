@@ -43,7 +43,7 @@ TEST_CASE("trees that are none") {
   check_tree({-1, 0}, {1}, "2 parents and 1 values");
   check_tree({-1, 7}, {1, 1}, "node 1 has the parent 7");
   check_tree({-1, -2}, {1, 1}, "node 1 has the parent -2");
-  check_tree({-1, 0, -1}, {1, 1, 1}, "node 0 and node 2 are both without a parent");
+  check_tree({-1, 0, -1}, {1, 1, 1}, "node 0 and node 2 both have no parent");
   check_tree({1, 0}, {1, 1}, "no root");
   check_tree({-1, 0, 3, 4, 2, 4}, {1, 1, 1, 1, 1, 1}, "a cycle");
   check_tree({-1, 1}, {1, 1}, "node 1 is among its own ancestors");
