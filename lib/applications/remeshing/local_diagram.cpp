@@ -25,11 +25,11 @@ LocalDiagram::Ring LocalDiagram::ring_of(std::uint32_t triangle) const {
 bool LocalDiagram::cut(Ring& ring, std::uint32_t i, std::uint32_t j) {
   const Seed& own = seeds_[i];
   const Vec q = seeds_[j].at - own.at;
-  const double level = norm2(q) + own.weight - seeds_[j].weight;
+  const double offset = norm2(q) + own.weight - seeds_[j].weight;
   side_.resize(ring.size());
   bool inside = false, outside = false;
   for (std::size_t v = 0; v < ring.size(); ++v) {
-    side_[v] = 2 * dot(q, ring[v].at - own.at) - level;
+    side_[v] = 2 * dot(q, ring[v].at - own.at) - offset;
     (side_[v] > 0 ? outside : inside) = true;
   }
   if (!outside) return true;
