@@ -6,8 +6,8 @@ namespace powercell {
 namespace {
 
 constexpr Eigen::Index coarsest_size = 400;  // unknowns; a direct solve of so few costs less than more levels
-constexpr double least_coarsening =
-    0.7;  // a level that would keep a larger share of the unknowns is not made
+// A level that would keep more than this share of the unknowns is not made.
+constexpr double least_coarsening = 0.7;
 // Weight of the Jacobi step that smooths the prolongation: 4/3 over the largest eigenvalue of D^-1 L, which
 // is at most 2 for diagonally dominant matrices.
 constexpr double jacobi_weight = 2.0 / 3.0;

@@ -14,8 +14,8 @@
 
 namespace powercell::remeshing {
 
-constexpr double weight_share =
-    1.0 / 3;  ///< w = h^2/3: the cell vertices of a regular mesh then have power 0
+/// w = h^2/3: the cell vertices of a regular mesh then have power 0.
+constexpr double weight_share = 1.0 / 3;
 
 /// The position of a seed and how it is constrained: free on the surface, on a curve, or at a corner.
 struct Hold {

@@ -13,8 +13,8 @@ namespace powercell {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double sum_tolerance =
-    1e-9;  // relative difference allowed of the masses' sum from the domain's mass
+// Largest relative difference of the sum of the masses from the domain's mass, without rescaling.
+constexpr double sum_tolerance = 1e-9;
 
 /// The rows with the indices `kept`, each of `width` values.
 std::vector<double> rows(std::span<const double> values, const std::vector<std::uint32_t>& kept,

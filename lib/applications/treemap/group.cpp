@@ -8,10 +8,9 @@
 #include "lib/base/positions.hpp"
 
 namespace powercell::treemap_detail {
-namespace {
 
 /// The solver of relax() for small groups, on the calling thread.
-struct HostSolver {
+struct GroupSolver::HostSolver {
   ConvexDiagram diagram;
   LaplacianSolver laplacian;
   std::vector<double> weights;
@@ -45,8 +44,6 @@ struct HostSolver {
   const Columns& centroid() const { return diagram.centroid(); }
 };
 
-}  // namespace
-
 Columns starting_seeds(const Group& group) {
   const std::size_t n = group.share.size();
   const Columns fresh = spread_points(group.outline, n, group.random_seed);
@@ -79,17 +76,13 @@ Columns starting_seeds(const Group& group) {
   return seeds;
 }
 
-struct GroupSolver::Parts {
-  HostSolver solver;
-};
-
-GroupSolver::GroupSolver() : parts_(std::make_unique<Parts>()) {}
+GroupSolver::GroupSolver() : solver_(std::make_unique<HostSolver>()) {}
 GroupSolver::~GroupSolver() = default;
 GroupSolver::GroupSolver(GroupSolver&&) noexcept = default;
 
 GroupLayout GroupSolver::lay_out(const Group& group, const GroupSettings& settings) {
   GroupLayout layout;
-  HostSolver& solver = parts_->solver;
+  HostSolver& solver = *solver_;
   solver.diagram.set_outline(group.outline);
   solver.diagram.set_seeds({}, false);
   solver.target = group.share;

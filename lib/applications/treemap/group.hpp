@@ -43,8 +43,8 @@ class GroupSolver {
   GroupLayout lay_out(const Group& group, const GroupSettings& settings);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct HostSolver;
+  std::unique_ptr<HostSolver> solver_;
 };
 
 /// The same by TransportSolver on a device, for any number of siblings.
