@@ -111,8 +111,8 @@ bool PeriodicDiagram::has_enough_copies() const {
 /// seed outside the margin could have.
 bool PeriodicDiagram::missing_copies_are_far() const {
   constexpr double rounding = 1e-5;  // relative error of mean squared distances from the seed
-  constexpr double narrowest =
-      1e-3;  // area over that mean square; narrower cells may be artefacts of rounding
+  // Least area relative to that mean square: narrower cells may be artefacts of rounding.
+  constexpr double narrowest = 1e-3;
   const double most = *std::max_element(weights_.begin(), weights_.end());
   const Measures& all = *measures_;
   for (std::size_t i = 0; i < weights_.size(); ++i) {

@@ -53,9 +53,8 @@ class PeriodicDiagram {
 
   Domain box_;
   std::array<double, 2> low_, size_;
-  Diagram diagram_;  // in the box extended by half its size to each side
-  double margin_ =
-      0;  // width of the margin as a fraction of the box; 1 has all copies in the eight boxes around
+  Diagram diagram_;    // in the box extended by half its size to each side
+  double margin_ = 0;  // width of the margin as a fraction of the box; 1: all eight copies of each seed
   std::vector<double> given_, inside_, weights_;
   std::vector<std::uint32_t> original_;        // per seed and copy: the seed
   std::vector<std::array<double, 2>> placed_;  // per seed and copy: the position
