@@ -12,8 +12,8 @@
 
 namespace powercell::test {
 
-/// Seeds z = s y + t for the centres y of a k^d grid on the unit cube about the origin, with equal masses. The
-/// cells of the solution are those of the grid.
+/// Seeds z = s y + t for the centres y of a k^d grid on the unit cube about the origin, with equal masses.
+/// The cells of the solution are those of the grid.
 struct MovedGrid {
   MovedGrid(int per_axis, int dimension, double scale, double shift);
 

@@ -1,4 +1,5 @@
-// Densities that are nearly 0 in most of the domain, so that damped Newton has no useful derivatives at first.
+// Densities that are nearly 0 in most of the domain, so that damped Newton has no useful derivatives at
+// first.
 #include <doctest/doctest.h>
 
 #include <algorithm>

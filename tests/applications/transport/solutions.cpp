@@ -1,4 +1,5 @@
-// Properties of every solution, on every kind of domain: derivatives, masses, duality, agreement of linear solvers.
+// Properties of every solution, on every kind of domain: derivatives, masses, duality, agreement of linear
+// solvers.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,8 +18,8 @@ std::vector<double> masses_at(Diagram& diagram, const std::vector<double>& weigh
   return diagram.measures().mass;
 }
 
-/// Compares central differences of masses and dual, with respect to the weight of every fifth seed, with (15) and
-/// v - m.
+/// Compares central differences of masses and dual, with respect to the weight of every fifth seed, with (15)
+/// and v - m.
 void check_derivatives(const TransportCase& one) {
   const std::size_t n = one.seeds.size();
   Diagram diagram(transport_device(), one.domain, transport_options().diagram);
