@@ -1,4 +1,4 @@
-#include "lib/applications/density/region_cells.hpp"
+#include "lib/applications/density/piece.hpp"
 
 #include <array>
 #include <span>
@@ -6,7 +6,7 @@
 namespace powercell {
 namespace {
 
-/// Loops over a region's corners, counter-clockwise seen from outside.
+/// The corners of a facet of a region, counter-clockwise seen from outside.
 using Loop = std::array<std::uint32_t, 4>;
 constexpr std::array<Loop, 4> tetrahedron_loops{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 constexpr std::array<Loop, 6> box_loops{

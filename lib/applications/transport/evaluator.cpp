@@ -1,4 +1,4 @@
-#include "lib/applications/transport/iterate.hpp"
+#include "lib/applications/transport/evaluator.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,42 +7,47 @@
 namespace powercell {
 namespace {
 
-/// What integrals may be off by, of what masses are: the value of the dual is off by about the square of the
-/// latter. More is good enough for the first steps.
+// Bounds of the error of integrals relative to the error of the masses. Near the solution the dual is off by
+// about the square of the latter; for the first steps the larger share is accurate enough.
 constexpr double least_share = 1e-4, most_share = 3e-3;
-constexpr double rather_again = 4;  // times the tolerance needed
+// Integrals are repeated if their tolerance was this many times what turns out to be needed.
+constexpr double repeat_factor = 4;
 
-/// (1 - share) of a and share of b, entry by entry.
+double largest_relative_error(const Eigen::Map<const Vector>& mass, const Vector& target) {
+  return (mass.array() / target.array() - 1).abs().maxCoeff();
+}
+
+/// a = (1 - share) a + share b, entry by entry.
 void blend(std::vector<double>& a, const std::vector<double>& b, double share) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] = (1 - share) * a[k] + share * b[k];
 }
 
-/// Walls of a density and of a constant, which has all that the former has.
-Adjacency blend(const Adjacency& a, Adjacency even, double share) {
-  for (std::size_t i = 0; i + 1 < even.offset.size(); ++i) {
+/// Blends the walls of a density with those of a uniform one, which include them.
+Adjacency blend(const Adjacency& a, Adjacency uniform, double share) {
+  for (std::size_t i = 0; i + 1 < uniform.offset.size(); ++i) {
     const auto begin = a.neighbor.begin() + static_cast<std::ptrdiff_t>(a.offset[i]);
     const auto end = a.neighbor.begin() + static_cast<std::ptrdiff_t>(a.offset[i + 1]);
-    for (std::uint64_t k = even.offset[i]; k < even.offset[i + 1]; ++k) {
-      const auto found = std::lower_bound(begin, end, even.neighbor[k]);
-      const bool both = found != end && *found == even.neighbor[k];
-      even.wall[k] *= share;
-      if (both) even.wall[k] += (1 - share) * a.wall[static_cast<std::size_t>(found - a.neighbor.begin())];
+    for (std::uint64_t k = uniform.offset[i]; k < uniform.offset[i + 1]; ++k) {
+      const auto found = std::lower_bound(begin, end, uniform.neighbor[k]);
+      const bool both = found != end && *found == uniform.neighbor[k];
+      uniform.wall[k] *= share;
+      if (both) uniform.wall[k] += (1 - share) * a.wall[static_cast<std::size_t>(found - a.neighbor.begin())];
     }
   }
-  return even;
+  return uniform;
 }
 
-/// Integrals of (31c). Centroids are left as they are: nobody asks for them on the way.
-void blend(DensityIntegrals& integrals, DensityIntegrals even, double share) {
-  blend(integrals.mass, even.mass, share);
-  blend(integrals.second_moment, even.second_moment, share);
-  integrals.walls = blend(integrals.walls, std::move(even.walls), share);
+/// Integrals of (31c). Leaves the centroids unblended, as nothing uses them.
+void blend(DensityIntegrals& integrals, DensityIntegrals uniform, double share) {
+  blend(integrals.mass, uniform.mass, share);
+  blend(integrals.second_moment, uniform.second_moment, share);
+  integrals.walls = blend(integrals.walls, std::move(uniform.walls), share);
 }
 
 }  // namespace
 
 double Iterate::error(const Vector& target) const {
-  return (mass().array() / target.array() - 1).abs().maxCoeff();
+  return largest_relative_error(mass(), target);
 }
 
 double Iterate::quadrature_error(const Vector& target) const {
@@ -53,6 +58,10 @@ double Iterate::quadrature_error(const Vector& target) const {
 
 double Iterate::least(const Vector& target) const {
   return (mass().array() / target.array()).minCoeff();
+}
+
+Laplacian Iterate::laplacian(std::span<const double> shift) const {
+  return make_laplacian(cells.walls.offset, cells.walls.neighbor, conductance, shift);
 }
 
 double Iterate::primal() const {
@@ -72,7 +81,7 @@ Evaluator::Evaluator(Diagram& diagram, const Density& density, std::span<const d
       goal_(goal),
       threads_(threads) {}
 
-bool Evaluator::possible(const Vector& weights, const Vector& before) const {
+bool Evaluator::plausible(const Vector& weights, const Vector& before) const {
   const auto range = [](const Vector& w) { return w.maxCoeff() - w.minCoeff(); };
   const Domain& domain = diagram_.domain();
   double square = 0;
@@ -87,44 +96,43 @@ bool Evaluator::possible(const Vector& weights, const Vector& before) const {
   return range(weights) <= 4 * std::max(square, range(before));
 }
 
-void Evaluator::spread(double share) {
+void Evaluator::set_spread(double share) {
   spread_ = share;
-  if (share > 0 && !even_) {
+  if (share > 0 && !uniform_) {
     const Domain& domain = diagram_.domain();
-    // Rounding may take the mean of values that are all the largest beyond it.
-    even_ = Density::constant(
+    // Rounding may raise the mean of values that all are the largest above it.
+    uniform_ = Density::constant(
         std::min(density_.total(domain, threads_) / domain.measure(), Density::largest_value));
   }
 }
 
-/// What integrals may be off by where masses are off by `error`.
-double Evaluator::needed(double error) const {
+/// The tolerance of integrals if the masses are off by `error`.
+double Evaluator::integral_tolerance(double error) const {
   if (precise_) return least_share * goal_.tolerance;
   const double off = std::max(goal_.tolerance, std::min(1.0, error));
   return off * std::max(least_share, most_share * off);
 }
 
-/// Where the error turns out to be much less than was expected they are looked at again: formulas with kinks
-/// cost ten times as much for two more digits.
-DensityIntegrals Evaluator::integrate_as_needed() {
+/// Integrates to the tolerance for the expected error of the masses, and again if the error turns out to be
+/// much smaller. Formulas with kinks cost ten times as much for two more digits.
+DensityIntegrals Evaluator::integrate_density() {
   IntegrationOptions options;
   options.walls = true;
   options.threads = threads_;
-  options.tolerance = needed(density_.is_exact() ? 0 : expected_);
+  options.tolerance = integral_tolerance(density_.is_exact() ? 0 : expected_error_);
   while (true) {
     double error = 0;
     bool enough = true;
     options.walls_if = [&](std::span<const double> mass) {
-      const Eigen::Map<const Vector> found(mass.data(), goal_.target.size());
-      error = (found.array() / goal_.target.array() - 1).abs().maxCoeff();
+      error = largest_relative_error({mass.data(), goal_.target.size()}, goal_.target);
       const bool met = error < goal_.tolerance;
-      enough = options.tolerance <= (met ? 1 : rather_again) * needed(error);
+      enough = options.tolerance <= (met ? 1 : repeat_factor) * integral_tolerance(error);
       return enough && !met;
     };
     DensityIntegrals found = integrate(diagram_, density_, options);
-    expected_ = error * error;
+    expected_error_ = error * error;  // Newton's method converges quadratically
     if (enough) return found;
-    options.tolerance = needed(error);
+    options.tolerance = integral_tolerance(error);
   }
 }
 
@@ -133,17 +141,17 @@ DensityIntegrals Evaluator::integrate_blend() {
   options.walls = true;
   options.threads = threads_;
   options.tolerance = most_share;
-  DensityIntegrals even = integrate(diagram_, *even_, options);
-  if (spread_ == 1) return even;
+  DensityIntegrals uniform = integrate(diagram_, *uniform_, options);
+  if (spread_ == 1) return uniform;
   DensityIntegrals result = integrate(diagram_, density_, options);
-  blend(result, std::move(even), spread_);
+  blend(result, std::move(uniform), spread_);
   return result;
 }
 
 void Evaluator::measure(Iterate& at) {
   diagram_.set_weights({at.weights.data(), static_cast<std::size_t>(at.weights.size())});
   if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
-  at.cells = spread_ > 0 ? integrate_blend() : integrate_as_needed();
+  at.cells = spread_ > 0 ? integrate_blend() : integrate_density();
   if (!at.cells.walls.offset.empty()) at.conductance = conductances(diagram_, at.cells.walls, positions_);
 }
 
@@ -152,10 +160,10 @@ Iterate Evaluator::evaluate(Vector weights) {
   Iterate result;
   weights.array() -= weights.mean();
   result.weights = std::move(weights);
-  last_ = result.weights;
+  last_weights_ = result.weights;
   measure(result);
   for (const double m : result.cells.mass) result.empty += m > 0 ? 0 : 1;
-  ++count_;
+  ++diagrams_;
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -1,4 +1,4 @@
-#include "lib/applications/transport/merge.hpp"
+#include "lib/base/positions.hpp"
 
 #include <algorithm>
 #include <numeric>

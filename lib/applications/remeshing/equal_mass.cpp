@@ -1,4 +1,4 @@
-#include "lib/applications/remeshing/even_mass.hpp"
+#include "lib/applications/remeshing/equal_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace powercell::remeshing {
 namespace {
 
 struct Points {
-  std::vector<std::uint32_t> seed;  ///< its number in the sampling
+  std::vector<std::uint32_t> seed;  ///< index in the sampling
   std::vector<Place> place;
-  std::vector<double> share;  ///< of a full cell
+  std::vector<double> share;  ///< mass relative to the cell of a free seed
 
   std::vector<double> positions() const {
     std::vector<double> result;
@@ -23,7 +23,7 @@ struct Points {
   }
 };
 
-/// The angle of the surface around each of its vertices, over 2 pi.
+/// The angle of the surface around each of its vertices, divided by 2 pi.
 std::vector<double> angle_shares(const Surface& surface) {
   std::vector<double> share(surface.vertex.size(), 0);
   for (const auto& row : surface.triangle)
@@ -35,7 +35,7 @@ std::vector<double> angle_shares(const Surface& surface) {
   return share;
 }
 
-/// Which curves bound the surface.
+/// For each curve, whether it is on the boundary of the surface.
 std::vector<bool> at_boundary(const Sampling& sampling) {
   const Surface& surface = sampling.diagram().surface();
   std::vector<bool> result;
@@ -82,7 +82,8 @@ Domain domain_of(const Surface& surface) {
   return Domain::surface(vertices, triangles);
 }
 
-/// Moves the free points to the centroids; the mean move over h.
+/// Moves the free points to the centroids.
+/// \return the mean displacement in units of h
 double move_to_centroids(const Sampling& sampling, const Sizing& sizing, const std::vector<double>& centroid,
                          Points& points) {
   const Surface& surface = sampling.diagram().surface();
@@ -90,7 +91,8 @@ double move_to_centroids(const Sampling& sampling, const Sizing& sizing, const s
   for (std::size_t k = 0; k < points.seed.size(); ++k) {
     if (sampling.hold(points.seed[k]).kind != Hold::Kind::free) continue;
     const Vec to{centroid[3 * k], centroid[3 * k + 1], centroid[3 * k + 2]};
-    if (!std::isfinite(to.x)) continue;  // merged with another: the dual puts seeds where there are too few
+    if (!std::isfinite(to.x))
+      continue;  // merged with another seed; the dual adds seeds where they are missing
     const Place place = project(surface, points.place[k], to);
     sum += norm(place.at - points.place[k].at) / sizing.at(surface, place);
     count += 1;
@@ -101,25 +103,26 @@ double move_to_centroids(const Sampling& sampling, const Sizing& sizing, const s
 
 }  // namespace
 
-std::vector<Place> spread_evenly(const Sampling& sampling, const Sizing& sizing, const Device& device,
-                                 int rounds, Progress progress) {
-  constexpr double at_rest = 0.03;
+std::vector<Place> equalise_masses(const Sampling& sampling, const Sizing& sizing, const Device& device,
+                                   int rounds, Progress progress) {
+  constexpr double at_rest = 0.03;  // mean displacement in units of h
   Points points = points_of(sampling);
   std::vector<double> density;
   for (const double h : sizing.h) density.push_back(1 / (h * h));
   TransportOptions options;
   options.density = Density::nodal(density);
-  options.tolerance = 0.02;  // the next round moves the cells by more
+  options.tolerance = 0.02;  // the next round changes the masses by more
   options.rescale = true;
-  if (progress.is_told()) options.diagram.progress = [&progress](double) { return progress.goes_on(); };
+  if (progress.has_callback()) options.diagram.progress = [&progress](double) { return progress.report(); };
   TransportSolver solver(device, domain_of(sampling.diagram().surface()), options);
   solver.set_seeds({3, points.positions(), {}});
   solver.set_masses(points.share);
   for (int round = 0; round < rounds; ++round) {
     const TransportResult& result = solver.solve();
     if (!result.converged)
-      throw Error(ErrorCode::not_converged, "the masses of the cells could not be made equal: " +
-                                                std::to_string(result.error) + " is left");
+      throw Error(ErrorCode::not_converged,
+                  "the masses of the cells could not be made equal: " + std::to_string(result.error) +
+                      " is the largest relative error");
     const double moved = move_to_centroids(sampling, sizing, result.centroid, points);
     progress.at(static_cast<double>(round + 1) / rounds);
     if (moved < at_rest) break;
