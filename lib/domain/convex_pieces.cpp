@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 #include "lib/domain/triangulation.hpp"
 
 namespace powercell {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 #include "lib/domain/triangulation.hpp"
 
 namespace powercell {

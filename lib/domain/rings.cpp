@@ -5,7 +5,7 @@
 
 #include "lib/base/mesh_arrays.hpp"
 #include "lib/base/text.hpp"
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {

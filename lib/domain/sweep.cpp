@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {

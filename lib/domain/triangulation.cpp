@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lib/domain/adjacency.hpp"
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 #include "lib/domain/sweep.hpp"
 #include "lib/domain/touching.hpp"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell::test {
 namespace {

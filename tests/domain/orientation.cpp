@@ -1,4 +1,4 @@
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 #include <doctest/doctest.h>
 
