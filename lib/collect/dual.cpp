@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/domain/exact_orientation.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {

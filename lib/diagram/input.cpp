@@ -7,7 +7,6 @@
 
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/seeds/validate.hpp"
 
 namespace powercell {
 namespace {
@@ -84,7 +83,7 @@ Input with_weights(const Setup& setup, Input&& input, std::span<const double> we
     const SeedRows given = input.given();
     return make_input(setup, {view.dimension, given.positions, weights});
   }
-  validate_weights(weights, setup.threads);
+  check_weights(weights, setup.threads);
   require_in_range(setup, view);
   Input next = std::move(input);
   SeedSet& seeds = next.seeds;

@@ -24,4 +24,10 @@ std::vector<std::uint32_t> weld(std::span<const double> vertices, int dimension)
   return first;
 }
 
+void number_boundary(RegionMesh& mesh) {
+  for (Border& border : mesh.facet) {
+    if (border.kind == Border::Kind::boundary) border.index = mesh.boundary_count++;
+  }
+}
+
 }  // namespace powercell

@@ -56,7 +56,7 @@ RegionMesh with_container(const RegionMesh& mesh) {
     for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
       add_corner(all, {low[0] + x * size[0], low[1] + y * size[1], 0});
   } else {
-    // The half-spaces x, y, z >= low and the one whose plane goes through the far corner of the box.
+    // The tetrahedron of the half-spaces x, y, z >= low and one whose plane passes through the far corner.
     add_corner(all, low);
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<double, 3> x = low;

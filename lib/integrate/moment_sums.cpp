@@ -11,7 +11,8 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
+constexpr std::size_t least_shared = 4096;  // ranks; fewer are faster on one thread
+constexpr std::size_t ahead = 16;           // ranks between a prefetch and its use
 
 cl::Kernel gather_kernel(const DomainBuffers& domain) {
   Variant variant;
@@ -22,7 +23,7 @@ cl::Kernel gather_kernel(const DomainBuffers& domain) {
   return {domain.context(), domain.context()->program("integrate/gather.cl", variant.defines()), "gather"};
 }
 
-/// Value `k` of reals of the device's precision.
+/// Value `k` of an array in the device's precision.
 double real_at(const std::byte* reals, std::size_t k, bool float32) {
   if (!float32) {
     double value;
@@ -56,8 +57,8 @@ MomentSums::MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double
   for (const std::uint32_t i : seeds.duplicate) measures_.status[i] = SeedStatus::duplicate;
 }
 
-bool MomentSums::one_each(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
-                          std::uint64_t end, std::uint32_t first, std::uint32_t last) {
+bool MomentSums::one_pair_per_rank(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                                   std::uint64_t end, std::uint32_t first, std::uint32_t last) {
   if (end - begin != std::uint64_t{last} - first + 1 || pair_offset[last + 1] != end) return false;
   for (std::uint32_t rank = first; rank <= last; ++rank)
     if (pair_offset[rank] != begin + (rank - first)) return false;
@@ -87,52 +88,52 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
 void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
   const bool float32 = domain_.float32();
-  constexpr std::size_t ahead = 16;
   const double scale = domain_.frame().scale, unit = domain_.frame().unit(1);
-  // Step by step: the power of a long domain's size may be out of range where its measure is not.
+  // One factor at a time: a power of a long domain's size may overflow although its measure does not.
   const auto unscaled = [&](double integral, int power) {
     for (; power > 0; --power) integral *= unit;
     return integral;
   };
   const int power = domain_.mesh().cell_dimension;
-  parallel_for(
-      last - first < share_count ? 1 : threads_, last - first, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-          if (t + ahead < end) {
-            const std::size_t next = seeds_.input[first + t + ahead];
-            prefetch(&measures_.status[next]);
-            prefetch(&measures_.mass[next]);
-            prefetch(&measures_.centroid[next * d]);
-            prefetch(&measures_.second_moment[next]);
-          }
-          const std::byte* const row = sums + t * row_bytes_;
-          const double mass = real_at(row, 0, float32);
-          if (!(mass > 0)) continue;
-          const std::size_t rank = first + t, i = seeds_.input[rank];
-          measures_.status[i] = SeedStatus::ok;
-          measures_.mass[i] = std::max(unscaled(mass, power),
-                                       std::numeric_limits<double>::min());  // not empty, however small
-          for (std::size_t c = 0; c < d; ++c)
-            measures_.centroid[i * d + c] =
-                seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
-          measures_.second_moment[i] = unscaled(real_at(row, 1 + d, float32), power + 2);
-        }
-      });
+  parallel_for(threads_for(last - first, threads_, least_shared), last - first,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t t = begin; t < end; ++t) {
+                   if (t + ahead < end) {
+                     const std::size_t next = seeds_.input[first + t + ahead];
+                     prefetch(&measures_.status[next]);
+                     prefetch(&measures_.mass[next]);
+                     prefetch(&measures_.centroid[next * d]);
+                     prefetch(&measures_.second_moment[next]);
+                   }
+                   const std::byte* const row = sums + t * row_bytes_;
+                   const double mass = real_at(row, 0, float32);
+                   if (!(mass > 0)) continue;
+                   const std::size_t rank = first + t, i = seeds_.input[rank];
+                   measures_.status[i] = SeedStatus::ok;
+                   measures_.mass[i] =
+                       std::max(unscaled(mass, power),
+                                std::numeric_limits<double>::min());  // a cell that is not empty
+                   for (std::size_t c = 0; c < d; ++c)
+                     measures_.centroid[i * d + c] =
+                         seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
+                   measures_.second_moment[i] = unscaled(real_at(row, 1 + d, float32), power + 2);
+                 }
+               });
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
-  const bool summed = one_each(pair_offset, begin, end, first, last);
+  const bool summed = one_pair_per_rank(pair_offset, begin, end, first, last);
   if (!summed) sum_on_device(pair_offset, begin, end, first, last, moments);
   const std::size_t ranks = std::size_t{last} - first + 1;
   cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);
   const bool open = pair_offset[last + 1] > end;
   set_measures(first, open ? last : last + 1, sums.data());
-  // The row of the chunk before is needed once more if ending the map fails and the chunk is repeated.
-  std::vector<std::byte> goes_on;
-  if (open) goes_on.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
+  // Keep the row of the previous chunk until the map has ended: if that fails the chunk is repeated.
+  std::vector<std::byte> row;
+  if (open) row.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
   sums.end();
-  if (open) open_ = std::move(goes_on);
+  if (open) open_ = std::move(row);
 }
 
 }  // namespace powercell

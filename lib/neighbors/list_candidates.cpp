@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <powercell/error.hpp>
+#include <string>
 
 #include "kernels/layout.h"
+#include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/seeds/lift.hpp"
 
 namespace powercell {
 
@@ -17,6 +20,29 @@ constexpr std::size_t most_entries = std::size_t{1} << 25;
 std::size_t initial_neighbors(const Options& options, int cell_dimension) {
   if (options.initial_neighbors > 0) return static_cast<std::size_t>(options.initial_neighbors);
   return cell_dimension == 3 ? 32 : 16;
+}
+
+[[noreturn]] void refuse_lift(double eta, const std::string& why) {
+  throw Error(ErrorCode::invalid_argument, "the height of the lift, " + digits(eta) + ", is " + why +
+                                               "; leave it unset to use the largest weight");
+}
+
+/// The lift of weighted seeds to unweighted points one dimension up (paper, section 3): h_i = sqrt(eta - w_i)
+/// by rank, in units of the frame; eta = NaN means the largest weight.
+/// \throw Error invalid_argument if eta is below the largest weight or above Frame::most_weight
+std::vector<double> lift_heights(const SeedSet& seeds, double eta, const Frame& frame) {
+  std::vector<double> heights(seeds.size());
+  if (heights.empty()) return heights;
+  const double largest = *std::max_element(seeds.weights.begin(), seeds.weights.end());
+  if (std::isnan(eta)) eta = largest;
+  if (!(eta >= largest)) refuse_lift(eta, "below the largest weight, " + digits(largest));
+  const double top = frame.weight_to_device(eta);
+  // Above it, distances between lifted seeds are infinite and the lists hold arbitrary seeds.
+  if (!(top <= frame.most_weight()))
+    refuse_lift(eta, "too large for the size of the domain: its square would not be finite");
+  std::transform(seeds.weights.begin(), seeds.weights.end(), heights.begin(),
+                 [&](double w) { return std::sqrt(top - frame.weight_to_device(w)); });
+  return heights;
 }
 
 }  // namespace

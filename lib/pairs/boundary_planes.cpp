@@ -6,7 +6,7 @@
 #include "lib/base/disjoint_sets.hpp"
 #include "lib/base/vectors.hpp"
 #include "lib/domain/adjacency.hpp"
-#include "lib/domain/exact_orientation.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell::pairs {
 namespace {

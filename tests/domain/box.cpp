@@ -47,17 +47,17 @@ TEST_CASE("a box in space is one region of 8 corners and 6 facets") {
   CHECK(mesh.boundary_count == 6);
 }
 
-TEST_CASE("what is not a box is refused") {
-  CHECK_SAYS(refusal([] { box({0, 0}, {1, 1, 1}); }), "got 2 and 3");
-  CHECK_SAYS(refusal([] { box({0}, {1}); }), "got 1 and 1");
-  CHECK_SAYS(refusal([] { box({0, 0}, {1, std::nan("")}); }), "axis y: a corner is not finite");
-  CHECK_SAYS(refusal([] { box({0, 0, 3}, {1, 1, 3}); }), "axis z: low");
-  CHECK_SAYS(refusal([] { box({0, 2}, {1, 1}); }), "axis y: low");
-  CHECK_SAYS(refusal([] { box({1e-9, 0}, {1e-10, 1}); }), "low 1e-09 is not less than high 1e-10");
-  CHECK_SAYS(refusal([] { box({0, 0, 0}, {1e200, 1e200, 1}); }), "of size 1e+200");
-  CHECK_SAYS(refusal([] { box({-1e101, 0, 0}, {1, 1, 1}); }), "of size 1e+101");
-  CHECK_SAYS(refusal([] { box({0, 0}, {1e-101, 1e-101}); }), "of size 1e-101");
-  CHECK_SAYS(refusal([] { box({0, 0, 0}, {1, 1e-300, 1e-300}); }), "volume of the domain is 0");
+TEST_CASE("invalid boxes are refused") {
+  CHECK_CONTAINS(refusal([] { box({0, 0}, {1, 1, 1}); }), "got 2 and 3");
+  CHECK_CONTAINS(refusal([] { box({0}, {1}); }), "got 1 and 1");
+  CHECK_CONTAINS(refusal([] { box({0, 0}, {1, std::nan("")}); }), "axis y: a corner is not finite");
+  CHECK_CONTAINS(refusal([] { box({0, 0, 3}, {1, 1, 3}); }), "axis z: low");
+  CHECK_CONTAINS(refusal([] { box({0, 2}, {1, 1}); }), "axis y: low");
+  CHECK_CONTAINS(refusal([] { box({1e-9, 0}, {1e-10, 1}); }), "low 1e-09 is not less than high 1e-10");
+  CHECK_CONTAINS(refusal([] { box({0, 0, 0}, {1e200, 1e200, 1}); }), "magnitude 1e+200");
+  CHECK_CONTAINS(refusal([] { box({-1e101, 0, 0}, {1, 1, 1}); }), "magnitude 1e+101");
+  CHECK_CONTAINS(refusal([] { box({0, 0}, {1e-101, 1e-101}); }), "magnitude 1e-101");
+  CHECK_CONTAINS(refusal([] { box({0, 0, 0}, {1, 1e-300, 1e-300}); }), "volume of the domain is 0");
 }
 
 }  // namespace

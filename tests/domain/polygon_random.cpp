@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "lib/base/random.hpp"
 #include "tests/domain/check_mesh.hpp"
 
 namespace powercell {
@@ -13,7 +13,7 @@ namespace {
 using Random = std::mt19937_64;
 
 double uniform(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  return low + (high - low) * powercell::uniform(random);
 }
 
 long double shoelace(const Ring& ring) {
@@ -37,7 +37,7 @@ Ring star(Random& random, double x, double y, double inner, double outer, int co
   return ring;
 }
 
-TEST_CASE("random stars with star-shaped holes and islands: pieces tile them") {
+TEST_CASE("the pieces of random stars with star-shaped holes and islands tile them") {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -48,7 +48,7 @@ TEST_CASE("random stars with star-shaped holes and islands: pieces tile them") {
       const double least = inner * (corners < 8 ? 1 : 0.5);
       return star(random, offset + scale * x, offset + scale * y, scale * least, scale * outer, corners);
     };
-    // Holes keep inside the circle of radius 10, which the outer ring's edges do not enter.
+    // Holes lie inside the circle of radius 10, which the edges of the outer ring do not enter.
     std::vector<PolygonPart> parts(1);
     parts[0].outer =
         star(random, offset, offset, scale * 12, scale * 20, 64 + static_cast<int>(random() % 900));
@@ -61,7 +61,8 @@ TEST_CASE("random stars with star-shaped holes and islands: pieces tile them") {
         parts[0].holes.push_back(any_star(x, y, 0.8, 0.95));
         area -= shoelace(parts[0].holes.back());
         edges += parts[0].holes.back().size();
-        // An island within the circle that the hole's edges leave free (a triangle's: half its radius).
+        // An island within the circle that the edges of the hole do not enter (for a triangle, half its
+        // radius).
         if (random() % 2) continue;
         parts.push_back({any_star(x, y, 0.1, 0.19), {}});
         area += shoelace(parts.back().outer);
@@ -72,12 +73,12 @@ TEST_CASE("random stars with star-shaped holes and islands: pieces tile them") {
     test::check_mesh(domain);
     CHECK(std::fabs(static_cast<double>(domain.measure() / area - 1)) < 1e-14);
     CHECK(domain.mesh().boundary_count == edges);
-    // Merging matters: triangles alone would be more than one for each edge.
+    // Pieces are merged: there would be more than one triangle for each edge.
     CHECK(domain.region_count() < 0.75 * edges);
   }
 }
 
-TEST_CASE("random rings on a small lattice: tiled if legal, else refused, never anything else") {
+TEST_CASE("random rings on a small lattice are tiled if valid, and refused otherwise") {
   int accepted = 0, with_holes = 0;
   Random random(7);
   for (int trial = 0; trial < 6000; ++trial) {
@@ -91,7 +92,7 @@ TEST_CASE("random rings on a small lattice: tiled if legal, else refused, never 
       return points;
     };
     std::vector<PolygonPart> parts{{ring(3 + trial % 7), {}}};
-    if (trial % 2) {  // a large square, so that random holes are often legal and touch
+    if (trial % 2) {  // a large square, so that random holes are often valid and touch
       const double s = side / 3.0;
       parts[0].outer = {{0, 0}, {s, 0}, {s, s}, {0, s}};
       for (int h = 0; h <= trial % 3; ++h) parts[0].holes.push_back(ring(3));
@@ -111,7 +112,7 @@ TEST_CASE("random rings on a small lattice: tiled if legal, else refused, never 
       CHECK(std::fabs(static_cast<double>(domain.measure() / area - 1)) < 1e-13);
     } catch (const Error& error) {
       CHECK_MESSAGE(error.code() == ErrorCode::invalid_domain, error.what());
-      // What GEOS's exact checks let pass is triangulated.
+      // The triangulation succeeds whenever GEOS's exact checks pass.
       CHECK_MESSAGE(std::string(error.what()).find("less than rounding") == std::string::npos, error.what());
     }
   }
@@ -119,7 +120,7 @@ TEST_CASE("random rings on a small lattice: tiled if legal, else refused, never 
   CHECK(with_holes > 500);
 }
 
-TEST_CASE("unit squares as parts become one domain") {
+TEST_CASE("squares of a grid, one part each, become one domain") {
   Random random(11);
   const int side = 12;
   std::vector<PolygonPart> parts;

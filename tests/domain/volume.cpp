@@ -38,7 +38,7 @@ TEST_CASE("two tetrahedra, in any orientation, share one facet") {
   }
 }
 
-TEST_CASE("doubled vertices are one for adjacency") {
+TEST_CASE("tetrahedra are adjacent also by repeated vertices") {
   std::vector<double> doubled = corners;
   doubled.insert(doubled.end(), {1, 0, -0.0, 0, 1, 0, 0, 0, 1});
   const Domain domain = volume(doubled, {0, 1, 2, 3, 6, 7, 8, 4});
@@ -46,7 +46,7 @@ TEST_CASE("doubled vertices are one for adjacency") {
   CHECK(domain.mesh().boundary_count == 6);
 }
 
-TEST_CASE("flat tetrahedra are left out, slivers stay, at any scale") {
+TEST_CASE("flat tetrahedra are left out, slivers are kept, at any scale") {
   std::vector<double> v = corners;
   v.insert(v.end(), {1, 1, 0, 0.3, 0.3, 1e-9});
   const Domain domain = volume(v, {0, 1, 2, 6, 0, 1, 2, 7, 0, 0, 1, 2, 0, 1, 2, 5});
@@ -61,24 +61,24 @@ TEST_CASE("flat tetrahedra are left out, slivers stay, at any scale") {
   }
 }
 
-TEST_CASE("what is not a volume is refused, naming the elements") {
-  CHECK_SAYS(refusal([] { volume({}, {}); }), "has no tetrahedra");
-  CHECK_SAYS(refusal([] { volume(corners, {0, 1, 2}); }), "4 vertex indices each, got 3");
-  CHECK_SAYS(refusal([] { volume(corners, {0, 1, 2, 3, 1, 2, 3, 6}); }), "tetrahedron 1: vertex index 6");
+TEST_CASE("invalid volumes are refused, with the indices of the elements") {
+  CHECK_CONTAINS(refusal([] { volume({}, {}); }), "has no tetrahedra");
+  CHECK_CONTAINS(refusal([] { volume(corners, {0, 1, 2}); }), "4 vertex indices each, got 3");
+  CHECK_CONTAINS(refusal([] { volume(corners, {0, 1, 2, 3, 1, 2, 3, 6}); }), "tetrahedron 1: vertex index 6");
   std::vector<double> broken = corners;
   broken[14] = std::nan("");
-  CHECK_SAYS(refusal([&] { volume(broken, {0, 1, 2, 3}); }), "vertex 4: coordinate z is nan");
-  CHECK_SAYS(refusal([] { volume(corners, {0, 1, 1, 2}); }), "all 1 tetrahedra are flat");
-  // A flat one in between does not shift the numbers that the message names.
-  CHECK_SAYS(refusal([] {
-               volume(corners, {0, 1, 2, 3, 0, 0, 0, 0, 1, 2, 3, 4, 1, 2, 3, 5});
-             }),
-             "tetrahedra 0, 2 and 3 share one facet");
-  CHECK_SAYS(refusal([] { volume(corners, {1, 2, 3, 0, 1, 2, 3, 5}); }), "tetrahedra 0 and 1 overlap");
-  CHECK_SAYS(refusal([] { volume(corners, {0, 1, 2, 3, 1, 0, 2, 3}); }), "tetrahedra 0 and 1 overlap");
+  CHECK_CONTAINS(refusal([&] { volume(broken, {0, 1, 2, 3}); }), "vertex 4: coordinate z is nan");
+  CHECK_CONTAINS(refusal([] { volume(corners, {0, 1, 1, 2}); }), "all 1 tetrahedra are flat");
+  // Flat tetrahedra, which are left out, do not change the indices in the message.
+  CHECK_CONTAINS(refusal([] {
+                   volume(corners, {0, 1, 2, 3, 0, 0, 0, 0, 1, 2, 3, 4, 1, 2, 3, 5});
+                 }),
+                 "tetrahedra 0, 2 and 3 share one facet");
+  CHECK_CONTAINS(refusal([] { volume(corners, {1, 2, 3, 0, 1, 2, 3, 5}); }), "tetrahedra 0 and 1 overlap");
+  CHECK_CONTAINS(refusal([] { volume(corners, {0, 1, 2, 3, 1, 0, 2, 3}); }), "tetrahedra 0 and 1 overlap");
 }
 
-TEST_CASE("some hundred thousand tetrahedra") {
+TEST_CASE("262,144 tetrahedra") {
   const TetrahedralMesh mesh = ball(32);
   const Domain domain = Domain::volume(mesh.vertices, mesh.tetrahedra);
   CHECK(domain.region_count() == 8 * 32 * 32 * 32);

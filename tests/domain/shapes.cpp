@@ -6,6 +6,7 @@
 #include <powercell/shapes.hpp>
 #include <set>
 
+#include "lib/base/vectors.hpp"
 #include "tests/domain/check_mesh.hpp"
 
 namespace powercell {
@@ -22,7 +23,7 @@ long euler(const TriangleMesh& mesh) {
   return long(mesh.vertices.size() / 3) - long(edges.size()) + long(mesh.triangles.size() / 3);
 }
 
-/// Volume enclosed by a mesh that is oriented outwards.
+/// Volume enclosed by a mesh whose triangles are counter-clockwise seen from outside.
 double enclosed(const TriangleMesh& mesh) {
   double sum = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
@@ -34,8 +35,8 @@ double enclosed(const TriangleMesh& mesh) {
   return sum / 6;
 }
 
-/// Radius of a ball inside a triangulated unit sphere whose coarse edges of angle `edge` are cut in n:
-/// no triangle has a circumscribed circle larger than an edge of it is long.
+/// Radius of a ball inside a triangulated unit sphere whose coarse edges, of angle `edge`, are divided by n:
+/// the radius of a triangle's circumscribed circle is at most the length of an edge.
 double inner_radius(double edge, int n) {
   return std::sqrt(std::max(0.0, 1 - std::pow(edge / n, 2)));
 }
@@ -64,7 +65,7 @@ TEST_CASE("sphere") {
     const Domain domain = Domain::surface(mesh.vertices, mesh.triangles);
     test::check_mesh(domain);
     CHECK(domain.mesh().boundary_count == 0);
-    // It lies in the unit ball and holds the one that its triangles' planes leave free.
+    // It lies in the unit ball and contains the ball that the planes of its triangles do not enter.
     const double inner = inner_radius(std::atan(2), n);
     CHECK(enclosed(mesh) < 4 * pi / 3);
     CHECK(enclosed(mesh) > 4 * pi / 3 * std::pow(inner, 3));
@@ -95,31 +96,19 @@ TEST_CASE("torus") {
 
 /// 3 x inscribed / circumscribed radius of the worst tetrahedron: 1 for a regular one.
 double worst_shape(const TetrahedralMesh& mesh) {
-  using Point = std::array<double, 3>;
-  auto cross = [](const Point& a, const Point& b) {
-    return Point{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  auto norm = [](const Point& a) { return std::hypot(a[0], a[1], a[2]); };
+  using Point = Vector3<double>;
   double worst = 1;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 4) {
-    const double* o = &mesh.vertices[3 * mesh.tetrahedra[t]];
-    Point e[3];
-    for (int c = 0; c < 3; ++c) {
-      const double* v = &mesh.vertices[3 * mesh.tetrahedra[t + 1 + c]];
-      e[c] = {v[0] - o[0], v[1] - o[1], v[2] - o[2]};
-    }
-    const Point n0 = cross(e[1], e[2]), n1 = cross(e[2], e[0]), n2 = cross(e[0], e[1]);
-    const double six = e[0][0] * n0[0] + e[0][1] * n0[1] + e[0][2] * n0[2];
-    Point sum, far{};
-    for (int k = 0; k < 3; ++k) {
-      sum[k] = n0[k] + n1[k] + n2[k];
-      const Point* n[3] = {&n0, &n1, &n2};
-      for (int c = 0; c < 3; ++c) {
-        far[k] += (*n[c])[k] * (e[c][0] * e[c][0] + e[c][1] * e[c][1] + e[c][2] * e[c][2]);
-      }
-    }
-    const double inscribed = six / (norm(n0) + norm(n1) + norm(n2) + norm(sum));
-    worst = std::min(worst, 3 * inscribed / (norm(far) / (2 * six)));
+    const auto edge = [&](std::size_t c) {
+      return difference<double>(&mesh.vertices[3 * mesh.tetrahedra[t + c]],
+                                &mesh.vertices[3 * mesh.tetrahedra[t]]);
+    };
+    const Point a = edge(1), b = edge(2), c = edge(3);
+    const Point bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    const double six_volumes = dot(a, bc);
+    const double inscribed = six_volumes / (norm(bc) + norm(ca) + norm(ab) + norm(bc + ca + ab));
+    const double circumscribed = norm(dot(a, a) * bc + dot(b, b) * ca + dot(c, c) * ab) / (2 * six_volumes);
+    worst = std::min(worst, 3 * inscribed / circumscribed);
   }
   return worst;
 }
@@ -131,7 +120,7 @@ TEST_CASE("ball") {
     const Domain domain = Domain::volume(mesh.vertices, mesh.tetrahedra);
     test::check_mesh(domain);
     CHECK(domain.region_count() == 8 * std::size_t(n) * n * n);
-    // Given positively oriented, so kept as given.
+    // All tetrahedra are positive, so the domain keeps them as they are.
     CHECK(domain.mesh().region_vertex == mesh.tetrahedra);
     CHECK(domain.mesh().boundary_count == 8 * n * n);
     CHECK(domain.measure() < 4 * pi / 3);

@@ -1,13 +1,15 @@
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 #include <array>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 
 namespace powercell {
 namespace {
 
-/// The sign of a sum of 12 doubles: an expansion of non-overlapping terms, grown one by one.
+/// The exact sign of a sum of 12 doubles: an expansion of non-overlapping terms that grows by one term a
+/// double.
 class ExactSum {
  public:
   void add_product(double x, double y) {
@@ -27,7 +29,7 @@ class ExactSum {
     for (int k = 0; k < count_; ++k) {
       const double sum = x + term_[k];
       const double part = sum - x;
-      term_[k] = (x - (sum - part)) + (term_[k] - part);  // what rounding `sum` lost
+      term_[k] = (x - (sum - part)) + (term_[k] - part);  // the rounding error of `sum`
       x = sum;
     }
     term_[count_++] = x;
@@ -37,7 +39,7 @@ class ExactSum {
 };
 
 int exact_orient2d(const double* a, const double* b, const double* c) {
-  ExactSum sum;  // a×b + b×c + c×a, from the coordinates themselves: differences would round
+  ExactSum sum;  // a×b + b×c + c×a, from the coordinates, since differences would round
   sum.add_product(a[0], b[1]);
   sum.add_product(-a[1], b[0]);
   sum.add_product(b[0], c[1]);
@@ -67,6 +69,20 @@ bool strictly_between(const double* a, const double* b, const double* c) {
   }
   auto equal = [](const double* p, const double* q) { return p[0] == q[0] && p[1] == q[1]; };
   return !equal(a, b) && !equal(b, c) && orient2d(a, b, c) == 0;
+}
+
+int exact_orientation(std::span<const double> positions, std::span<const std::uint32_t> corners) {
+  using Rational = boost::multiprecision::cpp_rational;
+  const std::size_t d = corners.size() - 1;
+  std::array<std::array<Rational, 3>, 3> e;
+  for (std::size_t r = 0; r < d; ++r)
+    for (std::size_t k = 0; k < d; ++k)
+      e[r][k] = Rational(positions[d * corners[r + 1] + k]) - Rational(positions[d * corners[0] + k]);
+  const auto minor = [&](std::size_t a, std::size_t b) {
+    return Rational(e[0][a] * e[1][b] - e[0][b] * e[1][a]);
+  };
+  if (d == 2) return minor(0, 1).sign();
+  return Rational(e[2][0] * minor(1, 2) - e[2][1] * minor(0, 2) + e[2][2] * minor(0, 1)).sign();
 }
 
 }  // namespace powercell

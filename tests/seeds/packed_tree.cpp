@@ -1,10 +1,11 @@
+#include "lib/seeds/packed_tree.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "lib/seeds/packed_tree.hpp"
 #include "tests/support/generators.hpp"
 
 using namespace powercell;
@@ -12,7 +13,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Every node against the ranks below it, found from the numbering alone.
+/// Compares every node with the ranks below it, which follow from the numbering alone.
 void check_tree(const PackedTree& tree, const SeedSet& seeds) {
   const std::size_t d = static_cast<std::size_t>(seeds.dimension);
   REQUIRE(tree.seeds == seeds.size());
@@ -44,7 +45,7 @@ void check_tree(const PackedTree& tree, const SeedSet& seeds) {
   }
 }
 
-double total_leaf_side(const PackedTree& tree) {
+double mean_leaf_side(const PackedTree& tree) {
   double sum = 0;
   for (std::size_t x = 0; x < tree.level_offset[1] * static_cast<std::size_t>(tree.dimension); ++x)
     sum += tree.high[x] - tree.low[x];
@@ -53,7 +54,7 @@ double total_leaf_side(const PackedTree& tree) {
 
 }  // namespace
 
-TEST_CASE("packed tree: boxes and largest weights are those of the seeds below") {
+TEST_CASE("each node has the bounding box and largest weight of the seeds below") {
   INFO(replay_hint());
   for (const int d : {2, 3})
     for (const std::size_t n : {1, 7, 8, 9, 64, 65, 513, 100000}) {
@@ -68,21 +69,22 @@ TEST_CASE("packed tree: boxes and largest weights are those of the seeds below")
     }
 }
 
-TEST_CASE("packed tree: none without seeds") {
+TEST_CASE("the tree of no seeds is empty") {
   const SeedSet none = make_seed_set({2, {}, {}}, 2, 1);
   const PackedTree tree = build_packed_tree(none, 1);
   CHECK(tree.levels() == 0);
   CHECK(tree.low.empty());
 }
 
-TEST_CASE("packed tree: leaves of white seeds are compact") {
+TEST_CASE("leaves of white seeds are compact") {
   INFO(replay_hint());
   for (const int d : {2, 3}) {
     Random random(test_seed());
     const SeedArray array = random_seeds(Distribution::white, WeightRange::W0, 100000, d, random);
     const PackedTree tree = build_packed_tree(make_seed_set(array.view(), d, 2), 2);
-    // A cube that holds eight seeds has this side; the box of eight seeds in curve order is about as large.
+    // The side of a cube that contains eight seeds on average; the box of eight seeds in curve order is
+    // similar.
     const double side = std::pow(8.0 / 100000, 1.0 / d);
-    CHECK(total_leaf_side(tree) < 1.2 * side);
+    CHECK(mean_leaf_side(tree) < 1.2 * side);
   }
 }

@@ -1,4 +1,4 @@
-// The C interface: results equal to the C++ ones, and no way to make it throw or crash.
+// The C interface: correct results, and errors as a status, never an exception or a crash.
 #include <doctest/doctest.h>
 #include <powercell.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double low[3] = {0, 0, 0};
 constexpr double high[3] = {2, 1, 1};
 
-// Owns a handle for the length of a test.
+// Owns a handle.
 template <class Handle, void (*Destroy)(Handle*)>
 struct Owned {
   Handle* handle = nullptr;
@@ -30,7 +30,7 @@ pc_device* shared_device() {
   return device.handle;
 }
 
-// A diagram of four seeds in a 2 x 1 box, on the grid points of which each has a quarter.
+// A diagram of four seeds in a 2 x 1 box, on a grid, so that each cell is a quarter.
 struct Fixture {
   Domain domain;
   Diagram diagram;
@@ -54,7 +54,7 @@ TEST_CASE("every status has the name of its error code") {
   CHECK(std::string(pc_version()) == powercell::version());
 }
 
-TEST_CASE("measures of a grid are its squares, and each array is optional") {
+TEST_CASE("measures of a grid are those of its rectangles, and each array is optional") {
   Fixture f;
   size_t count = 0;
   REQUIRE(pc_diagram_size(f.diagram.handle, &count) == PC_OK);
@@ -66,14 +66,14 @@ TEST_CASE("measures of a grid are its squares, and each array is optional") {
   for (int i = 0; i < 4; ++i) {
     CHECK(mass[i] == doctest::Approx(0.5).epsilon(1e-5));
     CHECK(status[i] == PC_SEED_OK);
-    // a 1 x 1/2 rectangle about its centre
+    // of a 1 x 1/2 rectangle about its centre
     CHECK(moment[i] == doctest::Approx(0.5 * (1 + 0.25) / 12).epsilon(1e-5));
   }
   for (int k = 0; k < 8; ++k) CHECK(centroid[k] == doctest::Approx(f.positions[k]).epsilon(1e-5));
   CHECK(pc_diagram_measures(f.diagram.handle, nullptr, nullptr, nullptr, nullptr) == PC_OK);
 }
 
-TEST_CASE("adjacency is asked for twice") {
+TEST_CASE("adjacency is called for its length, then for its entries") {
   Fixture f;
   size_t count = 0;
   REQUIRE(pc_diagram_adjacency(f.diagram.handle, nullptr, nullptr, nullptr, &count) == PC_OK);
@@ -128,7 +128,7 @@ TEST_CASE("the dual of three seeds is a triangle") {
   CHECK(pc_diagram_dual(diagram.handle, &corners, simplex, &count) == PC_INVALID_ARGUMENT);
 }
 
-TEST_CASE("domains of every kind measure what they should") {
+TEST_CASE("domains of every kind have the right measure") {
   const double corner[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const uint32_t tetrahedron[] = {0, 1, 2, 3};
   const uint32_t triangle[] = {0, 1, 2};
@@ -150,12 +150,12 @@ TEST_CASE("domains of every kind measure what they should") {
   CHECK(measure == doctest::Approx(16));
 }
 
-TEST_CASE("what is wrong becomes a status and a message, and the handle stays usable") {
+TEST_CASE("errors become a status and a message, and the handle stays usable") {
   Fixture f;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double bad[4] = {0.5, 0.5, 1.5, nan};
   CHECK(pc_diagram_set_seeds(f.diagram.handle, bad, nullptr, 2) == PC_INVALID_SEED);
-  CHECK(std::string(pc_last_error()).find('1') != std::string::npos);  // the seed's number
+  CHECK(std::string(pc_last_error()).find('1') != std::string::npos);  // the index of the seed
   CHECK(pc_diagram_measures(f.diagram.handle, nullptr, nullptr, nullptr, nullptr) == PC_OK);
 
   pc_device* device = nullptr;

@@ -1,10 +1,11 @@
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 #include <doctest/doctest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <random>
+
+#include "lib/base/random.hpp"
 
 namespace powercell {
 namespace {
@@ -16,9 +17,9 @@ int rational_orient2d(const double* a, const double* b, const double* c) {
   return area.sign();
 }
 
-TEST_CASE("the sign is the rational one, near and on lines, at any offset") {
+TEST_CASE("orient2d equals the rational sign, near and on lines, at any offset") {
   std::mt19937_64 random(3);
-  auto real = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  auto real = [&] { return uniform(random) - 0.5; };
   int zeros = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const double offset = trial % 4 == 0 ? 0 : std::ldexp(real(), trial % 60);
@@ -36,7 +37,7 @@ TEST_CASE("the sign is the rational one, near and on lines, at any offset") {
   CHECK(zeros < 19000);
 }
 
-TEST_CASE("strictly between") {
+TEST_CASE("strictly_between") {
   const double a[2] = {0, 0}, b[2] = {1, 2}, c[2] = {3, 6}, beside[2] = {1, std::nextafter(2.0, 3)};
   CHECK(strictly_between(a, b, c));
   CHECK(strictly_between(c, b, a));
