@@ -12,10 +12,6 @@
 
 namespace powercell {
 
-/// For each vertex the lowest index of a vertex at the same position (-0 equals 0).
-/// \param vertices nv x dimension, row-major, no NaN
-std::vector<std::uint32_t> weld(std::span<const double> vertices, int dimension);
-
 /// One facet of a region: its N vertices ascending, and the slot in RegionMesh::facet.
 template <std::size_t N>
 struct FacetKey {

@@ -1,3 +1,4 @@
+#include "lib/base/positions.hpp"
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/measure.hpp"
@@ -17,7 +18,7 @@ long double triangle_area(const double* const* v) {
 /// Fills in the borders of all edges. An edge of one triangle bounds the surface. Of the triangles at an edge
 /// of several, each has the next by index behind the edge, and the last one has the first.
 void connect(RegionMesh& mesh) {
-  const std::vector<std::uint32_t> same = weld(mesh.vertices, 3);
+  const std::vector<std::uint32_t> same = first_at_position(mesh.vertices, 3);
   std::vector<FacetKey<2>> edges(mesh.region_vertex.size());
   for (std::uint32_t slot = 0; slot < edges.size(); ++slot) {
     const std::uint32_t next = slot % 3 == 2 ? slot - 2 : slot + 1;

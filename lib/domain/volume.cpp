@@ -1,3 +1,4 @@
+#include "lib/base/positions.hpp"
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/measure.hpp"
@@ -47,7 +48,7 @@ bool same_side(const RegionMesh& mesh, const std::vector<std::uint32_t>& same,
 
 /// Fills in the borders of all facets. A facet of one tetrahedron bounds the volume.
 void connect(RegionMesh& mesh) {
-  const std::vector<std::uint32_t> same = weld(mesh.vertices, 3);
+  const std::vector<std::uint32_t> same = first_at_position(mesh.vertices, 3);
   std::vector<FacetKey<3>> facets(mesh.region_vertex.size());
   for (std::uint32_t slot = 0; slot < facets.size(); ++slot) {
     const std::uint32_t* region = &mesh.region_vertex[slot / 4 * 4];

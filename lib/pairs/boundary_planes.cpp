@@ -4,6 +4,7 @@
 #include <span>
 
 #include "lib/base/disjoint_sets.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/vectors.hpp"
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/orientation.hpp"
@@ -50,7 +51,7 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
     : mesh_(boundary),
       groups_(groups),
       blocks_(boundary, groups),
-      vertex_(weld(boundary.vertices, 3)),
+      vertex_(first_at_position(boundary.vertices, 3)),
       plane_(boundary.region_count()) {
   DisjointSets coplanar(plane_.size());
   const auto corners = [&](std::uint32_t f) { return &mesh_.region_vertex[std::size_t{f} * 3]; };
