@@ -110,13 +110,18 @@ Kernel::Kernel(std::shared_ptr<Context> context, std::shared_ptr<const Program> 
   cl_int status = CL_SUCCESS;
   kernel_ = clCreateKernel(program_->handle(), name_.c_str(), &status);
   check(status, "creating the kernel " + name_);
+  status = clGetKernelInfo(kernel_, CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr);
+  if (status != CL_SUCCESS) clReleaseKernel(kernel_);  // no destructor runs where a constructor throws
+  check(status, "counting the arguments of the kernel " + name_);
 }
 
 Kernel::Kernel(Kernel&& other) noexcept
     : context_(std::move(other.context_)),
       program_(std::move(other.program_)),
       kernel_(std::exchange(other.kernel_, nullptr)),
-      name_(std::move(other.name_)) {}
+      name_(std::move(other.name_)),
+      argument_count_(other.argument_count_),
+      arguments_set_(other.arguments_set_) {}
 
 Kernel& Kernel::operator=(Kernel&& other) noexcept {
   if (this == &other) return *this;
@@ -125,6 +130,8 @@ Kernel& Kernel::operator=(Kernel&& other) noexcept {
   program_ = std::move(other.program_);
   kernel_ = std::exchange(other.kernel_, nullptr);
   name_ = std::move(other.name_);
+  argument_count_ = other.argument_count_;
+  arguments_set_ = other.arguments_set_;
   return *this;
 }
 
@@ -134,6 +141,7 @@ Kernel::~Kernel() {
 
 void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
   if (global == 0) return;
+  require_all_arguments();
   const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
                       "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
@@ -155,10 +163,18 @@ void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
 
 void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
   if (global == 0) return;
+  require_all_arguments();
   const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
                       "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
   enqueue(launch, (global + local - 1) / local * local, local, done);
+}
+
+void Kernel::require_all_arguments() const {
+  if (arguments_set_ == argument_count_) return;
+  throw Error(ErrorCode::internal, "the kernel " + name_ + " has " + std::to_string(argument_count_) +
+                                       " arguments, but " + std::to_string(arguments_set_) +
+                                       " are set at its launch");
 }
 
 void Kernel::set_memory(cl_uint index, cl_mem memory) {
