@@ -4,16 +4,11 @@
 #include <utility>
 
 #include "lib/cl/program.hpp"
+#include "lib/cl/quirks.hpp"
 #include "lib/report/log.hpp"
 
 namespace powercell::cl {
 namespace {
-
-// Work-items of a group where the class chooses. CPU drivers run a group as a loop on one thread: long
-// enough to pay for the group, short enough to share the work evenly, and one number, since PoCL compiles
-// a kernel anew for each size. GPUs: some warps, but few enough to leave each item its registers.
-constexpr std::size_t cpu_group_size = 32;
-constexpr std::size_t gpu_group_size = 128;
 
 struct Launch {
   cl_kernel kernel;
@@ -40,9 +35,11 @@ std::size_t choose_group_size(const Launch& launch) {
   const std::size_t limit = std::max<std::size_t>(
       1,
       std::min(group_value<std::size_t>(launch, CL_KERNEL_WORK_GROUP_SIZE), launch.info.max_work_group_size));
-  if (launch.info.type != DeviceInfo::Type::gpu) return std::bit_floor(std::min(limit, cpu_group_size));
-  const auto multiple = group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE);
-  return std::bit_floor(std::min(limit, std::max(multiple, gpu_group_size)));
+  std::size_t wanted = quirks_of(launch.info).group_size;
+  // One size for all kernels where each size may be compiled apart; on a GPU whole warps.
+  if (launch.info.type == DeviceInfo::Type::gpu)
+    wanted = std::max(wanted, group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE));
+  return std::bit_floor(std::min(limit, wanted));
 }
 
 bool profiles(cl_command_queue queue) {
