@@ -5,6 +5,7 @@
 #   ./setup.sh test   install, build everything, run the tests
 #   ./setup.sh build  install and build only
 #   ./setup.sh bench  install what the benchmarks need besides and run bench/run_goals.sh
+#   ./setup.sh gates  install what the tests and the gates of CONTRIBUTING.md need; nothing else
 #
 # Options after the word: --no-install (the packages are taken care of elsewhere; only build),
 # --jobs N (default: all cores). Safe to run again: what is there already is left as it is.
@@ -24,9 +25,12 @@ test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev
 # What the benchmarks need besides those: their driver, and the plots.
 bench_packages="libbenchmark-dev python3-matplotlib python3-scipy"
 
+# What those who change the project need besides the tests.
+gate_packages="git clang-format clang-tidy"
+
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
 fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }
-usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,11s/^# \{0,1\}//p' "$0"; }
 
 # install PACKAGE...: those of them that are not installed yet.
 install() {
@@ -78,6 +82,7 @@ case $action in
   demo | build) packages=$build_packages ;;
   test) packages="$build_packages $test_packages" ;;
   bench) packages="$build_packages $test_packages $bench_packages" ;;
+  gates) packages="$build_packages $test_packages $gate_packages" ;;
   -h | --help | help) usage; exit 0 ;;
   *) usage >&2; fail "unknown action '$action'" ;;
 esac
@@ -86,6 +91,7 @@ cd "$(dirname "$0")"
 # shellcheck disable=SC2086
 [ "$wanted" = no ] || install $packages
 case $action in
+  gates) say "Installed: .ci/run and its parts can run" ;;
   build) build OFF; say "Built: build/release/apps/powercell" ;;
   demo) build OFF; say "Running powercell demo"; build/release/apps/powercell demo ;;
   bench) bench/run_goals.sh ;;
