@@ -5,7 +5,7 @@
 #   ./setup.sh test   install, build everything, run the tests
 #   ./setup.sh build  install and build only
 #   ./setup.sh bench  install what the benchmarks need besides and run bench/run_goals.sh
-#   ./setup.sh gates  install what the tests and the gates of CONTRIBUTING.md need; nothing else
+#   ./setup.sh gates  install the packages of the tests and of the gates in CONTRIBUTING.md; builds nothing
 #
 # Options after the word: --no-install (the packages are taken care of elsewhere; only build),
 # --jobs N (default: all cores). Safe to run again: what is there already is left as it is.
@@ -25,7 +25,7 @@ test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev
 # What the benchmarks need besides those: their driver, and the plots.
 bench_packages="libbenchmark-dev python3-matplotlib python3-scipy"
 
-# What those who change the project need besides the tests.
+# Packages of the gates besides those of the tests.
 gate_packages="git clang-format clang-tidy"
 
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
@@ -91,7 +91,7 @@ cd "$(dirname "$0")"
 # shellcheck disable=SC2086
 [ "$wanted" = no ] || install $packages
 case $action in
-  gates) say "Installed: .ci/run and its parts can run" ;;
+  gates) say "The packages of .ci/run are installed" ;;
   build) build OFF; say "Built: build/release/apps/powercell" ;;
   demo) build OFF; say "Running powercell demo"; build/release/apps/powercell demo ;;
   bench) bench/run_goals.sh ;;

@@ -13,7 +13,7 @@ for clang_format in clang-format-14 clang-format ""; do
 done
 [ -n "$clang_format" ] || { echo "check_format: needs clang-format 14: apt-get install clang-format-14" >&2; exit 2; }
 
-# Those of git, and new ones that git does not ignore; not those that are deleted but still in the index.
+# Tracked files and new ones that git does not ignore, without those deleted from the working tree.
 files=$(git ls-files --cached --others --exclude-standard '*.cpp' '*.hpp' '*.h' '*.c' '*.inl' '*.cl' |
   while read -r file; do [ ! -e "$file" ] || echo "$file"; done)
 [ -n "$files" ] || { echo "check_format: git lists no file to check" >&2; exit 2; }

@@ -1,19 +1,19 @@
 #!/bin/sh
 # clang-tidy over the changed C++ files; a warning fails (.clang-tidy has the checks and the names).
 #
-#   tools/check_tidy.sh            what changed since the branch left main, or else in the last commit
-#   tools/check_tidy.sh REVISION   what changed since then
-#   tools/check_tidy.sh --most N   at most N files, and how many are left out
+#   tools/check_tidy.sh            files changed since the branch left main, or else in the last commit
+#   tools/check_tidy.sh REVISION   files changed since REVISION
+#   tools/check_tidy.sh --most N   as without arguments, but at most N files; prints how many are left out
 #   tools/check_tidy.sh --all      every file
 #
-# A changed header is checked by one source that includes it. Needs clang-tidy, and build/release for the
-# compiler's options, which it configures if need be. JOBS: how many files at a time (default: all cores).
+# A changed header is checked by one source that includes it. The compiler options come from build/release, which is
+# configured if it is missing. JOBS: the number of files at a time (default: all cores).
 set -eu
 cd "$(dirname "$0")/.."
 command -v clang-tidy >/dev/null || { echo "check_tidy: needs clang-tidy: apt-get install clang-tidy" >&2; exit 2; }
 folders="lib apps tests bench examples"
 
-# Where the branch left main. On main itself that is no other revision, and the last commit counts.
+# The revision where the branch left main; on main itself the one before the last commit.
 base_revision() {
   for main in origin/main main; do
     base=$(git merge-base HEAD "$main" 2>/dev/null) || continue
@@ -27,7 +27,7 @@ changed() {
   git ls-files --others --exclude-standard '*.cpp' '*.hpp' '*.inl' '*.h'
 }
 
-# One source that includes header $1, the one of its own name if there is one.
+# One source that includes header $1: the one of the same name if it exists.
 source_of() {
   own=${1%.*}.cpp
   [ ! -e "$own" ] || { echo "$own"; return; }
@@ -46,7 +46,7 @@ if [ "${1-}" = --all ]; then
   files=$(git ls-files -- $folders | grep '\.cpp$')
 else
   [ -n "$since" ] || since=$(base_revision) || {
-    echo "check_tidy: neither main nor an earlier commit is here to compare with; nothing is checked"
+    echo "check_tidy: skipped, as there is neither main nor an earlier commit to compare with"
     exit 0
   }
   files=$(changed "$since" | while read -r file; do
@@ -55,7 +55,7 @@ else
 fi
 
 [ -e build/release/compile_commands.json ] || cmake --preset release --log-level=WARNING
-# Only what the build compiles has options.
+# There are options only for files that the build compiles.
 list=$(echo "$files" | while read -r file; do
   ! grep -qF "/$file\"" build/release/compile_commands.json || echo "$file"
 done)
@@ -66,7 +66,7 @@ if [ -n "$most" ] && [ "$count" -gt "$most" ]; then
   list=$(echo "$list" | head -n "$most")
 fi
 
-# clang-tidy counts the warnings that it suppresses; the other lines are its findings.
+# Besides its findings clang-tidy prints how many warnings it suppressed.
 check() {
   echo "$list" | xargs -P "${JOBS:-$(nproc)}" -n 1 sh -c '
     clang-tidy --quiet -p build/release "$1" 2>&1 || { echo "check_tidy: $1" ; exit 1; }' check_tidy

@@ -5,7 +5,7 @@
 #   tools/sanitize.sh TEST...    folders of tests/, for example exact diagram
 #   tools/sanitize.sh all        every test, the slow ones and the tool's too
 #
-# JOBS: how many at a time (default: all cores).
+# JOBS: the number of tests at a time (default: all cores).
 set -eu
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

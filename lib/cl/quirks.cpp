@@ -1,6 +1,6 @@
 #include "lib/cl/quirks.hpp"
 
-// Needs that are met for all devices alike, because that costs nothing, have no row in the table below:
+// Workarounds that cost nothing apply to every device and have no row in the table below:
 // - PoCL keeps short loops over private arrays rolled up, and so the arrays in memory
 //   (github.com/pocl/pocl/issues/825): UNROLL in kernels/base/real.cl.
 // - Intel's CPU compiler reorders plain sums in scalar code: add_column in kernels/integrate/gather.cl.
@@ -29,7 +29,7 @@ bool is_pocl(const DeviceInfo& device) {
   return device.platform_name == "Portable Computing Language";
 }
 
-/// Whom a row is about, and what it changes. Later rows overrule earlier ones.
+/// A condition on the device and the change that it makes. Later rows overrule earlier ones.
 struct Row {
   bool (*applies)(const DeviceInfo&);
   void (*change)(Quirks&);

@@ -1,5 +1,5 @@
 /// \file
-/// What drivers need beyond what OpenCL says, in one table (quirks.cpp). Internal.
+/// Needs of drivers beyond the OpenCL specification, in one table (quirks.cpp). Internal.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace powercell::cl {
 
-/// How the library treats one device. The defaults suit a driver about which nothing is known.
+/// How the library treats one device. The defaults suit an unknown driver.
 struct Quirks {
   /// clBuildProgram leaves kernels unfinished: each is compiled at its first launch with a group size.
   bool compiles_at_launch = false;

@@ -29,7 +29,7 @@ def run(*arguments, cwd=None, env=None, timeout=300):
 
 
 def interrupt(process, seconds):
-    """SIGINT, so many seconds after the tool has begun to catch it: a busy machine may take a while to get there."""
+    """Sends SIGINT that many seconds after the tool has set its handler, which takes a while on a busy machine."""
     status = pathlib.Path(f"/proc/{process.pid}/status")
     while process.poll() is None:
         if int(re.search(r"^SigCgt:\s*(\w+)", status.read_text(), re.M)[1], 16) >> (signal.SIGINT - 1) & 1:
