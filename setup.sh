@@ -5,6 +5,7 @@
 #   ./setup.sh test   install, build everything, run the tests
 #   ./setup.sh build  install and build only
 #   ./setup.sh bench  install the packages of the benchmarks too and run bench/run_goals.sh
+#   ./setup.sh gates  install the packages of the tests and of the gates in CONTRIBUTING.md; builds nothing
 #
 # Options after the action: --no-install (only build, with packages installed by other means), --jobs N (default: all
 # cores). It can be run again: installed packages and built files are not touched.
@@ -24,9 +25,12 @@ test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev
 # Packages of the benchmarks besides those: their driver, and the plots.
 bench_packages="libbenchmark-dev python3-matplotlib python3-scipy"
 
+# Packages of the gates besides those of the tests.
+gate_packages="git clang-format clang-tidy"
+
 say() { printf '\n\033[1m== %s\033[0m\n' "$*" >&2; }
 fail() { printf 'setup.sh: error: %s\n' "$*" >&2; exit 1; }
-usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,11s/^# \{0,1\}//p' "$0"; }
 
 # install PACKAGE...: installs those that are not installed yet.
 install() {
@@ -78,6 +82,7 @@ case $action in
   demo | build) packages=$build_packages ;;
   test) packages="$build_packages $test_packages" ;;
   bench) packages="$build_packages $test_packages $bench_packages" ;;
+  gates) packages="$build_packages $test_packages $gate_packages" ;;
   -h | --help | help) usage; exit 0 ;;
   *) usage >&2; fail "unknown action '$action'" ;;
 esac
@@ -86,6 +91,7 @@ cd "$(dirname "$0")"
 # shellcheck disable=SC2086
 [ "$wanted" = no ] || install $packages
 case $action in
+  gates) say "The packages of .ci/run are installed" ;;
   build) build OFF; say "Built: build/release/apps/powercell" ;;
   demo) build OFF; say "Running powercell demo"; build/release/apps/powercell demo ;;
   bench) bench/run_goals.sh ;;

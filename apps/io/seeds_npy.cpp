@@ -22,7 +22,7 @@ struct Array {
 std::string_view value_of(std::string_view header, std::string_view key, const std::string& name) {
   std::size_t at = header.find(fmt::format("'{}'", key));
   if (at != std::string_view::npos) at = header.find(':', at);
-  if (at != std::string_view::npos) at = header.find_first_not_of(" ", at + 1);
+  if (at != std::string_view::npos) at = header.find_first_not_of(' ', at + 1);
   if (at == std::string_view::npos) fail_file(name, fmt::format("the header of the array has no '{}'", key));
   return header.substr(at);
 }

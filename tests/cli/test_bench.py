@@ -5,12 +5,10 @@ usage: test_bench.py PATH_OF_POWERCELL [unittest options]
 """
 
 import json
-import signal
 import subprocess
-import time
 import unittest
 
-from tool import DATA, TOOL, ToolTest, run
+from tool import DATA, TOOL, ToolTest, interrupt, run
 
 
 class Bench(ToolTest):
@@ -128,8 +126,7 @@ class Bench(ToolTest):
         self.write("a.json", "older")
         process = subprocess.Popen([TOOL, "bench", "--json", "a.json"], cwd=self.folder, stderr=subprocess.PIPE,
                                    stdout=subprocess.PIPE, text=True)
-        time.sleep(3)
-        process.send_signal(signal.SIGINT)
+        interrupt(process, 3)
         _, error = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, error)
         # What the driver's compiler says when it is disturbed comes before.

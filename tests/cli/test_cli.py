@@ -7,12 +7,11 @@ usage: test_cli.py PATH_OF_POWERCELL [unittest options]
 import json
 import os
 import re
-import signal
 import subprocess
 import time
 import unittest
 
-from tool import DATA, SHAPES, TOOL, ToolTest
+from tool import DATA, SHAPES, TOOL, ToolTest, interrupt
 
 
 class Usage(ToolTest):
@@ -320,8 +319,7 @@ class DiagramErrors(ToolTest):
             process = subprocess.Popen([TOOL, "diagram", "--domain", "cube", "--seeds", "random:3000000", "-o",
                                         "a.vtu", "--table", "t.csv"], cwd=self.folder, stderr=subprocess.PIPE,
                                        stdout=subprocess.PIPE, text=True)
-            time.sleep(wait)
-            process.send_signal(signal.SIGINT)
+            interrupt(process, wait)
             out, error = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 130, error)
             self.assertTrue(error.endswith("powercell: error: interrupted\n"), error)

@@ -7,10 +7,13 @@ import csv
 import json
 import os
 import pathlib
+import re
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -23,6 +26,17 @@ def run(*arguments, cwd=None, env=None, timeout=300):
     return subprocess.run([TOOL, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
                           stdin=subprocess.DEVNULL, capture_output=True,
                           env={**os.environ, **(env or {})})
+
+
+def interrupt(process, seconds):
+    """Sends SIGINT that many seconds after the tool has set its handler, which takes a while on a busy machine."""
+    status = pathlib.Path(f"/proc/{process.pid}/status")
+    while process.poll() is None:
+        if int(re.search(r"^SigCgt:\s*(\w+)", status.read_text(), re.M)[1], 16) >> (signal.SIGINT - 1) & 1:
+            break
+        time.sleep(0.01)
+    time.sleep(seconds)
+    process.send_signal(signal.SIGINT)
 
 
 def png(rows, bits=8):

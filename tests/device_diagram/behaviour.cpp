@@ -193,9 +193,9 @@ TEST_CASE("seeds that are not finite are reported and do not change the others")
     SeedArray bad = good;
     std::vector<std::pair<double, double>> values = {{nan, 0},   {inf, 0},   {-inf, 0},
                                                      {0.5, nan}, {0.5, inf}, {1e37, 0}};
-    if (diagram.precision() == Precision::float64) values.push_back({1e300, 0});
+    if (diagram.precision() == Precision::float64) values.emplace_back(1e300, 0);
     const double too_far = diagram.precision() == Precision::float64 ? 1e200 : 1e37;
-    values.push_back({too_far, 0});
+    values.emplace_back(too_far, 0);
     std::size_t invalid = 0;
     for (const auto& [x, w] : values) {
       const bool far_but_fine = x == 1e37 && diagram.precision() == Precision::float64;

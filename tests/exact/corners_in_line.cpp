@@ -59,8 +59,9 @@ TEST_CASE("a bisector on a line of many corners: exact masses, walls of the teet
     INFO(setup.name);
     const double tolerance = 16 * unit_roundoff(setup.options.precision);
     for (const bool upright : {true, false})
-      for (const auto& [line, moved] : cases())
+      for (const auto& place : cases())
         for (const bool swapped : {false, true}) {
+          const double line = place.first, moved = place.second;
           CAPTURE(upright);
           CAPTURE(line);
           CAPTURE(moved);

@@ -74,14 +74,16 @@ inline void expect_same_cells(const Outcome& one, const Outcome& other, double t
 
 inline void expect_same(const Outcome& one, const Outcome& other, double tolerance) {
   expect_same_cells(one, other, tolerance);
-  for (const auto& [a, b] : {std::pair{&one, &other}, {&other, &one}})
-    for (const auto& [seeds, wall] : a->walls) {
-      const auto found = b->walls.find(seeds);
-      CAPTURE(seeds.first);
-      CAPTURE(seeds.second);
+  for (const Outcome* a : {&one, &other}) {
+    const Outcome* b = a == &one ? &other : &one;
+    for (const auto& entry : a->walls) {
+      const auto found = b->walls.find(entry.first);
+      CAPTURE(entry.first.first);
+      CAPTURE(entry.first.second);
       CAPTURE((a == &one));
-      CHECK(std::abs(wall - (found == b->walls.end() ? 0 : found->second)) <= tolerance);
+      CHECK(std::abs(entry.second - (found == b->walls.end() ? 0 : found->second)) <= tolerance);
     }
+  }
 }
 
 }  // namespace powercell::test

@@ -184,6 +184,8 @@ PASS(clGetEventInfo, (cl_event e, cl_event_info which, std::size_t size, void* v
 PASS(clGetEventProfilingInfo,
      (cl_event e, cl_profiling_info which, std::size_t size, void* value, std::size_t* needed),
      (e, which, size, value, needed))
+PASS(clGetKernelInfo, (cl_kernel k, cl_kernel_info which, std::size_t size, void* value, std::size_t* needed),
+     (k, which, size, value, needed))
 PASS(clGetKernelWorkGroupInfo,
      (cl_kernel k, cl_device_id device, cl_kernel_work_group_info which, std::size_t size, void* value,
       std::size_t* needed),

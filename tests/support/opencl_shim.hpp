@@ -44,6 +44,7 @@ enum class Entry : std::size_t {
   clGetDeviceInfo,
   clGetEventInfo,
   clGetEventProfilingInfo,
+  clGetKernelInfo,
   clGetKernelWorkGroupInfo,
   clGetMemObjectInfo,
   clGetPlatformIDs,

@@ -81,7 +81,7 @@ void find_double_walls(const MeshCheck& check, Defects& defects) {
     if (check.edges[k] == check.edges[k - 1]) {
       const auto from = static_cast<std::uint32_t>(check.edges[k] >> 32),
                  to = static_cast<std::uint32_t>(check.edges[k]);
-      defects.twice.push_back(std::minmax(from, to));
+      defects.twice.emplace_back(std::minmax(from, to));
     }
 }
 

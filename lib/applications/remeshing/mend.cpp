@@ -93,6 +93,7 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   }
   if (changed) return true;
   // Later ranks of a curve first, so that earlier ones stay valid.
+  // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the reversed view of libstdc++ 12.
   for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
     sampling.split(chord->first, chord->second);
   for (const Place& fragment : defects.fragments) {

@@ -46,7 +46,7 @@ struct GroupSolver::HostSolver {
 
 Columns starting_seeds(const Group& group) {
   const std::size_t n = group.share.size();
-  const Columns fresh = spread_points(group.outline, n, group.random_seed);
+  Columns fresh = spread_points(group.outline, n, group.random_seed);
   if (group.start.size() == 0) return fresh;
   Columns seeds = group.start;
   for (std::size_t i = 0; i < n; ++i) {

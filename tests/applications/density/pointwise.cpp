@@ -204,7 +204,9 @@ TEST_CASE("a jump takes fewer evaluations with a looser tolerance") {
   Random random(test_seed());
   one.seeds = scatter(Distribution::white, 30, 2, {}, random);
   Diagram diagram = diagram_of(one);
-  for (const auto& [tolerance, most] : {std::pair{1e-6, 400'000L}, {0.01, 200'000L}, {0.05, 100'000L}}) {
+  for (const auto& bounds : {std::pair{1e-6, 400'000L}, {0.01, 200'000L}, {0.05, 100'000L}}) {
+    const double tolerance = bounds.first;
+    const long most = bounds.second;
     std::atomic<long> evaluations{0};
     const auto disk = [&](const std::array<double, 3>& x) {
       ++evaluations;

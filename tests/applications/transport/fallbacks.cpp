@@ -141,7 +141,8 @@ TEST_CASE("a density with a jump: the reported errors cover the true error of th
   options.max_steps = 20;
   int converged = 0, refused = 0;
   for (const std::uint64_t which : {1u, 3u})
-    for (const auto& [integrals, tolerance] : {std::pair{1e-9, 1e-5}, {1e-2, 1e-5}, {1e-2, 1e-1}}) {
+    for (const auto& bounds : {std::pair{1e-9, 1e-5}, {1e-2, 1e-5}, {1e-2, 1e-1}}) {
+      const double integrals = bounds.first, tolerance = bounds.second;
       INFO("seeds " << which << ", integrals to " << integrals << ", tolerance " << tolerance);
       options.density = Density::function(value, integrals);
       Random random(which);
