@@ -11,6 +11,7 @@
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/picture.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/write_triangles.hpp"
@@ -132,7 +133,7 @@ void require_same_topology(const Outcome& o) {
 void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
   for (const std::string& path : arguments.outputs) {
     if (io::lower_extension(path) == ".png")
-      io::draw_before_and_after(path, input, mesh);
+      io::write_before_and_after(path, input, mesh);
     else
       io::write_triangles(path, mesh);
   }
