@@ -35,7 +35,7 @@ class Verify(ToolTest):
             with self.subTest(shape=shape):
                 self.saved(shape)
                 out = self.good("verify", "a.json").stdout
-                self.assertEqual(out.count("  ok "), 7, out)
+                self.assertEqual(out.count("  ok "), 8, out)
 
     def test_domains_far_longer_than_thick(self):
         # Tilted, so that rounding of the length is 4e-10 of the thickness; both sides of a wall differ by it too.
@@ -60,7 +60,7 @@ class Verify(ToolTest):
         cell = next(c for c in saved["cells"] if c["status"] == "ok")
         cell["measure"] *= 1.001
         self.broken(saved, "partition")
-        self.broken(saved, "geometry")
+        self.broken(saved, "pieces")
         saved = self.saved("square")
         cell = next(c for c in saved["cells"] if any(b is not None and b >= 0 for f in c["borders"] for b in f))
         cell["weight"] += 0.01
@@ -75,11 +75,15 @@ class Verify(ToolTest):
             with self.subTest(shape=shape):
                 self.broken(saved, "centroids")
         saved = self.saved("square")
+        cell = next(c for c in saved["cells"] if c["status"] == "ok")
         for key in saved["check"].keys() - {"relative_error"}:
             with self.subTest(key=key):
                 self.broken(saved | {"check": saved["check"] | {key: 7}}, "summary")
-        self.broken(saved | {"cells": []}, "partition")
-        self.broken({"domain": saved["domain"], "cells": []}, "partition")
+        self.broken(saved | {"cells": []}, "summary")
+        gone = {"measure": 0, "status": "hidden", "centroid": None, "vertices": [], "faces": [], "borders": []}
+        self.broken(saved | {"cells": [c | gone if c is cell else c for c in saved["cells"]]}, "partition")
+        self.bad(1, "no cells", "verify", self.write(
+            "a.json", json.dumps({"domain": saved["domain"], "cells": []})))
         del saved["check"]
         for cell in saved["cells"]:
             del cell["centroid"]
@@ -93,7 +97,29 @@ class Verify(ToolTest):
         saved = json.loads((self.folder / "far.json").read_text())
         cell = next(c for c in saved["cells"] if c["status"] == "ok")
         cell["vertices"][0][0] += 1e-7
-        self.broken(saved, "geometry")
+        self.broken(saved, "pieces")
+
+    def test_each_law_finds_a_fault_of_its_own(self):
+        for shape in ("disk", "ball", "sphere"):
+            def cells(saved):
+                return (c for c in saved["cells"] if c["status"] == "ok")
+            with self.subTest(shape=shape):
+                saved = self.saved(shape)
+                next(cells(saved))["status"] = "hidden"
+                self.broken(saved, "statuses")
+                saved = self.saved(shape)
+                saved["cells"][1]["position"] = saved["cells"][0]["position"]
+                self.broken(saved, "statuses")
+                saved = self.saved(shape)
+                for cell in cells(saved):  # all cells a little larger: walls do not lie where seeds have them
+                    cell["vertices"] = [[x * 1.0001 for x in v] for v in cell["vertices"]]
+                self.broken(saved, "bisectors")
+                saved = self.saved(shape)
+                cell = next(c for c in cells(saved) if len(c["faces"]) > 1 or shape == "disk")
+                for f, borders in enumerate(cell["borders"]):  # its walls become those of another seed
+                    cell["borders"][f] = ([b if b is None or b < 0 else 79 for b in borders]
+                                          if isinstance(borders, list) else 79 if (borders or 0) > 0 else borders)
+                self.broken(saved, "symmetry")
 
     def test_what_is_no_saved_diagram(self):
         self.bad(1, "no such file", "verify", "none.json")
@@ -102,7 +128,7 @@ class Verify(ToolTest):
         self.bad(1, "cell 0", "verify", self.write(
             "a.json", '{"domain": {"kind": "polygon", "measure": 1}, "cells": [{"seed": 0}]}'))
         for place in (1e80, -1, 0.5):
-            for says, key in (("is no count", "faces"), ("is no integer", "borders")):
+            for says, key in (("is not a count", "faces"), ("is not an integer", "borders")):
                 saved = self.saved("square")
                 saved["cells"][0][key][0][0] = place
                 if key == "faces" or place != -1:

@@ -10,11 +10,19 @@ using namespace powercell::test;
 
 namespace {
 
+/// In the diagram, and in what is saved of it.
 void expect_laws(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
   Diagram diagram(setup.device, domain, setup.options);
   diagram.set_seeds(seeds);
-  const std::vector<LawCheck> checks = verify(diagram, seeds, {200, test_seed()});
-  CHECK(checks.size() == 6);
+  std::vector<LawCheck> checks = verify(diagram, seeds, {200, test_seed()});
+  const JoinedCells joined = join(domain, diagram.cells());
+  for (LawCheck& check :
+       verify(SavedDiagram{domain.kind(), diagram.precision(), seeds, diagram.measures(), joined},
+              {200, test_seed()})) {
+    check.law += " (saved)";
+    checks.push_back(std::move(check));
+  }
+  CHECK(checks.size() == 14);
   for (const LawCheck& check : checks) {
     INFO(setup.name << ": " << check.law << ": " << check.value << " of " << check.tolerance << "; "
                     << check.detail);
