@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/io/names.hpp"
 #include "apps/io/read_file.hpp"
 
 namespace powercell::app {
@@ -25,10 +26,10 @@ std::size_t count(const json& value) {
   return value.get<std::size_t>();
 }
 
+// \param find  io::domain_kind or io::seed_status
 template <class Value>
-Value named(const json& name, std::initializer_list<std::pair<const char*, Value>> known, const char* thing) {
-  for (const auto& [text, value] : known)
-    if (name == text) return value;
+Value named(const json& name, std::optional<Value> (*find)(std::string_view), const char* thing) {
+  if (const auto value = find(name.get<std::string>())) return *value;
   throw std::invalid_argument(fmt::format("unknown {} {}", thing, name.dump().substr(0, 40)));
 }
 
@@ -50,10 +51,7 @@ Border border_of(const json& value, std::size_t cells) {
 class Reader {
  public:
   SavedFile read(const json& whole) {
-    file_.kind = named<DomainKind>(
-        whole.at("domain").at("kind"),
-        {{"polygon", DomainKind::polygon}, {"surface", DomainKind::surface}, {"volume", DomainKind::volume}},
-        "kind of domain");
+    file_.kind = named(whole.at("domain").at("kind"), io::domain_kind, "kind of domain");
     file_.cells.dimension = file_.measures.dimension = file_.kind == DomainKind::polygon ? 2 : 3;
     file_.cells.cell_dimension = file_.kind == DomainKind::volume ? 3 : 2;
     file_.measures.domain_measure = whole.at("domain").at("measure").get<double>();
@@ -89,10 +87,7 @@ class Reader {
     file_.weights.push_back(from.at("weight").get<double>());
     Measures& measures = file_.measures;
     measures.mass.push_back(number(from.at("measure")));
-    measures.status.push_back(named<SeedStatus>(
-        from.at("status"),
-        {{"ok", SeedStatus::ok}, {"hidden", SeedStatus::hidden}, {"duplicate", SeedStatus::duplicate}},
-        "status"));
+    measures.status.push_back(named(from.at("status"), io::seed_status, "status"));
     measures.centroid.resize(file_.positions.size(), std::numeric_limits<double>::quiet_NaN());
     if (from.contains("centroid") && !from["centroid"].is_null()) {
       has_centroids_ = true;

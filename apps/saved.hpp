@@ -29,7 +29,7 @@ SavedFile read_saved(const std::string& path);
 /// The same from memory. \param name  for messages
 SavedFile parse_saved(std::string_view bytes, const std::string& name);
 
-/// The laws of the library on the cells, and whether the summary agrees with them, if there is one.
+/// The library's laws on the cells and, if there is a summary, whether it agrees with them.
 std::vector<LawCheck> check_saved(const SavedFile& file, Precision precision, const VerifyOptions& options);
 
 }  // namespace powercell::app

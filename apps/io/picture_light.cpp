@@ -48,7 +48,8 @@ Vec3 on_sphere(int k, int count) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-// Those of the sun first. Fewer of the sky where there are many triangles: each direction draws all of them.
+// Directions of the sun, then of the sky: fewer if there are many triangles, since each direction draws all
+// of them.
 std::vector<Direction> directions(Vec3 sun, std::size_t triangles) {
   std::vector<Direction> all;
   for (int k = 0; k < sun_directions; ++k) all.push_back(Direction(sun).near(k, sun_directions, sun_radius));

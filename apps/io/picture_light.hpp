@@ -17,7 +17,7 @@ struct Place {
   int blur = 0;        ///< pixels on each side whose light is averaged, as far as they lie in its plane
 };
 
-/// Shares of the light, from 0 to 1, that reach a place past the triangles.
+/// Shares of the light, from 0 to 1, that reach a place and are not blocked by triangles.
 struct Light {
   float sun = 1;  ///< from a small disc
   float sky = 1;  ///< from all directions in front of the surface

@@ -6,7 +6,7 @@
 namespace powercell::io {
 namespace {
 
-// Triangles are drawn larger by this part of a sample, so that rounding opens no gap between two that meet.
+// Triangles are enlarged by this part of a sample, so that rounding leaves no gap between neighbours.
 constexpr float slack = 0.01f;
 
 // The indices in [0, size) whose samples lie between low and high.
@@ -47,7 +47,7 @@ void Samples::draw(const ProjectedTriangle& t, std::uint32_t number) {
   if (rows.first >= rows.end) return;
   const Barycentric weight(t);
   if (weight.flat) return;
-  std::array<float, 3> outside;  // what a weight may be below zero
+  std::array<float, 3> outside;  // how far a weight may be below zero
   for (std::size_t k = 0; k < 3; ++k) outside[k] = slack * (std::abs(weight.a[k]) + std::abs(weight.b[k]));
   for (int row = rows.first; row < rows.end; ++row) {
     const float y = static_cast<float>(row) + 0.5f;

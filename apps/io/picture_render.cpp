@@ -12,24 +12,9 @@ namespace {
 constexpr int fine = 3;         // samples of a pixel along each axis
 constexpr int strip_rows = 32;  // pixels
 
-std::array<float, 256> linear_values() {
-  std::array<float, 256> values{};
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const float c = static_cast<float>(k) / 255;
-    values[k] = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-  }
-  return values;
-}
-
-std::uint8_t to_srgb(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(s * 255));
-}
-
-Vec3 to_linear(Colour colour) {
-  static const std::array<float, 256> linear = linear_values();
-  return {linear[colour.red], linear[colour.green], linear[colour.blue]};
+Vec3 linear_of(Colour colour) {
+  return {static_cast<float>(to_linear(colour.red)), static_cast<float>(to_linear(colour.green)),
+          static_cast<float>(to_linear(colour.blue))};
 }
 
 Samples drawn(int width, int height, const std::vector<ProjectedTriangle>& triangles) {
@@ -60,7 +45,7 @@ class Renderer {
   Camera camera_;
   std::vector<ProjectedTriangle> projected_;
   std::vector<Barycentric> weight_;  // of each triangle
-  Samples pixels_{0, 0};             // what each pixel shows in its middle
+  Samples pixels_{0, 0};             // one sample in the middle of each pixel
   std::vector<Light> light_;         // of each pixel
 };
 
@@ -88,7 +73,7 @@ Renderer::Renderer(const Model& model, const View& view) : model_(model), up_(no
   light_ = light_on(places, camera_.width, triangles, sun_);
 }
 
-// A point of the model, or of the floor where the pixel shows none.
+// The point of the model, or else of the floor, in the middle of a pixel.
 Place Renderer::place(int column, int row) const {
   const float x = static_cast<float>(column) + 0.5f, y = static_cast<float>(row) + 0.5f;
   const std::size_t s = pixels_.at(column, row);
@@ -117,7 +102,7 @@ bool Renderer::are_divided(std::uint32_t a, std::uint32_t b) const {
   return one.part != other.part || dot(one.normal[0], other.normal[0]) < std::max(one.crease, other.crease);
 }
 
-// The light of a pixel that shows in its middle what a sample shows: its own pixel, or one beside it.
+// The light for a sample: that of its pixel, or of a neighbouring pixel, whose middle shows the same part.
 const Light& Renderer::light(std::uint32_t triangle, int column, int row) const {
   const std::size_t own = pixels_.at(column, row);
   if (!are_divided(pixels_.triangle[own], triangle)) return light_[own];
@@ -137,7 +122,7 @@ Vec3 Renderer::shade(std::uint32_t triangle, float x, float y, const Light& ligh
   const Vec3 half = normalized(sun_ + to_eye);
   const float gloss = 0.05f * std::pow(std::max(0.0f, dot(n, half)), 40.0f) * light.sun;
   const Colour colour = model_.triangles[triangle].colour;
-  return to_linear(line ? mix(colour, ink, model_.line_ink) : colour) * bright + Vec3{gloss, gloss, gloss};
+  return linear_of(line ? mix(colour, ink, model_.line_ink) : colour) * bright + Vec3{gloss, gloss, gloss};
 }
 
 // White, with the model's soft shadow, which fades out towards the border of the picture.
@@ -166,8 +151,8 @@ Samples Renderer::strip(int first_row, int rows) const {
   return strip;
 }
 
-// Whether each sample lies on a line, of the model's width about the border of two samples. A line is drawn
-// on the nearer surface and what lies beside it, not on a surface far behind.
+// Whether each sample lies on a line. Lines have the model's width and follow borders between samples. They
+// are not drawn on surfaces far behind the nearer one.
 std::vector<bool> Renderer::lines(const Samples& strip) const {
   std::vector<bool> on_line(strip.count());
   if (model_.line_width <= 0) return on_line;

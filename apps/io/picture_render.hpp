@@ -11,7 +11,7 @@
 
 namespace powercell::io {
 
-/// What is rendered. Coordinates are such that the whole lies within distance 1 of the origin.
+/// Triangles to render, within distance 1 of the origin.
 struct Model {
   struct Triangle {
     std::array<Vec3, 3> corner;

@@ -19,7 +19,8 @@ std::array<float, 3> barycentric(Vec3 p, const std::array<Vec3, 3>& corner) {
   return {u, v, 1 - u - v};
 }
 
-// Thinner lines for smaller parts; none where they would hide them. \param width  pixels for one part
+// Lines are thinner for smaller parts, and absent if they would hide the parts. \param width  pixels for one
+// part
 float line_width(double width, std::size_t parts, double least, double most) {
   width /= std::sqrt(static_cast<double>(std::max<std::size_t>(parts, 1)));
   return width < 0.25 ? 0.0f : static_cast<float>(std::clamp(width, least, most));

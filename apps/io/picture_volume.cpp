@@ -13,7 +13,7 @@ constexpr float shrink = 0.88f;
 // boundary, which may be curved and cut into facets.
 constexpr float wall_crease = 0.999f, boundary_crease = 0.8f;
 
-// Cells whose centroid lies in the octant of the bounding box towards the camera are taken out.
+// All cells but those whose centroid lies in the octant of the bounding box towards the camera.
 std::vector<char> without_octant(const DiagramOutput& output, const Normalization& normalize, Vec3 cut) {
   std::vector<char> kept(output.measures.mass.size(), 0);
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -21,7 +21,7 @@ std::vector<char> without_octant(const DiagramOutput& output, const Normalizatio
     const Vec3 c = normalize(&output.measures.centroid[3 * i]);
     kept[i] = !(c.x * cut.x > 0 && c.y * cut.y > 0 && c.z * cut.z > 0);
   }
-  // A diagram of a few cells may lie in that octant as a whole.
+  // All cells of a small diagram may lie in that octant.
   if (std::find(kept.begin(), kept.end(), 1) == kept.end()) std::fill(kept.begin(), kept.end(), 1);
   return kept;
 }

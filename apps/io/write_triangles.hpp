@@ -8,8 +8,8 @@
 
 namespace powercell::io {
 
-/// Extensions that `write_triangles` knows: ".off .obj .ply .stl".
-std::string_view known_triangle_files();
+inline constexpr std::string_view triangle_files = ".off .obj .ply .stl";
+
 /// \throw Error invalid_file for an extension that is neither one of those nor .png
 void check_triangle_output(const std::string& path);
 

@@ -118,7 +118,7 @@ TEST_CASE("discs show signs, hidden seeds and duplicates") {
   CHECK(duplicates == 1);
 }
 
-TEST_CASE("weights that are no radii are not drawn as discs") {
+TEST_CASE("weights that are not radii are not drawn as discs") {
   const MadeDiagram made = polygon_diagram(80);
   io::DiagramOutput output = made.output();
   output.weights_as_discs = false;
@@ -146,7 +146,7 @@ TEST_CASE("cells with a common wall differ in colour") {
   }
 }
 
-TEST_CASE("a PNG can be read, has its size and shows cells on white") {
+TEST_CASE("a PNG can be read, has the right size and shows cells on white") {
   TemporaryFolder folder;
   const MadeDiagram flat = polygon_diagram(60), surface = surface_diagram(15), solid = volume_diagram(20);
   for (const MadeDiagram* made : {&flat, &surface, &solid}) {
@@ -175,7 +175,7 @@ TEST_CASE("a PNG can be read, has its size and shows cells on white") {
   }
 }
 
-TEST_CASE("the picture of a surface holds all of it, each cell as a part of its own") {
+TEST_CASE("the picture of a surface shows all of it, with each cell as a part") {
   const MadeDiagram made = surface_diagram(30);
   const io::Model model = io::surface_model(made.output());
   const auto low = made.domain.low(), high = made.domain.high();
@@ -187,7 +187,7 @@ TEST_CASE("the picture of a surface holds all of it, each cell as a part of its 
     CHECK(area[i] == doctest::Approx(made.measures.mass[i]).epsilon(1e-4));
 }
 
-TEST_CASE("a volume is opened: cells of the octant towards the camera are left out") {
+TEST_CASE("a volume is opened: cells of the octant towards the camera are omitted") {
   const MadeDiagram made = volume_diagram(64);
   const io::Model model = io::volume_model(made.output());
   const io::Vec3 view = io::View{}.towards;
@@ -269,7 +269,7 @@ TEST_CASE("triangles that share edges leave no sample between them") {
   CHECK(drawn >= inside);
 }
 
-TEST_CASE("pictures are the same every time") {
+TEST_CASE("pictures are reproducible") {
   const io::Model model = io::volume_model(volume_diagram(10).output());
   CHECK(io::render(model, {.size = 200}).rgb == io::render(model, {.size = 200}).rgb);
   TemporaryFolder folder;
@@ -281,7 +281,7 @@ TEST_CASE("pictures are the same every time") {
   }
 }
 
-// Started by read_back.py, which hands the files to other programs.
+// Run by read_back.py, which reads the files with other programs.
 TEST_CASE("files for other programs" * doctest::skip(std::getenv("POWERCELL_WRITERS_FOLDER") == nullptr)) {
   const char* to = std::getenv("POWERCELL_WRITERS_FOLDER");
   REQUIRE(to);
