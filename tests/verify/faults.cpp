@@ -1,4 +1,4 @@
-// Each law finds the fault it is there for, put into results that were right.
+// Each law finds its fault in results that were correct before.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -12,7 +12,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Results of a diagram of white seeds in the unit square or cube, to be spoilt.
+/// Results of a diagram of white seeds in the unit square or cube, to be modified.
 struct Results {
   explicit Results(int dimension)
       : domain(unit_box(dimension)),
@@ -60,7 +60,7 @@ TEST_CASE("a moved vertex breaks the law of pieces") {
   }
 }
 
-TEST_CASE("a wrong centroid breaks the law of centroids, and not-a-number too") {
+TEST_CASE("a wrong centroid breaks the law of centroids, and so does NaN") {
   Results results(2);
   const double right = results.measures.centroid[7];
   for (const double wrong : {right + 1e-4, std::numeric_limits<double>::quiet_NaN()}) {
@@ -179,7 +179,7 @@ TEST_CASE("statuses that contradict the measures or positions are found") {
   CHECK(results.statuses().value == 1);  // one of the two should be a duplicate
 }
 
-TEST_CASE("random points are uniform, in their region, and the same every time") {
+TEST_CASE("random points are uniform, in their region and reproducible") {
   Random random(test_seed());
   const Domain domain = volume_of(cube_tetrahedra(2, 0.2, random));
   const std::vector<Sample> samples = random_points(domain.mesh(), 20000, 7);
