@@ -54,7 +54,7 @@ std::vector<Direction> directions(Vec3 sun, std::size_t triangles) {
   std::vector<Direction> all;
   for (int k = 0; k < sun_directions; ++k) all.push_back(Direction(sun).near(k, sun_directions, sun_radius));
   const auto sky =
-      static_cast<int>(std::clamp<std::size_t>(30'000'000 / (triangles + 1), 24, 64)) / batch * batch;
+      static_cast<int>(std::clamp<std::size_t>(24'000'000 / (triangles + 1), 24, 64)) / batch * batch;
   for (int k = 0; k < sky; ++k) all.emplace_back(on_sphere(k, sky));
   return all;
 }

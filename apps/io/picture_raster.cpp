@@ -24,12 +24,13 @@ struct Range {
 
 Barycentric::Barycentric(const ProjectedTriangle& t) {
   const float area = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
-  flat = !(std::abs(area) > 0);
+  flat = !(std::abs(area) > 1e-12f);
   if (flat) return;
+  const float inverse = 1 / area;
   for (std::size_t k = 0; k < 3; ++k) {
     const Projected &from = t[(k + 1) % 3], &to = t[(k + 2) % 3];
-    a[k] = (from.y - to.y) / area;
-    b[k] = (to.x - from.x) / area;
+    a[k] = (from.y - to.y) * inverse;
+    b[k] = (to.x - from.x) * inverse;
     c[k] = -a[k] * from.x - b[k] * from.y;
   }
 }
@@ -44,7 +45,8 @@ void Samples::draw(const ProjectedTriangle& t, std::uint32_t number) {
   const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
   const auto [farthest_corner, nearest_corner] = std::minmax({t[0].nearness, t[1].nearness, t[2].nearness});
   const Range rows(low_y - slack, high_y + slack, height);
-  if (rows.first >= rows.end) return;
+  const Range box(low_x - slack, high_x + slack, width);
+  if (rows.first >= rows.end || box.first >= box.end) return;
   const Barycentric weight(t);
   if (weight.flat) return;
   std::array<float, 3> outside;  // how far a weight may be below zero

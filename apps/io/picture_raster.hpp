@@ -37,7 +37,7 @@ struct Samples {
 /// Weights of the corners at a point of a triangle's plane, as affine functions of the point.
 struct Barycentric {
   std::array<float, 3> a{}, b{}, c{};  ///< weight k: a[k] x + b[k] y + c[k]
-  bool flat;                           ///< the triangle has no area in the picture
+  bool flat;                           ///< the triangle has practically no area in the picture
 
   explicit Barycentric(const ProjectedTriangle& triangle);
   float operator()(std::size_t k, float x, float y) const { return a[k] * x + b[k] * y + c[k]; }

@@ -110,7 +110,6 @@ class ByteScanner {
 
   std::size_t offset() const { return at_; }
   void seek(std::size_t offset) { at_ = offset; }
-  void set_order(std::endian order) { swapped_ = swapped_from(order); }
   [[noreturn]] void fail(const std::string& what) const {
     fail_file(name_, fmt::format("at byte {}: {}", at_, what));
   }

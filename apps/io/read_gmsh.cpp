@@ -10,7 +10,7 @@
 
 namespace powercell::io {
 
-const GmshElement* gmsh_element(std::int64_t type) {
+const GmshElement& known_gmsh_element(std::int64_t type, GmshNumbers& numbers) {
   // In the order of Gmsh's reference manual, "MSH file format", from 1 to 19.
   static const GmshElement kinds[] = {{2, 1, true, "line"},
                                       {3, 2, true, "triangle"},
@@ -31,15 +31,9 @@ const GmshElement* gmsh_element(std::int64_t type) {
                                       {20, 3, false, "20-node hexahedron"},
                                       {15, 3, false, "15-node prism"},
                                       {13, 3, false, "13-node pyramid"}};
-  return type >= 1 && type <= 19 ? &kinds[type - 1] : nullptr;
-}
-
-const GmshElement& known_gmsh_element(std::int64_t type, GmshNumbers& numbers) {
-  const GmshElement* kind = gmsh_element(type);
-  if (kind == nullptr) {
+  if (type < 1 || type > 19)
     numbers.fail(fmt::format("element type {} is not known; save a mesh of first order", type));
-  }
-  return *kind;
+  return kinds[type - 1];
 }
 
 void GmshNumbers::enter() {

@@ -22,9 +22,6 @@ struct GmshElement {
   const char* name = "";
 };
 
-/// The element of Gmsh's number `type`, or null.
-const GmshElement* gmsh_element(std::int64_t type);
-
 /// Reads the numbers of a section from text or bytes.
 class GmshNumbers {
  public:

@@ -3,7 +3,6 @@
 // have colours behind the coordinates that no header announces.
 #include <fmt/format.h>
 
-#include "apps/io/read_file.hpp"
 #include "apps/io/read_mesh.hpp"
 #include "apps/io/read_text.hpp"
 
