@@ -1,5 +1,5 @@
 /// \file
-/// The tolerance for the difference between the two sides of a wall. Internal.
+/// Tolerance for the difference between the two sides of a wall. Internal.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace powercell {
 
-/// The largest allowed Adjacency::asymmetry. A wall ends where its plane meets others; there it moves by the
-/// rounding of the planes over the sine of their angle. The least of many random angles is about one over
-/// their number. If the asymmetry exceeds that, the angles of the wall concerned are computed. In no case may
-/// half of the largest wall be missing, and differences of a few tens of roundings, as at right angles, are
-/// always allowed.
-/// \pre the rows are ascending and symmetric
-double allowed_asymmetry(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding);
+/// The allowed Adjacency::asymmetry (docs/mathematics.md, (18a)). A wall ends where its plane meets others,
+/// so its ends move by the planes' rounding over the sine of the angle between them. The smallest of n random
+/// angles is about 1/n, which sets the usual tolerance; where the asymmetry exceeds it, the angles of that
+/// wall are computed. However small they are, no large wall may lack a side; where planes meet at right
+/// angles, a wall of a few tens of roundings may. \param adjacency  with ascending rows that list each wall
+/// from both sides \param mesh  of the domain, null where it is not known
+double allowed_asymmetry(const Adjacency& adjacency, const RegionMesh* mesh, const Rounding& rounding);
 
-/// Describes the asymmetry, for messages.
+/// The message where it is exceeded.
 std::string text_of_asymmetry(const Adjacency& adjacency);
 
 }  // namespace powercell

@@ -10,7 +10,7 @@
 
 namespace powercell {
 
-/// The results to check; the caller owns them.
+/// The results to certify; owned by the caller.
 struct Certified {
   const Domain& domain;
   const SeedSet& seeds;
@@ -18,13 +18,13 @@ struct Certified {
   const Adjacency* adjacency;  ///< may be null
   bool float32;
   int threads;
-  std::function<const Cells&()> geometry = {};  ///< computes it, only if a law needs it; may be empty
+  std::function<const Cells&()> geometry = {};  ///< computes the cells where a law needs them; may be empty
 };
 
-/// Checks that the measures sum to that of the domain; that none is negative or NaN, and centroids lie in the
-/// domain's box; that both sides of each wall agree; and that the owners of random points, found among all
-/// seeds, have cells.
-/// \throw Error internal, naming the law and the seeds concerned
+/// Checks that the measures sum to the domain's, are numbers and not negative, that centroids lie in the
+/// domain's box, that both sides of a wall have the same measure, and that the seed of least power distance
+/// at some random points, found by trying all seeds, is not hidden. \throw Error internal with the law and
+/// the seeds concerned
 void require_certificate(const Certified& result);
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// The tolerance for the difference between the sum of measures and the domain's measure. Internal.
+/// Tolerance for the difference between the sum of the measures and the domain's. Internal.
 #pragma once
 
 #include "lib/domain/region_mesh.hpp"
@@ -8,18 +8,18 @@
 namespace powercell {
 
 /// The change of the domain's measure, to first order, if every corner moves by 1: the sum of the lengths of
-/// its gradients with respect to the corners. That is about the size of the boundary of a polygon or volume,
-/// and the total curvature of a surface.
+/// the measure's gradients with respect to the corners. For a polygon or volume it is about the measure of
+/// the boundary; for a surface it grows with its curvature.
 long double measure_gradient(const RegionMesh& mesh);
 
-/// The allowed relative difference (docs/mathematics.md, (17a)).
-/// \param usual  the value for domains about as wide as long, with the seeds inside
-/// \param reach  the largest distance between a corner of the domain and a seed with a cell
+/// Allowed relative difference (docs/mathematics.md, (17a)).
+/// \param usual  for domains about as wide as long with the seeds inside
+/// \param reach  the farthest corner of the domain from a seed with a cell
 double partition_tolerance(const RegionMesh& mesh, double usual, double reach);
 
-/// A further tolerance for the sum of measures on a surface, where bisectors are nearly parallel to triangles
-/// that they cut: each side computes the cut by itself, with an error of rounding over the sine of the angle.
-/// 0 for polygons and volumes, which fill the space of their seeds.
+/// Additional tolerance (17b) for surfaces on which a bisector is nearly parallel to a triangle that it cuts:
+/// each side computes the cut on its own, off by rounding over the sine of the angle. 0 for polygons and
+/// volumes.
 long double slanted_area(const Cells& cells, const RegionMesh& mesh, const Rounding& rounding);
 
 }  // namespace powercell

@@ -1,4 +1,4 @@
-// The certificate of every result: it holds for results of the library, and refuses modified ones.
+// The certificate holds for results of the library, and refuses tampered ones.
 #include "lib/verify/certificate.hpp"
 
 #include <doctest/doctest.h>
@@ -56,7 +56,7 @@ TEST_CASE("certificates hold where power distances differ by less than rounding"
   }
 }
 
-TEST_CASE("certificates of cells far from their seeds hold, and still refuse wrong results") {
+TEST_CASE("certificates of cells far from their seeds hold, and wrong ones are refused nevertheless") {
   Random random(test_seed());
   for (const double far : {0x1p18, 0x1p22}) {
     // Voronoi cells of seeds y, as those of y + far with weights 2 far.y.
@@ -81,7 +81,7 @@ TEST_CASE("certificates of cells far from their seeds hold, and still refuse wro
   }
 }
 
-TEST_CASE("a certificate refuses modified results, and names the seed") {
+TEST_CASE("certificates of impossible results are refused and name the seed") {
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 300, 3, random);
   const Domain domain = unit_box(3);

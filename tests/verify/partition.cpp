@@ -1,4 +1,4 @@
-// The tolerance for the sum of measures depends on the domain's shape and the seeds' distance.
+// The tolerance of the sum of measures depends on the domain's shape and the seeds' distance.
 #include "lib/verify/partition.hpp"
 
 #include <doctest/doctest.h>
@@ -28,14 +28,15 @@ const LawCheck& partition_of(const std::vector<LawCheck>& checks) {
 
 }  // namespace
 
-TEST_CASE("gradients of measures have their closed forms") {
-  // The gradient at a corner of a square is half a diagonal, at one of a cube a quarter of three facets.
+TEST_CASE("gradients of measures agree with closed forms") {
+  // The gradient at a corner of a square is half a diagonal; at a corner of a cube it is a quarter of three
+  // facets.
   CHECK(gradient_of(unit_box(2)) == doctest::Approx(4 * std::sqrt(0.5)));
   CHECK(gradient_of(unit_box(3)) == doctest::Approx(8 * std::sqrt(3.0) / 4));
   const std::vector<double> corner{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
   const Domain tetrahedron = Domain::volume(corner, std::vector<std::uint32_t>{0, 1, 2, 3});
   CHECK(gradient_of(tetrahedron) == doctest::Approx((3 * 2 + 2 * std::sqrt(3.0)) / 3));
-  // A flat sheet is its polygon; a closed surface has twice its mean curvature.
+  // A flat sheet counts as its polygon; a closed surface has twice its mean curvature.
   const std::vector<double> sheet{0, 0, 5, 1, 0, 5, 1, 1, 5, 0, 1, 5};
   CHECK(gradient_of(Domain::surface(sheet, std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3})) ==
         doctest::Approx(4 * std::sqrt(0.5)));
@@ -56,7 +57,7 @@ TEST_CASE("boxes far longer than thick obey the laws, with seeds as far away as 
     seeds.push({1, 0.3, 0.6}, 0);
     for (Setup setup : main_setups()) {
       INFO(setup.name << ", " << thick);
-      // In single precision thinner boxes are below the rounding of the distance.
+      // In single precision, nothing is left of a thickness below the rounding of the distance.
       if (setup.options.precision == Precision::float32 && thick < 1e-5) continue;
       setup.options.certify = true;
       Diagram diagram(setup.device, domain, setup.options);

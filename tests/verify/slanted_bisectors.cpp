@@ -1,5 +1,5 @@
-// Bisectors at tiny angles to the facets that they cut: their ends move by rounding over the sine of the
-// angle, differently on both sides of the wall. Verification and certificate allow for it.
+// Bisectors at tiny angles to the facets that they cut: the ends of a wall move by rounding over the sine of
+// the angle, differently on its two sides. Verification and certificate allow for it.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ Vector unit(const Vector& a) {
   return (1 / norm(a)) * a;
 }
 
-/// A place in a facet, its normal and a direction within it.
+/// A point of a facet, its normal and a direction in it.
 struct Place {
   Vector point, normal, along;
   double size;  // of the region
@@ -35,8 +35,7 @@ Vector any_of(const Corners& corners, Random& random) {
   return (1 / weights) * sum;
 }
 
-/// A random place in a face of a tetrahedron or box, in an edge of a polygon, or in an edge or triangle of a
-/// surface.
+/// In a face of a tetrahedron or box, an edge of a polygon, or an edge or triangle of a surface.
 Place any_place(const Domain& domain, Random& random) {
   const RegionMesh& mesh = domain.mesh();
   const Corners region = corners_of(mesh, random.index(mesh.region_count()));
@@ -58,7 +57,7 @@ Place any_place(const Domain& domain, Random& random) {
   return {point, unit(normal), unit(facet[1] - facet[0]), static_cast<double>(norm(region[1] - region[0]))};
 }
 
-/// Two seeds whose bisector crosses the facet there at this angle, in half of the cases with five others.
+/// Two seeds whose bisector crosses the facet there at this angle, sometimes with others around.
 SeedArray seeds_at(const Place& place, double angle, const Domain& domain, Random& random) {
   const int d = domain.dimension();
   SeedArray seeds{d, {}, {}};
