@@ -19,7 +19,7 @@ const std::map<std::string, Precision> precisions = {
 const std::map<std::string, Neighbors> providers = {
     {"auto", Neighbors::automatic}, {"tree", Neighbors::tree}, {"flann", Neighbors::flann}};
 
-/// What is wrong with an argument of --seeds, as far as it can be told without a file.
+/// The fault of an argument of --seeds, as far as it shows without reading a file; empty if it has none.
 std::string wrong_seeds(const std::string& spec) {
   try {
     if (io::is_random_spec(spec)) io::parse_random_spec(spec);
@@ -33,28 +33,26 @@ std::string wrong_seeds(const std::string& spec) {
 
 void add_output_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "One JSON object on stdout and nothing else there");
-  command.add_flag("--quiet", options.quiet, "No report and no progress bar; errors are still told");
+  command.add_flag("--quiet", options.quiet, "No report and no progress bar; errors are still reported");
 }
 
 void add_engine_options(CLI::App& command, CommonOptions& options) {
   command
-      .add_option("--neighbors", options.neighbors,
-                  "Where candidate neighbours come from: auto, tree or flann")
+      .add_option("--neighbors", options.neighbors, "How candidate neighbours are found: auto, tree or flann")
       ->check(CLI::IsMember({"auto", "tree", "flann"}));
   command
-      .add_option(
-          "--decisions", options.decisions,
-          "exact, or fast: cells whose shape rounding may have decided are left as they are, and counted")
+      .add_option("--decisions", options.decisions,
+                  "exact, or fast: cells whose shape rounding may have decided are counted but not corrected")
       ->check(CLI::IsMember({"exact", "fast"}));
-  command.add_flag("--certify", options.certify, "Check each result by the laws that need no reference");
-  command.add_option("--threads", options.threads, "Threads on the host and of PoCL; 0 means all")
+  command.add_flag("--certify", options.certify, "Check each result against laws that need no reference");
+  command.add_option("--threads", options.threads, "Threads on the host and in PoCL; 0 for all")
       ->check(CLI::Range(0, 4096));
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--device", options.device,
-                     "Part of a device's name, its number P:D, cpu or gpu (see 'powercell devices'); "
-                     "else POWERCELL_DEVICE, else the best GPU, else the CPU");
+                     "Part of a device's name, its number P:D, cpu or gpu (see 'powercell devices'). "
+                     "Default: POWERCELL_DEVICE, else the best GPU, else the CPU");
   command.add_option("--precision", options.precision, "auto, double or float")
       ->check(CLI::IsMember({"auto", "double", "float"}));
   add_engine_options(command, options);
@@ -72,30 +70,23 @@ void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& k
   command
       .add_option(
           "--seeds", seeds,
-          "Rows 'x y [z] w' as text or CSV, in any order under a header with these names (or lon, lat, "
-          "weight), an .npy file, or random:N[:LO:HI[:SEED]] with weights from LO to HI")
+          "Text or CSV with rows 'x y [z] w', or with columns in any order under a header of these names (or "
+          "lon, lat, weight); an .npy file; or random:N[:LO:HI[:SEED]] with weights from LO to HI")
       ->check(wrong_seeds)
       ->required(required);
   command
-      .add_option("--kind", kind, "What a file is that could be more than one: polygon, surface or volume")
+      .add_option("--kind", kind, "polygon, surface or volume, for files that can be read as more than one")
       ->check(CLI::IsMember({"polygon", "surface", "volume"}));
 }
 
-std::optional<DomainKind> domain_kind(const std::string& kind) {
-  if (kind == "polygon") return DomainKind::polygon;
-  if (kind == "surface") return DomainKind::surface;
-  if (kind == "volume") return DomainKind::volume;
-  return std::nullopt;
-}
-
-Options library_options(const CommonOptions& options, std::string_view what) {
+Options library_options(const CommonOptions& options, std::string_view label) {
   Options result;
   result.precision = precisions.at(options.precision);
   result.neighbors = providers.at(options.neighbors);
   result.decisions = options.decisions == "fast" ? Decisions::fast : Decisions::exact;
   result.certify = options.certify;
   result.threads = options.threads;
-  auto bar = std::make_shared<ProgressBar>(std::string(what), options.quiet || options.json);
+  auto bar = std::make_shared<ProgressBar>(std::string(label), options.quiet || options.json);
   result.progress = [bar](double fraction) {
     bar->update(fraction);
     return !interrupted();
@@ -105,7 +96,7 @@ Options library_options(const CommonOptions& options, std::string_view what) {
 
 void limit_threads(const CommonOptions& options) {
   if (options.threads <= 0) return;
-  // Read once by PoCL when the first platform is asked for; a value of the user's own wins.
+  // PoCL reads these once, when the first platform is queried; values set by the user win.
   const std::string count = std::to_string(options.threads);
   setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 0);
   setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 0);

@@ -1,5 +1,5 @@
 /// \file
-/// What all subcommands of the tool share: options, reporting, the way out on errors.
+/// Options and helpers that the subcommands of the tool share.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@ class App;
 
 namespace powercell::app {
 
-/// Arguments that cannot be meant: exit code 2, where other errors give 1.
+/// Invalid command line arguments: exit code 2, where other errors give 1.
 struct WrongUsage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Options that every subcommand which computes accepts.
+/// Options of every subcommand that computes.
 struct CommonOptions {
   std::string device;
   std::string precision = "auto";
@@ -45,22 +45,20 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 /// Adds --domain, --seeds and --kind.
 void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,
                           bool required);
-/// What --kind says; nothing when it was not given.
-std::optional<DomainKind> domain_kind(const std::string& kind);
 
 /// The library's options for these, with progress and interruption (see interrupt.hpp).
-/// \param what  shown beside the progress bar, e.g. "cells"
-Options library_options(const CommonOptions& options, std::string_view what);
+/// \param label  shown beside the progress bar, e.g. "cells"
+Options library_options(const CommonOptions& options, std::string_view label);
 
-/// Hands --threads to PoCL, which counts its threads when the first platform is asked for.
+/// Passes --threads to PoCL, which reads its number of threads when the first platform is queried.
 void limit_threads(const CommonOptions& options);
-/// The device asked for, opened as a computation (see interrupt.hpp), with those threads.
+/// Opens the device of --device with the threads of --threads, interruptibly (see interrupt.hpp).
 Device open_device(const CommonOptions& options);
 
 const char* precision_name(Precision precision);  ///< "double" or "float"
 const char* neighbors_name(Neighbors neighbors);  ///< "tree" or "flann"
 
-/// The registered subcommands. Each returns the function that runs it and gives the exit code.
+/// Register the subcommands. Each returns a function that runs the command and returns the exit code.
 using Command = std::function<int()>;
 Command add_devices(CLI::App& app);
 Command add_diagram(CLI::App& app);

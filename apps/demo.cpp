@@ -14,9 +14,9 @@
 #include "apps/demo_data.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/output.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
+#include "apps/outputs.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -46,7 +46,7 @@ Plan plan_for(DomainKind kind) {
   return {500, {".png", ".vtu"}};
 }
 
-// Seeds moved to the centroids of their cells a few times: cells of even size, as in a foam.
+// Moves the seeds to the centroids of their cells a few times, which gives cells of even size, as in a foam.
 void relax(Diagram& diagram, std::vector<double>& positions, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     diagram.set_seeds({diagram.domain().dimension(), positions, {}});
@@ -62,7 +62,7 @@ std::vector<double> weights_of_discs(const Domain& domain, std::size_t count) {
   const double spacing =
       std::pow(domain.measure() / static_cast<double>(count), 1.0 / domain.cell_dimension());
   std::mt19937_64 random(3);
-  // Taken from the generator's bits, for the distributions of the library differ between machines.
+  // From the generator's bits: the standard library's distributions differ between machines.
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<double> weights(count);
   for (double& weight : weights) {
@@ -118,17 +118,12 @@ RunReport draw(const DemoArguments& arguments, const Device& device, const DemoS
   });
 
   watch.lap();
-  const JoinedCells joined = join(domain.domain, diagram.cells());
-  const io::DiagramOutput output{domain.domain,   seeds,  diagram.measures(),
-                                 diagram.cells(), joined, diagram.adjacency()};
   const std::string seeds_path = stem.string() + "-seeds.csv";
   write_seeds(seeds_path, seeds);
-  for (const std::string& extension : plan.extensions) {
-    io::write_output(stem.string() + extension, output);
-    report.files.push_back(stem.string() + extension);
-  }
+  for (const std::string& extension : plan.extensions) report.files.push_back(stem.string() + extension);
+  write_diagram(report.files, diagram, seeds);
   report.write = watch.lap();
-  report.build = 0;  // told once, for the whole demo
+  report.build = 0;  // reported once, for the whole demo
   return report;
 }
 
@@ -139,8 +134,8 @@ void write_page(const fs::path& path) {
       "img{max-width:100%;border:1px solid #ddd}</style></head>\n<body><h1>powercell demo</h1>\n";
   for (const DemoShape& shape : demo_shapes()) {
     const std::string stem = fs::path(shape.file).stem().string();
-    page += fmt::format("<h2>{}: {}</h2>\n<p><img src=\"{}.png\" alt=\"{}\"></p>\n", stem, shape.what, stem,
-                        stem);
+    page += fmt::format("<h2>{}: {}</h2>\n<p><img src=\"{}.png\" alt=\"{}\"></p>\n", stem, shape.description,
+                        stem, stem);
   }
   write_text(path, page + "</body></html>\n");
 }
@@ -150,12 +145,12 @@ void make_folder(const std::string& folder) {
   fs::create_directories(folder, problem);
   if (problem || !fs::is_directory(folder))
     throw Error(ErrorCode::write_failed,
-                fmt::format("the folder '{}' cannot be made: {}; choose another one with -o", folder,
-                            problem ? problem.message() : "a file of that name is in the way"));
+                fmt::format("the folder '{}' cannot be created: {}; choose another one with -o", folder,
+                            problem ? problem.message() : "a file of that name exists"));
 }
 
-void tell(const DemoShape& shape, const RunReport& report) {
-  fmt::print("{}: {}\n  {}\n  wrote", shape.file, shape.what, self_check_line(report));
+void print(const DemoShape& shape, const RunReport& report) {
+  fmt::print("{}: {}\n  {}\n  wrote", shape.file, shape.description, self_check_line(report));
   for (const std::string& path : report.files) fmt::print(" {}", path);
   fmt::print("\n");
   std::fflush(stdout);
@@ -170,7 +165,7 @@ int run(const DemoArguments& arguments) {
   nlohmann::json shapes = nlohmann::json::array();
   for (const DemoShape& shape : demo_shapes()) {
     const RunReport report = draw(arguments, device, shape);
-    if (talk) tell(shape, report);
+    if (talk) print(shape, report);
     shapes.push_back(as_json(report));
     shapes.back()["shape"] = shape.file;
   }

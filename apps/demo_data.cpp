@@ -1,4 +1,4 @@
-// The assembler copies the files in as they are: much faster to build than arrays of numbers in C++.
+// The assembler includes the files as they are, which builds much faster than arrays of numbers in C++.
 #include "apps/demo_data.hpp"
 
 #define POWERCELL_EMBED(symbol, file)                                                                    \

@@ -1,5 +1,5 @@
 /// \file
-/// The shapes of examples/data/, carried inside the tool so that the demo runs from anywhere.
+/// The shapes of examples/data/, embedded in the tool so that the demo runs anywhere.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 namespace powercell::app {
 
 struct DemoShape {
-  std::string_view file;  ///< name to write it under
-  std::string_view text;  ///< the whole file
-  std::string_view what;  ///< in words
+  std::string_view file;         ///< name of the file to write
+  std::string_view text;         ///< its content
+  std::string_view description;  ///< for people
 };
 
 std::array<DemoShape, 3> demo_shapes();

@@ -20,7 +20,7 @@ namespace {
 
 void add_density_options(CLI::App& command, DensityArguments& arguments) {
   command.add_option("--density", arguments.density,
-                     "Mass for each unit of area or volume: a number, a formula in x, y and z, or a file "
+                     "Mass per unit of area or volume: a number, a formula in x, y and z, or a file "
                      "(.txt) with one value for each vertex of the mesh");
   command
       .add_option("--image", arguments.image,
@@ -31,7 +31,7 @@ void add_density_options(CLI::App& command, DensityArguments& arguments) {
 
 void check(const DensityArguments& arguments) {
   if (!arguments.density.empty() && !arguments.image.empty())
-    throw WrongUsage("--density and --image exclude each other");
+    throw WrongUsage("--density and --image cannot be combined");
   if (arguments.bright && arguments.image.empty()) throw WrongUsage("--bright needs an --image");
 }
 
@@ -40,7 +40,7 @@ Ink read_ink(const DensityArguments& arguments) {
   if (!arguments.bright)
     for (double& value : image.values) value = 1 - value;
   if (std::all_of(image.values.begin(), image.values.end(), [](double v) { return v == 0; }))
-    throw Error(ErrorCode::invalid_file, fmt::format("{}: the image is blank, there is nothing {} in it",
+    throw Error(ErrorCode::invalid_file, fmt::format("{}: the image is blank, it has no {} pixels",
                                                      arguments.image, arguments.bright ? "bright" : "dark"));
   return {image.width, image.height, std::move(image.values)};
 }

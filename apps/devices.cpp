@@ -1,4 +1,4 @@
-// powercell devices: what --device accepts.
+// powercell devices: the devices that --device accepts.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -50,9 +50,8 @@ int run(const CommonOptions& options) {
     return 0;
   }
   if (all.empty())
-    throw Error(
-        ErrorCode::device_not_found,
-        "no OpenCL device is installed; on Debian, 'apt-get install pocl-opencl-icd' runs on the CPU");
+    throw Error(ErrorCode::device_not_found,
+                "no OpenCL device is installed; on Debian, 'apt-get install pocl-opencl-icd' adds the CPU");
   fmt::print("{:<8}{:<6}{:<6}{:>6}{:>12}  {}\n", "device", "type", "fp64", "units", "memory", "name");
   for (const DeviceInfo& device : all)
     fmt::print("{:<8}{:<6}{:<6}{:>6}{:>8.1f} GiB  {} ({}, {})\n", device.selector(), type_name(device.type),

@@ -1,4 +1,4 @@
-// powercell diagram: the main job, from files to files.
+// powercell diagram: a diagram, from files to files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +7,7 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/names.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
@@ -24,20 +25,11 @@ struct DiagramArguments : CommonOptions {
 
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const SeedsView& seeds,
                  RunReport& report) {
-  if (arguments.outputs.empty() && arguments.table.empty() && arguments.walls.empty()) return;
-  const Measures& measures = diagram.measures();
   Stopwatch watch;
-  if (!arguments.outputs.empty()) {
-    const JoinedCells joined = join(diagram.domain(), diagram.cells());
-    const io::DiagramOutput output{diagram.domain(), seeds,  measures,
-                                   diagram.cells(),  joined, diagram.adjacency()};
-    for (const std::string& path : arguments.outputs) {
-      io::write_output(path, output);
-      report.files.push_back(path);
-    }
-  }
+  write_diagram(arguments.outputs, diagram, seeds);
+  report.files = arguments.outputs;
   if (!arguments.table.empty()) {
-    io::write_table(arguments.table, seeds, measures, diagram.adjacency());
+    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency());
     report.files.push_back(arguments.table);
   }
   if (!arguments.walls.empty()) {
@@ -47,8 +39,8 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Seed
   report.write = watch.lap();
 }
 
-void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, const std::string& note,
-          const RunReport& report) {
+void print(const DiagramArguments& arguments, const io::LoadedDomain& domain, const std::string& note,
+           const RunReport& report) {
   if (arguments.json) {
     fmt::print("{}\n", json_text(as_json(report)));
   } else if (!arguments.quiet) {
@@ -62,15 +54,15 @@ void tell(const DiagramArguments& arguments, const io::LoadedDomain& domain, con
 int run(const DiagramArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls});
   Stopwatch watch;
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
   const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
-  const SeedsView seeds{table.dimension, table.positions, table.weights};
+  const SeedsView seeds = table.view();
   const double read = watch.lap();
 
   Diagram diagram(open_device(arguments), domain.domain, library_options(arguments, "cells"));
   diagram.set_seeds(seeds);
-  // One pass for all that the files are made from; what none of them needs is not computed.
+  // Everything that the files need, in one pass.
   const bool geometry = !arguments.outputs.empty();
   compute(
       [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
@@ -78,8 +70,8 @@ int run(const DiagramArguments& arguments) {
   report.read = read;
   require_partition(report);
   write_files(arguments, diagram, seeds, report);
-  report.build = diagram.device().build_seconds();  // geometry may have needed kernels of its own
-  tell(arguments, domain, table.note, report);
+  report.build = diagram.device().build_seconds();  // writing may have built further kernels
+  print(arguments, domain, table.note, report);
   return 0;
 }
 
@@ -98,8 +90,10 @@ Command add_diagram(CLI::App& app) {
   CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
-  command->add_option("--table", arguments->table, "CSV with one row a seed")->type_name("FILE.csv");
-  command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
+  command->add_option("--table", arguments->table, "CSV with one row for each seed")->type_name("FILE.csv");
+  command
+      ->add_option("--walls", arguments->walls,
+                   "CSV with one row for each side of a wall: seed,neighbor,measure")
       ->type_name("FILE.csv");
   add_common_options(*command, *arguments);
   command->footer(examples);

@@ -11,7 +11,7 @@
 namespace powercell::app {
 namespace {
 
-constexpr int exit_code = 130;  // what shells give for a command ended by Ctrl-C
+constexpr int exit_code = 130;  // as shells report a command ended by Ctrl-C
 std::atomic<bool> asked{false};
 std::atomic<int> computations{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
@@ -21,8 +21,8 @@ extern "C" void on_signal(int) {
   if (computations.load() > 0 && !asked.exchange(true)) return;
   io::remove_unfinished_files();
   constexpr char message[] = "powercell: error: interrupted\n";
-  // Nothing can be done about a failure to tell.
-  [[maybe_unused]] const ssize_t told = write(STDERR_FILENO, message, sizeof(message) - 1);
+  // A failed write cannot be reported.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, sizeof(message) - 1);
   _exit(exit_code);
 }
 
@@ -36,10 +36,10 @@ void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    // Who started us may have asked not to be disturbed (nohup).
+    // The parent may have ignored the signal (nohup).
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  // A reader that has gone away ('powercell devices | head -1') is a failed write, not a death.
+  // A closed pipe ('powercell devices | head -1') makes a write fail instead of ending the process.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

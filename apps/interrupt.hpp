@@ -1,20 +1,21 @@
 /// \file
-/// Ctrl-C leaves no half-written file: a computation is asked to stop at its next progress report;
-/// anything else ends at once, after unfinished files are removed.
+/// Ctrl-C leaves no half-written file. A computation stops at its next progress report; anything else ends at
+/// once, after unfinished files are removed.
 #pragma once
 
 namespace powercell::app {
 
-/// Catches SIGINT, SIGTERM and SIGHUP from now on.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP.
 void catch_interrupts();
 
-/// Whether one came.
+/// Whether a signal has arrived.
 bool interrupted() noexcept;
 
-/// \throw Error interrupted if one came.
+/// \throw Error interrupted if a signal has arrived
 void stop_if_interrupted();
 
-/// While one lives, a first Ctrl-C is left to `interrupted()`; a second one ends the process.
+/// While an object of this class exists, the first signal only sets `interrupted()`; a second one ends the
+/// process.
 class Computing {
  public:
   Computing() noexcept;
@@ -23,7 +24,7 @@ class Computing {
   Computing& operator=(const Computing&) = delete;
 };
 
-/// Runs `work` as a computation. \throw Error interrupted if Ctrl-C came meanwhile
+/// Runs `work` as a computation. \throw Error interrupted if a signal arrived meanwhile
 template <class Work>
 void compute(Work&& work) {
   {

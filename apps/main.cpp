@@ -1,4 +1,4 @@
-// The command line tool: one file a subcommand. Exit codes: 0 done, 1 failed, 2 wrong usage,
+// The command line tool. Each subcommand has a file of its own. Exit codes: 0 done, 1 failed, 2 wrong usage,
 // 130 interrupted.
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/read_file.hpp"
+#include "apps/io/printable.hpp"
 
 namespace {
 
@@ -18,19 +18,19 @@ enum ExitCode { done = 0, failed = 1, wrong_usage = 2, was_interrupted = 130 };
 
 int report(int code, std::string message) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  // Names of files are in messages as they were given.
+  // Messages contain file names as they were given.
   fmt::print(stderr, "powercell: error: {}\n", powercell::io::one_line(std::move(message)));
   return code;
 }
 
-// What is wrong with the arguments, in one line, and where to read on.
+// Reports a fault of the arguments in one line that points to --help.
 int report_usage(const CLI::App& app, const std::exception& error) {
   std::string command = "powercell";
   for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
   std::string what = error.what();
-  // CLI11 says that a subcommand is missing where there is a word that is none.
+  // For a word that is not a subcommand CLI11 reports a missing subcommand.
   if (const auto words = app.remaining(); app.get_subcommands().empty() && !words.empty())
-    what = fmt::format("there is no {} '{}'", words[0].starts_with('-') ? "option" : "command", words[0]);
+    what = fmt::format("unknown {} '{}'", words[0].starts_with('-') ? "option" : "command", words[0]);
   return report(wrong_usage, fmt::format("{} (see '{} --help')", what, command));
 }
 
@@ -42,12 +42,12 @@ int run(int argc, char** argv) {
   app.footer(
       "Examples:\n"
       "  powercell demo                                       pictures of three real shapes\n"
-      "  powercell devices                                    what --device accepts\n"
+      "  powercell devices                                    the devices for --device\n"
       "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
       "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
       "  powercell remesh mesh.off --count 5000 -o new.off    well-shaped triangles\n"
-      "  powercell verify --device cpu                        does this device compute rightly?\n"
-      "  powercell bench                                      how fast?\n"
+      "  powercell verify --device cpu                        does this device compute correctly?\n"
+      "  powercell bench                                      and how fast?\n"
       "  powercell treemap sales.csv -o sales.svg             hierarchical data as nested cells\n"
       "  powercell sample --image photo.png -n 8000 -o dots.svg\n"
       "Environment: POWERCELL_DEVICE, POWERCELL_CACHE_DIR, POWERCELL_CACHE, POWERCELL_LOG (info, detail).");
@@ -73,7 +73,7 @@ int run(int argc, char** argv) {
     return report_usage(app, error);
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    return report(failed, "standard output could not be written whole");
+    return report(failed, "not all of standard output could be written");
   return code;
 }
 
@@ -83,13 +83,13 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const powercell::Error& error) {
-    // Also where that made something else fail: a driver's compiler removes its files when a signal comes.
+    // Also if the signal made something else fail: a driver's compiler removes its files on a signal.
     if (error.code() == powercell::ErrorCode::interrupted || powercell::app::interrupted())
       return report(was_interrupted, "interrupted");
     return report(failed, error.what());
   } catch (const std::bad_alloc&) {
     return report(failed, "out of memory; fewer seeds or a smaller domain may fit");
   } catch (const std::exception& error) {
-    return report(failed, fmt::format("{} (not foreseen: please report)", error.what()));
+    return report(failed, fmt::format("{} (unexpected; please report)", error.what()));
   }
 }

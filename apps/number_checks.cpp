@@ -7,7 +7,7 @@
 namespace powercell::app {
 namespace {
 
-/// \param wanted  completes "is not ..."
+/// \param wanted  completes the message "... is not ..."
 NumberCheck check(std::function<bool(double)> holds, std::string wanted) {
   return [holds = std::move(holds), wanted = std::move(wanted)](const std::string& word) {
     double value = 0;

@@ -1,6 +1,6 @@
 /// \file
-/// Checks of the numbers that options take, for CLI::Option::check(): what is wrong with it, or nothing.
-/// Those of CLI11 tell the limits of doubles with all their 309 digits, and 1e-16 as 0.000000.
+/// Range checks for CLI::Option::check(): they return the fault of a number, empty if it has none. CLI11's
+/// own print the limits of doubles with 309 digits, and 1e-16 as 0.000000.
 #pragma once
 
 #include <functional>

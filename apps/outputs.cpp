@@ -9,14 +9,15 @@
 
 #include "apps/common.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/output.hpp"
 
 namespace powercell::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A pipe or a terminal may be named more than once: what is written goes there one after the other.
-bool goes_on(const std::string& path) {
+/// Pipes and terminals may be named more than once: they receive one output after the other.
+bool is_stream(const std::string& path) {
   std::error_code ignored;
   return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
 }
@@ -33,7 +34,7 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
       return error.what();
     }
   };
-  command.add_option("-o,--output", files, "File to write, as often as wanted: " + kinds)
+  command.add_option("-o,--output", files, "File to write; may be repeated: " + kinds)
       ->check(refusal)
       ->type_name("FILE")
       ->expected(1)
@@ -46,15 +47,24 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
   for (const std::string& path : files) {
     if (path.empty()) continue;
     io::check_can_create(path);
-    if (goes_on(path)) continue;
+    if (is_stream(path)) continue;
     std::error_code ignored;
     const auto [first, is_new] =
         named.emplace(fs::weakly_canonical(fs::absolute(path, ignored), ignored), path);
     if (!is_new)
-      throw WrongUsage(
-          fmt::format("{} and {} are one file, which would hold only what is written last; name another",
-                      first->second, path));
+      throw WrongUsage(fmt::format(
+          "{} and {} are the same file, so one output would overwrite the other; choose another name",
+          first->second, path));
   }
+}
+
+void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
+                   bool weights_as_discs) {
+  if (files.empty()) return;
+  const JoinedCells joined = join(diagram.domain(), diagram.cells());
+  for (const std::string& path : files)
+    io::write_output(path, {diagram.domain(), seeds, diagram.measures(), diagram.cells(), joined,
+                            diagram.adjacency(), weights_as_discs});
 }
 
 }  // namespace powercell::app

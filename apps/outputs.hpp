@@ -1,9 +1,10 @@
 /// \file
-/// The files that a command is to write, before it computes what takes long.
+/// The files that a command writes: checked before a long computation, written after it.
 #pragma once
 
 #include <functional>
 #include <initializer_list>
+#include <powercell/diagram.hpp>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,18 @@ class App;
 
 namespace powercell::app {
 
-/// Adds -o: files to write, as often as wanted. \param kinds  which endings there are, for the help
-/// \param check  throws an Error for a name that says no format: wrong usage
+/// Adds -o, which may be repeated. \param kinds  the known extensions, for the help
+/// \param check  throws an Error for an unknown extension, which is reported as wrong usage
 void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds,
                       std::function<void(const std::string&)> check);
 
-/// Refuses files that cannot be created, and two names of one file. \param more  others; empty names are none
-/// \throw Error write_failed; WrongUsage
+/// Refuses files that cannot be created, and two names for one file. \param more  further files; empty names
+/// are ignored \throw Error write_failed; WrongUsage
 void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more = {});
+
+/// Writes the cells to each of the files, by its extension; computes what the diagram has not yet.
+/// \param weights_as_discs  see io::DiagramOutput
+void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
+                   bool weights_as_discs = true);
 
 }  // namespace powercell::app

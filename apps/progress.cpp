@@ -19,8 +19,8 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string what, bool silent)
-    : what_(std::move(what)), enabled_(!silent && isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(std::string label, bool silent)
+    : label_(std::move(label)), enabled_(!silent && isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
   wipe();
@@ -35,13 +35,13 @@ void ProgressBar::update(double fraction) {
   last_ = now;
   drawn_ = true;
   const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
-  fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} %", what_, "", full, "", width - full, 100 * fraction);
+  fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} %", label_, "", full, "", width - full, 100 * fraction);
   std::fflush(stderr);
 }
 
 void ProgressBar::wipe() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r{: <{}}\r", "", what_.size() + width + 12);
+  fmt::print(stderr, "\r{: <{}}\r", "", label_.size() + width + 12);
   std::fflush(stderr);
   drawn_ = false;
 }

@@ -7,11 +7,11 @@
 
 namespace powercell::app {
 
-/// Drawn only on a terminal and only once the work has taken a while; wiped when the work is done.
+/// Drawn only on a terminal and after some time; erased when the work is done.
 class ProgressBar {
  public:
-  /// \param what  the word beside the bar   \param silent  never draw
-  ProgressBar(std::string what, bool silent);
+  /// \param label  text beside the bar   \param silent  never draw
+  ProgressBar(std::string label, bool silent);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -22,7 +22,7 @@ class ProgressBar {
   using Clock = std::chrono::steady_clock;
   void wipe();
 
-  std::string what_;
+  std::string label_;
   bool enabled_;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now();

@@ -1,4 +1,4 @@
-// powercell remesh: a new mesh of a triangle surface, and how good it is.
+// powercell remesh: a new mesh of a triangle surface, and its quality.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +11,7 @@
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/picture.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/write_triangles.hpp"
@@ -28,7 +29,7 @@ struct RemeshArguments : CommonOptions {
   RemeshOptions remesh;
 };
 
-/// What was made of what, and how well.
+/// The new mesh, its quality and that of the old one.
 struct Outcome {
   RemeshResult result;
   MeshQuality before, after;
@@ -79,14 +80,14 @@ nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
           {"version", version()}};
 }
 
-void tell_quality(const char* name, const MeshQuality& q) {
+void print_quality(const char* name, const MeshQuality& q) {
   fmt::print("{:6} {:>9} {:>9}  {:.3f}  {:.3f}  {:5.1f}  {:6.1f}  {:6.2f} %  {:6.2f} %  {:5}  {:5}{}\n", name,
              with_commas(q.vertices), with_commas(q.triangles), q.q_min, q.q_mean, q.angle_min, q.angle_max,
              100 * q.below_30, 100 * q.regular, q.euler_characteristic, q.boundary_loops,
              q.manifold ? "" : "  not a manifold");
 }
 
-void tell(const RemeshArguments& arguments, const Outcome& o) {
+void print(const RemeshArguments& arguments, const Outcome& o) {
   if (arguments.json) {
     fmt::print("{}\n", json_text(as_json(arguments, o)));
     return;
@@ -94,8 +95,8 @@ void tell(const RemeshArguments& arguments, const Outcome& o) {
   if (arguments.quiet) return;
   fmt::print("{:6} {:>9} {:>9}  {:>5}  {:>5}  {:>5}  {:>6}  {:>8}  {:>8}  {:>5}  {:>5}\n", "", "vertices",
              "triangles", "Q min", "mean", "angle", "max", "below 30", "deg. 5-7", "Euler", "loops");
-  tell_quality("before", o.before);
-  tell_quality("after", o.after);
+  print_quality("before", o.before);
+  print_quality("after", o.after);
   fmt::print("farthest from the input {:.3f} %, the input from it {:.3f} % of the diagonal\n",
              100 * o.mesh_to_input / o.diagonal, 100 * o.input_to_mesh / o.diagonal);
   for (const std::string& path : arguments.outputs) fmt::print("wrote {}\n", path);
@@ -106,8 +107,8 @@ void tell(const RemeshArguments& arguments, const Outcome& o) {
       o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax);
 }
 
-/// The mesh with vertices at one position made one, as the library takes it: only so its topology is that of
-/// the new mesh.
+/// The mesh with vertices at the same position merged, as the library does: only then is its topology
+/// comparable to that of the new mesh.
 TriangleMesh joined(const TriangleMesh& mesh) {
   std::map<std::array<double, 3>, std::uint32_t> number;
   TriangleMesh result;
@@ -121,18 +122,19 @@ TriangleMesh joined(const TriangleMesh& mesh) {
   return result;
 }
 
-/// A mesh of another topology is a fault of the library, and no file of it is written.
+/// A change of topology is a fault of the library; no file is written then.
 void require_same_topology(const Outcome& o) {
   if (!o.after.manifold ||
       (o.before.manifold && (o.after.euler_characteristic != o.before.euler_characteristic ||
                              o.after.boundary_loops != o.before.boundary_loops)))
-    throw Error(ErrorCode::internal, "the new mesh has not the topology of the old one: please report");
+    throw Error(ErrorCode::internal,
+                "the topology of the new mesh differs from that of the old one: please report");
 }
 
 void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
   for (const std::string& path : arguments.outputs) {
     if (io::lower_extension(path) == ".png")
-      io::draw_before_and_after(path, input, mesh);
+      io::write_before_and_after(path, input, mesh);
     else
       io::write_triangles(path, mesh);
   }
@@ -179,7 +181,7 @@ int run(const RemeshArguments& arguments) {
     file.write(json_text(as_json(arguments, outcome)) + "\n");
     file.commit();
   }
-  tell(arguments, outcome);
+  print(arguments, outcome);
   return 0;
 }
 
@@ -189,21 +191,22 @@ constexpr const char* examples =
     "  powercell remesh part.stl --count 20000 --sharp-angle 30 -o part.ply --report quality.json\n"
     "  powercell remesh mesh.obj --count 5000 --method transport -o new.obj\n"
     "  powercell remesh torus:40 --count 3000 --contrast 1 -o even.obj --json\n"
-    "The surface must be a manifold, open or closed; faces of more corners are cut into triangles.";
+    "The surface must be a manifold, open or closed; faces with more than three corners are triangulated.";
 
 void add_shape_options(CLI::App& command, RemeshOptions& options) {
-  command.add_option("--contrast", options.contrast, "Largest ratio of two edge lengths; 1 for an even mesh")
+  command.add_option("--contrast", options.contrast, "Largest ratio of edge lengths; 1 for an even mesh")
       ->capture_default_str();
-  command.add_option("--gradation", options.gradation, "Most that edges grow over a unit of length")
+  command.add_option("--gradation", options.gradation, "Largest growth of edge lengths per unit of length")
       ->capture_default_str();
   command
       .add_option("--sharp-angle", options.sharp_angle,
-                  "Degrees: edges whose two normals differ by more are kept, as boundaries are")
+                  "Degrees: edges whose two normals differ by more are kept, as are boundaries")
       ->capture_default_str();
-  command.add_option("--rounds", options.rounds, "Of the method, at most")->capture_default_str();
-  command.add_option("--relaxations", options.relaxations, "Rounds of the last relaxation")
+  command.add_option("--rounds", options.rounds, "Largest number of rounds of the method")
       ->capture_default_str();
-  command.add_option("--seed", options.random_seed, "Of random choices: the same seed, the same mesh")
+  command.add_option("--relaxations", options.relaxations, "Rounds of the final relaxation")
+      ->capture_default_str();
+  command.add_option("--seed", options.random_seed, "Random seed; the same seed gives the same mesh")
       ->capture_default_str();
 }
 
@@ -211,7 +214,7 @@ void add_shape_options(CLI::App& command, RemeshOptions& options) {
 
 Command add_remesh(CLI::App& app) {
   auto arguments = std::make_shared<RemeshArguments>();
-  CLI::App* command = app.add_subcommand("remesh", "Mesh a surface anew with well-shaped triangles");
+  CLI::App* command = app.add_subcommand("remesh", "Remesh a surface with well-shaped triangles");
   command
       ->add_option(
           "input", arguments->input,
@@ -220,16 +223,16 @@ Command add_remesh(CLI::App& app) {
   command->add_option("--count", arguments->remesh.count, "Vertices of the new mesh")->required();
   command
       ->add_option("--method", arguments->method,
-                   "fpo: each point to the farthest place; transport: cells of equal mass, faster")
+                   "fpo: farthest-point optimisation; transport: cells of equal mass, faster")
       ->check(CLI::IsMember({"fpo", "transport"}))
       ->capture_default_str();
   add_shape_options(*command, arguments->remesh);
   add_output_files(*command, arguments->outputs,
-                   std::string(io::known_triangle_files()) + " for the mesh, .png for both beside each other",
+                   std::string(io::triangle_files) + " for the mesh, .png for both meshes side by side",
                    io::check_triangle_output);
-  command->add_option("--report", arguments->report, "The figures as JSON")->type_name("FILE.json");
-  command->add_option("--device", arguments->device, "For transport: as 'powercell diagram' takes it");
-  command->add_option("--threads", arguments->threads, "For transport: on the host and of PoCL; 0 means all")
+  command->add_option("--report", arguments->report, "Write the figures as JSON")->type_name("FILE.json");
+  command->add_option("--device", arguments->device, "For transport: as in 'powercell diagram'");
+  command->add_option("--threads", arguments->threads, "For transport: on the host and in PoCL; 0 for all")
       ->check(not_below_zero());
   add_output_options(*command, *arguments);
   command->footer(examples);

@@ -93,7 +93,7 @@ void require_partition(const RunReport& report) {
       ErrorCode::internal,
       fmt::format("self-check failed: the measures of the cells sum to {:.17g}, the domain's is {:.17g} "
                   "(relative error {:.1e}, allowed {:.0e}); do not use these results, and please report "
-                  "the input ('powercell verify' tells more)",
+                  "the input ('powercell verify' shows more)",
                   report.measure, report.domain_measure, report.relative_error, allowed));
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// How a run is told: the self-check line for people, one JSON object for programs.
+/// Reports of a run: the self-check line for people, a JSON object for programs.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace powercell::app {
 
-/// Seconds since it was made or last asked.
+/// Seconds since construction or the last call of lap().
 class Stopwatch {
  public:
   double lap();
@@ -19,7 +19,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// What a run did, gathered while it goes.
+/// Figures of a run.
 struct RunReport {
   std::size_t seeds = 0, cells = 0, hidden = 0, duplicate = 0;
   double measure = 0, domain_measure = 0, relative_error = 0;
@@ -29,22 +29,22 @@ struct RunReport {
   std::vector<std::string> files;
 };
 
-/// Fills in everything but the seconds of reading and writing and the files. Computes the measures.
+/// Everything but the seconds of reading and writing and the files. Computes the measures.
 RunReport report_of(Diagram& diagram);
 
-/// The keys that programs may rely on are written down in README.md.
+/// The keys that programs may rely on are written down in docs/guide.md.
 nlohmann::json as_json(const RunReport& report);
 
-/// Indented. Names of files may be no UTF-8: what is not is replaced by U+FFFD.
+/// Indented. File names may not be valid UTF-8: invalid bytes become U+FFFD.
 std::string json_text(const nlohmann::json& json);
 
 /// "4,812 cells, 188 hidden, 0 duplicate; sum of measures / domain = 1 + 2.2e-16; ..."
 std::string self_check_line(const RunReport& report);
 
-/// The relative error allowed to the sum of the measures.
+/// The allowed relative error of the sum of the measures.
 double partition_tolerance(Precision precision);
 
-/// \throw Error internal if the measures do not sum to the domain's within what the precision allows.
+/// \throw Error internal if the measures do not sum to the domain's within partition_tolerance
 void require_partition(const RunReport& report);
 
 }  // namespace powercell::app

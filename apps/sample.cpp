@@ -50,15 +50,14 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
   return options;
 }
 
-void write_cells(const std::string& path, const SampleArguments& arguments, const Device& device,
-                 const Source& source, const SamplingResult& points) {
+void write_cells(const SampleArguments& arguments, const Device& device, const Source& source,
+                 const SamplingResult& points) {
+  if (arguments.cells.empty()) return;
   Diagram diagram(device, source.domain, library_options(arguments, "cells"));
   const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
-  const JoinedCells joined = join(source.domain, diagram.cells());
-  io::write_output(
-      path, {source.domain, seeds, diagram.measures(), diagram.cells(), joined, diagram.adjacency(), false});
+  write_diagram(arguments.cells, diagram, seeds, false);
 }
 
 std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,
@@ -71,10 +70,8 @@ std::vector<std::string> write_files(const SampleArguments& arguments, const Dev
     io::write_points(path, {source.domain, points.positions, points.weights, points.mass, radii});
     written.push_back(path);
   }
-  for (const std::string& path : arguments.cells) {
-    write_cells(path, arguments, device, source, points);
-    written.push_back(path);
-  }
+  write_cells(arguments, device, source, points);
+  written.insert(written.end(), arguments.cells.begin(), arguments.cells.end());
   if (!arguments.analysis.empty()) {
     io::AtomicFile file(arguments.analysis);
     file.write(as_json(study, true).dump() + "\n");
@@ -84,8 +81,8 @@ std::vector<std::string> write_files(const SampleArguments& arguments, const Dev
   return written;
 }
 
-void tell(const SampleArguments& arguments, const Source& source, const Study& study,
-          const std::vector<std::string>& written) {
+void print(const SampleArguments& arguments, const Source& source, const Study& study,
+           const std::vector<std::string>& written) {
   if (arguments.json) {
     nlohmann::json json = as_json(study, false);
     json["points"] = study.runs.front().points.weights.size();
@@ -99,7 +96,7 @@ void tell(const SampleArguments& arguments, const Source& source, const Study& s
   }
 }
 
-/// What was asked for and not reached, of a run that did not converge, and what may help.
+/// For a run that did not converge: the goal that was missed, and advice.
 std::string shortfall(const SamplingResult& points, const SamplingOptions& options) {
   constexpr const char* more = "; allow more with --iterations";
   const SamplingStep& last = points.steps.back();
@@ -114,7 +111,8 @@ std::string shortfall(const SamplingResult& points, const SamplingOptions& optio
   return fmt::format("the mean move is {:.1e}{}", last.gradient, more);
 }
 
-/// Spectra take the square of the number of points: they are told where they take no time, or are asked for.
+/// Spectra take time that grows with the square of the number of points: they are computed for few points or
+/// on request.
 bool wants_spectra(const SampleArguments& arguments) {
   constexpr std::size_t quick = 4096;
   return arguments.periodic && (arguments.count <= quick || !arguments.analysis.empty());
@@ -124,7 +122,7 @@ int run(const SampleArguments& arguments) {
   if (arguments.periodic && !arguments.cells.empty())
     throw Error(
         ErrorCode::invalid_argument,
-        "--cells: cells that go on at the opposite side of a periodic box cannot be written; leave out "
+        "--cells: cells that continue at the opposite side of a periodic box cannot be written; leave out "
         "--cells or --periodic");
   std::vector<std::string> files = arguments.outputs;
   files.insert(files.end(), arguments.cells.begin(), arguments.cells.end());
@@ -136,11 +134,11 @@ int run(const SampleArguments& arguments) {
   const SamplingOptions options = sampling_options(arguments, source);
   const Study study =
       run_study(device, source, arguments.count, options, arguments.runs, wants_spectra(arguments));
-  tell(arguments, source, study, write_files(arguments, device, source, study));
+  print(arguments, source, study, write_files(arguments, device, source, study));
   for (const Run& one : study.runs)
     if (!one.points.converged)
       throw Error(ErrorCode::not_converged,
-                  fmt::format("not converged after {} iterations, the best points are kept: {}",
+                  fmt::format("not converged after {} iterations; the best points found are written: {}",
                               one.points.steps.back().iteration, shortfall(one.points, options)));
   return 0;
 }
@@ -152,19 +150,19 @@ constexpr const char* examples =
     "  powercell sample -n 2000 --domain disk --density 'exp(-4*(x^2+y^2))' -o dots.png --cells cells.svg\n"
     "  powercell sample -n 500 --domain part.mesh --mode quantise --iterations 50 --movement 0 -o "
     "points.csv\n"
-    "  powercell sample --paper 2        the 2D experiment of Xiao et al. 2023; --paper 3 the one in space";
+    "  powercell sample --paper 2        the 2D experiment of Xiao et al. 2023; --paper 3 for 3D";
 
 void add_source(CLI::App& command, SourceArguments& source) {
   command.add_option("--domain", source.domain,
-                     "As in 'powercell diagram'; the unit square, or the image, if not given");
+                     "As in 'powercell diagram'. Default: the unit square, or the box of the image");
   command
       .add_option("--kind", source.kind,
-                  "What a file is that could be more than one: polygon, surface or volume")
+                  "polygon, surface or volume, for files that can be read as more than one")
       ->check(CLI::IsMember({"polygon", "surface", "volume"}));
   add_density_options(command, source);
   command
       .add_option("--dot-contrast", source.dot_contrast,
-                  "Image: 0 for equal dots, up to 0.9 for ever more different ones; ink is the same")
+                  "Image: from 0 for equal dots to 0.9 for the largest differences; the ink is the same")
       ->check(between(0, 0.9))
       ->needs("--image");
   command
@@ -179,7 +177,7 @@ void add_source(CLI::App& command, SourceArguments& source) {
 Command add_sample(CLI::App& app) {
   auto arguments = std::make_shared<SampleArguments>();
   CLI::App* command =
-      app.add_subcommand("sample", "Blue noise: points whose cells all have the same mass of a density");
+      app.add_subcommand("sample", "Blue noise: points whose cells have equal masses of a density");
   command->add_option("-n,--points", arguments->count, "Number of points")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}));
   add_source(*command, arguments->source);
@@ -188,23 +186,25 @@ Command add_sample(CLI::App& app) {
   command->add_option("--descent", arguments->descent, "lloyd or lbfgs")
       ->check(CLI::IsMember({"lloyd", "lbfgs"}));
   command->add_flag("--periodic", arguments->periodic,
-                    "Opposite sides of the box are one; uniform density only");
-  command->add_option("--iterations", arguments->iterations, "Moves at most; 0: by the mode")
+                    "Identify opposite sides of the box; uniform density only");
+  command
+      ->add_option("--iterations", arguments->iterations, "Largest number of moves; 0 for the mode's default")
       ->check(not_below_zero());
   command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at, 0.4 to 0.99")
       ->check(between(0.4, 0.99));
   command
       ->add_option("--movement", arguments->movement,
-                   "quantise: end below this move over the spacing; 0: never")
+                   "quantise: stop when points move less than this part of the spacing; 0 for never")
       ->check(not_below_zero());
-  command->add_option("--tolerance", arguments->tolerance, "Of the masses, relative, 1e-12 to 0.1")
+  command->add_option("--tolerance", arguments->tolerance, "Relative tolerance of the masses, 1e-12 to 0.1")
       ->check(between(1e-12, 0.1));
-  command->add_option("--random", arguments->random_seed, "Seed of the points to start from");
+  command->add_option("--random", arguments->random_seed, "Random seed of the initial points");
   command
       ->add_option("--runs", arguments->runs,
-                   "Samplings, with random seeds counting up; figures are averaged")
+                   "Number of samplings, with consecutive random seeds; figures are averaged")
       ->check(CLI::Range(1, 1000));
-  add_output_files(*command, arguments->outputs, ".svg .png .pdf .csv .txt, of the points of the first run",
+  add_output_files(*command, arguments->outputs,
+                   std::string(io::point_outputs) + ", of the points of the first run",
                    io::check_points_format);
   command
       ->add_option("--cells", arguments->cells, "Cells of the first run, as 'powercell diagram' writes them")

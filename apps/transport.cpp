@@ -1,4 +1,4 @@
-// powercell transport: the weights of prescribed masses, from files to files.
+// powercell transport: the weights that give cells prescribed masses, from files to files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "apps/common.hpp"
 #include "apps/density_choice.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/names.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_masses.hpp"
@@ -38,7 +39,7 @@ const std::map<std::string, LinearSolver> solvers = {{"auto", LinearSolver::auto
                                                      {"direct", LinearSolver::direct},
                                                      {"multilevel", LinearSolver::multilevel}};
 
-/// Which part of the way from the first error to the tolerance is done; errors fall by factors.
+/// Progress from the first error to the tolerance, on a logarithmic scale.
 double fraction_done(const TransportStep& step, double first_error, double tolerance) {
   if (!(step.error > tolerance)) return 1;
   return std::clamp(std::log(first_error / step.error) / std::log(first_error / tolerance), 0.0, 1.0);
@@ -57,7 +58,7 @@ TransportOptions solver_options(const TransportArguments& arguments, const Domai
   const double tolerance = arguments.tolerance > 0 ? arguments.tolerance : 1e-6;
   options.progress = [bar, tolerance, first = 0.0](const TransportStep& step) mutable {
     first = std::max(first, step.error);
-    // Steps towards blends of the density say nothing of what is left.
+    // Steps with a blended density do not show how much is left.
     if (step.spread == 0) bar->update(fraction_done(step, first, tolerance));
     return !interrupted();
   };
@@ -72,16 +73,8 @@ struct TransportReport {
 void write_files(const TransportArguments& arguments, TransportSolver& solver, const SeedsView& seeds,
                  RunReport& report) {
   const auto written = [&report](const std::string& path) { report.files.push_back(path); };
-  if (!arguments.outputs.empty()) {
-    Diagram& diagram = solver.diagram();
-    const JoinedCells joined = join(diagram.domain(), diagram.cells());
-    const io::DiagramOutput output{diagram.domain(),    seeds, diagram.measures(), diagram.cells(), joined,
-                                   diagram.adjacency(), false};
-    for (const std::string& path : arguments.outputs) {
-      io::write_output(path, output);
-      written(path);
-    }
-  }
+  write_diagram(arguments.outputs, solver.diagram(), seeds, false);
+  report.files = arguments.outputs;
   if (!arguments.table.empty()) {
     io::write_transport_table(arguments.table, seeds, solver.result());
     written(arguments.table);
@@ -179,7 +172,7 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 int run(const TransportArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log});
   Stopwatch watch;
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
   const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
   std::vector<double> masses;
@@ -190,7 +183,7 @@ int run(const TransportArguments& arguments) {
   const double read = watch.lap();
 
   TransportSolver solver(open_device(arguments), domain.domain, options);
-  solver.set_seeds({table.dimension, table.positions, table.weights});
+  solver.set_seeds(table.view());
   solver.set_masses(masses);
   watch.lap();
   compute([&] { solver.solve(); });
@@ -229,26 +222,24 @@ constexpr const char* examples =
     "  powercell transport --domain square --seeds s.csv --density 'exp(-8*((x-.5)^2+(y-.5)^2))' --log "
     "steps.jsonl\n"
     "  powercell transport --domain square --seeds random:500 --image photo.png -o cells.svg\n"
-    "The table holds weights, so that it can be the --seeds of a later run and of 'powercell diagram'.";
+    "The table contains weights and can be used as --seeds, here and in 'powercell diagram'.";
 
 void add_solver_options(CLI::App& command, TransportArguments& arguments) {
   command
-      .add_option(
-          "--masses", arguments.masses,
-          "Table with one mass a seed, in their order: one column, or one named 'mass'; else equal masses")
+      .add_option("--masses", arguments.masses,
+                  "Table with one mass for each seed, in their order: one column, or one named 'mass'. "
+                  "Default: equal masses")
       ->type_name("FILE.csv");
   command.add_option("--mass-column", arguments.mass_column, "Name of that column")->needs("--masses");
   command.add_flag("--rescale", arguments.rescale,
-                   "Masses are ratios: multiply them so that they sum to the domain's mass");
+                   "Masses are ratios: scale them to sum to the domain's mass");
   add_density_options(command, arguments.density);
   command
       .add_option("--tolerance", arguments.tolerance,
-                  "Largest relative error of a mass; 1e-6 (single precision: 1e-3) if not given")
+                  "Largest relative error of a mass. Default: 1e-6 (single precision: 1e-3)")
       ->check(between(1e-16, 0.999));
-  command.add_option("--max-steps", arguments.most_steps, "Steps at most")->check(not_below_zero());
-  command
-      .add_option("--linear", arguments.linear,
-                  "What solves the linear systems: auto, dense, direct or multilevel")
+  command.add_option("--max-steps", arguments.most_steps, "Largest number of steps")->check(not_below_zero());
+  command.add_option("--linear", arguments.linear, "Linear solver: auto, dense, direct or multilevel")
       ->check(CLI::IsMember({"auto", "dense", "direct", "multilevel"}));
 }
 
@@ -256,15 +247,18 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
 
 Command add_transport(CLI::App& app) {
   auto arguments = std::make_shared<TransportArguments>();
-  CLI::App* command = app.add_subcommand("transport", "Find the weights with which cells have given masses");
+  CLI::App* command = app.add_subcommand("transport", "Find the weights that give cells prescribed masses");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
   add_solver_options(*command, *arguments);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
-  command->add_option("--table", arguments->table, "CSV with one row a seed: weight, mass, centroid, ...")
+  command
+      ->add_option("--table", arguments->table, "CSV with one row for each seed: weight, mass, centroid, ...")
       ->type_name("FILE.csv");
-  command->add_option("--walls", arguments->walls, "CSV with one row a wall and side: seed,neighbor,measure")
+  command
+      ->add_option("--walls", arguments->walls,
+                   "CSV with one row for each side of a wall: seed,neighbor,measure")
       ->type_name("FILE.csv");
-  command->add_option("--log", arguments->log, "JSON Lines: one object a step of the solver")
+  command->add_option("--log", arguments->log, "JSON Lines: one object for each step of the solver")
       ->type_name("FILE.jsonl");
   add_common_options(*command, *arguments);
   command->footer(examples);

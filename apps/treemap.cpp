@@ -40,7 +40,7 @@ std::vector<std::string> dropped_ids(const io::NamedTree& tree, const Treemap& m
   return ids;
 }
 
-/// \param hue  gets the numbers of the branches for their hues
+/// \param hue  output: the numbers that choose the hues of the branches
 Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, const Ring& outline,
                 std::vector<std::int64_t>& hue) {
   TreemapOptions options;
@@ -56,7 +56,7 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
     options.start = start;
     hue = earlier.hue;
   }
-  // A device is opened only for groups that need one.
+  // A device is opened only if there is a large group.
   std::vector<std::size_t> children(tree.size());
   for (const std::int64_t parent : tree.parent)
     if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
@@ -73,8 +73,8 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
   return map;
 }
 
-void tell_json(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
-               const Seconds& seconds) {
+void print_json(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
+                const Seconds& seconds) {
   std::vector<std::string> unsolved;
   for (const std::size_t i : map.not_converged) unsolved.push_back(tree.id[i]);
   const nlohmann::json report = {
@@ -95,8 +95,8 @@ void tell_json(const io::NamedTree& tree, const Treemap& map, const std::vector<
   fmt::print("{}\n", json_text(report));
 }
 
-void tell(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
-          const Seconds& seconds) {
+void print(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
+           const Seconds& seconds) {
   for (const std::string& note : tree.notes) fmt::print("{}\n", note);
   const std::vector<std::string> dropped = dropped_ids(tree, map);
   if (!dropped.empty()) {
@@ -126,15 +126,15 @@ int run(const TreemapArguments& arguments) {
     io::write_treemap(path, {tree, map, hue}, {arguments.size, !arguments.no_labels});
   seconds.write = watch.lap();
   if (arguments.json)
-    tell_json(tree, map, arguments.outputs, seconds);
+    print_json(tree, map, arguments.outputs, seconds);
   else if (!arguments.quiet)
-    tell(tree, map, arguments.outputs, seconds);
+    print(tree, map, arguments.outputs, seconds);
   if (!map.not_converged.empty())
     throw Error(
         ErrorCode::not_converged,
         fmt::format(
             "the children of '{}'{} have areas that are off by more than the tolerance, at worst {:.2g} %; "
-            "what was written is the best found",
+            "the files hold the best layout found",
             tree.id[map.not_converged.front()],
             map.not_converged.size() == 1 ? "" : fmt::format(" and of {} more", map.not_converged.size() - 1),
             100 * map.worst_error));
@@ -149,7 +149,7 @@ constexpr const char* examples =
     "  powercell treemap new.csv --previous old-layout.json -o new.svg -o new-layout.json\n"
     "A table has rows id, parent, name, value; JSON is nested {name, children, value} or a list of such "
     "rows.\n"
-    "Areas are exact; what has no value above 0 is dropped and named.";
+    "Areas are exact; nodes without a value above 0 are dropped and listed.";
 
 }  // namespace
 
@@ -159,32 +159,32 @@ Command add_treemap(CLI::App& app) {
   command->add_option("tree", arguments->tree, "A table (.csv .txt .tsv), .json, or a folder")
       ->required()
       ->type_name("TREE");
-  add_output_files(*command, arguments->outputs, std::string(io::known_treemap_outputs()),
-                   io::check_treemap_output);
+  add_output_files(*command, arguments->outputs, std::string(io::treemap_outputs), io::check_treemap_output);
   command
       ->add_option("--shape", arguments->shape,
-                   "W:H, circle, hexagon, circle:N (N corners), or a file with one convex polygon")
+                   "W:H, circle, circle:N (N corners), hexagon, or a file with one convex polygon")
       ->capture_default_str();
   command
       ->add_option("--previous", arguments->previous,
-                   "An earlier layout (.json) to stay close to, in its colours, matched by id")
+                   "An earlier layout (.json) whose positions and colours are kept as far as possible, by id")
       ->type_name("FILE.json");
   command
-      ->add_option("--rounds", arguments->rounds, "Rounds of moving cells at most; more makes them rounder")
+      ->add_option("--rounds", arguments->rounds,
+                   "Largest number of rounds of moving cells; more give rounder cells")
       ->check(not_below_zero())
       ->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "Largest relative error of an area")
       ->check(above_zero())
       ->capture_default_str();
-  command->add_option("--seed", arguments->random_seed, "Where cells start: another number, another layout")
+  command->add_option("--seed", arguments->random_seed, "Random seed of the initial positions")
       ->capture_default_str();
   command->add_option("--size", arguments->size, "Long side of the picture in pixels")
       ->check(between(64, 20000))
       ->capture_default_str();
   command->add_flag("--no-labels", arguments->no_labels, "No names in the picture");
   command->add_option("--device", arguments->device,
-                      "For groups of thousands: part of a device's name, P:D, cpu or gpu");
-  command->add_option("--threads", arguments->threads, "Threads on the host; 0 means all")
+                      "For groups of thousands of nodes: part of a device's name, P:D, cpu or gpu");
+  command->add_option("--threads", arguments->threads, "Threads on the host; 0 for all")
       ->check(not_below_zero());
   add_output_options(*command, *arguments);
   command->footer(examples);

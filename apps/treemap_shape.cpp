@@ -25,7 +25,7 @@ std::optional<Ring> rectangle(const std::string& spec) {
     return std::nullopt;
   if (!(width > 0) || !(height > 0))
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("--shape {}: width and height have to be above 0", spec));
+                fmt::format("--shape {}: width and height must be above 0", spec));
   return Ring{{0, 0}, {width, 0}, {width, height}, {0, height}};
 }
 
@@ -50,7 +50,7 @@ Ring treemap_shape(const std::string& spec) {
   if (spec == "hexagon") return disk(6);
   const io::LoadedDomain loaded = io::read_domain(spec);
   if (loaded.domain.kind() != DomainKind::polygon)
-    throw Error(ErrorCode::invalid_domain, fmt::format("{}: a treemap needs a flat polygon around it", spec));
+    throw Error(ErrorCode::invalid_domain, fmt::format("{}: the shape of a treemap must be a polygon", spec));
   if (loaded.parts.size() != 1 || !loaded.parts.front().holes.empty())
     throw Error(
         ErrorCode::invalid_domain,

@@ -1,4 +1,4 @@
-// powercell verify: checks a device, a diagram of given files, or a saved diagram by the laws.
+// powercell verify: checks a device, a diagram of given files, or a saved diagram against the laws.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/names.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/number_checks.hpp"
@@ -26,7 +27,7 @@ struct VerifyArguments : CommonOptions {
   std::uint64_t random_seed = 1;
 };
 
-// Checks of one diagram under a title such as "sphere, equal weights".
+// The laws of one diagram under a title such as "sphere, equal weights".
 struct Checked {
   std::string title;
   std::vector<LawCheck> laws;
@@ -37,7 +38,7 @@ bool passed(const Checked& checked) {
                      [](const LawCheck& law) { return law.passed; });
 }
 
-// Random positions in the box of the domain, a little beyond it, so that some seeds lie outside.
+// Random positions in a box slightly larger than the domain's, so that some seeds lie outside.
 std::vector<double> random_positions(const Domain& domain, std::size_t count, std::mt19937_64& random) {
   const auto low = domain.low(), high = domain.high();
   std::uniform_real_distribution<double> unit(-0.02, 1.02);
@@ -48,7 +49,7 @@ std::vector<double> random_positions(const Domain& domain, std::size_t count, st
   return positions;
 }
 
-// Weights of either sign, spread over `spread` squares of the mean spacing: at 4 about half of the
+// Weights of either sign, over a range of `spread` squares of the mean spacing; with 4 about half of the
 // seeds are hidden.
 std::vector<double> random_weights(const Domain& domain, std::size_t count, double spread,
                                    std::mt19937_64& random) {
@@ -60,7 +61,7 @@ std::vector<double> random_weights(const Domain& domain, std::size_t count, doub
   return weights;
 }
 
-void tell(const Checked& checked, bool quiet) {
+void print(const Checked& checked, bool quiet) {
   if (quiet) return;
   fmt::print("{}\n", checked.title);
   for (const LawCheck& law : checked.laws) {
@@ -70,7 +71,7 @@ void tell(const Checked& checked, bool quiet) {
   }
 }
 
-// The laws on one diagram, told at once.
+// Checks one diagram and prints the laws.
 Checked check(const VerifyArguments& arguments, const Device& device, const Domain& domain,
               const SeedsView& seeds, std::string title) {
   Checked checked{std::move(title), {}};
@@ -79,7 +80,7 @@ Checked check(const VerifyArguments& arguments, const Device& device, const Doma
     diagram.set_seeds(seeds);
     checked.laws = verify(diagram, seeds, {arguments.samples, arguments.random_seed});
   });
-  tell(checked, arguments.quiet || arguments.json);
+  print(checked, arguments.quiet || arguments.json);
   return checked;
 }
 
@@ -100,11 +101,10 @@ std::vector<Checked> check_device(const VerifyArguments& arguments, const Device
 }
 
 std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
   const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
   if (!table.note.empty() && !arguments.quiet && !arguments.json) fmt::print("{}\n", table.note);
-  const SeedsView seeds{table.dimension, table.positions, table.weights};
-  return {check(arguments, device, domain.domain, seeds,
+  return {check(arguments, device, domain.domain, table.view(),
                 fmt::format("{} with {}", arguments.domain, arguments.seeds))};
 }
 
@@ -112,7 +112,7 @@ std::vector<Checked> check_saved_file(const VerifyArguments& arguments) {
   const Precision precision = arguments.precision == "float" ? Precision::float32 : Precision::float64;
   Checked checked{arguments.file, check_saved(read_saved(arguments.file), precision,
                                               {arguments.samples, arguments.random_seed})};
-  tell(checked, arguments.quiet || arguments.json);
+  print(checked, arguments.quiet || arguments.json);
   return {std::move(checked)};
 }
 
@@ -145,7 +145,7 @@ int conclude(const VerifyArguments& arguments, const std::string& subject, const
 
 int run(const VerifyArguments& arguments) {
   if (!arguments.file.empty() && !(arguments.domain + arguments.seeds).empty())
-    throw WrongUsage("give a saved diagram, or --domain and --seeds, not both");
+    throw WrongUsage("give either a saved diagram or --domain and --seeds");
   if (arguments.domain.empty() != arguments.seeds.empty())
     throw WrongUsage(
         "--domain and --seeds go together: give both, or neither to check "
@@ -162,17 +162,17 @@ int run(const VerifyArguments& arguments) {
 Command add_verify(CLI::App& app) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command =
-      app.add_subcommand("verify", "Check a device, or a saved diagram, by the laws of power diagrams");
+      app.add_subcommand("verify", "Check a device or a saved diagram against the laws of power diagrams");
   command->add_option("FILE", arguments->file,
-                      "A diagram saved by 'diagram -o FILE.json'; its precision by --precision");
+                      "A diagram saved by 'diagram -o FILE.json'; --precision is that of its computation");
   add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, false);
-  command->add_option("--count", arguments->count, "Random seeds of each diagram that checks a device")
+  command
+      ->add_option("--count", arguments->count, "Number of random seeds in each diagram that checks a device")
       ->check(above_zero())
       ->capture_default_str();
-  command
-      ->add_option("--samples", arguments->samples, "Random points whose owner is sought by trying all seeds")
+  command->add_option("--samples", arguments->samples, "Number of random points at which all seeds are tried")
       ->capture_default_str();
-  command->add_option("--random-seed", arguments->random_seed, "Start of all random numbers")
+  command->add_option("--random-seed", arguments->random_seed, "Seed of all random numbers")
       ->capture_default_str();
   add_common_options(*command, *arguments);
   command->footer(
@@ -180,7 +180,7 @@ Command add_verify(CLI::App& app) {
       "  powercell verify                                     the default device\n"
       "  powercell verify --device gpu --precision float --count 100000\n"
       "  powercell verify --domain part.mesh --seeds grains.txt\n"
-      "  powercell verify cells.json                          a saved diagram, from its numbers alone\n"
+      "  powercell verify cells.json                          a saved diagram\n"
       "Exits with 1 if a law is broken.");
   return [arguments] { return run(*arguments); };
 }

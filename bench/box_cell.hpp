@@ -1,6 +1,6 @@
 /// \file
-/// A power cell in a box cut by its known neighbours, in double: the part of a peer's work that a
-/// triangulation does not do by itself.
+/// Clips a box to a power cell whose neighbours are known, in double: the part of a peer's work that its
+/// triangulation does not do.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,11 @@
 
 namespace powercell::bench {
 
-/// Area of box ∩ cell of seed i, where `neighbors` are all seeds whose bisectors bound the cell.
+/// Area of the intersection of the box and the cell of seed i.
+/// \param neighbors  all seeds whose bisectors with i bound the cell
 double cell_area_in_box(const SeedsView& seeds, std::size_t i, std::span<const std::uint32_t> neighbors,
                         const test::Box& box);
-/// Volume of the same in space, with voro++'s cell.
+/// The volume, for seeds in space, by voro++'s cell.
 double cell_volume_in_box(const SeedsView& seeds, std::size_t i, std::span<const std::uint32_t> neighbors,
                           const test::Box& box);
 

@@ -1,5 +1,5 @@
-# Sourced by run_*.sh: builds the benchmarks in build/bench and sets $matrix and $build. `./setup.sh bench`
-# installs what they need.
+# Sourced by run_*.sh: builds the benchmarks in build/bench and sets $here, $build and $matrix. `./setup.sh bench`
+# installs their packages.
 here=$(cd "$(dirname "$0")/.." && pwd)
 build=$here/build/bench
 matrix=$build/bench/powercell_matrix

@@ -1,6 +1,6 @@
-// campaign_cgal --cells 10000000: random diagrams, over dimensions, weights, distributions and precisions,
-// against CGAL's regular triangulation (exact predicates): simplices, neighbours and hidden seeds must be the
-// same, without a tolerance. Prints a line a work; exits 1 on any difference.
+// campaign_cgal --cells 10000000: compares random diagrams of all dimensions, weights, distributions and
+// precisions with CGAL's regular triangulation (exact predicates). Simplices, neighbours and hidden seeds
+// must be the same, without a tolerance. Prints a line for each combination; exits 1 on any difference.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
@@ -17,9 +17,9 @@ using namespace powercell::test;
 
 namespace {
 
-/// Room around the unit box for the corners of cells at the hull.
+/// The domain, with room around the unit box for the corners of cells at the hull.
 constexpr double low_side = -1.5, high_side = 2.5;
-/// Of a simplex whose centre is nearer to the side of the room, the room's own rounding decides.
+/// Simplices whose centre is this close to the boundary of the domain are not compared: rounding decides.
 constexpr long double side_margin = 1e-9L;
 
 struct Work {
@@ -38,7 +38,7 @@ struct Tally {
   }
 };
 
-using Simplex = std::array<std::uint32_t, 4>;  // ascending; in the plane the last is 2^32 - 1
+using Simplex = std::array<std::uint32_t, 4>;  // ascending; in 2D the last is 2^32 - 1
 
 std::set<Simplex> sorted_simplices(const std::vector<std::uint32_t>& corners, std::size_t width) {
   std::set<Simplex> all;
@@ -54,21 +54,21 @@ std::set<Simplex> sorted_simplices(const std::vector<std::uint32_t>& corners, st
 
 enum class Place { inside, outside, at_side };
 
-/// Where the point of equal power distance to the corners lies.
+/// Where the centre of the simplex, the point of equal power distance to its corners, lies.
 Place place_of(const Simplex& simplex, const SeedArray& seeds) {
   const int d = seeds.dimension;
   long double a[3][4];
   for (int r = 0; r < d; ++r) {
-    long double level = static_cast<long double>(seeds.weights[simplex[0]]) -
-                        seeds.weights[simplex[static_cast<std::size_t>(r) + 1]];
+    long double offset = static_cast<long double>(seeds.weights[simplex[0]]) -
+                         seeds.weights[simplex[static_cast<std::size_t>(r) + 1]];
     for (int k = 0; k < d; ++k) {
       const long double q =
           static_cast<long double>(seeds.coordinate(simplex[static_cast<std::size_t>(r) + 1], k)) -
           seeds.coordinate(simplex[0], k);
       a[r][k] = 2 * q;
-      level += q * q;
+      offset += q * q;
     }
-    a[r][d] = level;
+    a[r][d] = offset;
   }
   for (int c = 0; c < d; ++c) {
     int best = c;
@@ -92,8 +92,8 @@ Place place_of(const Simplex& simplex, const SeedArray& seeds) {
   return place;
 }
 
-/// All of CGAL's simplices with their centre in the room, and no others; and what follows for walls and
-/// hidden seeds.
+/// The dual must have all of CGAL's simplices with their centre inside the domain and no simplex that CGAL
+/// lacks; walls and hidden seeds must agree with these.
 void compare(Tally& tally, Diagram& diagram, const SeedArray& seeds, const RegularTriangulation& cgal) {
   const auto width = static_cast<std::size_t>(seeds.dimension) + 1;
   const std::set<Simplex> ours = sorted_simplices(diagram.dual().simplices, width),
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
   std::size_t cells = 1000000, n = 20000;
   std::uint64_t seed = 1;
   CLI::App app("Random power diagrams against CGAL's regular triangulation, without a tolerance");
-  app.add_option("--cells", cells, "In all, shared by the 36 works")->capture_default_str();
+  app.add_option("--cells", cells, "In total, over the 36 combinations")->capture_default_str();
   app.add_option("--n", n, "Seeds of a diagram")->capture_default_str();
   app.add_option("--seed", seed, "Of the random numbers")->capture_default_str();
   CLI11_PARSE(app, argc, argv);

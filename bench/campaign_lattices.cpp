@@ -1,13 +1,12 @@
-// campaign_lattices --k 100: lattices of some k^3 seeds in all places, in both precisions, where every
-// decision is a tie: cells against their known measure, both sides of walls, the dual as a triangulation, and
-// what it cost. Exits 1 on a fault.
-#include <sys/resource.h>
-
+// campaign_lattices --k 100: diagrams of lattices of about k^3 seeds, where every decision is a tie, in all
+// positions and both precisions. Checks cells against their known measure, walls from both sides and that the
+// dual is a triangulation, and prints the time. Exits 1 on a fault.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <powercell/diagram.hpp>
 
+#include "bench/clocks.hpp"
 #include "tests/exact/check_triangulation.hpp"
 #include "tests/exact/lattices.hpp"
 
@@ -16,14 +15,7 @@ using namespace powercell::test;
 
 namespace {
 
-double processor_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
-/// Walls that are not the same from both sides, or of no extent.
+/// The number of walls that differ between their two sides or have no extent.
 std::size_t wall_faults(const Adjacency& a) {
   std::size_t faults = 0;
   for (std::uint32_t i = 0; i + 1 < a.offset.size(); ++i)
@@ -44,9 +36,9 @@ bool run(const Device& device, const Lattice& lattice, const Place& place, Preci
   options.precision = precision;
   Diagram diagram(device, room_for(place, lattice.dimension), options);
   diagram.set_seeds(seeds.array.view());
-  const double start = processor_seconds();
+  const double start = bench::processor_seconds();
   diagram.compute(true, with_dual);
-  const double spent = processor_seconds() - start;
+  const double spent = bench::processor_seconds() - start;
   const double cell = std::pow(place.scale / static_cast<double>(lattice.k), lattice.dimension) /
                       static_cast<double>(lattice.basis.size());
   double worst = 0;
@@ -70,7 +62,7 @@ int main(int argc, char** argv) {
   std::string only, where, real;
   bool without_dual = false;
   CLI::App app("Lattices, where every decision is a tie");
-  app.add_option("--k", k, "Periods of the cubic lattice along an axis; the others get about as many seeds")
+  app.add_option("--k", k, "Periods of the cubic lattice along an axis; the others have about as many seeds")
       ->capture_default_str();
   app.add_option("--only", only, "Only the lattice of this name");
   app.add_option("--place", where, "Only the place of this name");

@@ -1,5 +1,5 @@
 /// \file
-/// CGAL's regular triangulation of seeds in space, on one thread or with its parallel insertion.
+/// CGAL's regular triangulation of seeds in space, on one thread or with CGAL's parallel insertion.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

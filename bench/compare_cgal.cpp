@@ -1,12 +1,12 @@
-// compare_cgal --n 100000 --dim 3 --weights W1: one large random diagram in the unit box against CGAL
-// (adjacency, hidden seeds) and voro++ (volumes). Prints counts of differences; exits 1 on any.
+// compare_cgal --n 100000 --dim 3 --weights W1: compares one large random diagram in the unit box with CGAL
+// (adjacency, hidden seeds) and voro++ (volumes). Prints the numbers of differences; exits 1 on any.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <powercell/diagram.hpp>
 
+#include "bench/clocks.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/cgal.hpp"
 #include "tests/support/domains.hpp"
@@ -17,8 +17,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// A wall below this share of the mean one (and a cell below this share of the mean cell) may be there
-/// or not: it is made of rounding.
+/// A wall or cell below this fraction of the mean one may be missing or extra: rounding decides.
 constexpr double negligible = 1e-12;
 
 struct Arguments {
@@ -58,13 +57,13 @@ Arguments parse(int argc, char** argv) {
 }
 
 struct Counts {
-  std::size_t missing = 0;   ///< walls of CGAL's that the diagram lacks
+  std::size_t missing = 0;   ///< walls of CGAL that the diagram lacks
   std::size_t extra = 0;     ///< walls that CGAL lacks
-  std::size_t optional = 0;  ///< one-sided but negligible
+  std::size_t optional = 0;  ///< walls and cells of one side only, but negligible
   std::size_t hidden = 0;    ///< seeds hidden on one side only
-  std::size_t volumes = 0;  ///< cells that differ from voro++'s by more than 1e-7 of the mean, which it keeps
-  double worst_wall = 0;    ///< largest difference of a wall, relative to the mean one
-  double worst_mass = 0;    ///< largest difference of a cell, relative to the mean one
+  std::size_t volumes = 0;   ///< cells that differ from voro++'s by more than its accuracy, 1e-7 of the mean
+  double worst_wall = 0;     ///< largest difference of a wall, relative to the mean wall
+  double worst_mass = 0;     ///< largest difference of a cell, relative to the mean cell
   double worst_voro = 0;
   std::size_t total() const { return missing + extra + hidden + volumes; }
 };
@@ -106,10 +105,6 @@ double mean_wall(const ReferenceDiagram& reference) {
   return reference.wall.empty() ? 1 : static_cast<double>(sum / static_cast<Real>(reference.wall.size()));
 }
 
-double since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 int run(const Arguments& a) {
   Random random(a.seed);
   const SeedArray seeds = random_seeds(a.distribution, a.weights, a.n, a.dimension, random);
@@ -117,15 +112,16 @@ int run(const Arguments& a) {
   options.precision = a.precision;
   options.neighbors = a.neighbors;
   Diagram diagram(Device::choose(), unit_box(a.dimension), options);
-  auto start = std::chrono::steady_clock::now();
+  double start = bench::wall_seconds();
   diagram.set_seeds(seeds.view());
   diagram.measures();
   diagram.adjacency();
-  std::printf("powercell: %.2f s on %s\n", since(start), diagram.device().info().name.c_str());
+  std::printf("powercell: %.2f s on %s\n", bench::wall_seconds() - start,
+              diagram.device().info().name.c_str());
 
-  start = std::chrono::steady_clock::now();
+  start = bench::wall_seconds();
   const RegularTriangulation cgal = regular_triangulation(seeds.view());
-  std::printf("CGAL: %.2f s\n", since(start));
+  std::printf("CGAL: %.2f s\n", bench::wall_seconds() - start);
   const ReferenceDiagram reference =
       cut_by_candidates(box_mesh(a.dimension), seeds.view(), cgal.offset, cgal.neighbor, cgal.hidden);
   const std::vector<double> voro = a.dimension == 3 && a.precision == Precision::float64

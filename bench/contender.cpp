@@ -24,14 +24,14 @@ class Ours : public Contender {
       : seeds_(seeds), diagram_(device(), domain, options) {}
 
   void prepare() override {
-    // A few seeds build every kernel; the first timed run pays for the buffers, as the peers' runs do.
+    // A few seeds build every kernel. Buffers grow in the first timed run, as those of the peers do.
     const std::size_t few = std::min<std::size_t>(seeds_.size(), 2000),
                       d = static_cast<std::size_t>(seeds_.dimension);
     diagram_.set_seeds(
         {seeds_.dimension, std::span(seeds_.positions).first(few * d), std::span(seeds_.weights).first(few)});
     compute();
     if (stage != "weights") return;
-    // The same weights turned round: nothing can be kept but what depends on positions alone.
+    // The same weights in reverse order: only what depends on positions alone can be kept.
     other_weights_.assign(seeds_.weights.rbegin(), seeds_.weights.rend());
     diagram_.set_seeds(seeds_.view());
     compute();
@@ -96,7 +96,7 @@ class Peer : public Contender {
     const double sum = std::accumulate(measures_.begin(), measures_.end(), 0.0);
     return std::abs(sum / domain_measure_ - 1);
   }
-  double tolerance() const override { return 1e-7; }  // their constructions and cuts are not exact
+  double tolerance() const override { return 1e-7; }  // constructions and cuts of peers are not exact
   std::size_t output_bytes() override { return bytes_of(measures_); }
 
  private:

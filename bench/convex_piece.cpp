@@ -10,29 +10,18 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 /// The point of the segment where the excess is 0.
 Vec3 crossing(const Vec3& a, double excess_a, const Vec3& b, double excess_b) {
-  const double t = excess_a / (excess_a - excess_b);
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+  return a + excess_a / (excess_a - excess_b) * (b - a);
 }
 
-/// How far each point lies beyond the bisector. \return how many do
+/// Computes how far each point lies beyond the bisector. \return the number of those that do
 template <class Points>
-std::size_t find_excess(const Points& points, const double* q, double offset, std::vector<double>& excess) {
+std::size_t find_excess(const Points& points, const Vec3& q, double offset, std::vector<double>& excess) {
   excess.resize(points.size());
   std::size_t outside = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vec3& y = points[k].at;
-    excess[k] = q[0] * y[0] + q[1] * y[1] + q[2] * y[2] - offset;
+    excess[k] = dot(q, points[k].at) - offset;
     outside += excess[k] > 0;
   }
   return outside;
@@ -52,7 +41,7 @@ void PolygonPiece::start(const Vec3* corners) {
   for (std::uint32_t k = 0; k < 3; ++k) ring_.push_back({corners[k], k});
 }
 
-Cut PolygonPiece::cut(const double* q, double offset, std::uint32_t border) {
+Cut PolygonPiece::cut(const Vec3& q, double offset, std::uint32_t border) {
   const std::size_t outside = find_excess(ring_, q, offset, excess_);
   if (outside == 0) return Cut::untouched;
   if (outside == ring_.size()) return Cut::nothing_left;
@@ -75,11 +64,9 @@ double PolygonPiece::largest_square() const {
 
 double PolygonPiece::measure() const {
   Vec3 twice{};
-  for (std::size_t k = 2; k < ring_.size(); ++k) {
-    const Vec3 part = cross(minus(ring_[k - 1].at, ring_[0].at), minus(ring_[k].at, ring_[0].at));
-    for (std::size_t c = 0; c < 3; ++c) twice[c] += part[c];
-  }
-  return 0.5 * std::sqrt(dot(twice, twice));
+  for (std::size_t k = 2; k < ring_.size(); ++k)
+    twice = twice + cross(ring_[k - 1].at - ring_[0].at, ring_[k].at - ring_[0].at);
+  return 0.5 * norm(twice);
 }
 
 void PolygonPiece::borders(std::vector<std::uint32_t>& list) const {
@@ -87,10 +74,9 @@ void PolygonPiece::borders(std::vector<std::uint32_t>& list) const {
 }
 
 void PolyhedronPiece::start(const Vec3* corners) {
-  const Vec3 edges[3] = {minus(corners[1], corners[0]), minus(corners[2], corners[0]),
-                         minus(corners[3], corners[0])};
-  const bool positive = dot(cross(edges[0], edges[1]), edges[2]) > 0;
-  // Facet k lies opposite corner k. Of the positive corners (v, u, s, t), facet s is left of the edge v u.
+  const bool positive =
+      dot(cross(corners[1] - corners[0], corners[2] - corners[0]), corners[3] - corners[0]) > 0;
+  // Facet k is opposite corner k. For positive corners (v, u, s, t), facet s is to the left of the edge v u.
   static constexpr std::uint32_t to[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   static constexpr std::uint32_t left[4][3] = {{2, 3, 1}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}};
   static constexpr std::uint32_t other[4][3] = {{3, 1, 2}, {2, 0, 3}, {3, 0, 1}, {1, 0, 2}};
@@ -105,7 +91,7 @@ void PolyhedronPiece::start(const Vec3* corners) {
   border_ = {0, 1, 2, 3};
 }
 
-Cut PolyhedronPiece::cut(const double* q, double offset, std::uint32_t border) {
+Cut PolyhedronPiece::cut(const Vec3& q, double offset, std::uint32_t border) {
   const std::size_t outside = find_excess(vertices_, q, offset, excess_);
   if (outside == 0) return Cut::untouched;
   const std::size_t count = vertices_.size();
@@ -121,7 +107,7 @@ Cut PolyhedronPiece::cut(const double* q, double offset, std::uint32_t border) {
       const Vertex& far = vertices_[u];
       const std::size_t back = far.to[0] == v ? 0 : far.to[1] == v ? 1 : 2;
       const std::uint32_t right = far.left[back];
-      // Edges of a new vertex: back to v, along the face on the left, and along the new face.
+      // Edges of the new vertex: back to v, along the face to the left, and along the new face.
       const Vertex made{crossing(vertices_[v].at, excess_[v], far.at, excess_[u]),
                         {v, none, none},
                         {right, vertices_[v].left[e], face}};
@@ -140,12 +126,12 @@ void PolyhedronPiece::link_new_vertices(std::size_t first, std::uint32_t face) {
   of_face_.assign(face, none);
   for (std::size_t w = first; w < vertices_.size(); ++w) {
     std::uint32_t& slot = of_face_[vertices_[w].left[1]];
-    if (slot != none) throw std::runtime_error("a cut leaves a face twice");
+    if (slot != none) throw std::runtime_error("rounding makes a cut leave a face twice");
     slot = static_cast<std::uint32_t>(w);
   }
   for (std::size_t w = first; w < vertices_.size(); ++w) {
     const std::uint32_t partner = of_face_[right_[w - first]];
-    if (partner == none) throw std::runtime_error("a cut does not come back into a face");
+    if (partner == none) throw std::runtime_error("rounding makes a cut leave a face without entering it");
     vertices_[w].to[2] = partner;
     vertices_[partner].to[1] = static_cast<std::uint32_t>(w);
   }
@@ -168,7 +154,7 @@ double PolyhedronPiece::largest_square() const {
   return largest_square_of(vertices_);
 }
 
-/// Tetrahedra from the first vertex to the triangles that each face's first vertex makes with its edges.
+/// Sums the tetrahedra from the first vertex to the triangles of each face, which are fans around a vertex.
 double PolyhedronPiece::measure() {
   of_face_.assign(border_.size(), none);
   for (std::uint32_t v = 0; v < vertices_.size(); ++v)
@@ -182,13 +168,13 @@ double PolyhedronPiece::measure() {
   double six_times = 0;
   for (std::uint32_t face = 0; face < of_face_.size(); ++face) {
     const std::uint32_t first = of_face_[face];
-    if (first == none || first == 0) continue;  // faces at the apex add nothing
-    const Vec3 a = minus(vertices_[first].at, apex);
+    if (first == none || first == 0) continue;  // faces at the apex contribute nothing
+    const Vec3 a = vertices_[first].at - apex;
     std::uint32_t v = next(first, face);
-    Vec3 b = minus(vertices_[v].at, apex), twice{};
+    Vec3 b = vertices_[v].at - apex, twice{};
     for (v = next(v, face); v != first; v = next(v, face)) {
-      const Vec3 c = minus(vertices_[v].at, apex), part = cross(minus(b, a), minus(c, a));
-      for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
+      const Vec3 c = vertices_[v].at - apex;
+      twice = twice + cross(b - a, c - a);
       b = c;
     }
     six_times += dot(a, twice);
@@ -197,7 +183,7 @@ double PolyhedronPiece::measure() {
 }
 
 void PolyhedronPiece::borders(std::vector<std::uint32_t>& list) const {
-  // A face that is left is the left one of some edge; those that come first are enough for each.
+  // Each remaining face is to the left of an edge at each of its vertices; repetitions do no harm.
   for (const Vertex& v : vertices_)
     for (const std::uint32_t face : v.left) list.push_back(border_[face]);
 }

@@ -1,29 +1,30 @@
 /// \file
-/// Convex polygons in space and convex polyhedra that are cut by bisectors, fast, for the peers. Coordinates
-/// are relative to a seed. A border is a facet of the region (0 to 3) or, from `first_link` on, a bisector.
+/// Convex polygons in space and convex polyhedra, cut by bisectors, for the peers. Coordinates are relative
+/// to a seed. A border is a facet of the region (0 to 3) or, from `first_link` on, a bisector.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "lib/base/vectors.hpp"
+
 namespace powercell::bench {
 
-using Vec3 = std::array<double, 3>;
+using Vec3 = Vector3<double>;
 inline constexpr std::uint32_t first_link = 4;
 
 enum class Cut { untouched, smaller, nothing_left };
 
-/// A triangle and what is left of it.
+/// A triangle, then what the cuts leave of it.
 class PolygonPiece {
  public:
   void start(const Vec3* corners);
-  /// Keeps q . y <= offset.
-  Cut cut(const double* q, double offset, std::uint32_t border);
-  double largest_square() const;  ///< of the distance of a point of the piece from the seed
+  /// Keeps the points y with q . y <= offset; the new edge has the given border.
+  Cut cut(const Vec3& q, double offset, std::uint32_t border);
+  double largest_square() const;  ///< largest squared distance of a point of the piece from the seed
   double measure() const;
-  /// The borders that are left are appended.
+  /// Appends the borders of the piece.
   void borders(std::vector<std::uint32_t>& list) const;
 
  private:
@@ -35,20 +36,20 @@ class PolygonPiece {
   std::vector<double> excess_;
 };
 
-/// A tetrahedron and what is left of it, as a graph in which every vertex has three edges.
+/// A tetrahedron, then what the cuts leave of it, as a graph in which every vertex has three edges.
 class PolyhedronPiece {
  public:
-  /// In either orientation.
+  /// The tetrahedron may have either orientation.
   void start(const Vec3* corners);
-  /// \throw std::runtime_error when rounding made the cut contradict itself
-  Cut cut(const double* q, double offset, std::uint32_t border);
+  /// \throw std::runtime_error if rounding makes the cut inconsistent
+  Cut cut(const Vec3& q, double offset, std::uint32_t border);
   double largest_square() const;
   double measure();
   void borders(std::vector<std::uint32_t>& list) const;
 
  private:
   /// Edge e goes to vertex `to[e]` and has the face `left[e]` on its left, seen from outside. Each of the
-  /// three faces at a vertex is the left one of one edge.
+  /// three faces at a vertex is to the left of one edge.
   struct Vertex {
     Vec3 at;
     std::array<std::uint32_t, 3> to, left;
@@ -58,10 +59,9 @@ class PolyhedronPiece {
 
   std::vector<Vertex> vertices_;
   std::vector<double> excess_;
-  std::vector<std::uint32_t> border_;  ///< per face, also of those that are gone
-  std::vector<std::uint32_t>
-      right_;  ///< of each new vertex: the face on the right of the edge it was made on
-  std::vector<std::uint32_t> of_face_;  ///< a vertex of each face; `none` where there is none
+  std::vector<std::uint32_t> border_;   ///< per face, including faces cut off
+  std::vector<std::uint32_t> right_;    ///< per new vertex: the face to the right of the edge that it lies on
+  std::vector<std::uint32_t> of_face_;  ///< a vertex of each face, or `none`
   std::vector<std::uint32_t> renumbered_;
 };
 

@@ -1,5 +1,5 @@
-// Prints a hash of the results of some eighty runs: diagrams of every kind of domain, and the applications.
-// A change that is meant to keep results prints the same lines before and after it:
+// Prints a hash of the results of 161 runs: diagrams of every kind of domain, and the applications.
+// A change that must not alter results prints the same lines before and after it:
 //   diagram_bits examples/data >before; (change, build); diagram_bits examples/data | diff before -
 #include <bit>
 #include <cmath>
@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "apps/io/read_domain.hpp"
+#include "lib/base/random.hpp"
 
 namespace {
 
 using namespace powercell;
 
-/// FNV-1a over the bytes of values. All NaN count as one, since no operation promises their bits.
+/// FNV-1a over the bytes of values. All NaN hash alike, since no operation specifies their bits.
 class Hash {
  public:
   void add(std::uint64_t word) {
@@ -75,26 +76,24 @@ void add(Hash& hash, const JoinedCells& c) {
   hash.add(c.edge_border);
 }
 
+void print_hash(const std::string& name, const Hash& hash) {
+  std::printf("%-60s %016llx\n", name.c_str(), static_cast<unsigned long long>(hash.value()));
+  std::fflush(stdout);
+}
 template <class... Results>
 void print(const std::string& name, const Results&... results) {
   Hash hash;
   (add(hash, results), ...);
-  std::printf("%-60s %016llx\n", name.c_str(), static_cast<unsigned long long>(hash.value()));
-  std::fflush(stdout);
-}
-void print_hash(const std::string& name, const Hash& hash) {
-  std::printf("%-60s %016llx\n", name.c_str(), static_cast<unsigned long long>(hash.value()));
-  std::fflush(stdout);
+  print_hash(name, hash);
 }
 
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
   double uniform() {  // splitmix64
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
+    const std::uint64_t bits = mixed_bits(state_);
+    state_ += 0x9e3779b97f4a7c15u;
+    return unit_from_bits(bits);
   }
 
  private:
@@ -107,7 +106,8 @@ struct Seeds {
   SeedsView view() const { return {dimension, positions, weights}; }
 };
 
-/// Uniform in the domain's box grown by a twentieth. \param spread  of the weights, in squares of the spacing
+/// Uniform in the domain's bounding box enlarged by a twentieth on each side.
+/// \param spread  range of the weights, in squares of the mean spacing
 Seeds random_seeds(const Domain& domain, std::size_t n, double spread) {
   Random random(n + 17);
   const auto d = static_cast<std::size_t>(domain.dimension());
@@ -125,7 +125,7 @@ Seeds random_seeds(const Domain& domain, std::size_t n, double spread) {
   return seeds;
 }
 
-/// A regular grid with some seeds at one place: all ties.
+/// A regular grid, where every decision is a tie, and three duplicates.
 Seeds lattice(const Domain& domain, int across) {
   const auto d = static_cast<std::size_t>(domain.dimension());
   Seeds seeds{domain.dimension(), {}, {}};

@@ -1,5 +1,5 @@
-// The shortest program with a result: measures of a thousand cells in the cube. What is timed from outside is
-// all that a user waits for: loading, opening the device with its self-test, kernels from the cache.
+// The shortest program with a result: measures of a thousand cells in the cube. Timed from outside, it
+// includes loading, opening the device with its self-test, and reading kernels from the cache.
 #include <cstdint>
 #include <cstdio>
 #include <powercell/powercell.hpp>
@@ -18,9 +18,9 @@ int main() try {
   diagram.set_seeds({3, positions, {}});
   const double error = diagram.measures().relative_error();
   if (error < 1e-4) return 0;
-  std::fprintf(stderr, "the measures are off by %g\n", error);
+  std::fprintf(stderr, "first_result: the sum of the measures has a relative error of %g\n", error);
   return 1;
 } catch (const powercell::Error& error) {
-  std::fprintf(stderr, "%s\n", error.what());
+  std::fprintf(stderr, "first_result: %s\n", error.what());
   return 1;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3 -B
-"""The table of goals with what was measured beside them, as markdown. Usage: goals.py [--cpu] FILE.json..."""
+"""Prints the goals and the measured values as a Markdown table. Usage: goals.py [--cpu] FILE.json..."""
 
 import math
 import sys
@@ -8,7 +8,7 @@ from results import Results, count, fields_of
 
 ALL_WEIGHTS = ["W0", "W1", "W2"]
 
-# name, domain, distributions, numbers of seeds, at least, aim: times as fast as the best peer
+# name, domain, distributions, numbers of seeds, goal, aim: times as fast as the fastest peer
 RATIO_ROWS = [
     ("cube, 1e5 and 1e6, white and blue, W0 W1 W2", "box3", ["white", "blue"], [10**5, 10**6], 2, 3),
     ("cube, 1e5 and 1e6, cluster, W0 W1 W2", "box3", ["cluster"], [10**5, 10**6], 1.5, 3),
@@ -26,7 +26,7 @@ def verdict(value, least, aim, smaller_is_better=False):
 
 
 def work_ratio(results, work):
-    """(ratio to the best peer, that peer) of one work; None where one of the two is missing."""
+    """(ratio to the fastest peer, that peer) for one work; None if one of the two is missing."""
     ours = results.fastest(results.select(part="ratios", stage="adjacency", provider="tree", **fields_of(work)))
     peer = results.fastest(results.select(part="ratios", peer=True, **fields_of(work)))
     return (peer[0] / ours[0], peer[1]) if ours and peer else None
@@ -47,12 +47,12 @@ def ratio_rows(results):
         worst = min(ratios, key=lambda work: ratios[work][0])
         mean = math.exp(sum(math.log(r) for r, _ in ratios.values()) / len(ratios))
         _, distribution, weights, n = worst
-        note = f"least at {distribution} {weights} {count(n)}, beside {ratios[worst][1]}; mean {mean:.2f}"
+        note = f"lowest at {distribution} {weights} {count(n)}, against {ratios[worst][1]}; mean {mean:.2f}"
         value = ratios[worst][0]
         reached = verdict(value, least, aim)
         if len(ratios) < len(works):
             note += f"; {len(ratios)} of {len(works)} works"
-            reached = f"in part: {reached}"
+            reached = f"partly: {reached}"
         yield name, *goal, f"{value:.2f} ×", reached, note
 
 
@@ -71,7 +71,7 @@ def growth_rows(results):
         micro = ", ".join(f"{count(n)}: {1e6 * cells[n]:.2f} µs" for n in sizes)
         title += f", {count(sizes[0])} → {count(sizes[-1])}"
         yield (title, "< 1.5 ×", "1.1 ×", f"{value:.2f} ×", verdict(value, 1.5, 1.1, True),
-               f"largest rise, {count(a)} → {count(b)}; {micro}")
+               f"largest increase: {count(a)} → {count(b)}; {micro}")
 
 
 def memory_rows(results):
@@ -81,7 +81,7 @@ def memory_rows(results):
             with_adjacency = results.select(part="memory", domain=domain, stage="adjacency", provider="tree",
                                             n=r["n"])
             note = "".join(f"with adjacency {a['bytes_per_seed']:.0f}" for a in with_adjacency)
-            yield (f"memory beyond input and output, measures only, {name} {count(r['n'])}", "400 bytes a seed",
+            yield (f"memory beyond input and output, measures only, {name} {count(r['n'])}", "400 bytes per seed",
                    "150", f"{value:.0f}", verdict(value, 400, 150, True), note)
 
 
@@ -91,8 +91,8 @@ def other_rows(results):
     if cold and warm:
         value = cold[0] / warm[0]
         n = results.select(part="weights")[0]["n"]
-        yield (f"weights changed, positions not (3D, {count(n)})", "1.5 × faster than cold", "2.5 ×",
-               f"{value:.2f} ×", verdict(value, 1.5, 2.5), f"{cold[0]:.2f} s cold, {warm[0]:.2f} s")
+        yield (f"only the weights changed (3D, {count(n)})", "1.5 × as fast as with new seeds", "2.5 ×",
+               f"{value:.2f} ×", verdict(value, 1.5, 2.5), f"{cold[0]:.2f} s new seeds, {warm[0]:.2f} s new weights")
     for r in results.select(part="start"):
         value = min(r["seconds"])
         yield ("start to first result, warm cache", "0.3 s", "0.1 s", f"{value:.3f} s",
@@ -110,8 +110,8 @@ def main(arguments):
     results = Results([a for a in arguments if a != "--cpu"], estimate=cpu)
     context = results.context
     print(f"{context['device']}, {context['host_threads']} threads, revision {context['revision']}. Double "
-          "precision. Ours: measures and adjacency, packed tree; peers: volumes alone, the fastest of all in the "
-          "same run" + ("; guessed from processor times" if cpu else "") + ".\n")
+          "precision. powercell: measures and adjacency, packed tree; peers: volumes only, the fastest of the same "
+          "run" + ("; estimated from processor times" if cpu else "") + ".\n")
     print("| workload | at least | aim | measured | reached | |\n|---|---|---|---:|---|---|")
     for make in (ratio_rows, growth_rows, memory_rows, other_rows):
         for row in make(results):

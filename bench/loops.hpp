@@ -1,5 +1,5 @@
 /// \file
-/// The loops of peers that exist on one thread and on all.
+/// Loops on one thread and on all, for peers that exist in both variants.
 #pragma once
 
 #include <tbb/parallel_for.h>

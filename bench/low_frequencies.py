@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Mean power below several cut-offs: of a `powercell sample --periodic --analysis FILE.json`, and of plain Lloyd
-iterations (Voronoi cells, no capacities) from as many random points, over as many runs.
+"""Prints the mean power below several cut-off frequencies: of the spectrum that `powercell sample --periodic --analysis
+FILE.json` wrote, and of plain Lloyd iterations (Voronoi cells, no capacities) of as many random points and runs.
 
 usage: low_frequencies.py FILE.json [LLOYD_ITERATIONS ...]
 """
@@ -17,7 +17,7 @@ COPIES = [(0, 0)] + [shift for shift in itertools.product((-1, 0, 1), repeat=2) 
 
 
 def centroids(points):
-    """Of the Voronoi cells of points in the periodic unit square."""
+    """Centroids of the Voronoi cells of points in the periodic unit square."""
     margin = 6 / math.sqrt(len(points))
     copies = np.concatenate([points + shift for shift in COPIES])
     kept = np.all((copies > -margin) & (copies < 1 + margin), axis=1)

@@ -1,5 +1,5 @@
-// Times this library and its peers on the same seeds in one process, in turns, and writes JSON, of which
-// report.py makes tables and plots. run_matrix.sh and run_goals.sh call it with what they need.
+// Times this library and its peers on the same seeds in one process, in turns, and writes JSON. run_matrix.sh
+// and run_goals.sh call it and make tables and plots of the JSON with matrix_table.py, plots.py and goals.py.
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
@@ -46,29 +46,29 @@ void add_works(CLI::App& app, Arguments& a) {
   app.add_option(
       "--ours", a.options.ours,
       "stage:provider; stages measures, adjacency (with measures), weights (as adjacency, but only "
-      "the weights are new); providers tree, flann");
+      "the weights change); providers tree, flann");
   app.add_option("--peer", a.options.only_peers,
-                 "these peers only: cgal, cgal-parallel, voro++, voro++-parallel");
-  app.add_flag("--no-peers", a.no_peers, "this library alone");
+                 "only these peers: cgal, cgal-parallel, voro++, voro++-parallel");
+  app.add_flag("--no-peers", a.no_peers, "only this library");
   app.add_flag("--float,!--double", a.single, "precision of this library");
 }
 
 void add_turns(CLI::App& app, Arguments& a) {
   app.add_option("--out", a.out, "the JSON file")->required();
-  app.add_option("--part", a.options.part, "a word for the report, with each result");
-  app.add_option("--rounds", a.options.rounds, "at most so many runs of each")->check(CLI::Range(1, 1000));
-  app.add_option("--least-rounds", a.options.least_rounds, "so many runs of each, however long they take");
-  app.add_option("--seconds", a.options.seconds, "no further round of one work after so many seconds");
+  app.add_option("--part", a.options.part, "the part of the report that the results belong to");
+  app.add_option("--rounds", a.options.rounds, "the most runs of each")->check(CLI::Range(1, 1000));
+  app.add_option("--least-rounds", a.options.least_rounds, "the fewest runs of each, however long they take");
+  app.add_option("--seconds", a.options.seconds, "time limit for one work, after which no round is begun");
   app.add_option("--drop", a.options.drop,
-                 "leave out who took so many times as long as the best peer at fewer seeds");
+                 "leave out contenders that took this many times as long as the best peer at fewer seeds");
 }
 
 int run(int argc, char** argv) {
   Arguments a;
-  CLI::App app{"Benchmarks of powercell beside its peers"};
+  CLI::App app{"Benchmarks of powercell and its peers"};
   app.require_subcommand(1);
-  CLI::App* time = app.add_subcommand("time", "seconds of each way of doing each work");
-  CLI::App* memory = app.add_subcommand("memory", "peak memory of each way, in fresh processes");
+  CLI::App* time = app.add_subcommand("time", "seconds of each contender for each work");
+  CLI::App* memory = app.add_subcommand("memory", "peak memory of each contender, in fresh processes");
   CLI::App* start = app.add_subcommand("start", "time from start to first result of a fresh process");
   CLI::App* child = app.add_subcommand("memory-child", "one process of 'memory'")->group("");
   for (CLI::App* sub : {time, memory, child}) add_works(*sub, a);
@@ -77,7 +77,7 @@ int run(int argc, char** argv) {
   a.options.peers = !a.no_peers;
   a.options.precision = a.single ? Precision::float32 : Precision::float64;
 
-  // As many threads for the peers as the processor device has.
+  // The peers get as many threads as the CPU device has.
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     std::thread::hardware_concurrency());
   if (child->parsed()) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3 -B
-"""Everybody's times and our ratios as markdown. Usage: matrix_table.py FILE.json..."""
+"""Prints all times and the ratios of powercell's as Markdown tables. Usage: matrix_table.py FILE.json..."""
 
 import sys
 
@@ -10,7 +10,7 @@ NAMES = {"box2": "square", "box3": "cube", "surface": "surface", "tets": "tetrah
 
 
 def seconds(results, **wanted):
-    """(time, text) of one record; (None, "–") where nobody was asked, "> n×" where it was left out as too slow."""
+    """(time, text) of one record; (None, "–") if there is none, (None, "slow") if it was left out as too slow."""
     records = results.select(**wanted)
     if not records:
         return None, "–"
@@ -46,7 +46,7 @@ def print_growth(results):
         if not records:
             continue
         sizes = sorted({r["n"] for r in records})
-        print(f"\nMicroseconds a cell, {NAMES[domain]}, white, W1\n")
+        print(f"\nMicroseconds per cell, {NAMES[domain]}, white, W1\n")
         print("| | " + " | ".join(count(n) for n in sizes) + " |\n|---|" + "---:|" * len(sizes))
         for stage, provider in dict.fromkeys((r["stage"], r["provider"]) for r in records):
             found = {r["n"]: 1e6 * results.time(r) / r["n"] for r in records
@@ -59,8 +59,8 @@ def print_memory(results):
     records = results.select(part="memory")
     if not records:
         return
-    print("\nPeak of a fresh process beyond input and output, bytes a seed, white, W1\n")
-    print("| domain | n | stage | provider | bytes a seed |\n|---|---:|---|---|---:|")
+    print("\nPeak memory of a fresh process beyond input and output, bytes per seed, white, W1\n")
+    print("| domain | n | stage | provider | bytes per seed |\n|---|---:|---|---|---:|")
     for r in records:
         print(f"| {NAMES[r['domain']]} | {count(r['n'])} | {r['stage']} | {r['provider']} | "
               f"{r['bytes_per_seed']:.0f} |")
@@ -70,10 +70,10 @@ def main(paths):
     results = Results(paths)
     context = results.context
     print(f"{context['device']}, {context['host_threads']} threads, revision {context['revision']}. Seconds, double "
-          "precision, least of the runs of each, taken in turns. Ours: packed tree, measures, then with adjacency. "
-          "Peers: volumes alone. The ratios are of ours with adjacency to the fastest peer and to FLANN's lists "
-          "with adjacency (above 1: ours is faster). \"slow\": left out after 4 times the time of the best peer at "
-          "fewer seeds (8 times below 1e5).\n")
+          "precision, least of several runs, taken in turns. powercell: packed tree, measures, then with adjacency. "
+          "Peers: volumes only. The ratios are the times of the fastest peer and of FLANN's lists with adjacency, "
+          "divided by powercell's with adjacency (above 1: powercell is faster). \"slow\": left out because it took "
+          "more than 4 times as long as the fastest peer at fewer seeds (8 times below 1e5).\n")
     print_ratios(results)
     print_growth(results)
     print_memory(results)

@@ -40,7 +40,7 @@ Triangulation triangulate(const SeedsView& seeds) {
   return Triangulation(points.begin(), points.end());
 }
 
-/// Area of the polygon of the dual points around a vertex; negative when one of them is not inside the box.
+/// Area of the polygon of the dual points around a vertex; negative if one of them is not inside the box.
 double area_of_dual(const Triangulation& t, Triangulation::Vertex_handle vertex) {
   auto first = t.incident_faces(vertex), at = first;
   if (!at->info().inside) return -1;

@@ -27,7 +27,8 @@ class BoxCells {
   }
 
  private:
-  /// Computes the dual point of each finite cell and says which seeds' cells reach the box's faces.
+  /// Computes the dual point of each finite cell and marks the seeds whose power cells reach the faces of the
+  /// box.
   void place_dual_points() {
     for_each_(cells_.size(), [&](std::size_t k) {
       if (t_.is_infinite(cells_[k])) return;
@@ -43,12 +44,12 @@ class BoxCells {
     }
   }
 
-  /// A facet's dual is an edge of three walls. Adds the tetrahedra that it makes with the foot of each wall
-  /// and the seeds on both sides; signed, as a seed may lie outside its cell.
+  /// The dual of a facet is an edge of three walls. For each of them adds the tetrahedra of this edge, the
+  /// foot of the wall and the seeds on both sides; signed, since a seed may lie outside its cell.
   void add_facets(typename Cgal::Cell_handle c) {
     for (int k = 0; k < 4; ++k) {
       const auto other = c->neighbor(k);
-      // Each facet once: a cell without its own dual point never has uncut seeds, so either side will do.
+      // Each facet once. If a dual point is not inside, all seeds of its cell are cut: nothing to add.
       if (!(c < other) || !c->info().inside || !other->info().inside) continue;
       const auto x = c->info().point;
       const auto edge = x - other->info().point;  // so that walls are oriented along q

@@ -26,7 +26,8 @@ double cell_volume_in_box(const SeedsView& seeds, std::size_t i, std::span<const
 
 namespace {
 
-/// Fills a container with blocks of about five seeds, as voro++ advises. Radii are square roots of weights.
+/// A container with blocks of about five seeds, as voro++'s documentation advises. Radii are square roots of
+/// weights.
 std::unique_ptr<voro::container_poly> fill_container(const SeedsView& seeds, const Box& box) {
   constexpr double seeds_per_block = 5;
   const std::size_t n = seeds.size();
@@ -42,7 +43,7 @@ std::unique_ptr<voro::container_poly> fill_container(const SeedsView& seeds, con
   return container;
 }
 
-/// Measures the cells of rows of blocks that `next_row` hands out.
+/// Measures the cells of one row of blocks after the other, taken from `next_row`.
 void measure_rows(const SeedsView& seeds, const Box& box, std::atomic<int>& next_row,
                   std::vector<double>& measures) {
   const auto container = fill_container(seeds, box);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
-"""Plots of what powercell_matrix measured. Usage: plots.py FOLDER FILE.json..., writes ratios.png, growth.png and
-memory.png as far as there are results for them."""
+"""Plots the results of powercell_matrix. Usage: plots.py FOLDER FILE.json...; writes ratios.png, growth.png and
+memory.png if there are results for them."""
 
 import math
 import os
@@ -19,7 +19,7 @@ COLORS = {"tree": "#0b6e4f", "flann": "#8d99ae", "cgal": "#e07a5f", "cgal-parall
 
 
 def ratio_of(results, work, against):
-    """Our speed relative to the best peer ("peer") or to FLANN's lists; None where one is missing."""
+    """powercell's speed relative to the fastest peer ("peer") or to FLANN's lists; None if one is missing."""
     wanted = dict(part="ratios", **fields_of(work))
     ours = results.fastest(results.select(stage="adjacency", provider="tree", **wanted))
     if against == "peer":
@@ -70,7 +70,7 @@ def plot_growth(results, path):
         axis.set_xscale("log")
         axis.set_ylim(0, 1.3 * axis.get_ylim()[1])  # room for the legend
         axis.set_xlabel("seeds")
-        axis.set_ylabel("microseconds a cell")
+        axis.set_ylabel("microseconds per cell")
         axis.set_title(f"{NAMES[domain]}, white, W1", fontsize=10)
         axis.legend(fontsize=8)
         axis.grid(alpha=0.3)
@@ -91,7 +91,7 @@ def plot_memory(results, path):
     axis.invert_yaxis()
     axis.margins(x=0.12)
     axis.tick_params(labelsize=8)
-    axis.set_xlabel("peak beyond input and output, bytes a seed")
+    axis.set_xlabel("peak memory beyond input and output, bytes per seed")
     figure.tight_layout()
     figure.savefig(path, dpi=130)
     return True

@@ -1,6 +1,7 @@
-// Google Benchmark driver. Names: stage/domain/distribution/weights/precision/provider/n, chosen with
-// --benchmark_filter. Peers run on the same seeds in the same process. Every benchmark checks the sum of
-// the measures that it timed. Comparisons with the peers, in turns and as tables: run_matrix.sh.
+// Google Benchmark driver. Benchmarks are named stage/domain/distribution/weights/precision/provider/n;
+// select with
+// --benchmark_filter. Peers run on the same seeds in the same process. Every benchmark checks the sum of the
+// measures that it timed. run_matrix.sh compares with the peers, in turns and as tables.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -21,7 +22,7 @@ void check_sum(benchmark::State& state, const std::vector<double>& measures, dou
   const double sum = std::accumulate(measures.begin(), measures.end(), 0.0);
   if (!(std::abs(sum - domain) <= tolerance * domain))
     state.SkipWithError(
-        ("the measures sum to " + std::to_string(sum) + ", not " + std::to_string(domain)).c_str());
+        ("the sum of the measures is " + std::to_string(sum) + ", not " + std::to_string(domain)).c_str());
 }
 
 void count_cells(benchmark::State& state, std::size_t n) {
@@ -42,7 +43,7 @@ void report_parts(benchmark::State& state, const Timings& t) {
 
 using Step = std::function<void(Diagram&, const SeedArray&)>;
 
-/// The steps that are timed; each starts from seeds in host memory and ends with results there.
+/// The timed steps, from seeds in host memory to results in host memory.
 const std::vector<std::pair<std::string, Step>>& stages() {
   static const std::vector<std::pair<std::string, Step>> list = {
       {"measures", [](Diagram& d, const SeedArray& s) { d.set_seeds(s.view()), d.measures(); }},
@@ -61,7 +62,7 @@ void time_powercell(benchmark::State& state, const Work& work, const Options& op
     Diagram diagram(device(), domain, options);
     diagram.set_seeds(seeds.view());
     const double built = device().build_seconds();
-    step(diagram, seeds);  // builds the kernels and grows the buffers, not timed
+    step(diagram, seeds);  // not timed: builds the kernels and grows the buffers
     state.counters["build_s"] = device().build_seconds() - built;
     Timings timings;
     for (auto _ : state) {
@@ -82,7 +83,8 @@ void time_peer(benchmark::State& state, const Work& work, const std::string& pro
   const SeedArray seeds = seeds_of(work);
   const auto peer = peer_contender(provider, work, measure, seeds);
   for (auto _ : state) peer->run();
-  if (!(peer->relative_error() <= peer->tolerance())) state.SkipWithError("the measures do not sum up");
+  if (!(peer->relative_error() <= peer->tolerance()))
+    state.SkipWithError("the sum of the measures is not the measure of the domain");
   count_cells(state, work.n);
 }
 

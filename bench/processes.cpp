@@ -4,18 +4,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "bench/clocks.hpp"
+
 namespace powercell::bench {
 
 namespace {
 
-/// Runs a program without a shell; stdout is returned. \throw std::runtime_error if it fails
+/// Runs a program without a shell and returns its standard output. \throw std::runtime_error if it fails
 std::string run_program(const std::vector<std::string>& words) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("pipe failed");
@@ -43,7 +44,7 @@ std::string run_program(const std::vector<std::string>& words) {
   return text;
 }
 
-/// A line of /proc/self/status in bytes.
+/// The value of a line of /proc/self/status, in bytes.
 double status_bytes(const std::string& label) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -51,7 +52,7 @@ double status_bytes(const std::string& label) {
   throw std::runtime_error("/proc/self/status has no " + label);
 }
 
-/// Sets the peak of resident memory to what is resident now.
+/// Resets the peak of resident memory to the current value.
 void reset_peak() {
   malloc_trim(0);
   std::ofstream file("/proc/self/clear_refs");
@@ -69,7 +70,7 @@ std::string arguments_of(Precision precision) {
 }  // namespace
 
 void record_memory(const std::string& self, const Work& work, const TurnOptions& options, RecordFile& file) {
-  // The contenders are made for a small work here, for their names alone.
+  // The contenders of a small work, for their names only.
   Work small = work;
   small.n = 10;
   const Domain domain = domain_of(work.domain);
@@ -81,7 +82,7 @@ void record_memory(const std::string& self, const Work& work, const TurnOptions&
                                           c->stage + ":" + c->provider, arguments_of(options.precision)});
     Record record(options.part, work, *c);
     std::istringstream(text) >> record.bytes_per_seed;
-    if (text.empty()) throw std::runtime_error("the memory process printed nothing");
+    if (text.empty()) throw std::runtime_error("the process 'memory-child' printed nothing");
     file.add(record);
   }
 }
@@ -115,9 +116,9 @@ void record_start(const std::string& program, const TurnOptions& options, Record
   Record record(options.part, work, *our_contender("measures", "tree", options.precision, domain, seeds));
   record.stage = "start";
   for (int k = 0; k < 2 * options.rounds; ++k) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = wall_seconds();
     run_program({program});
-    record.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    record.seconds.push_back(wall_seconds() - start);
     record.cpu_seconds.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   file.add(record);

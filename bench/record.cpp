@@ -57,16 +57,16 @@ void RecordFile::add(const Record& r) {
   all_["records"].push_back(std::move(entry));
   write();
 
-  std::string what = r.skipped;
+  std::string result = r.skipped;
   char text[64];
   if (!r.seconds.empty()) {
     std::snprintf(text, sizeof text, "%10.4f s, least of %zu", r.least(), r.seconds.size());
-    what = text;
+    result = text;
   } else if (r.bytes_per_seed >= 0) {
-    std::snprintf(text, sizeof text, "%10.0f bytes a seed", r.bytes_per_seed);
-    what = text;
+    std::snprintf(text, sizeof text, "%10.0f bytes per seed", r.bytes_per_seed);
+    result = text;
   }
-  std::fprintf(stderr, "%-8s %-58s %s\n", r.part.c_str(), name.c_str(), what.c_str());
+  std::fprintf(stderr, "%-8s %-58s %s\n", r.part.c_str(), name.c_str(), result.c_str());
 }
 
 void RecordFile::write() const {

@@ -1,5 +1,5 @@
 /// \file
-/// What a benchmark run measured, and the JSON file it ends up in.
+/// Results of benchmark runs, and the JSON file that holds them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,9 +10,9 @@
 
 namespace powercell::bench {
 
-/// One contender at one work. Fields that do not apply stay empty.
+/// The result of one contender at one work. Fields that do not apply are empty.
 struct Record {
-  std::string part;  ///< which question the run answers; free, the report goes by it
+  std::string part;  ///< part of the report, e.g. "ratios"
   Work work;
   std::string stage, precision, provider;
   bool peer = false;
@@ -23,10 +23,10 @@ struct Record {
   std::string skipped;              ///< why it was not run
 
   Record(std::string part, const Work& work, const Contender& contender);
-  double least() const;  ///< of `seconds`; infinity where there are none
+  double least() const;  ///< of `seconds`; infinity if empty
 };
 
-/// Keeps the file whole after each record, so that what is measured is not lost.
+/// Writes the whole file after each record, so that results are not lost if a later run fails.
 class RecordFile {
  public:
   /// \throw std::runtime_error if the file cannot be written

@@ -13,8 +13,8 @@ namespace powercell::bench {
 Link make_link(const SeedsView& seeds, std::uint32_t i, std::uint32_t j) {
   const double* a = &seeds.positions[3 * static_cast<std::size_t>(i)];
   const double* b = &seeds.positions[3 * static_cast<std::size_t>(j)];
-  Link link{{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, 0, 0, j};
-  const double q2 = link.q[0] * link.q[0] + link.q[1] * link.q[1] + link.q[2] * link.q[2];
+  Link link{difference<double>(b, a), 0, 0, j};
+  const double q2 = dot(link.q, link.q);
   link.offset = 0.5 * (q2 + seeds.weights[i] - seeds.weights[j]);
   link.distance = link.offset / std::sqrt(q2);
   return link;
@@ -22,7 +22,7 @@ Link make_link(const SeedsView& seeds, std::uint32_t i, std::uint32_t j) {
 
 namespace {
 
-/// One thread's share: floods region after region.
+/// The state of one thread, which floods one region after the other.
 template <class Piece>
 class Flood {
  public:
@@ -55,18 +55,18 @@ class Flood {
 
  private:
   Vec3 relative(const Vec3& x, std::uint32_t i) const {
-    const double* p = &seeds_.positions[3 * static_cast<std::size_t>(i)];
-    return {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
+    return difference<double>(x.data(), &seeds_.positions[3 * static_cast<std::size_t>(i)]);
   }
 
-  /// Goes to the neighbour that is better at x by most until none is: then x lies in that cell.
+  /// Moves from seed i to the neighbour whose power distance to x is least until no neighbour's is less: x
+  /// lies in that seed's cell.
   std::uint32_t owner_of(const Vec3& x, std::uint32_t i) const {
     for (;;) {
       const Vec3 y = relative(x, i);
       double most = 0;
       std::uint32_t best = i;
       for (const Link* link = links_.begin(i); link != links_.end(i); ++link) {
-        const double excess = link->q[0] * y[0] + link->q[1] * y[1] + link->q[2] * y[2] - link->offset;
+        const double excess = dot(link->q, y) - link->offset;
         if (excess > most) most = excess, best = link->neighbor;
       }
       if (best == i) return i;
@@ -81,8 +81,8 @@ class Flood {
     double square = piece_.largest_square();
     const Link* const first = links_.begin(i);
     for (const Link* link = first; link != links_.end(i); ++link) {
-      // A bisector outside the ball about the seed that holds the piece, and all that are farther, cut
-      // nothing.
+      // A bisector outside the ball around the seed that contains the piece cuts nothing, nor do farther
+      // ones.
       if (link->distance > 0 && link->distance * link->distance >= square) break;
       const auto border = first_link + static_cast<std::uint32_t>(link - first);
       const Cut cut = piece_.cut(link->q, link->offset, border);
@@ -110,8 +110,8 @@ class Flood {
   std::vector<double> measures;
 
  private:
-  std::vector<std::uint32_t> seen_in_;  ///< the last region that each seed was put on the list for
-  std::uint32_t near_;                  ///< where the next search starts
+  std::vector<std::uint32_t> seen_in_;  ///< per seed: the last region in which it was put on the waiting list
+  std::uint32_t near_;                  ///< the seed where the next search starts
   std::vector<std::uint32_t> waiting_, borders_;
   Piece piece_;
 };

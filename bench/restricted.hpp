@@ -1,23 +1,23 @@
 /// \file
-/// The part of a peer's work that a triangulation does not do by itself: cells restricted to the triangles of
-/// a surface or to tetrahedra. Each region's seeds are found by flooding over the known adjacency, and each
-/// (region, seed) piece is clipped by the bisectors with the seed's neighbours. In double, nothing shared
-/// with lib/.
+/// Restricts cells to triangles or tetrahedra: the part of a peer's work that its triangulation does not do.
+/// The seeds of a region are found by flooding over the known adjacency, and each (region, seed) piece is
+/// clipped by the bisectors with the seed's neighbours. In double; shares no algorithm with lib/.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "lib/base/vectors.hpp"
 #include "powercell/seeds.hpp"
 #include "tests/support/meshes.hpp"
 
 namespace powercell::bench {
 
-/// The bisector with a neighbour: the cell's points y (relative to its seed) have q . y <= offset.
+/// The bisector with a neighbour: points y of the cell, relative to its seed, satisfy q . y <= offset.
 struct Link {
-  double q[3];
+  Vector3<double> q;
   double offset;
-  double distance;  ///< of the bisector from the seed, negative when the seed lies outside its cell
+  double distance;  ///< of the bisector from the seed, negative if the seed lies on the neighbour's side
   std::uint32_t neighbor;
 };
 
@@ -33,8 +33,8 @@ struct Links {
 /// The bisector between seeds i and j, seen from i.
 Link make_link(const SeedsView& seeds, std::uint32_t i, std::uint32_t j);
 
-/// Areas or volumes of all cells. \param mesh its elements have 3 or 4 corners, as `corners` says; tetrahedra
-/// in either orientation   \param threads shares of the regions are taken by so many
+/// Areas or volumes of all cells.
+/// \param mesh its elements have 3 or 4 `corners`; tetrahedra may have either orientation
 std::vector<double> restricted_measures(const test::Mesh& mesh, int corners, const SeedsView& seeds,
                                         const Links& links, unsigned threads);
 

@@ -1,4 +1,4 @@
-"""Results that powercell_matrix wrote: reading, and finding the fastest."""
+"""Reads the results that powercell_matrix wrote, selects records and finds the fastest."""
 
 import json
 import os
@@ -6,9 +6,9 @@ import sys
 
 
 class Results:
-    """Records of JSON files, as far as they are of the newest file's device and revision. `estimate`: times are not
-    wall times but processor times, divided by the number of threads for whoever uses all of them; a guess at the
-    wall time of an idle machine, for a busy one."""
+    """Records of the JSON files with the device and revision of the newest file. `estimate`: use processor times,
+    divided by the number of threads for contenders that use all of them, instead of wall times: an estimate of the
+    wall time on an idle machine."""
 
     def __init__(self, paths, estimate=False):
         self.estimate = estimate
@@ -18,13 +18,13 @@ class Results:
             with open(path, encoding="utf-8") as file:
                 data = json.load(file)
             if self.context and data["context"] != self.context:
-                print(f"{path} is left out: another device or revision than the newest file's", file=sys.stderr)
+                print(f"skipping {path}: its device or revision differs from the newest file's", file=sys.stderr)
                 continue
             self.context = data["context"]
             self.records += data["records"]
 
     def select(self, **wanted):
-        """Records whose fields have the values, or one of the values if a list is given."""
+        """Records whose fields have these values, or one of the values of a list."""
 
         def fits(record):
             for field, value in wanted.items():
@@ -36,23 +36,23 @@ class Results:
         return [r for r in self.records if fits(r)]
 
     def time(self, record):
-        """Least time of the runs; None where it was not run."""
+        """Least time of the runs; None if it was not run."""
         if "seconds" not in record:
             return None
         if not self.estimate:
             return min(record["seconds"])
         on_all_threads = not record["peer"] or record["provider"].endswith("-parallel")
         if on_all_threads and record["peer"] and record["domain"] == "box2":
-            return None  # CGAL inserts on one thread in the plane: no guess
+            return None  # CGAL inserts on one thread in 2D, so there is no estimate
         return min(record["cpu_seconds"]) / (self.context["host_threads"] if on_all_threads else 1)
 
     def fastest(self, records):
-        """The (time, provider) of least time; None where none was run."""
+        """The (time, provider) of least time; None if none was run."""
         times = [(self.time(r), r["provider"]) for r in records if self.time(r) is not None]
         return min(times) if times else None
 
     def works(self, **wanted):
-        """Distinct (domain, distribution, weights, n), in order of running."""
+        """Distinct (domain, distribution, weights, n), in the order of the runs."""
         return list(dict.fromkeys(work_of(r) for r in self.select(**wanted)))
 
 

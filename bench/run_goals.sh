@@ -1,12 +1,12 @@
 #!/bin/sh
-# Measures every goal of this project's speed and memory and prints them as one markdown table, with what was
-# reached. JSON stays in build/bench/goals/. About ten minutes on two cores.
+# Measures every goal of this project for speed and memory and prints a Markdown table of goals and measured values. The
+# JSON files are in build/bench/goals/. Takes about ten minutes on two cores.
 #
 #   bench/run_goals.sh [--quick] [--cpu] [ratios|growth|memory|weights|start|gpu]...
 #
-# --quick leaves out 1e6 seeds and more. --cpu compares processor times, shared out among the threads, instead of
-# wall times: a guess for a machine that is busy with other work. Parts that are named are measured again; the
-# table takes the rest from the JSON of earlier runs of the same revision. GPU: POWERCELL_DEVICE=gpu bench/run_goals.sh gpu
+# --quick omits 1e6 seeds and more. --cpu compares processor times divided by the number of threads instead of wall
+# times: an estimate, for a machine that is busy with other work. If parts are named, only these are measured; the table
+# has the others from earlier runs of the same revision. GPU: POWERCELL_DEVICE=gpu bench/run_goals.sh gpu
 set -eu
 quick=no cpu="" parts=""
 for word in "$@"; do
@@ -29,14 +29,14 @@ large=1000000 largest2=10000000 largest3=3000000
 [ $quick = no ] || { large="" largest2=100000 largest3=100000; }
 some=${large:-100000}
 rounds="--seconds 5 --rounds 60 --least-rounds 2"
-# run PART FILE ARGUMENT...: times works.
+# run PART FILE ARGUMENT...: times works and writes FILE.json.
 run() { part=$1 file=$2; shift 2; "$matrix" time --part "$part" --out "$out/$file.json" "$@"; }
 for part in $parts; do
   case $part in
     ratios)
-      # A peer far behind the best one at fewer seeds cannot be the best; it is not waited for.
-      # shellcheck disable=SC2086 # no 1e6 when quick
-      # At least two rounds, since the first may compile a larger variant of a kernel; many of what takes milliseconds.
+      # --drop: a peer far behind the fastest one at fewer seeds cannot be the fastest.
+      # At least two rounds, since the first may compile a larger variant of a kernel; many for works of milliseconds.
+      # shellcheck disable=SC2086 # $large is empty with --quick
       for domain in box3 box2; do
         run ratios "$domain" --domain $domain --ours adjacency:tree --drop 1.4 $rounds --n 100000 $large
       done
@@ -44,7 +44,7 @@ for part in $parts; do
         run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree $rounds --n 5000 100000
       done ;;
     growth)
-      # The first of two runs pays for new memory, which weighs most where n is largest.
+      # Two runs, since the first allocates memory, which costs most at the largest n.
       growth="--distribution white --weights W1 --ours adjacency:tree --no-peers --least-rounds 2"
       # shellcheck disable=SC2086 # the list is meant to be split
       {

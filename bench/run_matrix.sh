@@ -1,13 +1,13 @@
 #!/bin/sh
-# Measures powercell beside CGAL and voro++ in every combination of domain, distribution, weights and number of
-# seeds, how time per cell grows with that number, and peak memory. Writes JSON, a markdown table and plots to
-# build/bench/matrix/, and prints the table.
+# Compares powercell with CGAL and voro++ for every combination of domain, distribution, weights and number of seeds,
+# and measures how the time per cell grows with the number of seeds, and peak memory. Writes JSON, a Markdown table and
+# plots to build/bench/matrix/ and prints the table.
 #
 #   bench/run_matrix.sh [--quick] [--n N]... [--report]
 #
 # --n: numbers of seeds of the ratios, for all domains; default 1000 10000 100000 (surface and tets: 5000 100000).
-# --quick: white seeds and W1 only, and growth and memory up to 1e5; else up to 1e7 (square) and 3e6 (cube).
-# --report: only makes table and plots again. The default takes a quarter of an hour on two cores.
+# --quick: only white seeds and W1, and growth and memory up to 1e5, instead of 1e7 (square) and 3e6 (cube).
+# --report: only makes the table and plots again. The default takes a quarter of an hour on two cores.
 set -eu
 quick=no sizes="" report=no
 while [ $# -gt 0 ]; do
@@ -44,7 +44,7 @@ measure() {
         --ours adjacency:tree measures:tree adjacency:flann --drop 4 --seconds 3 --least-rounds 3
     done
     white="--distribution white --weights W1"
-    # The best peer by far at 1e5 is asked at 1e7; the others would take minutes.
+    # At 1e7 only peers close to the fastest at 1e5 run; the others would take minutes.
     "$matrix" time --part growth --out "$out/growth2.json" --domain box2 $white --n $growth2 \
       --ours adjacency:tree measures:tree --drop 1.4 --seconds 3 --least-rounds 2
     "$matrix" time --part growth --out "$out/growth3.json" --domain box3 $white --n $growth3 \

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The table of docs/applications.md, "Transport": equal masses for random seeds in the square and the cube.
+"""Prints the table of docs/applications.md, "Transport": equal masses for random seeds in the square and the cube.
 
 usage: run_transport.py POWERCELL [--sizes-2d N,...] [--sizes-3d N,...] [--linear NAME] [--precision NAME]
 
-For each size one run of 'powercell transport' in a process of its own. Processor time is user + system of that
-process, less that of a run with ten seeds, which is what starting OpenCL takes. Prints a Markdown table. Fails if
-a solve does not converge.
+Runs 'powercell transport' once for each size, in its own process. Processor time is the user and system time of that
+process minus that of a run with ten seeds, which is the time to start OpenCL. Prints a Markdown table. Fails if a solve
+does not converge.
 """
 
 import argparse

@@ -1,43 +1,29 @@
 #include "bench/turns.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
+#include "bench/clocks.hpp"
+
 namespace powercell::bench {
 
 namespace {
 
-double wall_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double cpu_clock() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(use.ru_utime) + seconds(use.ru_stime);
-}
-
 void run_once(Contender& contender, Record& record) {
   contender.forget();
-  const double cpu = cpu_clock(), start = wall_clock();
+  const double cpu = processor_seconds(), start = wall_seconds();
   contender.run();
-  record.seconds.push_back(wall_clock() - start);
-  record.cpu_seconds.push_back(cpu_clock() - cpu);
+  record.seconds.push_back(wall_seconds() - start);
+  record.cpu_seconds.push_back(processor_seconds() - cpu);
   record.relative_error = contender.relative_error();
   if (!(record.relative_error <= contender.tolerance())) {
     char error[32];
     std::snprintf(error, sizeof error, "%g", record.relative_error);
     throw std::runtime_error(record.work.name(record.stage, record.precision, record.provider) +
-                             ": the sum of the measures is off by " + error);
+                             ": the sum of the measures has a relative error of " + error);
   }
 }
 
@@ -45,10 +31,10 @@ std::string key(const Contender& c) {
   return c.stage + ":" + c.provider;
 }
 
-/// Who is left out of the next, larger work, and why.
+/// By stage:provider, why a contender is left out of the next, larger work.
 using Dropped = std::map<std::string, std::string>;
 
-Dropped slow_ones(const std::vector<Record>& records, double factor) {
+Dropped slow_contenders(const std::vector<Record>& records, double factor) {
   double best = std::numeric_limits<double>::infinity();
   std::string best_name;
   for (const Record& r : records)
@@ -65,7 +51,7 @@ Dropped slow_ones(const std::vector<Record>& records, double factor) {
   return dropped;
 }
 
-/// One work: everybody who is not dropped, in rounds.
+/// Runs one work: all contenders that are not dropped, in rounds.
 std::vector<Record> run_work(const Work& work, const TurnOptions& options, const Dropped& dropped,
                              RecordFile& file) {
   const Domain domain = domain_of(work.domain);
@@ -80,12 +66,12 @@ std::vector<Record> run_work(const Work& work, const TurnOptions& options, const
     else
       c->prepare();
   }
-  const double start = wall_clock();
+  const double start = wall_seconds();
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t k = 0; k < all.size(); ++k)
       if (records[k].skipped.empty()) run_once(*all[k], records[k]);
-    // No round is begun that would end far beyond the time given.
-    const double spent = wall_clock() - start;
+    // Begin no round that would end long after the time limit.
+    const double spent = wall_seconds() - start;
     if (round + 1 >= options.least_rounds && spent + 0.5 * spent / (round + 1) > options.seconds) break;
   }
   for (const Record& r : records) file.add(r);
@@ -100,12 +86,13 @@ std::vector<std::unique_ptr<Contender>> contenders(const Work& work, const Domai
   for (const std::string& way : options.ours) {
     const std::size_t colon = way.find(':');
     if (colon == std::string::npos)
-      throw std::invalid_argument("'" + way + "' is not of the form stage:provider");
+      throw std::invalid_argument("'" + way + "' does not have the form stage:provider");
     const std::string stage = way.substr(0, colon), provider = way.substr(colon + 1);
     if ((stage != "measures" && stage != "adjacency" && stage != "weights") ||
         (provider != "tree" && provider != "flann"))
-      throw std::invalid_argument("'" + way + "' names no stage or no provider");
-    if (provider == "flann" && !has_flann()) throw std::invalid_argument("this is a build without FLANN");
+      throw std::invalid_argument("'" + way + "' has an unknown stage or provider");
+    if (provider == "flann" && !has_flann())
+      throw std::invalid_argument("the provider flann needs a build with FLANN");
     all.push_back(our_contender(stage, provider, options.precision, domain, seeds));
   }
   const std::vector<std::string>& only = options.only_peers;
@@ -125,12 +112,12 @@ void run_series(Work work, std::vector<std::size_t> sizes, const TurnOptions& op
     scout.rounds = 2;
     scout.least_rounds = 1;
     work.n = sizes.front() / 10;
-    dropped = slow_ones(run_work(work, scout, {}, file), options.drop);
+    dropped = slow_contenders(run_work(work, scout, {}, file), options.drop);
   }
   for (const std::size_t n : sizes) {
     work.n = n;
-    // Who was dropped stays out: at larger n the lag of a poor search only grows.
-    dropped.merge(slow_ones(run_work(work, options, dropped, file), options.drop));
+    // A contender that was dropped stays out: a slow search only falls behind further for larger n.
+    dropped.merge(slow_contenders(run_work(work, options, dropped, file), options.drop));
   }
 }
 

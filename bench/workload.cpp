@@ -13,9 +13,10 @@ using namespace powercell::test;
 
 namespace {
 
-constexpr double tube = 0.4;  // radius of the tube of powercell::torus; its middle circle has radius 1
+constexpr double tube = 0.4;  // radius of the tube of powercell::torus, whose centre circle has radius 1
 
-/// The angle across the tube below which the part u of the torus's area lies: (a + tube sin a) / 2 pi = u.
+/// The angle a across the tube below which the fraction u of the torus's area lies: (a + tube sin a) / 2 pi =
+/// u.
 double angle_across(double u) {
   double a = 2 * std::numbers::pi * u;
   for (int k = 0; k < 50; ++k) {
@@ -52,10 +53,10 @@ Mesh mesh_of(const std::string& name) {
     return {std::move(mesh.vertices), std::move(mesh.triangles)};
   }
   if (name == "tets") {
-    Random random(7);  // the shape is part of the work, not of the run
+    Random random(7);  // fixed, since the shape is part of the work
     return cube_tetrahedra(14, 0.15, random);
   }
-  throw std::invalid_argument("no mesh is called '" + name + "'");
+  throw std::invalid_argument("unknown mesh '" + name + "'");
 }
 
 Domain domain_of(const std::string& name) {

@@ -1,6 +1,5 @@
 /// \file
-/// What is computed for what: domains by name and the seeds that go with them, the same for every way of
-/// computing.
+/// The work of a benchmark: domains by name and their seeds, the same for every contender.
 #pragma once
 
 #include <powercell/domain.hpp>
@@ -16,7 +15,7 @@ using test::SeedArray;
 using test::WeightRange;
 
 struct Work {
-  std::string domain;  ///< a name that domain_of knows
+  std::string domain;  ///< a name for domain_of
   Distribution distribution = Distribution::white;
   WeightRange weights = WeightRange::W0;
   std::size_t n = 0;
@@ -34,10 +33,10 @@ int dimension_of(const std::string& domain);  ///< of the space
 /// The triangles or tetrahedra of "surface" and "tets". \throw std::invalid_argument
 test::Mesh mesh_of(const std::string& name);
 
-/// A function of the work alone. All seeds lie in the domain, but for "islands" (in its box) and "surface":
-/// there they come from the unit square by a map to the smooth torus that keeps ratios of areas, and are then
-/// moved by up to half of their spacing along each axis. (Exactly on a torus, whole circles of seeds would be
-/// cospherical, the worst case of a triangulation in space.)
+/// The seeds of a work, a function of the work alone. They lie in the domain, except for "islands" (in its
+/// bounding box) and "surface": these are mapped from the unit square to the smooth torus, preserving ratios
+/// of areas, and then moved by up to half of their spacing along each axis. (Exactly on a torus, whole
+/// circles of seeds would be cospherical, the worst case for a triangulation in space.)
 SeedArray seeds_of(const Work& work);
 
 }  // namespace powercell::bench

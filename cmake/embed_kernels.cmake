@@ -1,9 +1,9 @@
-# powercell_embed_kernels(target folder): every .cl and .h file below `folder` becomes a string inside
-# `target`, written anew by cmake/embed_kernels_run.cmake when a file changes, comes or goes.
+# powercell_embed_kernels(target folder): embeds every .cl and .h file below `folder` in `target` as a string.
+# cmake/embed_kernels_run.cmake writes them again when a file is changed, added or removed.
 function(powercell_embed_kernels target folder)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${folder}/*.cl ${folder}/*.h)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded_kernels.cpp)
-  # The list itself is a dependency, or a file taken away would stay embedded.
+  # The list is a dependency too, or a removed file would stay embedded.
   set(list ${CMAKE_CURRENT_BINARY_DIR}/embedded_kernels.txt)
   file(CONFIGURE OUTPUT ${list} CONTENT "${files}" @ONLY)
   add_custom_command(

@@ -1,6 +1,6 @@
-# Writes OUTPUT, a C++ file that defines powercell::cl::embedded_kernels() (lib/cl/program_source.hpp):
-# path below FOLDER and text of every .cl and .h file. Bytes, not string literals, so that any text and
-# any length goes through every compiler unchanged.
+# Writes OUTPUT, a C++ file that defines powercell::cl::embedded_kernels() (lib/cl/program_source.hpp): the path below
+# FOLDER and the text of every .cl and .h file. The text is an array of bytes, not a string literal, so that text of any
+# content and length passes every compiler unchanged.
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*.cl ${FOLDER}/*.h)
 list(SORT files)
 set(arrays "")

@@ -1,4 +1,4 @@
-# Installation: library, headers, tool, CMake package and pkg-config file.
+# Installation of libraries, headers, tool, CMake package and pkg-config files.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -20,12 +20,12 @@ install(FILES
   ${PROJECT_BINARY_DIR}/powercellConfigVersion.cmake
   DESTINATION ${package_folder})
 
-# Paths in the .pc files are relative to their own place, so the tree can be moved after installation.
+# Paths in the .pc files are relative to the file, so the installed tree can be moved.
 file(RELATIVE_PATH pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
 
-# powercell_pkg_config(NAME DESCRIPTION LIBS REQUIRES [STATIC_REQUIRES]): the packages that a static library needs
-# besides are required by whoever links it.
+# powercell_pkg_config(NAME DESCRIPTION LIBS REQUIRES STATIC_REQUIRES): writes and installs NAME.pc. A static library
+# also requires STATIC_REQUIRES, the packages that a shared one links itself.
 function(powercell_pkg_config name description libs requires static_requires)
   set(pc_name ${name})
   set(pc_description "${description}")

@@ -1,8 +1,7 @@
-# powercell_add_test_folders(): each folder of tests/ and tests/applications/ that holds .cpp files, except
-# support/, becomes one doctest executable. Tests see library internals by "lib/..." and shared helpers by
-# "tests/support/...". They link the static twin of the libraries and the helpers; a folder.cmake that sets
-# `library` links that instead (the tool's powercell_io links the shared libraries, and one program must not
-# hold both).
+# powercell_add_test_folders(): makes one doctest executable of each folder of tests/ and tests/applications/ that has
+# .cpp files, except support/. Tests include library internals as "lib/..." and shared helpers as "tests/support/...".
+# They link the static variant of the libraries and the helpers, or the `library` that a folder.cmake sets: the tool's
+# powercell_io links the shared libraries, and a program must not link both.
 find_path(DOCTEST_INCLUDE_DIR doctest/doctest.h REQUIRED)
 include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
 
@@ -17,7 +16,7 @@ function(powercell_add_test_folders)
       target_compile_options(test_${name} PRIVATE -Wall -Wextra)
       set(library powercell_support)
       if(EXISTS ${folder}/folder.cmake)
-        include(${folder}/folder.cmake)  # libraries of this folder
+        include(${folder}/folder.cmake)  # sets `library` for this folder
       endif()
       target_link_libraries(test_${name} PRIVATE ${library})
       add_test(NAME ${name} COMMAND test_${name})

@@ -1,10 +1,10 @@
-/* Cells of a few weighted seeds in the unit cube, with their neighbours, from C. */
+/* Cells and neighbours of a few weighted seeds in the unit cube, from C. */
 #include <math.h>
 #include <powercell.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Leaves main with the message of the library when a call has failed. */
+/* Prints the library's message and returns from main if a call fails. */
 #define CHECK(call)                                                               \
   do {                                                                            \
     pc_status check_status = (call);                                              \
@@ -17,7 +17,7 @@
 int main(void) {
   const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
   const double positions[5 * 3] = {.2, .2, .2, .8, .3, .2, .3, .8, .4, .6, .6, .8, .5, .5, .5};
-  const double weights[5] = {0, .01, 0, .04, .02}; /* length squared */
+  const double weights[5] = {0, .01, 0, .04, .02}; /* squared lengths */
   enum { n = 5 };
   double volume[n];
   double total = 0;
@@ -35,7 +35,7 @@ int main(void) {
   CHECK(pc_diagram_set_seeds(diagram, positions, weights, n));
   CHECK(pc_diagram_measures(diagram, volume, NULL, NULL, NULL));
 
-  CHECK(pc_diagram_adjacency(diagram, NULL, NULL, NULL, &count)); /* how many walls? */
+  CHECK(pc_diagram_adjacency(diagram, NULL, NULL, NULL, &count)); /* the number of entries */
   neighbor = malloc((count + 1) * sizeof *neighbor);
   wall = malloc((count + 1) * sizeof *wall);
   if (!neighbor || !wall) return 1;

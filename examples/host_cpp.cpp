@@ -1,4 +1,4 @@
-// Three discs share a square: the smallest C++ program that makes a power diagram.
+// The power cells of three discs in a square: the smallest C++ program that computes a power diagram.
 #include <cstdio>
 #include <powercell/powercell.hpp>
 
@@ -6,7 +6,7 @@ int main() try {
   const double low[] = {0, 0}, high[] = {1, 1};
   const double positions[] = {0.2, 0.3, 0.7, 0.2, 0.5, 0.8};
   const double radii[] = {0.1, 0.3, 0.2};
-  // A weight is a length squared: a disc of radius r has the weight r * r.
+  // A weight is a squared length: a disc of radius r has the weight r * r.
   const double weights[] = {radii[0] * radii[0], radii[1] * radii[1], radii[2] * radii[2]};
 
   powercell::Diagram diagram(powercell::Device::choose(), powercell::Domain::box(low, high));

@@ -1,5 +1,5 @@
-// A diagram between kernels of the caller: seeds and measures are buffers in the caller's own OpenCL context,
-// commands go to the caller's own queue, and nothing is copied to the host in between.
+// A diagram between kernels of the caller: seeds and measures are buffers in the caller's OpenCL context, all
+// commands go to the caller's queue, and nothing is copied to the host in between.
 #include <cmath>
 #include <cstdio>
 #include <powercell/opencl.hpp>
@@ -9,12 +9,13 @@
 
 namespace {
 
-// n seeds in the unit cube -> measures of their cells, all in device memory. Returns the sum of the volumes.
+// Computes the measures of the cells of n seeds in the unit cube, all in device memory; returns the sum of
+// the volumes.
 double volume_of_cells(cl_context context, cl_command_queue queue, cl_uint n) {
   const powercell::Device device = powercell::device_from_queue(queue);  // retains queue and context
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
   powercell::Options options;
-  options.precision = powercell::Precision::float32;  // of our buffers: cl_float
+  options.precision = powercell::Precision::float32;  // so the buffers hold cl_float
   powercell::DeviceDiagram diagram(device, powercell::Domain::box(low, high), options);
 
   std::mt19937_64 random(1);
@@ -25,13 +26,13 @@ double volume_of_cells(cl_context context, cl_command_queue queue, cl_uint n) {
   cl_mem measures = clCreateBuffer(context, CL_MEM_READ_WRITE, 5 * n * sizeof(cl_float), nullptr, nullptr);
   cl_mem status = clCreateBuffer(context, CL_MEM_READ_WRITE, n * sizeof(cl_uint), nullptr, nullptr);
 
-  // A kernel of ours would make the seeds; here a copy that is not waited for stands in its place.
+  // Here a kernel of the caller would write the seeds; a non-blocking copy stands in for it.
   cl_event seeds_ready = nullptr, diagram_done = nullptr;
   clEnqueueWriteBuffer(queue, positions, CL_FALSE, 0, numbers.size() * sizeof(cl_float), numbers.data(), 0,
                        nullptr, &seeds_ready);
   diagram.enqueue(positions, nullptr, n, measures, status, 1, &seeds_ready, &diagram_done);
 
-  // A kernel of ours would use the measures; here they are read at last.
+  // Here a kernel of the caller would use the measures; a blocking read stands in for it.
   std::vector<cl_float> rows(5 * n);  // volume, centroid x y z, second moment
   clEnqueueReadBuffer(queue, measures, CL_TRUE, 0, rows.size() * sizeof(cl_float), rows.data(), 1,
                       &diagram_done, nullptr);
@@ -53,14 +54,15 @@ int main() try {
   cl_device_id device_id = nullptr;
   if (clGetPlatformIDs(1, &platform, nullptr) != CL_SUCCESS ||
       clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device_id, nullptr) != CL_SUCCESS) {
-    std::fprintf(stderr, "no OpenCL device: on Debian, apt-get install pocl-opencl-icd runs on the CPU\n");
+    std::fprintf(stderr,
+                 "no OpenCL device found; on Debian, 'apt-get install pocl-opencl-icd' provides the CPU\n");
     return 1;
   }
   cl_int status = CL_SUCCESS;
   cl_context context = clCreateContext(nullptr, 1, &device_id, nullptr, nullptr, &status);
   cl_command_queue queue = context ? clCreateCommandQueue(context, device_id, 0, &status) : nullptr;
   if (!queue) {
-    std::fprintf(stderr, "no context or queue: OpenCL error %d\n", status);
+    std::fprintf(stderr, "cannot create a context and queue: OpenCL error %d\n", status);
     return 1;
   }
   const double volume = volume_of_cells(context, queue, 1000);

@@ -5,15 +5,15 @@
  * or ball of radius r around p_i, w_i = r^2), may have any sign, and a constant added to all weights
  * changes nothing.
  *
- * Every function returns a pc_status and hands its result back through its last arguments. On failure
- * pc_last_error() says in words what went wrong, in the calling thread. Handles are opaque and freed by
- * the matching _destroy function, which accepts NULL. Arrays of the caller are copied, never kept.
+ * Functions return a pc_status and write their results through their last arguments. After a failure
+ * pc_last_error() describes it, in the calling thread. Handles are opaque and freed by the matching _destroy
+ * function, which accepts NULL. Arrays of the caller are copied.
  *
- * Arrays of a size not known beforehand are asked for twice: first with a NULL array, which sets only
- * *count; then with an array of at least that many entries. An array that is too short is left alone and
- * gives PC_INVALID_ARGUMENT.
+ * An array whose size is not known beforehand takes two calls: the first with NULL for the array sets only
+ * *count; the second takes an array of at least that many entries. If the array is too short nothing is
+ * written and the call fails with PC_INVALID_ARGUMENT.
  *
- * A handle may be used by one thread at a time; different handles by different threads.
+ * Use a handle in one thread at a time; different threads may use different handles.
  */
 #ifndef POWERCELL_H
 #define POWERCELL_H
@@ -27,7 +27,7 @@
 extern "C" {
 #endif
 
-/** What went wrong; the same codes, in the same order, as powercell::ErrorCode. */
+/** Kinds of failures, in the order of powercell::ErrorCode. */
 typedef enum pc_status {
   PC_OK = 0,
   PC_INVALID_ARGUMENT,     /**< sizes that do not match, an option out of range, a NULL handle */
@@ -36,16 +36,16 @@ typedef enum pc_status {
   PC_INVALID_FILE,         /**< unreadable or malformed file */
   PC_WRITE_FAILED,         /**< a file could not be written whole */
   PC_DEVICE_NOT_FOUND,     /**< no device matches the selector */
-  PC_NO_FP64,              /**< double precision asked of a device that has none */
+  PC_NO_FP64,              /**< double precision requested on a device without it */
   PC_BUILD_FAILED,         /**< a kernel did not compile */
-  PC_SELF_TEST_FAILED,     /**< the device computed a known diagram wrongly */
-  PC_OUT_OF_DEVICE_MEMORY, /**< allocation failed even in the smallest chunks */
+  PC_SELF_TEST_FAILED,     /**< the device computed a known diagram incorrectly */
+  PC_OUT_OF_DEVICE_MEMORY, /**< an allocation failed, even in the smallest chunks */
   PC_OPENCL,               /**< any other OpenCL error */
-  PC_UNSUPPORTED,          /**< asked for what this build or device does not have */
+  PC_UNSUPPORTED,          /**< this build or device does not have the feature */
   PC_INTERRUPTED,          /**< the progress callback asked to stop */
   PC_NOT_CONVERGED,        /**< an iteration ended above its tolerance */
-  PC_INTERNAL,             /**< a law of the library was broken: please report */
-  PC_OUT_OF_MEMORY         /**< host memory; has no ErrorCode of its own */
+  PC_INTERNAL,             /**< an invariant of the library does not hold: please report */
+  PC_OUT_OF_MEMORY         /**< host memory; std::bad_alloc in C++ */
 } pc_status;
 
 typedef enum pc_precision { PC_PRECISION_AUTOMATIC = 0, PC_FLOAT64, PC_FLOAT32 } pc_precision;
@@ -61,13 +61,13 @@ typedef struct pc_diagram pc_diagram; /**< a power diagram of seeds in a domain,
 /** Returns 0 to stop the computation with PC_INTERRUPTED. Must not throw. */
 typedef int (*pc_progress)(double fraction, void* user);
 
-/** What becomes of cells whose shape rounding may have decided (powercell::Decisions). */
+/** How to treat cells whose shape rounding may have decided (powercell::Decisions). */
 typedef enum pc_decisions { PC_DECISIONS_EXACT = 0, PC_DECISIONS_FAST } pc_decisions;
 
-/** How much of the log is wanted (powercell::LogLevel). */
+/** The detail of the log (powercell::LogLevel). */
 typedef enum pc_log_level { PC_LOG_INFO = 0, PC_LOG_DETAIL } pc_log_level;
 
-/** Gets one line of the log, ended by a zero byte. Must not throw or call pc_set_log(). */
+/** Receives one line of the log, ended by a zero byte. Must not throw or call pc_set_log(). */
 typedef void (*pc_log_sink)(pc_log_level level, const char* line, void* user);
 
 /** Options of a diagram. Fill with pc_options_init() first. */
@@ -75,27 +75,28 @@ typedef struct pc_options {
   pc_precision precision;
   pc_neighbors neighbors;
   pc_decisions decisions;
-  int certify;           /**< not 0: check each result by laws, PC_INTERNAL if one does not hold */
+  int certify;           /**< not 0: check each result by laws; PC_INTERNAL if one does not hold */
   int initial_neighbors; /**< FLANN only: 0 means 16, or 32 in volumes */
   int threads;           /**< host threads; 0 means all */
-  uint64_t chunk_pairs;  /**< most (region, seed) pairs on the device at once; 0 means by its memory */
-  pc_progress progress;  /**< may be NULL */
-  void* progress_user;   /**< handed to progress */
+  uint64_t chunk_pairs; /**< the most (region, seed) pairs on the device at once; 0 lets the library choose */
+  pc_progress progress; /**< may be NULL */
+  void* progress_user;  /**< passed to progress */
 } pc_options;
 
 /** The library's version, "major.minor.patch"; static storage. */
 POWERCELL_API const char* pc_version(void);
 /** Stable lower-case name of a status, e.g. "invalid_seed"; static storage. */
 POWERCELL_API const char* pc_status_name(pc_status status);
-/** What the last failed call of this thread said; "" before the first. Valid until the next failure. */
+/** The message of the last failure in this thread; "" before the first. Valid until the next failure. */
 POWERCELL_API const char* pc_last_error(void);
 
-/** From now on `sink` gets the lines of the log up to level `most`, from any thread but one at a time; NULL
- * ends that. While there is none, the environment variable POWERCELL_LOG (info or detail) sends them to
- * standard error. */
+/** Sends the lines of the log up to level `most` to `sink`, from any thread, one call at a time; NULL removes
+ * the sink. Without a sink the environment variable POWERCELL_LOG (info or detail) sends them to standard
+ * error. */
 POWERCELL_API pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user);
 
-/** The device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "" for the default. */
+/** Opens the device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "" for the default.
+ */
 POWERCELL_API pc_status pc_device_create(const char* selector, pc_device** device);
 POWERCELL_API void pc_device_destroy(pc_device* device);
 /** The device's name; owned by the handle. NULL for a NULL handle. */
@@ -126,8 +127,8 @@ POWERCELL_API pc_status pc_domain_measure(const pc_domain* domain, double* measu
 /** Sets every option to its default. */
 POWERCELL_API void pc_options_init(pc_options* options);
 
-/** A diagram without seeds yet. It keeps what it needs of device and domain: these may be destroyed
- * before it. \param options NULL for the defaults */
+/** A diagram without seeds. Device and domain may be destroyed before it. \param options NULL for the
+ * defaults */
 POWERCELL_API pc_status pc_diagram_create(const pc_device* device, const pc_domain* domain,
                                           const pc_options* options, pc_diagram** diagram);
 POWERCELL_API void pc_diagram_destroy(pc_diagram* diagram);
@@ -136,33 +137,31 @@ POWERCELL_API void pc_diagram_destroy(pc_diagram* diagram);
  * \param weights   count, unit length^2; NULL means all zero */
 POWERCELL_API pc_status pc_diagram_set_seeds(pc_diagram* diagram, const double* positions,
                                              const double* weights, size_t count);
-/** New weights for the same positions; redoes only what depends on weights. */
+/** Sets new weights for the same positions; only the work that depends on weights is repeated. */
 POWERCELL_API pc_status pc_diagram_set_weights(pc_diagram* diagram, const double* weights, size_t count);
 
-/** Number of seeds set. */
+/** The number of seeds. */
 POWERCELL_API pc_status pc_diagram_size(const pc_diagram* diagram, size_t* count);
 
-/** Measures of the cells, in the order of the seeds; computes what is not known yet. Each array may be
- * NULL where it is not wanted. n seeds, d coordinates.
- * \param mass           n: area or volume; 0 where empty
- * \param centroid       n x d, row-major; NaN where empty
- * \param second_moment  n: integral of |x - p_i|^2 over the cell
- * \param status         n: a pc_seed_status each */
+/** The measures of the cells, in the order of the seeds; computed if they are not known yet. Any array may be
+ * NULL. n seeds, d coordinates. \param mass           n: area or volume; 0 where empty \param centroid n x d,
+ * row-major; NaN where empty \param second_moment  n: integral of |x - p_i|^2 over the cell \param status n:
+ * a pc_seed_status each */
 POWERCELL_API pc_status pc_diagram_measures(pc_diagram* diagram, double* mass, double* centroid,
                                             double* second_moment, uint8_t* status);
 
-/** Which cells share a wall, as compressed sparse rows (asked for twice, see above).
- * \param offset    n + 1 entries, or NULL to learn *count only
- * \param neighbor  *count entries, ascending within a row; NULL to learn *count and offset only
+/** The pairs of cells that share a wall, as compressed sparse rows (two calls, see above).
+ * \param offset    n + 1 entries, or NULL for *count alone
+ * \param neighbor  *count entries, ascending within a row; NULL for *count and offset alone
  * \param wall      *count entries: length or area of the wall; may be NULL
- * \param count     in: room in neighbor and wall (when neighbor is not NULL); out: entries there are */
+ * \param count     in: room in neighbor and wall (when neighbor is not NULL); out: number of entries */
 POWERCELL_API pc_status pc_diagram_adjacency(pc_diagram* diagram, uint64_t* offset, uint32_t* neighbor,
                                              double* wall, size_t* count);
 
-/** The regular triangulation restricted to the domain (asked for twice, see above).
+/** The regular triangulation restricted to the domain (two calls, see above).
  * \param corners    corners of a simplex: 3 or 4
  * \param simplices  *count rows of `corners` seed indices, or NULL
- * \param count      in: rows there is room for (when simplices is not NULL); out: rows there are */
+ * \param count      in: room for rows (when simplices is not NULL); out: number of rows */
 POWERCELL_API pc_status pc_diagram_dual(pc_diagram* diagram, int* corners, uint32_t* simplices,
                                         size_t* count);
 

@@ -83,10 +83,10 @@ json device_json(const DeviceInfo& device) {
           {"fp64", device.fp64}};
 }
 
-double rate_of(const json& row, const char* what) {
-  const double rate = row.at(what).at("cells_per_second").get<double>();
+double rate_of(const json& row, const char* results) {
+  const double rate = row.at(results).at("cells_per_second").get<double>();
   if (!(rate > 0) || !std::isfinite(rate))
-    throw std::invalid_argument(fmt::format("'cells_per_second' of '{}' is not above 0", what));
+    throw std::invalid_argument(fmt::format("'cells_per_second' of '{}' is not above 0", results));
   return rate;
 }
 
@@ -97,11 +97,11 @@ std::size_t seeds_of(const json& row) {
   return n.get<std::size_t>();
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  io::fail_file(path, what + "; --compare takes what 'powercell bench --json FILE' writes");
+[[noreturn]] void refuse(const std::string& path, const std::string& fault) {
+  io::fail_file(path, fault + "; --compare takes a file that 'powercell bench --json FILE' writes");
 }
 
-// The last words of the library's message, without its name and number.
+// The library's message without its prefix of name and number.
 std::string reason(const json::exception& error) {
   const std::string text = error.what();
   const std::size_t end = text.find("] ");

@@ -16,12 +16,11 @@
 namespace powercell::app {
 namespace {
 
-// Seconds for all rows together, and for one run of one row. Rows that cannot be shortened, on a slow
-// device, may take longer.
+// Seconds for all rows together, and for one run of one row. Rows on a slow device may take longer.
 constexpr double usual_seconds = 75, quick_seconds = 10;
 constexpr double usual_run = 1, quick_run = 0.05;
 
-// The domains measured unless others are asked for: about 5,000 triangles, 14,000 tetrahedra.
+// The default domains; the meshes have about 5,000 triangles and 14,000 tetrahedra.
 struct Shape {
   const char *name, *spec;
 };
@@ -39,9 +38,10 @@ NamedDomain load(const std::string& name) {
   if (!io::is_builtin_domain(name) && !std::filesystem::exists(name))
     throw Error(
         ErrorCode::invalid_argument,
-        fmt::format("domain '{}' is not known: --domain takes square, cube, surface, volume, or a file "
-                    "or shape that 'powercell diagram --domain' takes",
-                    name));
+        fmt::format(
+            "unknown domain '{}'; --domain takes square, cube, surface, volume, or a file or shape as for "
+            "'powercell diagram --domain'",
+            name));
   return {name, io::read_domain(name)};
 }
 
@@ -59,7 +59,7 @@ CommonOptions on_device(const BenchArguments& arguments, const std::string& sele
   return options;
 }
 
-// Those asked for, or that of POWERCELL_DEVICE, or all.
+// The devices of --device, else that of POWERCELL_DEVICE, else all.
 std::vector<DeviceInfo> find_devices(const BenchArguments& arguments) {
   std::vector<DeviceInfo> found;
   for (const std::string& selector : arguments.devices)
@@ -69,7 +69,7 @@ std::vector<DeviceInfo> find_devices(const BenchArguments& arguments) {
   if (named && *named) return {open_device(arguments).info()};
   limit_threads(arguments);
   found = devices();
-  if (found.empty()) open_device(arguments);  // says what to do about it
+  if (found.empty()) open_device(arguments);  // throws an error with advice
   return found;
 }
 
@@ -84,7 +84,7 @@ std::string now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
-// One benchmark: device by device, precision by precision, domain by domain.
+// One benchmark of all devices, precisions and domains.
 class Bench {
  public:
   Bench(const BenchArguments& arguments, const EarlierRecord* earlier)
@@ -159,7 +159,7 @@ class Bench {
     record_.rows.push_back(std::move(row));
   }
 
-  // As asked, or as in the record that this one is compared with, else found by time.
+  // From the arguments, else from the earlier record, else 0 to choose by time.
   std::size_t seeds_of(const DeviceInfo& device, const std::string& domain, Precision precision) const {
     if (arguments_.n || !earlier_) return arguments_.n;
     const EarlierRow* row =

@@ -1,5 +1,5 @@
 /// \file
-/// The benchmark of devices from one end to the other.
+/// The benchmark of devices.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace powercell::app {
 
-/// What was asked for on the command line; `CommonOptions::device` and `json` are not used.
+/// Options of the command line; `CommonOptions::device` and `json` are not used.
 struct BenchArguments : CommonOptions {
-  std::vector<std::string> devices, domains;  ///< none: those that there are
+  std::vector<std::string> devices, domains;  ///< empty for the defaults
   std::string json_file, compare_file;
   std::size_t n = 0, repeat = 3;
   bool quick = false, cold = false;
@@ -22,8 +22,8 @@ struct BenchArguments : CommonOptions {
   bool talk() const { return !quiet && json_file != "-"; }
 };
 
-/// Runs it device by device, domain by domain, precision by precision, and prints the table as it goes.
-/// Where arguments name no number of seeds, those of `earlier` (may be null) are taken, else as many as fill
+/// Runs the benchmark for each device, domain and precision, and prints the rows of the table as they finish.
+/// The number of seeds is that of the arguments, else that of `earlier` (may be null), else as many as fill
 /// the time. \throw Error interrupted; invalid_argument, invalid_file (a domain); device_not_found
 BenchRecord run_bench(const BenchArguments& arguments, const EarlierRecord* earlier);
 

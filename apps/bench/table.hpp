@@ -1,5 +1,5 @@
 /// \file
-/// The benchmark as text, and beside an earlier one.
+/// The benchmark as text, alone and compared to an earlier one.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace powercell::app {
 std::string table_head();
 std::string table_line(const BenchRow& row);
 
-/// How a row compares: rates now over rates then.
+/// Rates of a row over the earlier rates.
 struct BenchRatio {
   const BenchRow* row;  ///< the caller's
   double measures = 0, adjacency = 0;
@@ -23,7 +23,7 @@ struct BenchRatio {
 /// The rows that did not fail and have an earlier one of the same device, domain, precision and n.
 std::vector<BenchRatio> compare(const BenchRecord& record, const EarlierRecord& earlier);
 
-/// A table of them, and how many rows have no counterpart.
+/// A table of the ratios, and the number of rows without a counterpart.
 std::string comparison(const BenchRecord& record, const EarlierRecord& earlier,
                        const std::vector<BenchRatio>& ratios);
 

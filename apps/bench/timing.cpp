@@ -15,15 +15,11 @@ namespace {
 constexpr std::size_t least_seeds = 1000, most_seeds = 10'000'000;
 constexpr std::size_t first_seeds = 1000;      // of the first result
 constexpr std::size_t counted_seeds = 10'000;  // on whose cells the work is counted
-constexpr double bytes_a_seed = 2500;          // of memory, what a diagram is expected to need at most
+constexpr double bytes_a_seed = 2500;          // upper estimate of a diagram's memory
 
 io::SeedTable white_seeds(const Domain& domain, std::size_t n) {
   const double spacing = std::pow(domain.measure() / static_cast<double>(n), 1.0 / domain.cell_dimension());
   return io::random_seeds({n, 0, spacing * spacing / 2, 1}, domain);
-}
-
-SeedsView view(const io::SeedTable& table) {
-  return {table.dimension, table.positions, table.weights};
 }
 
 class RowTimer {
@@ -42,14 +38,14 @@ class RowTimer {
   }
 
  private:
-  // Opening, kernels and all, as a program that starts meets it; then once more with adjacency, so that the
-  // kernels for that are there too.
+  // Includes opening the device and building kernels, as in a program that starts; then once more with
+  // adjacency, to build the kernels for that too.
   void first_result() {
     const io::SeedTable seeds =
         white_seeds(task_.domain->domain, task_.n ? std::min(task_.n, first_seeds) : first_seeds);
     Stopwatch watch;
     diagram_.emplace(task_.open(), task_.domain->domain, task_.options);
-    diagram_->set_seeds(view(seeds));
+    diagram_->set_seeds(seeds.view());
     diagram_->measures();
     row_.first_result = watch.lap();
     row_.neighbors = neighbors_name(diagram_->neighbors());
@@ -57,7 +53,7 @@ class RowTimer {
     time_once(seeds, true);
   }
 
-  // Doubles and more until the clock tells, then scales to what time is left for.
+  // Multiplies the number until runs are long enough to time, then scales it to the time left.
   std::size_t choose_seeds() {
     const auto memory = static_cast<double>(diagram_->device().info().memory_bytes);
     const std::size_t most = round_seeds(memory / bytes_a_seed);
@@ -89,7 +85,7 @@ class RowTimer {
   double time_once(const io::SeedTable& seeds, bool adjacency) {
     const double built = diagram_->device().build_seconds();
     Stopwatch watch;
-    diagram_->set_seeds(view(seeds));
+    diagram_->set_seeds(seeds.view());
     diagram_->compute(adjacency, false);
     return watch.lap() - (diagram_->device().build_seconds() - built);
   }
@@ -108,7 +104,7 @@ class RowTimer {
     const Domain part = part_of(*task_.domain, static_cast<double>(n) / static_cast<double>(row_.n));
     const io::SeedTable seeds = white_seeds(part, n);
     Diagram diagram(diagram_->device(), part, task_.options);
-    diagram.set_seeds(view(seeds));
+    diagram.set_seeds(seeds.view());
     return counts[key] = count_work(part, diagram.cells(), seeds.positions);
   }
 

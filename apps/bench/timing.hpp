@@ -12,32 +12,32 @@
 
 namespace powercell::app {
 
-/// The work counted for a cell, by name of the domain and number of seeds: the same for every device.
+/// The work counted for a cell, by domain and number of seeds; it is the same for every device.
 using WorkCounts = std::map<std::pair<std::string, std::size_t>, Work>;
 
 struct BenchTask {
   std::string name;                ///< of the domain
   const io::LoadedDomain* domain;  ///< the caller's
-  std::function<Device()> open;    ///< the device, anew
+  std::function<Device()> open;    ///< opens the device anew
   Options options;                 ///< precision and so on
   std::size_t n = 0;               ///< seeds; 0: as many as take about `seconds` in all
   std::size_t repeat = 3;          ///< runs of measures, and of measures and adjacency
-  double seconds = 10;             ///< that this row may take
-  double longest = 1;              ///< seconds that one run need not exceed
+  double seconds = 10;             ///< time for this row
+  double longest = 1;              ///< seconds of one run that suffice
   DeviceRates rates = {};          ///< of the device
 };
 
 /// Opens the device, times the first result, finds the number of seeds, and times; every run is checked.
 /// White seeds: uniform in the domain, weights uniform in [0, h^2 / 2] with h = (measure / n)^(1/d).
-/// What fails is told in `BenchRow::failure`. \throw Error interrupted
+/// Errors are reported in `BenchRow::failure`. \throw Error interrupted
 BenchRow time_row(const BenchTask& task, WorkCounts& counts);
 
-/// The largest of 1, 2, 5, 10, 20, ... that is not above `wanted` and not outside [1000, 10^7]: few numbers,
-/// so that rows of different runs can be compared.
+/// The largest of 1, 2, 5, 10, 20, ... not above `wanted`, in [1000, 10^7]. There are few values, so that
+/// rows of different runs can be compared.
 std::size_t round_seeds(double wanted);
 
-/// What is wrong with the measures of a run; empty if they sum to the domain's within what the precision
-/// allows and are the same bits as those of `before`, a run that asked for the same (may be null).
+/// The fault of the measures of a run; empty if they sum to the domain's within the precision's tolerance and
+/// have the same bits as those of `before`, an equal run (may be null).
 std::string fault_of(const Measures& measures, Precision precision, const Measures* before);
 
 }  // namespace powercell::app

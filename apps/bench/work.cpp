@@ -8,7 +8,7 @@
 namespace powercell::app {
 namespace {
 
-// Operations for each of what Work counts; d coordinates.
+// Operations for each item that Work counts; d coordinates.
 double for_near_seed(int d) {
   return 3 * d + 1;  // p_j - p_i: d; its square: 2d - 1; + w_i - w_j: 2
 }
@@ -29,8 +29,8 @@ double square_distance(const double* a, const double* b, int d) {
   return sum;
 }
 
-// How many of n white seeds lie within `radius` of a point, itself among them. Along each axis the ball is
-// cut to the box of the domain; a surface is taken for flat.
+// The expected number of n white seeds within `radius` of a point, the seed there included. The ball is cut
+// to the domain's box along each axis; a surface counts as flat.
 double seeds_within(const Domain& domain, std::size_t n, const double* point, double radius) {
   using std::numbers::pi;
   const double ball =
@@ -91,7 +91,7 @@ Work count_work(const Domain& domain, const Cells& cells, std::span<const double
       double reach = 0;  // square of the distance to the farthest corner
       for (std::uint64_t v = cells.vertex_offset[p]; v < cells.vertex_offset[p + 1]; ++v)
         reach = std::max(reach, square_distance(&cells.vertices[d * v], seed, work.dimension));
-      // A seed farther away than twice that leaves the piece as it is (mathematics, the stopping rule).
+      // Seeds farther away than twice that cannot cut the piece (mathematics, security radius).
       const double near = seeds_within(domain, n, seed, 2 * std::sqrt(reach));
       work.near += near;
       work.corner_tests += near * corners;

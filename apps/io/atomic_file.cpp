@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 20;
 
-// Names of unfinished files where a signal handler can read them: fixed memory, no locks.
+// Names of unfinished files in fixed memory without locks, for a signal handler.
 struct Slot {
   std::atomic<bool> taken{false};
   std::atomic<bool> filled{false};
@@ -35,7 +35,7 @@ int remember(const std::string& path) {
     slots[i].filled = true;
     return static_cast<int>(i);
   }
-  return -1;  // more files open at once than slots: only a signal could leave one behind
+  return -1;  // more open files than slots: a signal would leave this one behind
 }
 
 void forget(int slot) {
@@ -73,7 +73,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve_l
     forget(slot_);
     fail("create", error);
   }
-  if (exists) (void)fchmod(file_, old.st_mode & 07777);  // best effort: the content matters more
+  if (exists) (void)fchmod(file_, old.st_mode & 07777);  // best effort
 }
 
 AtomicFile::~AtomicFile() {
@@ -129,7 +129,7 @@ void AtomicFile::fail(const char* doing, int error) const {
   std::string hint;
   if (error == ENOENT) hint = "; does its folder exist?";
   if (error == ENOSPC || error == EDQUOT) hint = "; free some space or write elsewhere";
-  if (error == EACCES || error == EROFS) hint = "; choose a folder you may write to";
+  if (error == EACCES || error == EROFS) hint = "; choose a folder with write permission";
   throw Error(ErrorCode::write_failed, path_ + ": cannot " + doing + " it: " + std::strerror(error) + hint);
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// A file that appears whole or not at all.
+/// A file that is replaced as a whole or not at all.
 #pragma once
 
 #include <cstdint>
@@ -9,31 +9,36 @@
 namespace powercell::io {
 
 /// Writes beside the target and renames on `commit()`, so that a reader never sees half a file and a
-/// failure leaves an older file of that name as it was. A target that is no regular file (a pipe, a
+/// failure leaves an older file of that name unchanged. A target that is not a regular file (a pipe, a
 /// terminal, /dev/null) is written directly.
 class AtomicFile {
  public:
-  /// \throw Error write_failed if nothing can be created there
+  /// \throw Error write_failed if the file cannot be created
   explicit AtomicFile(const std::string& path);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
-  /// Without `commit()` the unfinished file is removed.
+  /// Removes the unfinished file if `commit()` was not called.
   ~AtomicFile();
 
   /// \throw Error write_failed (disk full and the like), here or at `commit()`
   void write(std::string_view bytes);
   void write(char c) { write(std::string_view(&c, 1)); }
-  /// The shortest decimal that reads back as the same double; "nan", "inf" as they are.
+  /// The shortest decimal that reads back as the same double, or "nan" or "inf".
   void number(double value);
   void number(std::uint64_t value);
-  /// Writes what is left and gives the file its name. \throw Error write_failed
+  /// The bytes of a number as they are in memory.
+  template <class Number>
+  void raw(Number value) {
+    write(std::string_view(reinterpret_cast<const char*>(&value), sizeof value));
+  }
+  /// Writes the rest of the buffer and gives the file its name. \throw Error write_failed
   void commit();
 
  private:
   void flush();
   [[noreturn]] void fail(const char* doing, int error) const;
 
-  std::string path_;       // as the caller said it, for messages
+  std::string path_;       // as given by the caller, for messages
   std::string target_;     // symbolic links resolved
   std::string temporary_;  // empty when written directly
   std::string buffer_;
@@ -41,8 +46,8 @@ class AtomicFile {
   int slot_ = -1;
 };
 
-/// Refuses, before what is to be written is computed, what an AtomicFile would refuse when it is made; leaves
-/// nothing. A pipe or terminal passes: at its other end it must not be seen opened and closed.
+/// Checks before a long computation whether an AtomicFile could be created there; leaves no file. Pipes and
+/// terminals are not checked, since the other end would see them opened and closed.
 /// \throw Error write_failed
 void check_can_create(const std::string& path);
 

@@ -12,15 +12,15 @@ namespace {
 
 struct Builtin {
   const char* name;
-  int resolution;   // where none is given; 0: takes none
-  int least, most;  // resolutions
+  int resolution;   // default; 0 if the shape has no resolution
+  int least, most;  // range of resolutions
 };
-constexpr Builtin kBuiltins[] = {{"square", 0, 0, 0},  {"cube", 0, 0, 0},       {"disk", 256, 3, 1000000},
-                                 {"ball", 10, 1, 256}, {"sphere", 32, 1, 4096}, {"torus", 48, 3, 4096}};
+constexpr Builtin builtins[] = {{"square", 0, 0, 0},  {"cube", 0, 0, 0},       {"disk", 256, 3, 1000000},
+                                {"ball", 10, 1, 256}, {"sphere", 32, 1, 4096}, {"torus", 48, 3, 4096}};
 
 const Builtin* find(const std::string& spec) {
   const std::string name = spec.substr(0, spec.find(':'));
-  for (const Builtin& builtin : kBuiltins) {
+  for (const Builtin& builtin : builtins) {
     if (name == builtin.name) return &builtin;
   }
   return nullptr;
@@ -44,7 +44,7 @@ int resolution(const Builtin& builtin, const std::string& spec) {
   return value;
 }
 
-// The unit cube as the six tetrahedra round its diagonal, one for each order of the axes.
+// The unit cube as six tetrahedra around its diagonal, one for each order of the axes.
 DomainArrays cube() {
   DomainArrays arrays;
   arrays.kind = DomainKind::volume;
@@ -68,7 +68,7 @@ bool is_builtin_domain(const std::string& spec) {
 DomainArrays builtin_domain(const std::string& spec) {
   const Builtin* builtin = find(spec);
   if (builtin == nullptr)
-    throw Error(ErrorCode::invalid_argument, fmt::format("domain {} is no built-in shape", spec));
+    throw Error(ErrorCode::invalid_argument, fmt::format("domain {} is not a built-in shape", spec));
   const int n = resolution(*builtin, spec);
   const std::string name = builtin->name;
   if (name == "square") return {DomainKind::polygon, {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}}, {}, {}};

@@ -1,19 +1,23 @@
 /// \file
-/// Pictures of diagrams.
+/// Pictures of diagrams and meshes.
 #pragma once
 
+#include <powercell/shapes.hpp>
 #include <string>
 
 #include "apps/io/output.hpp"
 
 namespace powercell::io {
 
-/// Polygon domains: coloured cells, a disc a seed, the outline of the domain; 1600 px on the long
+/// Polygon domains: coloured cells, a disc at each seed, the outline of the domain; 1600 pixels on the long
 /// side. In SVG each cell is a `<path id="cell-i" data-seed="i">` with a title. \throw Error write_failed
 void write_svg(const std::string& path, const DiagramOutput& output);
 void write_pdf(const std::string& path, const DiagramOutput& output);
-/// Polygon domains as above; surfaces shaded in perspective with their walls; volumes cut open, their
-/// cells drawn a little apart. \throw Error write_failed
+/// Polygon domains as above; surfaces and volumes shaded in perspective, volumes opened, with their cells
+/// drawn a little apart. \throw Error write_failed
 void write_png(const std::string& path, const DiagramOutput& output);
+
+/// PNG of two meshes of one surface beside each other, with their edges. \throw Error write_failed
+void write_before_and_after(const std::string& path, const TriangleMesh& before, const TriangleMesh& after);
 
 }  // namespace powercell::io

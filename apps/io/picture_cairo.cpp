@@ -22,7 +22,7 @@ struct ContextDeleter {
 using Surface = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
 using Context = std::unique_ptr<cairo_t, ContextDeleter>;
 
-// What cairo writes goes to a file; an exception must not pass through cairo's C frames.
+// Receives cairo's output and writes it to a file. Exceptions must not pass through cairo's C frames.
 struct Sink {
   AtomicFile file;
   std::exception_ptr error;
@@ -46,10 +46,6 @@ struct Sink {
     file.commit();
   }
 };
-
-void set_colour(cairo_t* to, Colour colour, double opacity = 1) {
-  cairo_set_source_rgba(to, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
-}
 
 void add_rings(cairo_t* to, const Scene::Rings& rings, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t r = first; r < end; ++r) {
@@ -128,6 +124,10 @@ void write_image(const std::string& path, cairo_surface_t* image) {
 }
 
 }  // namespace
+
+void set_colour(cairo_t* to, Colour colour, double opacity) {
+  cairo_set_source_rgba(to, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
+}
 
 void paint_png(const std::string& path, double width, double height, const Painter& paint) {
   const Surface image(

@@ -1,5 +1,5 @@
 /// \file
-/// Pixels and pages through cairo.
+/// Pictures and pages drawn with cairo.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,17 @@ using cairo_t = struct _cairo;
 
 namespace powercell::io {
 
-/// Draws in pixels, y downwards; a failure stays in the context and is found when the picture is written.
+/// Draws in pixels, y downwards. The context keeps a failure, which is reported when the picture is written.
 using Painter = std::function<void(cairo_t*)>;
+
+void set_colour(cairo_t* to, Colour colour, double opacity = 1);
 
 struct PageText {
   const std::string& title;
   const std::string& description;
 };
 
-/// A picture of that size in pixels, as the painter draws it. \throw Error write_failed
+/// Writes what the painter draws on a picture of that size in pixels. \throw Error write_failed
 void paint_png(const std::string& path, double width, double height, const Painter& paint);
 void paint_pdf(const std::string& path, double width, double height, const PageText& text,
                const Painter& paint);

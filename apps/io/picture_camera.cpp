@@ -5,12 +5,13 @@
 
 namespace powercell::io {
 
-Camera fit_camera(Vec3 view, const std::vector<Vec3>& points, int long_side) {
+Camera fit_camera(const View& view, std::span<const Vec3> points) {
+  constexpr float distance = 4.5f;  // a gentle perspective
   Camera camera;
-  camera.forward = normalized(view) * -1;
-  camera.right = normalized(cross(camera.forward, {0, 0, 1}));
+  camera.forward = normalized(view.towards) * -1;
+  camera.right = normalized(cross(camera.forward, view.up));
   camera.up = cross(camera.right, camera.forward);
-  camera.eye = camera.forward * -camera_distance;
+  camera.eye = camera.forward * -distance;
   float low_x = std::numeric_limits<float>::max(), low_y = low_x, high_x = -low_x, high_y = -low_x;
   for (const Vec3& point : points) {
     const Projected at = camera.project(point);
@@ -21,8 +22,9 @@ Camera fit_camera(Vec3 view, const std::vector<Vec3>& points, int long_side) {
   }
   if (points.empty()) low_x = low_y = -0.1f, high_x = high_y = 0.1f;
   const float extent = std::max({high_x - low_x, high_y - low_y, 1e-6f});
-  const float margin = 0.03f * static_cast<float>(long_side);
-  camera.scale = (static_cast<float>(long_side) - 2 * margin) / extent;
+  const auto size = static_cast<float>(view.size);
+  const float margin = 0.04f * size;
+  camera.scale = (size - 2 * margin) / extent;
   camera.left = margin - low_x * camera.scale;
   camera.top = margin - low_y * camera.scale;
   camera.width = std::max(1, static_cast<int>(std::ceil(2 * margin + (high_x - low_x) * camera.scale)));

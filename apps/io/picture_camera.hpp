@@ -1,22 +1,30 @@
 /// \file
-/// Perspective and parallel views of a model.
+/// Cameras.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "apps/io/picture_vector.hpp"
 
 namespace powercell::io {
 
-/// A point in a picture: pixels, y downwards, and the inverse of its distance along the view.
-struct Projected {
-  float x = 0, y = 0, inverse_depth = 0;
+/// How a picture shows a model.
+struct View {
+  Vec3 towards{0.60f, -0.80f, 0.52f};  ///< from the model to the camera
+  Vec3 up{0, 0, 1};                    ///< shown upwards; not parallel to `towards`
+  int size = 1600;                     ///< longer side of the picture in pixels
 };
 
-/// A camera that looks at the origin.
+/// A point in a picture: pixels, y downwards; `nearness` is larger nearer to the camera and linear in x and y
+/// on a plane.
+struct Projected {
+  float x = 0, y = 0, nearness = 0;
+};
+
+/// A perspective camera that looks at the origin; the nearness of a point is the inverse of its depth.
 struct Camera {
   Vec3 right, up, forward, eye;
-  float scale = 1;          ///< pixels per unit at distance 1
+  float scale = 1;          ///< pixels per unit at depth 1
   float left = 0, top = 0;  ///< pixel of the optical axis
   int width = 0, height = 0;
 
@@ -25,21 +33,15 @@ struct Camera {
     const float inverse = 1 / dot(v, forward);
     return {left + scale * dot(v, right) * inverse, top - scale * dot(v, up) * inverse, inverse};
   }
-  /// The point seen at a pixel at a given inverse distance.
-  Vec3 unproject(float x, float y, float inverse_depth) const {
-    return eye + ray(x, y) * (1 / inverse_depth);
-  }
-  /// Direction of sight through a pixel; its part along `forward` is 1.
+  /// Direction of sight through a pixel; its component along `forward` is 1.
   Vec3 ray(float x, float y) const {
     return forward + right * ((x - left) / scale) + up * ((top - y) / scale);
   }
+  Vec3 unproject(const Projected& at) const { return eye + ray(at.x, at.y) * (1 / at.nearness); }
 };
 
-/// Distance of cameras from the origin: a gentle perspective of a model of radius 1.
-constexpr float camera_distance = 4.5f;
-
-/// A camera in direction `view` from the origin such that all `points` fill a picture whose longer
-/// side is `long_side` pixels, with a margin.
-Camera fit_camera(Vec3 view, const std::vector<Vec3>& points, int long_side);
+/// The camera of `view` that fits all `points`, within distance 1 of the origin, into the picture with a
+/// margin.
+Camera fit_camera(const View& view, std::span<const Vec3> points);
 
 }  // namespace powercell::io

@@ -21,8 +21,9 @@ struct Normalization {
 };
 Normalization normalization(const Domain& domain);
 
-/// Three normals a triangle: the mean over the triangles around a corner that meet at a small angle;
-/// creases stay sharp. Corners at one place count as one, and neighbours may be oriented either way.
+/// Three normals for each triangle: means over the triangles around a corner that meet it at a small angle,
+/// so that creases stay sharp. Corners at the same position count as one, and neighbours may have either
+/// orientation.
 std::vector<Vec3> corner_normals(const RegionsView& mesh, const Normalization& normalize);
 
 }  // namespace powercell::io

@@ -32,7 +32,7 @@ std::vector<Edge> boundary_edges(const RegionsView& mesh) {
 
 }  // namespace
 
-// Edges run with the domain on their left, so each ring is found by going on from edge to edge.
+// Edges have the domain on their left, so following edges from end to start gives the rings.
 std::vector<Ring> boundary_rings(const Domain& domain) {
   std::vector<Edge> edges = boundary_edges(domain.regions());
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });

@@ -8,8 +8,8 @@
 
 namespace powercell::io {
 
-/// Chains of the boundary edges of a polygon domain, without those between its convex pieces; closed
-/// (the last point is joined to the first). Unit and coordinates of the domain.
+/// Closed chains of the boundary edges of a polygon domain, without the edges between its convex pieces; the
+/// last point is joined to the first. Coordinates of the domain.
 std::vector<Ring> boundary_rings(const Domain& domain);
 
 }  // namespace powercell::io

@@ -29,8 +29,8 @@ std::uint8_t channel(double value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
-// Cells with the fewest walls to cells not yet removed come off first; coloured in reverse, each then
-// has few coloured neighbours (at most five in the plane).
+// Removes the cell with the fewest remaining neighbours first. Coloured in reverse order, each cell has few
+// coloured neighbours (at most five in the plane).
 std::vector<std::uint32_t> smallest_last_order(const Adjacency& adjacency, std::size_t n) {
   std::vector<std::uint32_t> degree(n);
   std::uint32_t highest = 0;
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> smallest_last_order(const Adjacency& adjacency, std::
     }
     const std::uint32_t i = bucket[low].back();
     bucket[low].pop_back();
-    if (removed[i] || degree[i] != low) continue;  // an old entry; the cell stands in another bucket
+    if (removed[i] || degree[i] != low) continue;  // an outdated entry; the cell is in another bucket
     removed[i] = true;
     order.push_back(i);
     for (std::uint64_t e = adjacency.offset[i]; e < adjacency.offset[i + 1]; ++e) {
@@ -64,21 +64,39 @@ std::vector<std::uint32_t> smallest_last_order(const Adjacency& adjacency, std::
   return order;
 }
 
-// The palette entry least bordered by, then the one liked best by the seed's hash.
+// The palette entry with the least common wall; among equals the one with the largest hash.
 std::size_t choose(std::uint32_t seed, const std::array<double, palette.size()>& bordered) {
   std::size_t best = 0;
-  std::uint32_t best_liking = 0;
+  std::uint32_t best_hash = 0;
   for (std::size_t c = 0; c < palette.size(); ++c) {
-    const std::uint32_t liking = hash(seed * 8u + static_cast<std::uint32_t>(c));
-    if (c == 0 || bordered[c] < bordered[best] || (bordered[c] == bordered[best] && liking > best_liking)) {
+    const std::uint32_t here = hash(seed * 8u + static_cast<std::uint32_t>(c));
+    if (c == 0 || bordered[c] < bordered[best] || (bordered[c] == bordered[best] && here > best_hash)) {
       best = c;
-      best_liking = liking;
+      best_hash = here;
     }
   }
   return best;
 }
 
 }  // namespace
+
+double to_linear(std::uint8_t channel) {
+  static const std::array<double, 256> linear = [] {
+    std::array<double, 256> values{};
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double v = static_cast<double>(k) / 255;
+      values[k] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    }
+    return values;
+  }();
+  return linear[channel];
+}
+
+std::uint8_t to_srgb(double linear) {
+  const double c = std::clamp(linear, 0.0, 1.0);
+  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255 * encoded));
+}
 
 std::string hex(Colour colour) {
   static constexpr char digits[] = "0123456789abcdef";

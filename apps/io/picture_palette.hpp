@@ -16,18 +16,22 @@ struct Colour {
   friend bool operator==(const Colour&, const Colour&) = default;
 };
 
+/// Linear light, from 0 to 1, of a channel (IEC 61966-2-1), and the channel of it.
+double to_linear(std::uint8_t channel);
+std::uint8_t to_srgb(double linear);
+
 /// "#rrggbb".
 std::string hex(Colour colour);
-/// Each channel towards `other` by `share` in [0, 1].
+/// Moves each channel towards `other` by `share` in [0, 1].
 Colour mix(Colour colour, Colour other, double share);
 
 constexpr Colour ink{0x1d, 0x2b, 0x3a};    ///< outlines and seeds
 constexpr Colour paper{0xff, 0xff, 0xff};  ///< background and walls of 2D pictures
 
-/// One colour a cell. Hues come from a small palette that stays apart under the common colour vision
-/// deficiencies, chosen greedily so that cells with a common wall differ; where a cell has neighbours
-/// of every hue (in space), it takes the one it shares the least wall with. Lightness
-/// varies a little from seed to seed. The same diagram has the same colours every time.
+/// One colour for each cell. Hues come from a small palette that remains distinct under the common colour
+/// vision deficiencies. They are chosen greedily so that cells with a common wall differ; a cell with
+/// neighbours of every hue (in space) gets the hue with which it shares the least wall. Lightness varies a
+/// little from seed to seed. The same diagram has the same colours every time.
 std::vector<Colour> cell_colours(const Adjacency& adjacency, std::size_t cells);
 
 }  // namespace powercell::io

@@ -1,40 +1,46 @@
 /// \file
-/// Triangles and lines to samples, with a depth buffer.
+/// Triangles to samples, with a depth buffer.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "apps/io/picture_camera.hpp"
-#include "apps/io/picture_render.hpp"
 
 namespace powercell::io {
 
-/// A model as a camera sees it.
-struct ProjectedModel {
-  struct Corner {
-    Projected at[3];
-  };
-  Camera camera;
-  std::vector<Corner> triangles;  ///< parallel to Model::triangles
-  std::vector<Projected> lines;   ///< two for each of Model::lines
+using ProjectedTriangle = std::array<Projected, 3>;
+
+/// A grid of samples in row-major order; the sample of column 0 and row 0 lies at (0.5, 0.5). Each holds the
+/// triangle nearest there.
+struct Samples {
+  static constexpr std::uint32_t nothing = ~0u;
+  static constexpr float farthest = std::numeric_limits<float>::lowest();
+
+  int width, height;
+  std::vector<float> nearness;
+  std::vector<std::uint32_t> triangle;
+
+  Samples(int width, int height)
+      : width(width), height(height), nearness(count(), farthest), triangle(count(), nothing) {}
+  std::size_t count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  std::size_t at(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+  }
+  void clear();
+  /// Draws triangle `number`; on a tie the one drawn first stays.
+  void draw(const ProjectedTriangle& triangle, std::uint32_t number);
 };
-ProjectedModel project(const Model& model, const Camera& camera);
 
-/// A strip of rows of a picture, each pixel cut into fine x fine samples, row-major.
-struct Strip {
-  int width = 0;                     ///< pixels
-  int first_row = 0, rows = 0;       ///< pixels
-  int fine = 1;                      ///< samples a pixel along each axis
-  std::vector<float> inverse_depth;  ///< 0 where nothing is seen
-  std::vector<Vec3> normal;          ///< towards the camera or away from it
-  std::vector<Colour> colour;
+/// Weights of the corners at a point of a triangle's plane, as affine functions of the point.
+struct Barycentric {
+  std::array<float, 3> a{}, b{}, c{};  ///< weight k: a[k] x + b[k] y + c[k]
+  bool flat;                           ///< the triangle has practically no area in the picture
 
-  Strip(int width, int first_row, int rows, int fine);
-  std::size_t samples_wide() const { return static_cast<std::size_t>(width * fine); }
+  explicit Barycentric(const ProjectedTriangle& triangle);
+  float operator()(std::size_t k, float x, float y) const { return a[k] * x + b[k] * y + c[k]; }
 };
-
-/// Draws the triangles, then the lines over them.
-void rasterize(Strip& strip, const Model& model, const ProjectedModel& projected);
 
 }  // namespace powercell::io

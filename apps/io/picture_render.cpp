@@ -5,170 +5,220 @@
 
 #include "apps/io/picture_light.hpp"
 #include "apps/io/picture_parallel.hpp"
-#include "apps/io/picture_raster.hpp"
 
 namespace powercell::io {
 namespace {
 
-constexpr int fine = 3;         // samples a pixel along each axis
+constexpr int fine = 3;         // samples of a pixel along each axis
 constexpr int strip_rows = 32;  // pixels
 
-float to_linear(std::uint8_t channel) {
-  const float c = static_cast<float>(channel) / 255;
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+Vec3 linear_of(Colour colour) {
+  return {static_cast<float>(to_linear(colour.red)), static_cast<float>(to_linear(colour.green)),
+          static_cast<float>(to_linear(colour.blue))};
 }
 
-std::uint8_t to_srgb(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(s * 255));
+Samples drawn(int width, int height, const std::vector<ProjectedTriangle>& triangles) {
+  Samples samples(width, height);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) samples.draw(triangles[t], t);
+  return samples;
 }
 
-std::array<float, 256> linear_table() {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) table[i] = to_linear(static_cast<std::uint8_t>(i));
-  return table;
-}
+class Renderer {
+ public:
+  Renderer(const Model& model, const View& view);
+  Image image() const;
 
-// All that one pixel's samples share.
-struct Surroundings {
-  float sky = 1, lit = 1;
+ private:
+  Place place(int column, int row) const;
+  Vec3 normal(std::uint32_t triangle, float x, float y) const;
+  bool are_divided(std::uint32_t a, std::uint32_t b) const;
+  const Light& light(std::uint32_t triangle, int column, int row) const;
+  Vec3 shade(std::uint32_t triangle, float x, float y, const Light& light, bool line) const;
+  Vec3 floor(int column, int row, const Light& light) const;
+  Samples strip(int first_row, int rows) const;
+  std::vector<bool> lines(const Samples& strip) const;
+  void resolve(int first_row, int rows, Image& image) const;
+
+  const Model& model_;
+  Vec3 up_, sun_;
+  float ground_ = 0;  // height of the floor
+  Camera camera_;
+  std::vector<ProjectedTriangle> projected_;
+  std::vector<Barycentric> weight_;  // of each triangle
+  Samples pixels_{0, 0};             // one sample in the middle of each pixel
+  std::vector<Light> light_;         // of each pixel
 };
 
-struct Stage {
-  const Model& model;
-  Camera camera;
-  Vec3 to_light;
-  float floor = 0;  // height of the ground
-  Shadow shadow;
-  std::vector<Surroundings> pixel;  // of the whole picture
-  std::array<float, 256> linear = linear_table();
-};
-
-Vec3 facing(Vec3 normal, Vec3 sight) {
-  const Vec3 n = normalized(normal);
-  return dot(n, sight) > 0 ? n * -1 : n;
-}
-
-Vec3 shade(const Stage& stage, Vec3 normal, Colour colour, Vec3 sight, const Surroundings& around) {
-  const Vec3 n = facing(normal, sight);
-  const Vec3 to_eye = normalized(sight) * -1;
-  const float key = std::max(0.0f, dot(n, stage.to_light)) * around.lit;
-  const float sky = (0.5f + 0.5f * n.z) * around.sky;
-  const float ground = (0.5f - 0.5f * n.z) * around.sky;
-  const float front = std::max(0.0f, dot(n, to_eye)) * around.sky;
-  const float light = 0.70f * key + 0.42f * sky + 0.26f * ground + 0.16f * front;
-  const Vec3 half = normalized(stage.to_light + to_eye);
-  const float gloss = 0.05f * std::pow(std::max(0.0f, dot(n, half)), 40.0f) * around.lit;
-  const Vec3 albedo{stage.linear[colour.red], stage.linear[colour.green], stage.linear[colour.blue]};
-  return albedo * light + Vec3{gloss, gloss, gloss};
-}
-
-// The white floor shows only the model's soft shadow.
-float floor_brightness(const Stage& stage, float x, float y) {
-  const Vec3 ray = stage.camera.ray(x, y);
-  if (ray.z >= -1e-4f) return 1;
-  const Vec3 at = stage.camera.eye + ray * ((stage.floor - stage.camera.eye.z) / ray.z);
-  const float away = length({at.x, at.y, 0});
-  const float edge = std::min(
-      {x, y, static_cast<float>(stage.camera.width) - x, static_cast<float>(stage.camera.height) - y});
-  const float inside = std::clamp(edge / (0.06f * static_cast<float>(stage.camera.width)), 0.0f, 1.0f);
-  const float strength = 0.38f * std::clamp(2.2f - away, 0.0f, 1.0f) * inside * inside * (3 - 2 * inside);
-  return 1 - strength * (1 - stage.shadow.lit_below(at));
-}
-
-void light_pixels(Stage& stage) {
-  const Camera& camera = stage.camera;
-  Strip picture(camera.width, 0, camera.height, 1);
-  const ProjectedModel projected = project(stage.model, camera);
-  rasterize(picture, stage.model, projected);
-  const std::vector<float> sky = open_sky(picture, camera);
-  stage.pixel.resize(sky.size());
-  for_each_parallel(camera.height, [&](int row) {
-    for (int column = 0; column < camera.width; ++column) {
-      const std::size_t s = static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) +
-                            static_cast<std::size_t>(column);
-      const float x = static_cast<float>(column) + 0.5f, y = static_cast<float>(row) + 0.5f;
-      stage.pixel[s].sky = sky[s];
-      if (picture.inverse_depth[s] == 0) {
-        stage.pixel[s].lit = floor_brightness(stage, x, y);
-        continue;
-      }
-      const Vec3 at = camera.unproject(x, y, picture.inverse_depth[s]);
-      const Vec3 normal = facing(picture.normal[s], at - camera.eye);
-      const auto pattern = static_cast<unsigned>((column & 3) * 4 + (row & 3)) * 7u;
-      stage.pixel[s].lit = stage.shadow.lit(at, normal, 0.012f, pattern);
-    }
+Renderer::Renderer(const Model& model, const View& view) : model_(model), up_(normalized(view.up)) {
+  std::vector<Triangle> triangles;
+  std::vector<Vec3> corners;
+  for (const Model::Triangle& triangle : model.triangles) {
+    triangles.push_back(triangle.corner);
+    corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());
+  }
+  for (const Vec3& corner : corners) ground_ = std::min(ground_, dot(corner, up_));
+  ground_ -= 0.02f;
+  camera_ = fit_camera(view, corners);
+  sun_ = normalized(camera_.right * -0.45f + camera_.up * 0.62f - camera_.forward * 0.62f + up_);
+  for (const auto& [a, b, c] : triangles) {
+    projected_.push_back({camera_.project(a), camera_.project(b), camera_.project(c)});
+    weight_.emplace_back(projected_.back());
+  }
+  pixels_ = drawn(camera_.width, camera_.height, projected_);
+  std::vector<Place> places(pixels_.count());
+  for_each_parallel(camera_.height, [&](int row) {
+    for (int column = 0; column < camera_.width; ++column)
+      places[pixels_.at(column, row)] = place(column, row);
   });
+  light_ = light_on(places, camera_.width, triangles, sun_);
 }
 
-void resolve(const Stage& stage, const Strip& strip, Image& image) {
-  for (int row = 0; row < strip.rows; ++row) {
+// The point of the model, or else of the floor, in the middle of a pixel.
+Place Renderer::place(int column, int row) const {
+  const float x = static_cast<float>(column) + 0.5f, y = static_cast<float>(row) + 0.5f;
+  const std::size_t s = pixels_.at(column, row);
+  const int size = std::max(camera_.width, camera_.height);
+  if (const std::uint32_t t = pixels_.triangle[s]; t != Samples::nothing)
+    return {camera_.unproject({x, y, pixels_.nearness[s]}), normal(t, x, y), size / 200};
+  const Vec3 ray = camera_.ray(x, y);
+  const float down = -dot(ray, up_);
+  if (down < 1e-4f) return {};
+  return {camera_.eye + ray * ((dot(camera_.eye, up_) - ground_) / down), up_, size / 40};
+}
+
+// Towards the camera.
+Vec3 Renderer::normal(std::uint32_t triangle, float x, float y) const {
+  const Barycentric& weight = weight_[triangle];
+  const auto& own = model_.triangles[triangle].normal;
+  const Vec3 mean = own[0] * weight(0, x, y) + own[1] * weight(1, x, y) + own[2] * weight(2, x, y);
+  return normalized(dot(mean, camera_.ray(x, y)) > 0 ? mean * -1 : mean);
+}
+
+// Whether a line divides two triangles.
+bool Renderer::are_divided(std::uint32_t a, std::uint32_t b) const {
+  if (a == b) return false;
+  if (a == Samples::nothing || b == Samples::nothing) return true;
+  const Model::Triangle &one = model_.triangles[a], &other = model_.triangles[b];
+  return one.part != other.part || dot(one.normal[0], other.normal[0]) < std::max(one.crease, other.crease);
+}
+
+// The light for a sample: that of its pixel, or of a neighbouring pixel, whose middle shows the same part.
+const Light& Renderer::light(std::uint32_t triangle, int column, int row) const {
+  const std::size_t own = pixels_.at(column, row);
+  if (!are_divided(pixels_.triangle[own], triangle)) return light_[own];
+  for (int y = std::max(0, row - 1); y <= std::min(camera_.height - 1, row + 1); ++y)
+    for (int x = std::max(0, column - 1); x <= std::min(camera_.width - 1, column + 1); ++x)
+      if (const std::size_t s = pixels_.at(x, y); !are_divided(pixels_.triangle[s], triangle))
+        return light_[s];
+  return light_[own];
+}
+
+Vec3 Renderer::shade(std::uint32_t triangle, float x, float y, const Light& light, bool line) const {
+  const Vec3 n = normal(triangle, x, y), to_eye = normalized(camera_.ray(x, y)) * -1;
+  const float height = dot(n, up_), sky = std::min(1.0f, 0.28f + 0.8f * light.sky);
+  const float bright =
+      0.70f * std::max(0.0f, dot(n, sun_)) * light.sun +
+      sky * (0.21f * (1 + height) + 0.13f * (1 - height) + 0.16f * std::max(0.0f, dot(n, to_eye)));
+  const Vec3 half = normalized(sun_ + to_eye);
+  const float gloss = 0.05f * std::pow(std::max(0.0f, dot(n, half)), 40.0f) * light.sun;
+  const Colour colour = model_.triangles[triangle].colour;
+  return linear_of(line ? mix(colour, ink, model_.line_ink) : colour) * bright + Vec3{gloss, gloss, gloss};
+}
+
+// White, with the model's soft shadow, which fades out towards the border of the picture.
+Vec3 Renderer::floor(int column, int row, const Light& light) const {
+  const auto fade = [&](int at, int size) {
+    const float t =
+        std::min(1.0f, static_cast<float>(std::min(at, size - 1 - at)) / (0.1f * static_cast<float>(size)));
+    return t * t * (3 - 2 * t);
+  };
+  const float shadow = 0.8f * std::max(0.0f, 0.95f - light.sky);
+  const float bright = 1 - shadow * fade(column, camera_.width) * fade(row, camera_.height);
+  return {bright, bright, bright};
+}
+
+// The samples of some rows of pixels, which may lie outside of the picture.
+Samples Renderer::strip(int first_row, int rows) const {
+  Samples strip(camera_.width * fine, rows * fine);
+  const auto first = static_cast<float>(first_row), end = static_cast<float>(first_row + rows);
+  for (std::uint32_t t = 0; t < projected_.size(); ++t) {
+    ProjectedTriangle triangle = projected_[t];
+    const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+    if (high < first || low > end) continue;
+    for (Projected& corner : triangle) corner = {corner.x * fine, (corner.y - first) * fine, corner.nearness};
+    strip.draw(triangle, t);
+  }
+  return strip;
+}
+
+// Whether each sample lies on a line. Lines have the model's width and follow borders between samples. They
+// are not drawn on surfaces far behind the nearer one.
+std::vector<bool> Renderer::lines(const Samples& strip) const {
+  std::vector<bool> on_line(strip.count());
+  if (model_.line_width <= 0) return on_line;
+  const float radius = std::max(0.0f, model_.line_width * fine / 2 - 0.5f);
+  const int reach = static_cast<int>(radius);
+  const auto draw_disc = [&](int column, int row, float nearness) {
+    for (int y = std::max(0, row - reach); y <= std::min(strip.height - 1, row + reach); ++y)
+      for (int x = std::max(0, column - reach); x <= std::min(strip.width - 1, column + reach); ++x) {
+        const int dx = x - column, dy = y - row;
+        if (static_cast<float>(dx * dx + dy * dy) > radius * radius) continue;
+        if (strip.nearness[strip.at(x, y)] >= 0.9985f * nearness) on_line[strip.at(x, y)] = true;
+      }
+  };
+  const auto compare = [&](int column, int row, int x, int y) {
+    const std::size_t s = strip.at(column, row), t = strip.at(x, y);
+    if (!are_divided(strip.triangle[s], strip.triangle[t])) return;
+    const float nearness = std::max(strip.nearness[s], strip.nearness[t]);
+    draw_disc(column, row, nearness);
+    draw_disc(x, y, nearness);
+  };
+  for (int row = 0; row < strip.height; ++row)
     for (int column = 0; column < strip.width; ++column) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(strip.first_row + row) * static_cast<std::size_t>(strip.width) +
-          static_cast<std::size_t>(column);
-      const Surroundings& around = stage.pixel[pixel];
-      const Vec3 sight = stage.camera.ray(static_cast<float>(column) + 0.5f,
-                                          static_cast<float>(strip.first_row + row) + 0.5f);
+      if (column + 1 < strip.width) compare(column, row, column + 1, row);
+      if (row + 1 < strip.height) compare(column, row, column, row + 1);
+    }
+  return on_line;
+}
+
+void Renderer::resolve(int first_row, int rows, Image& image) const {
+  const int margin = static_cast<int>(std::ceil(model_.line_width / 2)) + 1;  // lines from beyond reach in
+  const Samples samples = strip(first_row - margin, rows + 2 * margin);
+  const std::vector<bool> on_line = lines(samples);
+  for (int row = first_row; row < first_row + rows; ++row)
+    for (int column = 0; column < image.width; ++column) {
       Vec3 sum;
       for (int k = 0; k < fine * fine; ++k) {
-        const std::size_t s = static_cast<std::size_t>(row * fine + k / fine) * strip.samples_wide() +
-                              static_cast<std::size_t>(column * fine + k % fine);
-        const bool seen = strip.inverse_depth[s] > 0;
-        sum = sum + (seen ? shade(stage, strip.normal[s], strip.colour[s], sight, around)
-                          : Vec3{around.lit, around.lit, around.lit});
+        const std::size_t s =
+            samples.at(column * fine + k % fine, (row - first_row + margin) * fine + k / fine);
+        const std::uint32_t t = samples.triangle[s];
+        const float x = static_cast<float>(column) + (static_cast<float>(k % fine) + 0.5f) / fine;
+        const float y = static_cast<float>(row) + (static_cast<float>(k / fine) + 0.5f) / fine;
+        const Light& here = light(t, column, row);
+        sum = sum + (t == Samples::nothing ? floor(column, row, here) : shade(t, x, y, here, on_line[s]));
       }
-      const float share = 1.0f / (fine * fine);
-      image.rgb[3 * pixel] = to_srgb(sum.x * share);
-      image.rgb[3 * pixel + 1] = to_srgb(sum.y * share);
-      image.rgb[3 * pixel + 2] = to_srgb(sum.z * share);
+      constexpr float share = 1.0f / (fine * fine);
+      std::uint8_t* pixel = &image.rgb[3 * pixels_.at(column, row)];
+      pixel[0] = to_srgb(sum.x * share);
+      pixel[1] = to_srgb(sum.y * share);
+      pixel[2] = to_srgb(sum.z * share);
     }
-  }
 }
 
-// The corners of the model, and where the corners of its bounding box throw their shadow.
-std::vector<Vec3> framed_points(const Model& model, Vec3 to_light, float floor) {
-  std::vector<Vec3> points;
-  for (const Model::Triangle& triangle : model.triangles) {
-    for (const Vec3& corner : triangle.corner) {
-      points.push_back(corner);
-      points.push_back(corner - to_light * (0.7f * (corner.z - floor) / to_light.z));
-    }
-  }
-  return points;
+Image Renderer::image() const {
+  Image image{camera_.width, camera_.height, {}};
+  image.rgb.resize(3 * pixels_.count());
+  for_each_parallel((image.height + strip_rows - 1) / strip_rows, [&](int s) {
+    const int first = s * strip_rows;
+    resolve(first, std::min(strip_rows, image.height - first), image);
+  });
+  return image;
 }
 
 }  // namespace
 
-Vec3 view_direction() {
-  return normalized({0.60f, -0.80f, 0.52f});
-}
-
-bool faces_camera(Vec3 point, Vec3 normal) {
-  return dot(view_direction() * camera_distance - point, normal) > 0;
-}
-
-Image render(const Model& model, int long_side) {
-  float floor = 0;
-  for (const Model::Triangle& triangle : model.triangles) {
-    for (const Vec3& corner : triangle.corner) floor = std::min(floor, corner.z);
-  }
-  floor -= 0.02f;
-  const Vec3 to_light = light_direction(fit_camera(view_direction(), {}, long_side));
-  const Camera camera = fit_camera(view_direction(), framed_points(model, to_light, floor), long_side);
-  Stage stage{model, camera, to_light, floor, Shadow(model, to_light), {}};
-  light_pixels(stage);
-  Image image{camera.width, camera.height, {}};
-  image.rgb.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height) * 3);
-  const ProjectedModel projected = project(model, camera);
-  for_each_parallel((camera.height + strip_rows - 1) / strip_rows, [&](int s) {
-    const int first = s * strip_rows;
-    Strip strip(camera.width, first, std::min(strip_rows, camera.height - first), fine);
-    rasterize(strip, model, projected);
-    resolve(stage, strip, image);
-  });
-  return image;
+Image render(const Model& model, const View& view) {
+  return Renderer(model, view).image();
 }
 
 }  // namespace powercell::io

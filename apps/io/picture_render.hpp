@@ -1,32 +1,28 @@
 /// \file
-/// A small renderer: triangles and lines, one soft light, shadows, a white floor.
+/// Shaded pictures of triangles with lines between their parts.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "apps/io/picture_camera.hpp"
 #include "apps/io/picture_palette.hpp"
-#include "apps/io/picture_vector.hpp"
 
 namespace powercell::io {
 
-/// What is rendered. Coordinates are such that the whole lies within distance 1 of the origin, z up.
+/// Triangles to render, within distance 1 of the origin.
 struct Model {
   struct Triangle {
     std::array<Vec3, 3> corner;
     std::array<Vec3, 3> normal;  ///< unit, on either side
     Colour colour;
-  };
-  /// A line on the surface of triangles, seen where they are.
-  struct Line {
-    Vec3 from, to;
-    Colour colour;
-    float width;  ///< pixels
+    std::uint32_t part;  ///< a line is drawn between different parts
+    float crease = -1;   ///< and within a part where the cosine of the angle of two normals is below both
   };
   std::vector<Triangle> triangles;
-  std::vector<Line> lines;
-  bool closed = false;  ///< triangles run counter-clockwise seen from outside and hide their other side
+  float line_width = 0;  ///< pixels; 0 for no lines
+  double line_ink = 1;   ///< how dark lines are, from 0 (colour of the part) to 1 (ink)
 };
 
 struct Image {
@@ -34,12 +30,7 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< height x width x 3, row-major, from the top
 };
 
-/// Direction from the origin to the camera: from the right front, a little above.
-Vec3 view_direction();
-/// Whether a plane through `point` with that normal shows its front to the camera.
-bool faces_camera(Vec3 point, Vec3 normal);
-
-/// Renders `model` on white, `long_side` pixels wide or high. The same model gives the same pixels.
-Image render(const Model& model, int long_side = 1600);
+/// Renders `model` on a white floor. The same model gives the same pixels.
+Image render(const Model& model, const View& view = {});
 
 }  // namespace powercell::io

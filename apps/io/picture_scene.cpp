@@ -5,14 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/io/picture_discs.hpp"
 #include "apps/io/picture_outline.hpp"
 
 namespace powercell::io {
 namespace {
 
-constexpr std::size_t most_discs = 20'000;   // more would be a blur
-constexpr std::size_t most_labels = 10'000;  // more would make the SVG twice as large
+constexpr std::size_t most_discs = 20'000;   // more cannot be told apart
+constexpr std::size_t most_labels = 10'000;  // more would double the size of the SVG
+
+// Maps coordinates of the domain to the picture.
+struct Placement {
+  double scale = 1;  // pixels per unit
+  double left = 0, top = 0;
+  double low_x = 0, high_y = 0;
+  double x(double at) const { return left + (at - low_x) * scale; }
+  double y(double at) const { return top + (high_y - at) * scale; }
+};
 
 Placement place(const DiagramOutput& output, double long_side, Scene& scene) {
   const auto low = output.domain.low(), high = output.domain.high();
@@ -23,7 +31,7 @@ Placement place(const DiagramOutput& output, double long_side, Scene& scene) {
   placement.left = placement.top = margin;
   placement.low_x = low[0];
   placement.high_y = high[1];
-  // A strip-like domain still gets a picture some pixels high.
+  // A very thin domain still gets a picture of some pixels in height.
   scene.width = std::ceil(2 * margin + std::max(1.0, (high[0] - low[0]) * placement.scale));
   scene.height = std::ceil(2 * margin + std::max(1.0, (high[1] - low[1]) * placement.scale));
   return placement;
@@ -54,6 +62,51 @@ void add_cells(Scene& scene, const DiagramOutput& output, const Placement& place
   }
 }
 
+// How much larger than true discs of radius sqrt|w| are drawn: 1 where they are legible, else such that the
+// larger ones fill about half of a cell. `spacing` is the width of a mean cell.
+double disc_magnification(const SeedsView& seeds, double spacing) {
+  std::vector<double> radii;
+  for (const double w : seeds.weights) {
+    if (w != 0) radii.push_back(std::sqrt(std::abs(w)));
+  }
+  if (radii.empty() || !(spacing > 0)) return 1;
+  const auto large = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() * 9 / 10);
+  std::nth_element(radii.begin(), large, radii.end());
+  const double relative = *large / spacing;
+  return relative > 0.12 && relative < 1.0 ? 1 : 0.45 / relative;
+}
+
+// Discs of the weights, if they are wanted, largest first, then the dots of the seeds, then those without a
+// cell. Seeds outside the picture are left out.
+std::vector<Scene::Disc> make_discs(const DiagramOutput& output, const Placement& placement, double width,
+                                    double height, double spacing, double magnification) {
+  std::vector<Scene::Disc> weights, dots, without_cell;
+  const double dot = std::clamp(0.045 * spacing * placement.scale, 0.8, 3.2);
+  for (std::size_t i = 0; i < output.seeds.size(); ++i) {
+    const double x = placement.x(output.seeds.positions[2 * i]);
+    const double y = placement.y(output.seeds.positions[2 * i + 1]);
+    if (!(x >= 0 && x <= width && y >= 0 && y <= height)) continue;
+    const auto seed = static_cast<std::uint32_t>(i);
+    const SeedStatus status = output.measures.status[i];
+    if (status == SeedStatus::hidden) without_cell.push_back({Scene::Mark::hidden, seed, x, y, 1.35 * dot});
+    if (status == SeedStatus::duplicate) {
+      without_cell.push_back({Scene::Mark::duplicate, seed, x, y, 1.9 * dot});
+    }
+    if (status != SeedStatus::ok) continue;
+    dots.push_back({Scene::Mark::dot, seed, x, y, dot});
+    if (!output.weights_as_discs || output.seeds.weights.empty()) continue;
+    const double w = output.seeds.weights[i];
+    const double radius = std::sqrt(std::abs(w)) * magnification * placement.scale;
+    if (radius < 1.3 * dot) continue;
+    weights.push_back({w > 0 ? Scene::Mark::positive : Scene::Mark::negative, seed, x, y, radius});
+  }
+  std::stable_sort(weights.begin(), weights.end(),
+                   [](const Scene::Disc& a, const Scene::Disc& b) { return a.radius > b.radius; });
+  weights.insert(weights.end(), dots.begin(), dots.end());
+  weights.insert(weights.end(), without_cell.begin(), without_cell.end());
+  return weights;
+}
+
 void describe(Scene& scene, const DiagramOutput& output, double magnification, bool discs) {
   const Measures& measures = output.measures;
   scene.title = fmt::format("Power diagram of {} seeds", output.seeds.size());
@@ -81,7 +134,7 @@ Scene make_scene(const DiagramOutput& output, double long_side) {
   }
   const double cells = static_cast<double>(std::max<std::size_t>(scene.cells.size(), 1));
   const double spacing = std::sqrt(output.domain.measure() / cells);
-  // Between cells of a few pixels the soft edges of the fills are wall enough.
+  // Between cells of a few pixels the soft edges of the fills are enough.
   const double pixels = spacing * placement.scale;
   scene.wall_width = pixels < 4 ? 0 : std::clamp(0.035 * pixels, 0.3, 2.6);
   scene.outline_width = std::clamp(1.6 * scene.wall_width, 1.2, 3.6);

@@ -1,5 +1,5 @@
 /// \file
-/// A flat picture as shapes: made once, drawn as SVG text or by cairo.
+/// A flat picture as shapes, to be drawn as SVG text or by cairo.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Scene {
     std::uint32_t seed;
     Colour fill;
     std::uint64_t first_ring, end_ring;  ///< of `cell_rings`, filled by the even-odd rule
-    std::string label;                   ///< for a tool tip; empty in large pictures
+    std::string label;                   ///< tool tip; empty in large pictures
   };
   enum class Mark {
     dot,        ///< the seed itself
@@ -47,7 +47,7 @@ struct Scene {
   std::string title, description;
   Rings cell_rings;
   std::vector<Cell> cells;
-  double wall_width = 1;  ///< of the line around each cell, in the colour of paper; 0: none
+  double wall_width = 1;  ///< of the line around each cell, in the colour of paper; 0 for no line
   Rings outline;          ///< of the domain
   double outline_width = 3;
   std::vector<Disc> discs;  ///< in drawing order

@@ -5,13 +5,13 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/picture.hpp"
 #include "apps/io/picture_scene.hpp"
-#include "apps/io/picture_svg_text.hpp"
+#include "apps/io/printable.hpp"
 
 namespace powercell::io {
 namespace {
 
-// A hundredth of a pixel is finer than any screen; whole hundredths keep the file small, and differences
-// of them add up without drift.
+// A hundredth of a pixel is finer than any screen. Whole hundredths keep the file small, and their
+// differences add up without drift.
 std::int64_t hundredths(double pixels) {
   return std::llround(pixels * 100);
 }
@@ -93,29 +93,6 @@ void write_discs(AtomicFile& file, const Scene& scene) {
 }
 
 }  // namespace
-
-std::string xml_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 void write_svg(const std::string& path, const DiagramOutput& output) {
   const Scene scene = make_scene(output);

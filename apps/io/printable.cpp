@@ -31,4 +31,41 @@ std::string printable(const std::string& text) {
   return safe;
 }
 
+std::string xml_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < ' ' || code == 0x7f) c = '?';
+  }
+  return text;
+}
+
+std::string readable(std::string text) {
+  constexpr std::size_t most = 400;
+  if (text.size() > most) text = text.substr(0, most) + "...";
+  return one_line(std::move(text));
+}
+
 }  // namespace powercell::io

@@ -1,5 +1,5 @@
 /// \file
-/// Numbers of a binary text in memory, in either byte order.
+/// Numbers of a binary file in memory, in either byte order.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace powercell::io {
 /// The types of numbers in binary files.
 enum class NumberType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
-/// What `take` gives for a zero of the C++ type that `type` is.
+/// Calls `take` with a zero of the C++ type for `type`.
 template <class Take>
 auto with_number_type(NumberType type, Take take) {
   switch (type) {
@@ -51,7 +51,7 @@ inline std::size_t size_of(NumberType type) {
   return with_number_type(type, [](auto number) { return sizeof(number); });
 }
 
-/// The number at `bytes` (not aligned), whose order is `swapped` from the machine's.
+/// The number at `bytes`, not aligned; `swapped` if its byte order is not the machine's.
 template <class Number>
 Number load_number(const char* bytes, bool swapped) {
   char own[sizeof(Number)];
@@ -62,7 +62,7 @@ Number load_number(const char* bytes, bool swapped) {
   return value;
 }
 
-/// The same for a type that the file names, rounded to a double.
+/// The same for a type known at run time, rounded to a double.
 inline double load_number(const char* bytes, NumberType type, bool swapped) {
   return with_number_type(
       type, [&](auto number) { return static_cast<double>(load_number<decltype(number)>(bytes, swapped)); });
@@ -72,7 +72,7 @@ inline bool swapped_from(std::endian order) {
   return order != std::endian::native;
 }
 
-/// Reads numbers one after the other. Failures are Error invalid_file "NAME: ... at byte N".
+/// Reads numbers one after the other. Failures are Error invalid_file "NAME: at byte N: ...".
 class ByteScanner {
  public:
   ByteScanner(std::string_view bytes, std::string name, std::endian order, std::size_t at = 0)
@@ -86,19 +86,19 @@ class ByteScanner {
     return value;
   }
 
-  /// A number of a type that the file names, rounded to a double. `what` it is of, for messages.
+  /// The same for a type known at run time, rounded to a double. \param what  the item, for messages
   double next(NumberType type, const char* what) {
     return with_number_type(type,
                             [&](auto number) { return static_cast<double>(next<decltype(number)>(what)); });
   }
 
-  /// Refuses unless `count` things of `size` bytes are left.
+  /// Refuses unless `count` items of `size` bytes are left.
   void need(std::uint64_t count, std::size_t size, const char* what) const {
     const std::size_t left = at_ < bytes_.size() ? bytes_.size() - at_ : 0;
     if (size != 0 && count > left / size) {
       fail(fmt::format(
           "the file ends in {}: {} of {} bytes are needed and {} bytes are left; it is truncated or the "
-          "count wrong",
+          "count is wrong",
           what, count, size, left));
     }
   }
@@ -110,7 +110,6 @@ class ByteScanner {
 
   std::size_t offset() const { return at_; }
   void seek(std::size_t offset) { at_ = offset; }
-  void set_order(std::endian order) { swapped_ = swapped_from(order); }
   [[noreturn]] void fail(const std::string& what) const {
     fail_file(name_, fmt::format("at byte {}: {}", at_, what));
   }

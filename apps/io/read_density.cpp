@@ -24,8 +24,9 @@ Density read_density(const std::string& spec, const Domain& domain) {
   const std::string extension = lower_extension(spec);
   if (extension == ".txt" || extension == ".csv") {
     if (domain.kind() == DomainKind::polygon)
-      throw Error(ErrorCode::unsupported,
-                  fmt::format("{}: values at vertices are for surfaces and volumes; give a formula", spec));
+      throw Error(
+          ErrorCode::unsupported,
+          fmt::format("{}: values at vertices need a surface or volume; for a polygon give a formula", spec));
     return Density::nodal(vertex_values(spec));
   }
   return Density::formula(spec);

@@ -4,28 +4,25 @@
 
 #include <array>
 
+#include "apps/io/names.hpp"
 #include "apps/io/read_file.hpp"
 
 namespace powercell::io {
 namespace {
 
-const char* kind_name(DomainKind kind) {
-  return kind == DomainKind::polygon ? "polygon" : kind == DomainKind::surface ? "surface" : "volume";
-}
-
 struct MeshFormat {
   const char* extension;
   MeshFile (*parse)(std::string_view, const std::string&);
 };
-constexpr MeshFormat kMeshFormats[] = {{".off", parse_off}, {".obj", parse_obj},    {".ply", parse_ply},
+constexpr MeshFormat mesh_formats[] = {{".off", parse_off}, {".obj", parse_obj},    {".ply", parse_ply},
                                        {".stl", parse_stl}, {".mesh", parse_medit}, {".msh", parse_gmsh},
                                        {".vtk", parse_vtk}, {".vtu", parse_vtu},    {".tet", parse_tet}};
 
 DomainArrays polygon_arrays(std::vector<PolygonPart> parts, std::optional<DomainKind> kind,
                             const std::string& name) {
   if (kind.value_or(DomainKind::polygon) != DomainKind::polygon) {
-    fail_file(name, fmt::format("holds a polygon, not a {} as is asked for; name another domain or kind",
-                                kind_name(*kind)));
+    fail_file(name, fmt::format("holds a polygon, but --kind is {}; choose another domain or kind",
+                                io::name(*kind)));
   }
   DomainArrays arrays;
   arrays.parts = std::move(parts);
@@ -60,7 +57,7 @@ std::string describe(const DomainArrays& arrays, const std::string& spec) {
                        counted(holes, "hole"), points);
   }
   const bool volume = arrays.kind == DomainKind::volume;
-  return fmt::format("{}: {}, {} vertices, {} {}", spec, kind_name(arrays.kind), arrays.vertices.size() / 3,
+  return fmt::format("{}: {}, {} vertices, {} {}", spec, io::name(arrays.kind), arrays.vertices.size() / 3,
                      arrays.elements.size() / (volume ? 4 : 3), volume ? "tetrahedra" : "triangles");
 }
 
@@ -73,14 +70,14 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
   if (extension == ".wkt") return polygon_arrays(parse_wkt(bytes, name), kind, name);
   if (extension == ".svg") return polygon_arrays(parse_svg(bytes, name), kind, name);
   if (extension == ".txt") return parse_plain(bytes, kind, name);
-  for (const MeshFormat& format : kMeshFormats) {
+  for (const MeshFormat& format : mesh_formats) {
     if (extension != format.extension) continue;
     MeshArrays mesh = choose_elements(format.parse(bytes, name), kind, name);
     return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements)};
   }
   fail_file(name,
             fmt::format(
-                "extension '{}' is not known; a domain is .geojson .json .wkt .svg (polygon), .off .obj .ply "
+                "unknown extension '{}'; a domain is .geojson .json .wkt .svg (polygon), .off .obj .ply "
                 ".stl (surface), .mesh .msh .vtu .vtk .tet (tetrahedra), .txt (plain), or one of square cube "
                 "disk ball sphere torus",
                 extension));
@@ -93,8 +90,8 @@ LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind
     arrays = builtin_domain(spec);
     if (kind.value_or(arrays.kind) != arrays.kind) {
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("domain {} is a {}, not a {} as is asked for; name another domain or kind",
-                              spec, kind_name(arrays.kind), kind_name(*kind)));
+                  fmt::format("domain {} is a {}, but --kind is {}; choose another domain or kind", spec,
+                              io::name(arrays.kind), io::name(*kind)));
     }
   } else {
     const std::string extension = lower_extension(spec);

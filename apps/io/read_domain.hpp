@@ -13,7 +13,7 @@
 
 namespace powercell::io {
 
-/// A domain with the arrays it was made from, kept for pictures.
+/// A domain with the arrays it was made from.
 struct LoadedDomain {
   Domain domain;
   std::string description;              ///< e.g. "bunny.off: surface, 2503 vertices, 4968 triangles"
@@ -25,7 +25,7 @@ struct LoadedDomain {
 /// \param spec  a file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt
 ///   of the paper's kind), or square, cube (unit, from 0 to 1), disk[:N], ball[:N], sphere[:N] (radius 1
 ///   about 0), torus[:N] (N: resolution)
-/// \param kind  what to make of a file that could be more than one (a mesh with faces and solids)
+/// \param kind  for files that can be read as more than one kind (a mesh with faces and solids)
 /// \throw Error invalid_file (file and line), invalid_domain (file and element), invalid_argument
 LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind = std::nullopt);
 

@@ -17,7 +17,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// The line at `at` without its comment, blanks at its ends and what is in quotes; `at` goes to the next.
+/// The line at `at` without comment, quoted text and blanks at both ends; moves `at` to the next line.
 std::string bare_line(std::string_view text, std::size_t& at, char comment) {
   std::string bare;
   bool in_quotes = false;
@@ -40,7 +40,8 @@ std::string bare_line(std::string_view text, std::size_t& at, char comment) {
 }  // namespace
 
 char number_separator(std::string_view text, char comment) {
-  // A line of one word, such as a count or the name of the only column, says nothing: the next may.
+  // A line of one word, such as a count or the name of the only column, shows no separator; the next line
+  // may.
   for (std::size_t at = 0, lines = 0; at < text.size() && lines < 2;) {
     const std::string line = bare_line(text, at, comment);
     for (const char c : {';', '\t', ',', ' '})
@@ -81,7 +82,7 @@ bool Records::next(Fields& fields) {
   return false;
 }
 
-/// Whether any field of it is not empty.
+/// Reads a record; whether it has a field that is not empty.
 bool Records::record(Fields& fields) {
   bool filled = false;
   while (true) {
@@ -123,7 +124,7 @@ std::string_view Records::plain() {
 
 std::string_view Records::quoted() {
   std::size_t begin = ++at_;
-  std::string* whole = nullptr;  // with single quotes, where some were doubled
+  std::string* whole = nullptr;  // the field with doubled quotes made single, if it has any
   std::string_view field;
   while (true) {
     const std::size_t end = text_.find('"', at_);
@@ -140,7 +141,7 @@ std::string_view Records::quoted() {
   if (separator_ == ' ' && at_ < text_.size() && is_blank(text_[at_])) return field;
   skip_blanks();
   if (!at_end_of_record() && text_[at_] != separator_)
-    fail("there is text after a closing quote; a quote within a field in quotes is written twice");
+    fail("there is text after a closing quote; double the quotes inside a quoted field");
   return field;
 }
 

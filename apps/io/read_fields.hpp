@@ -1,5 +1,5 @@
 /// \file
-/// The fields of a table, record by record. Quoting is that of RFC 4180.
+/// The fields of a table, record by record, with the quoting of RFC 4180.
 #pragma once
 
 #include <array>
@@ -13,24 +13,24 @@ namespace powercell::io {
 
 using Fields = std::vector<std::string_view>;
 
-/// What separates the columns of a table of numbers, by its first line of more than one word: `;` where there
-/// is one, else a tab, else `,`, else blanks.
+/// The separator of the columns of a table of numbers, from the first line with more than one word: `;` if
+/// the line has one, else tab, else `,`, else blanks.
 char number_separator(std::string_view text, char comment);
 
 /// " (columns are separated by tabs in this file)"; for messages.
 std::string separated_by(char separator);
 
-/// Reads one record after the other. A field in quotes may hold separators, quotes (doubled), comments and
-/// line ends; blanks around a field are none of it. Blanks as separators count once, however many.
+/// Reads one record after the other. A field in quotes may contain separators, doubled quotes, comments and
+/// line ends. Blanks around a field do not belong to it. Several blanks in a row are one separator.
 class Records {
  public:
-  /// \param comment  begins one, to the end of the line; none where it is 0
+  /// \param comment  character that begins a comment to the end of the line; 0 for no comments
   Records(std::string_view text, std::string name, char separator, char comment = '\0');
 
-  /// The next record in which any field is not empty; false at the end. The fields are valid until the next.
+  /// The next record with a field that is not empty; false at the end. Fields are valid until the next call.
   bool next(Fields& fields);
 
-  std::size_t line() const { return line_; }  ///< where the last record begins, from 1
+  std::size_t line() const { return line_; }  ///< in which the last record begins, from 1
   char separator() const { return separator_; }
   const std::string& name() const { return name_; }
   /// \throw Error invalid_file, always, with the line
@@ -52,10 +52,10 @@ class Records {
   std::size_t at_ = 0, line_ = 1, line_at_ = 1;
 };
 
-/// Whether no field is a number, nor meant to be one with a comma for its point.
+/// Whether no field is a number, with a decimal point or a decimal comma.
 bool is_header(const Fields& fields);
 
-/// In lower case, without blanks at its ends.
+/// In lower case, without blanks at both ends.
 std::string column_name(std::string_view field);
 
 }  // namespace powercell::io

@@ -11,21 +11,9 @@
 #include <memory>
 #include <system_error>
 
+#include "apps/io/printable.hpp"
+
 namespace powercell::io {
-
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < ' ' || code == 0x7f) c = '?';
-  }
-  return text;
-}
-
-std::string readable(std::string what) {
-  constexpr std::size_t most = 400;
-  if (what.size() > most) what = what.substr(0, most) + "...";
-  return one_line(std::move(what));
-}
 
 void fail_file(const std::string& name, const std::string& what) {
   throw Error(ErrorCode::invalid_file, fmt::format("{}: {}", name, readable(what)));
@@ -46,6 +34,13 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
+void check_extension(const std::string& path, std::string_view known) {
+  const std::string wanted = lower_extension(path) + " ";
+  if (wanted.size() > 1 && (std::string(known) + " ").find(wanted) != std::string::npos) return;
+  throw Error(ErrorCode::invalid_file,
+              fmt::format("{}: unknown extension of an output file; known are {}", path, known));
+}
+
 std::string read_file(const std::string& path) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
@@ -60,14 +55,14 @@ std::string read_file(const std::string& path) {
 
   // Read until the end, not by the size at the start: pipes such as /dev/stdin have no size.
   std::string bytes;
-  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  constexpr std::size_t chunk = std::size_t{1} << 20;
   const auto size = std::filesystem::file_size(path, code);
-  if (!code) bytes.reserve(size + kChunk + 1);
+  if (!code) bytes.reserve(size + chunk + 1);
   for (std::size_t used = 0;;) {
-    bytes.resize(used + kChunk);
-    const std::size_t got = std::fread(bytes.data() + used, 1, kChunk, file.get());
+    bytes.resize(used + chunk);
+    const std::size_t got = std::fread(bytes.data() + used, 1, chunk, file.get());
     used += got;
-    if (got < kChunk) {
+    if (got < chunk) {
       bytes.resize(used);
       break;
     }

@@ -1,5 +1,5 @@
 /// \file
-/// Whole files in memory, and the words every reader uses for a malformed one.
+/// Whole files in memory, and errors that name a file and a line.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,17 @@ namespace powercell::io {
 /// The bytes of a regular file. \throw Error invalid_file (missing, a directory, unreadable, empty)
 std::string read_file(const std::string& path);
 
-/// ".off" for "a/b/Mesh.OFF"; empty where the name has none.
+/// ".off" for "a/b/Mesh.OFF"; empty if the name has none.
 std::string lower_extension(const std::string& path);
 
-/// Without control characters, so that it stays on one line and leaves the terminal alone.
-std::string one_line(std::string text);
+/// Refuses an output file whose extension is not in the list. \param known  e.g. ".svg .png"
+/// \throw Error invalid_file
+void check_extension(const std::string& path, std::string_view known);
 
-/// `what` for a message, which may quote a file or its parser: on one line, and cut
-/// off where it would fill the terminal.
-std::string readable(std::string what);
-
-/// \throw Error invalid_file, always: "NAME: what".
+/// \throw Error invalid_file, always: "NAME: WHAT", made readable
 [[noreturn]] void fail_file(const std::string& name, const std::string& what);
 
-/// \throw Error invalid_file, always: "NAME:LINE: what".
+/// \throw Error invalid_file, always: "NAME:LINE: WHAT", made readable
 [[noreturn]] void fail_line(const std::string& name, std::size_t line, const std::string& what);
 
 /// Number of the line, from 1, that holds the byte at `offset`.

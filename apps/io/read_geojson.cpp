@@ -1,5 +1,5 @@
-// GeoJSON (RFC 7946). GEOS reads it too, but its messages name neither place nor line; the JSON library
-// does, and the geometry objects are few.
+// GeoJSON (RFC 7946). GEOS reads it too, but its messages name neither object nor line. The JSON library's
+// do, and there are few kinds of geometry.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -12,16 +12,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepestNesting = 32;  // of GeometryCollections in one another
+constexpr int deepest_nesting = 32;  // of GeometryCollections in one another
 
 class GeoJson {
  public:
   explicit GeoJson(const std::string& name) : name_(name) {}
 
   void object(const json& value, const std::string& path, int depth) {
-    if (depth > kDeepestNesting) fail(path, "is nested too deeply");
+    if (depth > deepest_nesting) fail(path, "is nested too deeply");
     if (!value.is_object() || !value.contains("type") || !value["type"].is_string()) {
-      fail(path, "is no GeoJSON object (an object with a type)");
+      fail(path, "is not a GeoJSON object (an object with a type)");
     }
     const std::string type = value["type"];
     if (type == "FeatureCollection") {
@@ -32,7 +32,7 @@ class GeoJson {
       if (!value.contains("geometry")) fail(path, "has no geometry");
       if (!value["geometry"].is_null()) object(value["geometry"], path + ".geometry", depth + 1);
     } else if (type == "Polygon") {
-      const json& rings = coordinates(value, path);  // none stand for null (RFC 7946, 3.1)
+      const json& rings = coordinates(value, path);  // an empty array means null (RFC 7946, 3.1)
       if (!rings.empty()) groups.push_back({part(rings, path + ".coordinates")});
     } else if (type == "MultiPolygon") {
       const json& all = coordinates(value, path);
@@ -66,7 +66,7 @@ class GeoJson {
   }
 
   PolygonPart part(const json& rings, const std::string& path) const {
-    if (!rings.is_array() || rings.empty()) fail(path, "is no polygon (an array of rings)");
+    if (!rings.is_array() || rings.empty()) fail(path, "is not a polygon (an array of rings)");
     PolygonPart result;
     for (std::size_t k = 0; k < rings.size(); ++k) {
       Ring r = ring(rings[k], fmt::format("{}[{}]", path, k));
@@ -77,13 +77,13 @@ class GeoJson {
 
   Ring ring(const json& points, const std::string& path) const {
     if (!points.is_array() || points.size() < 4)
-      fail(path, "is no ring (an array of at least 4 points, the last as the first)");
+      fail(path, "is not a ring (an array of at least 4 points, the last equal to the first)");
     Ring result;
     result.reserve(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
       const json& p = points[k];
       if (!p.is_array() || p.size() < 2 || !p[0].is_number() || !p[1].is_number()) {
-        fail(fmt::format("{}[{}]", path, k), "is no point (an array of at least 2 numbers)");
+        fail(fmt::format("{}[{}]", path, k), "is not a point (an array of at least 2 numbers)");
       }
       result.push_back({p[0].get<double>(), p[1].get<double>()});
     }

@@ -40,7 +40,7 @@ Geos::Geometry Geos::polygon(const PolygonPart& part) const {
   }
   if (!shell) return shell;
   std::vector<GEOSGeometry*> pointers;
-  for (Geometry& hole : holes) pointers.push_back(hole.release());  // taken over, also on failure
+  for (Geometry& hole : holes) pointers.push_back(hole.release());  // GEOS owns them, also on failure
   return own(GEOSGeom_createPolygon_r(handle(), shell.release(), pointers.data(),
                                       static_cast<unsigned>(pointers.size())));
 }

@@ -1,5 +1,5 @@
 /// \file
-/// GEOS geometries as owned objects, and to and from rings.
+/// GEOS geometries as owned objects, and conversion to and from rings.
 #pragma once
 
 #include <geos_c.h>
@@ -25,12 +25,12 @@ class Geos {
   Geometry own(GEOSGeometry* geometry) const { return Geometry(geometry, Delete{handle()}); }
   const std::string& message() const { return message_; }  ///< of the last failure
 
-  /// Null on failure, as all GEOS calls.
+  /// These return null on failure, as GEOS calls do.
   Geometry line(const Ring& ring) const;  ///< closed: the first point is repeated if needed
   Geometry polygon(const PolygonPart& part) const;
   Geometry collection(int type, std::vector<Geometry> members) const;
 
-  /// Appends the polygons in `geometry`, at any depth. False where something else was in it.
+  /// Appends the polygons in `geometry`, at any depth. False if it also contains other geometries.
   bool parts(const GEOSGeometry* geometry, std::vector<PolygonPart>& out) const;
 
  private:

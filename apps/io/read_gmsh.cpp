@@ -1,5 +1,5 @@
 // Gmsh .msh, versions 2.x and 4.1, ASCII and binary: sections between $Name and $EndName. Of these,
-// MeshFormat, Nodes and Elements are read, the others (names, entities, data) passed over.
+// MeshFormat, Nodes and Elements are read, the others (names, entities, data) skipped.
 #include "apps/io/read_gmsh.hpp"
 
 #include <fmt/format.h>
@@ -10,36 +10,30 @@
 
 namespace powercell::io {
 
-const GmshElement* gmsh_element(std::int64_t type) {
-  // In the order of Gmsh's reference manual, "MSH file format", from 1 to 19.
-  static const GmshElement kKinds[] = {{2, 1, true, "line"},
-                                       {3, 2, true, "triangle"},
-                                       {4, 2, true, "quadrangle"},
-                                       {4, 3, true, "tetrahedron"},
-                                       {8, 3, true, "hexahedron"},
-                                       {6, 3, true, "prism"},
-                                       {5, 3, true, "pyramid"},
-                                       {3, 1, false, "3-node line"},
-                                       {6, 2, false, "6-node triangle"},
-                                       {9, 2, false, "9-node quadrangle"},
-                                       {10, 3, false, "10-node tetrahedron"},
-                                       {27, 3, false, "27-node hexahedron"},
-                                       {18, 3, false, "18-node prism"},
-                                       {14, 3, false, "14-node pyramid"},
-                                       {1, 0, true, "point"},
-                                       {8, 2, false, "8-node quadrangle"},
-                                       {20, 3, false, "20-node hexahedron"},
-                                       {15, 3, false, "15-node prism"},
-                                       {13, 3, false, "13-node pyramid"}};
-  return type >= 1 && type <= 19 ? &kKinds[type - 1] : nullptr;
-}
-
 const GmshElement& known_gmsh_element(std::int64_t type, GmshNumbers& numbers) {
-  const GmshElement* kind = gmsh_element(type);
-  if (kind == nullptr) {
+  // In the order of Gmsh's reference manual, "MSH file format", from 1 to 19.
+  static const GmshElement kinds[] = {{2, 1, true, "line"},
+                                      {3, 2, true, "triangle"},
+                                      {4, 2, true, "quadrangle"},
+                                      {4, 3, true, "tetrahedron"},
+                                      {8, 3, true, "hexahedron"},
+                                      {6, 3, true, "prism"},
+                                      {5, 3, true, "pyramid"},
+                                      {3, 1, false, "3-node line"},
+                                      {6, 2, false, "6-node triangle"},
+                                      {9, 2, false, "9-node quadrangle"},
+                                      {10, 3, false, "10-node tetrahedron"},
+                                      {27, 3, false, "27-node hexahedron"},
+                                      {18, 3, false, "18-node prism"},
+                                      {14, 3, false, "14-node pyramid"},
+                                      {1, 0, true, "point"},
+                                      {8, 2, false, "8-node quadrangle"},
+                                      {20, 3, false, "20-node hexahedron"},
+                                      {15, 3, false, "15-node prism"},
+                                      {13, 3, false, "13-node pyramid"}};
+  if (type < 1 || type > 19)
     numbers.fail(fmt::format("element type {} is not known; save a mesh of first order", type));
-  }
-  return *kind;
+  return kinds[type - 1];
 }
 
 void GmshNumbers::enter() {
@@ -87,7 +81,7 @@ void GmshNumbers::fail(const std::string& what) const {
 std::uint32_t GmshNodes::at(std::uint64_t tag, GmshNumbers& numbers, std::uint64_t element) const {
   const auto found = place_of_.find(tag);
   if (found == place_of_.end()) {
-    numbers.fail(fmt::format("element {} names node {}, which the file does not have", element, tag));
+    numbers.fail(fmt::format("element {} names node {}, which does not exist", element, tag));
   }
   return found->second;
 }
@@ -127,7 +121,7 @@ Format read_format(TextScanner& scanner) {
   if (!format.ascii) {
     ByteScanner bytes(scanner.text(), scanner.name(), std::endian::little, scanner.offset());
     const auto one = bytes.next<std::int32_t>("the byte order");
-    if (one != 1 && one != 0x01000000) bytes.fail("the number that tells the byte order is not 1");
+    if (one != 1 && one != 0x01000000) bytes.fail("the number that shows the byte order is not 1");
     format.order = one == 1 ? std::endian::little : std::endian::big;
     scanner.seek(bytes.offset());
   }

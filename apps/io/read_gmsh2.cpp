@@ -8,11 +8,11 @@
 namespace powercell::io {
 namespace {
 
-constexpr int kMostNodes = 27;
+constexpr int most_nodes = 27;
 
 void read_element(GmshNumbers& numbers, const GmshNodes& nodes, const GmshElement& kind, std::uint64_t tag,
                   MeshFile& mesh) {
-  std::array<std::uint32_t, kMostNodes> places;
+  std::array<std::uint32_t, most_nodes> places;
   for (int k = 0; k < kind.nodes; ++k) {
     places[k] = nodes.at(static_cast<std::uint64_t>(numbers.integer({"element", tag})), numbers, tag);
   }

@@ -1,4 +1,4 @@
-// Sections of Gmsh's format 4.1: blocks of nodes and elements, one an entity of the geometry.
+// Sections of Gmsh's format 4.1: a block of nodes and one of elements for each entity of the geometry.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,62 +2,52 @@
 
 #include <png.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "apps/io/picture_palette.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
 
 namespace powercell::io {
 namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
-/// Of a byte of a PNG: eight of one bit each, from each of the 1032 bytes that deflate makes of one at most.
+/// Deflate expands a byte to at most 1032 bytes, each with eight pixels of one bit.
 constexpr std::uint64_t most_pixels_a_byte = 8 * 1032;
 
 struct Freed {
   void operator()(png_image* image) const { png_image_free(image); }
 };
 
-/// Light of the 256 steps of sRGB (IEC 61966-2-1).
-std::array<double, 256> srgb_light() {
-  std::array<double, 256> light{};
-  for (std::size_t k = 0; k < light.size(); ++k) {
-    const double v = static_cast<double>(k) / 255;
-    light[k] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  }
-  return light;
-}
-
-/// \param image  begun to read   \return pixels of `channels` values each
+/// \param image  after begin_read   \return pixels of `channels` values each
 template <class T>
 std::vector<T> read_pixels(png_image& image, png_uint_32 format, std::size_t channels,
                            const std::string& name) {
   image.format = format;
   std::vector<T> pixels(channels * image.width * image.height);
-  // A row's length is given in values; 0 means rows without gaps.
+  // The row length is in values; 0 means rows without padding.
   if (!png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr))
     fail_file(name, "damaged PNG: " + readable(image.message));
   return pixels;
 }
 
-/// Files of 16 bits: libpng has the luminance, multiplied with the opacity. The rest of the light is the
-/// paper's.
+/// For files of 16 bits libpng gives the luminance multiplied by the opacity. The paper adds the rest of the
+/// light.
 void read_deep(png_image& image, const std::string& name, std::vector<double>& values) {
   const auto pixels = read_pixels<std::uint16_t>(image, PNG_FORMAT_LINEAR_Y_ALPHA, 2, name);
   for (std::size_t k = 0; k < values.size(); ++k)
     values[k] = (pixels[2 * k] + (65535.0 - pixels[2 * k + 1])) / 65535.0;
 }
 
-/// Files of 8 bits and less, for which libpng would round the light to 8 bits too.
+/// For files of at most 8 bits libpng would also round the luminance to 8 bits.
 void read_shallow(png_image& image, const std::string& name, std::vector<double>& values) {
   const auto pixels = read_pixels<std::uint8_t>(image, PNG_FORMAT_RGBA, 4, name);
-  const std::array<double, 256> light = srgb_light();
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::uint8_t* const p = &pixels[4 * k];
-    const double luminance = 0.2126 * light[p[0]] + 0.7152 * light[p[1]] + 0.0722 * light[p[2]];
+    const double luminance = 0.2126 * to_linear(p[0]) + 0.7152 * to_linear(p[1]) + 0.0722 * to_linear(p[2]);
     values[k] = 1 - p[3] / 255.0 * (1 - luminance);
   }
 }

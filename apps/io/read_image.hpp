@@ -1,5 +1,5 @@
 /// \file
-/// Pictures as numbers.
+/// Images as arrays.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct GrayImage {
   std::vector<double> values;
 };
 
-/// A PNG of any kind, 8 or 16 bits: its luminance in linear light; transparent parts are on white paper.
-/// \throw Error invalid_file (no PNG, damaged, or of more than 2^28 pixels)
+/// The luminance, in linear light, of a PNG of any kind with 8 or 16 bits; transparent parts show white
+/// paper. \throw Error invalid_file (not a PNG, damaged, or more than 2^28 pixels)
 GrayImage read_image(const std::string& path);
 /// The same from memory.
 GrayImage parse_png(std::string_view bytes, const std::string& name);

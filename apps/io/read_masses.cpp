@@ -22,7 +22,7 @@ class MassesText {
   }
 
  private:
-  /// Whether the first line is a header; finds the column.
+  /// Whether the first line is a header; sets the column.
   bool header(const Fields& fields) {
     columns_ = fields.size();
     if (!is_header(fields)) {
@@ -58,8 +58,8 @@ class MassesText {
                                 fields[at_].empty() ? "the mass is empty" : why_not(fields[at_], parsed)));
     if (parsed != Parsed::ok || !(mass > 0))
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{}:{}: seed {} (from 0): the mass is {}; masses must be positive and finite, "
-                              "take the seed out if it is to have nothing",
+                  fmt::format("{}:{}: seed {} (from 0): the mass is {}; masses must be positive and finite; "
+                              "remove seeds without mass",
                               records_.name(), records_.line(), seed, fields[at_]));
     masses_.push_back(mass);
   }
@@ -76,8 +76,8 @@ std::vector<double> parse_masses(std::string_view text, const std::string& colum
                                  const std::string& name) {
   std::vector<double> masses = MassesText(text, column, name).read();
   if (masses.size() != seeds)
-    fail_file(name,
-              fmt::format("{} masses for {} seeds; one row a seed, in their order", masses.size(), seeds));
+    fail_file(name, fmt::format("{} masses for {} seeds; give one row for each seed, in their order",
+                                masses.size(), seeds));
   return masses;
 }
 

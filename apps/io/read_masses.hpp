@@ -9,9 +9,10 @@
 
 namespace powercell::io {
 
-/// One number a seed, in the order of the rows. \param column  of the header; empty: "mass", or the only one
-/// \throw Error invalid_file (file and line; a number of rows other than `seeds`),
-///   invalid_argument (a mass that is negative, zero or not finite: file, line and seed)
+/// One number for each seed, in the order of the rows.
+/// \param column  name in the header; empty for "mass" or the only column
+/// \throw Error invalid_file (file and line; if there are not `seeds` rows), invalid_argument (a mass that is
+///   negative, zero or not finite: file, line and seed)
 std::vector<double> read_masses(const std::string& path, const std::string& column, std::size_t seeds);
 
 /// The same from memory.

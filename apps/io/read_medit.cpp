@@ -1,4 +1,5 @@
-// Medit .mesh, ASCII: sections of a keyword, a count and rows; numbered from 1, a reference ends each row.
+// Medit .mesh, ASCII: sections of a keyword, a count and rows. Indices start at 1; each row ends with a
+// reference.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -48,7 +49,7 @@ void read_section(TextScanner& scanner, std::string_view keyword, const std::str
     scanner.count({"version", 0});
   } else if (keyword == "Dimension") {
     if (scanner.count({"dimension", 0}) != 3)
-      scanner.fail("the dimension is not 3; a plane mesh is no volume");
+      scanner.fail("the dimension is not 3; a plane mesh is not a volume");
   } else if (keyword == "Vertices") {
     read_vertices(scanner, name, mesh);
   } else if (keyword == "Triangles") {
@@ -81,13 +82,12 @@ MeshFile parse_medit(std::string_view text, const std::string& name) {
           "does not begin with MeshVersionFormatted; is it an ASCII Medit file (.mesh, not .meshb)?");
     }
     if (!is_keyword(keyword))
-      scanner.fail(
-          fmt::format("'{}' stands where a keyword is due; the count above is wrong", keyword.substr(0, 40)));
+      scanner.fail(fmt::format("'{}' instead of a keyword; the count above is wrong", keyword.substr(0, 40)));
     first = false;
     ended = keyword == "End";
     if (!ended) read_section(scanner, keyword, name, mesh);
   }
-  // "End" is left out by some writers, so its absence alone is no sign of truncation.
+  // Some writers omit "End", so its absence does not show truncation.
   if (mesh.vertices.empty()) fail_file(name, "has no section Vertices before its end");
   return mesh;
 }

@@ -10,14 +10,14 @@ namespace powercell::io {
 
 std::size_t checked_vertex_count(std::uint64_t count, const std::string& name) {
   if (count > std::numeric_limits<std::uint32_t>::max()) {
-    fail_file(name, fmt::format("{} vertices are more than 32-bit indices can name", count));
+    fail_file(name, fmt::format("{} vertices are more than 32-bit indices can address", count));
   }
   return static_cast<std::size_t>(count);
 }
 
 MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const std::string& name) {
   if (kind == DomainKind::polygon) {
-    fail_file(name, "holds a mesh in space, not a polygon; leave out --kind or say surface or volume");
+    fail_file(name, "holds a mesh in space, not a polygon; leave out --kind or use surface or volume");
   }
   MeshArrays arrays;
   const bool solids = !mesh.tetrahedra.empty() || !mesh.other_solid.empty();
@@ -28,11 +28,11 @@ MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const 
                 fmt::format("has {}; only tetrahedra make a volume: split the other cells into tetrahedra",
                             mesh.other_solid));
     }
-    if (mesh.tetrahedra.empty()) fail_file(name, "has no tetrahedra; for its faces say --kind surface");
+    if (mesh.tetrahedra.empty()) fail_file(name, "has no tetrahedra; for its faces use --kind surface");
     arrays.elements = std::move(mesh.tetrahedra);
   } else {
     if (mesh.face_count() == 0) {
-      fail_file(name, solids ? "has no faces of its own; for its solids say --kind volume"
+      fail_file(name, solids ? "has no faces besides those of its solids; use --kind volume"
                              : "has neither tetrahedra nor faces");
     }
     arrays.elements = triangulate(mesh, name);

@@ -1,6 +1,6 @@
 /// \file
-/// Meshes as files hold them, one reader a format. Every reader takes the bytes of a file and the name
-/// that messages shall use, keeps the file's order, numbers from 0 and throws Error invalid_file.
+/// Readers of mesh files, one for each format. A reader takes the bytes of a file and its name for messages,
+/// keeps the order of the file, counts from 0 and throws Error invalid_file.
 #pragma once
 
 #include <array>
@@ -37,21 +37,21 @@ MeshFile parse_vtk(std::string_view bytes, const std::string& name);   ///< lega
 MeshFile parse_vtu(std::string_view bytes, const std::string& name);
 MeshFile parse_tet(std::string_view text, const std::string& name);
 
-/// Number of vertices, refused above what 32-bit indices can name.
+/// The number of vertices; refuses more than 32-bit indices can address.
 std::size_t checked_vertex_count(std::uint64_t count, const std::string& name);
 
-/// Each face cut into triangles: corners in the face's order, faces in the file's. nt x 3.
-/// A face with fewer than 3 corners is refused, named by its number.
+/// The faces as triangles, nt x 3, with corners in the order of the face and faces in the order of the file.
+/// Refuses faces with fewer than 3 corners, by number.
 std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& name);
 
-/// What a mesh file becomes.
+/// The vertices and elements of a mesh domain.
 struct MeshArrays {
   DomainKind kind = DomainKind::surface;  ///< surface or volume
   std::vector<double> vertices;           ///< nv x 3
   std::vector<std::uint32_t> elements;    ///< nt x 3 triangles or nt x 4 tetrahedra
 };
 
-/// The tetrahedra if there are any, else the faces; or what `kind` asks for.
+/// The elements of `kind`; by default the tetrahedra if there are any, else the faces.
 MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const std::string& name);
 
 }  // namespace powercell::io

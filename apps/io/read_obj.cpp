@@ -1,5 +1,5 @@
-// Wavefront OBJ: `v x y z` and `f a/t/n b c ...`, numbered from 1, negative from the end. Everything
-// else (normals, textures, groups, materials, lines, points) does not shape a surface and is passed over.
+// Wavefront OBJ: `v x y z` and `f a/t/n b c ...`. Indices start at 1; negative ones count from the end.
+// Everything else (normals, textures, groups, materials, lines, points) is skipped.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -36,7 +36,7 @@ void read_face(TextScanner& scanner, std::string_view row, MeshFile& mesh) {
       scanner.fail(fmt::format("face {}: '{}' is not an index", mesh.face_count() + 1,
                                std::string(corner.substr(0, 40))));
     }
-    // A face may name a vertex that the file gives later, so the upper end is checked when all are known.
+    // A face may name a vertex that follows later in the file, so the upper limit is checked at the end.
     if (index < 0) index += static_cast<std::int64_t>(mesh.vertex_count()) + 1;
     if (index < 1 || index > std::int64_t{0xffffffff}) {
       scanner.fail(fmt::format("face {}: index {} is out of range; vertices are numbered from 1",
@@ -59,7 +59,7 @@ MeshFile parse_obj(std::string_view text, const std::string& name) {
   std::string joined;
   while (auto line = scanner.line()) {
     std::string_view row = *line;
-    if (row.ends_with('\\')) {  // a row that goes on in the next line
+    if (row.ends_with('\\')) {  // the row continues in the next line
       joined.assign(row.substr(0, row.size() - 1));
       while (row.ends_with('\\') && !scanner.at_end()) {
         row = scanner.rest_of_line();

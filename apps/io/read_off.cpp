@@ -3,22 +3,21 @@
 // have colours behind the coordinates that no header announces.
 #include <fmt/format.h>
 
-#include "apps/io/read_file.hpp"
 #include "apps/io/read_mesh.hpp"
 #include "apps/io/read_text.hpp"
 
 namespace powercell::io {
 namespace {
 
-// What the header announces of a vertex.
+// The numbers of a vertex, from the header.
 struct VertexKind {
   std::size_t words = 3;  // at least
-  bool coloured = false;  // by 3 or 4 numbers, nothing says which
+  bool coloured = false;  // with 3 or 4 numbers; the header does not show which
 };
 
 struct Counts {
   std::uint64_t vertices, faces;
-  bool edges;  // whether their number stands there, which many writers leave out or set to 0
+  bool edges;  // whether their number is given, which many writers omit or set to 0
 };
 
 // OFF with any of the prefixes ST (texture), C (colour), N (normal): numbers after the position.
@@ -51,7 +50,7 @@ Counts read_counts(TextScanner& scanner) {
   Counts counts{scanner.count({"count", 0}), scanner.count({"count", 1}), false};
   TextScanner ahead = scanner;
   std::size_t words = words_of(ahead.rest_of_line());
-  if (words > 1) scanner.fail("more than three counts; begin the vertices in a line of their own");
+  if (words > 1) scanner.fail("more than three counts; start the vertices on a new line");
   if (words == 0) words = words_of(ahead.line().value_or(""));  // a vertex has three words
   counts.edges = words == 1;
   if (counts.edges) scanner.count({"count", 2});
@@ -59,10 +58,10 @@ Counts read_counts(TextScanner& scanner) {
   return counts;
 }
 
-// Whether each vertex has a line of its own: there are lines enough for all vertices and faces, and those of
-// the vertices are equally long. Where vertices share lines there are fewer lines; where one takes several
-// lines they are shorter than a vertex. In a file of a line each nothing is missing, whatever the header
-// says.
+// Whether each vertex has a line of its own: the file has enough lines for all vertices and faces, and the
+// lines of the vertices have equally many numbers. If vertices share lines there are fewer lines; if a vertex
+// spans several lines they have fewer numbers. A file with exactly one line for each vertex and face is
+// complete, whatever its header announces.
 bool vertex_a_line(TextScanner scanner, const Counts& counts, const VertexKind& kind) {
   std::size_t lines = 0, words = 0;
   for (; const auto line = scanner.line(); ++lines) {
@@ -80,14 +79,14 @@ void read_vertices(TextScanner& scanner, const Counts& counts, const VertexKind&
   const bool lines = vertex_a_line(scanner, counts, kind);
   if (!lines && !counts.edges) {
     scanner.fail(
-        "the number of edges is missing, and not every vertex and face has a line of its own, equally long "
-        "for "
-        "all vertices: the file is truncated, or write the number of edges (0 will do)");
+        "the number of edges is missing, and vertices and faces are not on lines of their own with equally "
+        "many "
+        "numbers for each vertex: the file is truncated, or add the number of edges (0 is enough)");
   }
   if (!lines && kind.coloured) {
     scanner.fail(
-        "not every vertex and face has a line of its own, and colours may be 3 or 4 numbers: the file is "
-        "truncated, or give each a line, equally long for all vertices");
+        "vertices and faces are not on lines of their own, and colours may have 3 or 4 numbers: the file is "
+        "truncated, or put each on a line, with equally many numbers for each vertex");
   }
   for (std::size_t v = 0; v < counts.vertices; ++v) {
     for (int axis = 0; axis < 3; ++axis) coordinates.push_back(scanner.number({"vertex", v}));
@@ -98,10 +97,11 @@ void read_vertices(TextScanner& scanner, const Counts& counts, const VertexKind&
     }
   }
   if (!lines && counts.vertices > 0 && !scanner.rest_of_line().empty()) {
-    scanner.fail(fmt::format(
-        "the line goes on behind the last of {} vertices of {} numbers; give each vertex and face a line of "
-        "its own, equally long for all vertices",
-        counts.vertices, kind.words));
+    scanner.fail(
+        fmt::format("the line continues after the last of {} vertices of {} numbers; put each vertex and "
+                    "face on a line of its "
+                    "own, with equally many numbers for each vertex",
+                    counts.vertices, kind.words));
   }
 }
 

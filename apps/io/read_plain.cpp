@@ -1,4 +1,4 @@
-// Plain text meshes: the paper's kind (`nv nf`, points, polygons or tetrahedra) and .tet.
+// Plain text meshes: the format of the paper's data (`nv nf`, points, polygons or tetrahedra) and .tet.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace powercell::io {
 namespace {
 
-// One row of indices, its corners in [begin, end) of one array.
+// Rows of indices in one array; row r is [offset[r], offset[r + 1]).
 struct Rows {
   std::vector<std::uint32_t> index;
   std::vector<std::size_t> offset{0};
@@ -75,7 +75,8 @@ bool may_have_lengths(const Rows& rows) {
   return rows.count() > 0;
 }
 
-// The first point that no row uses, leaving `skipped` numbers out at the beginning of each; or `points`.
+// The first point that no row uses if the first `skipped` numbers of each row are ignored; `points` if all
+// are used.
 std::size_t first_unused(const Rows& rows, std::size_t skipped, std::size_t points) {
   std::vector<bool> used(points);
   for (std::size_t row = 0; row < rows.count(); ++row) {
@@ -86,8 +87,8 @@ std::size_t first_unused(const Rows& rows, std::size_t skipped, std::size_t poin
   return static_cast<std::size_t>(std::ranges::find(used, false) - used.begin());
 }
 
-// Refuses rows that all begin with what may be their number of corners or one more corner, where it is the
-// second reading that makes sense of all points.
+// Refuses a file if the first number of every row could be the number of corners or a corner, and only as
+// corners use all points.
 void refuse_two_readings(const Rows& rows, std::size_t points, bool in_space, const std::string& name) {
   if (!may_have_lengths(rows)) return;
   for (std::size_t row = 0; row < rows.count(); ++row) {
@@ -98,14 +99,14 @@ void refuse_two_readings(const Rows& rows, std::size_t points, bool in_space, co
   if (unused == points || first_unused(rows, 0, points) != points) return;
   fail_line(name, rows.line.front(),
             fmt::format(
-                "the first number of every row may be how many corners follow, but then point {} (from 0) is "
-                "unused, or itself a corner; {}write the number of corners in front of every row, or leave "
-                "unused points out",
-                unused, in_space ? "say --kind surface (numbers) or --kind volume (corners), or " : ""));
+                "the first number of every row may be the number of corners, which leaves point {} (from 0) "
+                "unused, or a corner itself; {}write the number of corners in front of every row, or remove "
+                "unused points",
+                unused, in_space ? "use --kind surface (numbers) or --kind volume (corners), or " : ""));
 }
 
-// Takes the numbers of corners off the rows, where every row begins with its own.
-// Rows of 4 numbers that begin with 3 can be meant both ways: `as_tetrahedra` decides.
+// Removes the numbers of corners if every row begins with its own. Rows of 4 numbers that begin with 3 are
+// ambiguous: `as_tetrahedra` decides.
 void drop_lengths(Rows& rows, bool as_tetrahedra) {
   bool all_four = true;
   for (std::size_t row = 0; row < rows.count(); ++row) all_four = all_four && rows.length(row) == 4;
@@ -175,7 +176,7 @@ struct Counts {
   std::uint64_t vertices, elements;
 };
 
-// `nv nf`, with or without words after the numbers ("10 vertices" and "4 tets" on lines of their own).
+// `nv nf`, with or without words after the numbers ("10 vertices" and "4 tets" on separate lines).
 Counts read_counts(TextScanner& scanner) {
   Counts counts{};
   counts.vertices = scanner.count({"number of points", 0});

@@ -1,5 +1,5 @@
 // PLY, ASCII and binary of either byte order: vertex x y z and face vertex_indices (or vertex_index);
-// other elements and properties are passed over.
+// other elements and properties are skipped.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -36,12 +36,12 @@ struct Header {
 };
 
 Type type_of(TextScanner& scanner, std::string_view word) {
-  constexpr std::pair<std::string_view, Type> kTypes[] = {
+  constexpr std::pair<std::string_view, Type> types[] = {
       {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
       {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
       {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
       {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
-  for (const auto& [name, type] : kTypes) {
+  for (const auto& [name, type] : types) {
     if (word == name) return type;
   }
   scanner.fail(fmt::format("'{}' is not a PLY type", std::string(word.substr(0, 40))));
@@ -52,7 +52,7 @@ void read_format(TextScanner& scanner, Header& header) {
   header.ascii = format == "ascii";
   header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
   if (!header.ascii && format != "binary_big_endian" && format != "binary_little_endian") {
-    scanner.fail("the format is none of ascii, binary_little_endian, binary_big_endian");
+    scanner.fail("the format is not ascii, binary_little_endian or binary_big_endian");
   }
   scanner.rest_of_line();
 }
@@ -97,7 +97,7 @@ Header read_header(TextScanner& scanner) {
   return header;
 }
 
-// One number after the other, from text or bytes, with the place of each for messages.
+// Reads numbers from text or bytes.
 class Values {
  public:
   Values(TextScanner& text, const Header& header, const std::string& name)
@@ -106,7 +106,7 @@ class Values {
   double next(Type type, Item item) { return ascii_ ? text_.number(item) : bytes_.next(type, item.thing); }
   void skip(Type type, Item item) {
     if (ascii_)
-      text_.word(item);  // need not be a finite number: normals are nan at times
+      text_.word(item);  // may be nan, as some normals are
     else
       bytes_.skip(1, size_of(type), item.thing);
   }
@@ -189,7 +189,7 @@ void read_faces(Values& values, const Element& element, std::uint64_t vertices, 
   }
 }
 
-// The bytes that each element takes at least: a bogus count must not allocate or loop.
+// Refuses a count of elements that the file cannot hold, which must neither allocate nor loop.
 void check_size(Values& values, const Element& element) {
   if (element.count == 0) return;  // it may have no properties either
   std::size_t least = 0;

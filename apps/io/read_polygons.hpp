@@ -1,6 +1,6 @@
 /// \file
-/// Polygons as files hold them. Every reader takes the bytes of a file and the name that messages shall
-/// use, and throws Error invalid_file. What each part's rings must satisfy is checked by Domain::polygon.
+/// Readers of polygons. A reader takes the bytes of a file and its name for messages, and throws Error
+/// invalid_file. Domain::polygon checks the rings.
 #pragma once
 
 #include <optional>
@@ -13,23 +13,23 @@
 
 namespace powercell::io {
 
-/// Polygon, MultiPolygon, GeometryCollection, Feature or FeatureCollection; coordinates are taken as
-/// they stand, in the plane (longitudes and latitudes too). Several geometries are united.
+/// Polygon, MultiPolygon, GeometryCollection, Feature or FeatureCollection. Coordinates are those of the
+/// plane (also longitudes and latitudes). Several geometries are united.
 std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name);
 
-/// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION, also EMPTY; several are united. `SRID=n;`
-/// before them is passed over, but must be the same everywhere.
+/// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION, also EMPTY; several are united. An `SRID=n;`
+/// in front is ignored but must be the same for all.
 std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name);
 
 /// Largest distance between a curve of an SVG file and its polygon, over the diagonal of the drawing.
-inline constexpr double kSvgTolerance = 1e-4;
+inline constexpr double svg_tolerance = 1e-4;
 
-/// All path, polygon, polyline, rect, circle and ellipse elements, whatever their paint, but not those in
-/// defs, symbol, clipPath, mask, marker, pattern, foreignObject, of another namespace or with display: none;
-/// of a switch the first child that applies. Transforms are applied, each element is filled by its
-/// fill-rule, the elements are united. Properties come from attributes, `style` and style sheets with simple
-/// selectors (read_svg_style.hpp). Refused: use, clip-path, mask, transforms in CSS. SVG's y axis points
-/// down: y = -y(SVG).
+/// All path, polygon, polyline, rect, circle and ellipse elements, whatever their paint, except those in
+/// defs, symbol, clipPath, mask, marker, pattern or foreignObject, those of other namespaces and those with
+/// display: none; of a switch the first child that applies. Transforms are applied, each element is filled by
+/// its fill-rule, and the elements are united. Properties come from attributes, `style` and style sheets with
+/// simple selectors (read_svg_style.hpp). Refused: use, clip-path, mask, transforms in CSS. SVG's y axis
+/// points down: y = -y(SVG).
 std::vector<PolygonPart> parse_svg(std::string_view text, const std::string& name);
 
 /// A polygon or a mesh.
@@ -40,14 +40,14 @@ struct DomainArrays {
   std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4
 };
 
-/// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, each with or without
-/// their number in front; refused where only rows without it would use all points. 2 coordinates: polygons,
-/// which are united. 3: triangles (or larger faces) or tetrahedra, by the length of the rows, or by `kind`
-/// where that leaves a doubt.
+/// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, all with or without their
+/// number in front; refused if only the reading without it uses all points. 2 coordinates: polygons, which
+/// are united. 3 coordinates: triangles (or larger faces) or tetrahedra, by the length of the rows, or by
+/// `kind` if that is ambiguous.
 DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, const std::string& name);
 
-/// The union of groups of parts, each group a valid polygon. \throw Error invalid_file, invalid_domain
-/// where a group is not valid (which, where)
+/// The union of groups of parts, each a valid polygon.
+/// \throw Error invalid_file, invalid_domain if a group is not valid (which, where)
 std::vector<PolygonPart> unite(const std::vector<std::vector<PolygonPart>>& groups, const std::string& name);
 
 }  // namespace powercell::io

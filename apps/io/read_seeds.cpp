@@ -13,7 +13,7 @@ bool is_random_spec(const std::string& spec) {
 SeedTable read_seeds(const std::string& spec, const Domain& domain) {
   if (is_random_spec(spec)) return random_seeds(parse_random_spec(spec), domain);
   const std::string extension = lower_extension(spec);
-  if (extension == ".npz") fail_file(spec, "is an archive of arrays; save one array as .npy");
+  if (extension == ".npz") fail_file(spec, "is an archive of arrays; save a single array as .npy");
   const std::string bytes = read_file(spec);
   if (extension == ".npy" || bytes.starts_with("\x93NUMPY"))
     return parse_seeds_npy(bytes, domain.dimension(), spec);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <powercell/domain.hpp>
+#include <powercell/seeds.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,20 +16,21 @@ struct SeedTable {
   int dimension = 0;              ///< coordinates of a seed: 2 or 3
   std::vector<double> positions;  ///< n x dimension, row-major, in the order of the file
   std::vector<double> weights;    ///< n, length^2
-  std::string note;               ///< for a report: which columns of a table were taken for what
+  std::string note;               ///< for a report: which columns of a table were used
   std::size_t count() const { return weights.size(); }
+  SeedsView view() const { return {dimension, positions, weights}; }
 };
 
 /// \param spec  text or CSV, `.npy`, or `random:N[:LO:HI[:SEED]]`
-/// \param domain  gives the dimension of the seeds, and the place of random ones
+/// \param domain  sets the dimension of the seeds, and the positions of random ones
 /// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
 SeedTable read_seeds(const std::string& spec, const Domain& domain);
 
-/// Text or CSV from memory: `x y [z] w` a row, columns separated as `number_separator` says and quoted as in
-/// RFC 4180; `#` begins a comment; rows of empty fields are passed over. The first line may be a header: with
-/// columns named x, y (, z), else by longitude and latitude or easting and northing, and weight or w these
-/// are taken wherever they stand, and other columns passed over. It may instead be the number of rows.
-/// Weights are 0 where there is no column of them.
+/// Text or CSV from memory with rows `x y [z] w`. Columns are separated as `number_separator` finds and
+/// quoted as in RFC 4180; `#` begins a comment; rows of empty fields are skipped. The first line may be the
+/// number of rows, or a header: then the columns x, y (, z), or else longitude and latitude or easting and
+/// northing, and weight or w are used in any order, and other columns ignored. Without a column of weights
+/// all weights are 0.
 SeedTable parse_seeds_text(std::string_view text, int dimension, const std::string& name);
 
 /// NumPy's .npy from memory, versions 1 to 3: real or integer numbers, shape (n, d) or (n, d + 1).
@@ -44,8 +46,8 @@ bool is_random_spec(const std::string& spec);
 /// \throw Error invalid_argument
 RandomSeeds parse_random_spec(const std::string& spec);
 
-/// Seeds uniform by measure in the domain (on it, where it is a surface), weights uniform in [low, high].
-/// The same on every machine: xoshiro256** started by splitmix64, see seeds_random.cpp.
-SeedTable random_seeds(const RandomSeeds& what, const Domain& domain);
+/// Seeds uniform in the domain's measure (on the surface itself), weights uniform in [low, high]. The same on
+/// every machine: xoshiro256** seeded by splitmix64, see seeds_random.cpp.
+SeedTable random_seeds(const RandomSeeds& seeds, const Domain& domain);
 
 }  // namespace powercell::io

@@ -1,5 +1,5 @@
-// STL, ASCII and binary. STL has corners only; corners at exactly the same place become one vertex, in
-// the order of their first use, so that triangles that met in the writer's mesh meet again.
+// STL, ASCII and binary. The format has corners but no vertices: corners at exactly the same position become
+// one vertex, in the order of first use, so that neighbouring triangles share vertices again.
 #include <fmt/format.h>
 
 #include <bit>
@@ -14,8 +14,8 @@
 namespace powercell::io {
 namespace {
 
-constexpr std::size_t kBinaryHeader = 84;    // 80 bytes of anything, then the number of triangles
-constexpr std::size_t kBinaryTriangle = 50;  // normal, three corners, two bytes of attribute
+constexpr std::size_t binary_header = 84;    // 80 arbitrary bytes, then the number of triangles
+constexpr std::size_t binary_triangle = 50;  // normal, three corners, two bytes of attribute
 
 struct PointHash {
   std::size_t operator()(const std::array<double, 3>& p) const {
@@ -30,7 +30,7 @@ class Welder {
  public:
   explicit Welder(MeshFile& mesh) : mesh_(mesh) {}
   void corner(std::array<double, 3> p) {
-    for (double& c : p) c += 0.0;  // -0 and 0 are one place
+    for (double& c : p) c += 0.0;  // makes -0 equal to 0
     const auto [at, fresh] = known_.try_emplace(p, static_cast<std::uint32_t>(mesh_.vertex_count()));
     if (fresh) mesh_.vertices.insert(mesh_.vertices.end(), p.begin(), p.end());
     mesh_.face_vertex.push_back(at->second);
@@ -47,17 +47,18 @@ bool begins_as_ascii(std::string_view bytes) {
 }
 
 bool is_binary(std::string_view bytes) {
-  if (bytes.size() < kBinaryHeader) return false;
+  if (bytes.size() < binary_header) return false;
   const auto count = load_number<std::uint32_t>(bytes.data() + 80, swapped_from(std::endian::little));
-  if (bytes.size() == kBinaryHeader + kBinaryTriangle * std::size_t{count}) return true;
-  // Some binary files begin with "solid" too, some have bytes to spare: NUL never occurs in ASCII.
+  if (bytes.size() == binary_header + binary_triangle * std::size_t{count}) return true;
+  // Some binary files begin with "solid" too, and some have extra bytes at the end; ASCII files contain no
+  // NUL.
   return !begins_as_ascii(bytes) || bytes.substr(0, 4096).find('\0') != std::string_view::npos;
 }
 
 void parse_binary(std::string_view bytes, const std::string& name, MeshFile& mesh) {
   ByteScanner scanner(bytes, name, std::endian::little, 80);
   const auto count = scanner.next<std::uint32_t>("the number of triangles");
-  scanner.need(count, kBinaryTriangle, "triangles");
+  scanner.need(count, binary_triangle, "triangles");
   Welder welder(mesh);
   for (std::size_t t = 0; t < count; ++t) {
     scanner.skip(3, 4, "a normal");

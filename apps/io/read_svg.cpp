@@ -50,7 +50,7 @@ class SvgReader {
   std::vector<Shape> shapes_;
 };
 
-// As it is written; entities of the file, such as Illustrator's &ns_svg;, are not replaced.
+// As written in the file: entities such as Illustrator's &ns_svg; are not replaced.
 std::string namespace_of(const pugi::xml_node& node) {
   const std::string_view full = node.name();
   const std::size_t colon = full.find(':');
@@ -62,7 +62,7 @@ std::string namespace_of(const pugi::xml_node& node) {
   return prefix.empty() ? "" : "undeclared " + prefix;
 }
 
-// What CSS gives, else the attribute; empty where neither does or where the parent's value counts.
+// The value from CSS, else from the attribute; empty if neither exists or the parent's value applies.
 std::string property(const pugi::xml_node& node, const SvgProperties& css, const char* key) {
   const auto given = css.find(key);
   std::string value = given != css.end() ? given->second : lower_case(trimmed(node.attribute(key).value()));
@@ -70,7 +70,7 @@ std::string property(const pugi::xml_node& node, const SvgProperties& css, const
   return value;
 }
 
-// Whether `value`, of a property that cuts or moves, changes anything.
+// Whether a property that cuts or moves shapes has an effect.
 bool is_set(const std::string& value) {
   return !value.empty() && value != "none" && value != "initial";
 }
@@ -133,22 +133,22 @@ std::vector<SvgOutline> SvgReader::outlines(const pugi::xml_node& node, std::str
     add_svg_arc(outline, rx, ry, 0, false, true, {cx + rx, cy});
     return {outline};
   }
-  if (tag == "use") fail(node, "is not read; put the shape itself in its place");
+  if (tag == "use") fail(node, "is not read; replace it by the shape");
   return {};
 }
 
 void SvgReader::read_style_sheets(const pugi::xml_document& document) {
   if (const pugi::xml_node sheet = document.child("xml-stylesheet"))
-    fail(sheet, "a style sheet of its own is not read; put its rules into an element <style>");
-  struct Collector : pugi::xml_tree_walker {  // not by recursion: files may be nested deeply
+    fail(sheet, "external style sheets are not read; put the rules into an element <style>");
+  struct Collector : pugi::xml_tree_walker {  // without recursion: files may be nested deeply
     explicit Collector(SvgReader& to) : reader(to) {}
     bool for_each(pugi::xml_node& node) override {
       if (svg_local_name(node) != "style") return true;
       const std::string type = lower_case(trimmed(node.attribute("type").value()));
-      if (!type.empty() && type != "text/css") return true;  // drawn without it everywhere
+      if (!type.empty() && type != "text/css") return true;  // no program applies it
       const std::string media = lower_case(trimmed(node.attribute("media").value()));
       if (!media.empty() && media != "all" && media != "screen")
-        reader.fail(node, "rules that depend on the medium are not read; take the attribute media out");
+        reader.fail(node, "rules that depend on the medium are not read; remove the attribute media");
       std::string sheet;
       for (const pugi::xml_node& child : node.children()) sheet += child.value();  // text and CDATA
       try {
@@ -164,7 +164,7 @@ void SvgReader::read_style_sheets(const pugi::xml_document& document) {
   whole.traverse(collector);
 }
 
-// Whether an element and what it holds are drawn at all, as far as its name and its conditions tell.
+// Whether an element and its children are drawn, as far as its name and its conditions determine.
 bool SvgReader::is_drawn(const pugi::xml_node& node) const {
   const std::string of = namespace_of(node);
   if (of != namespace_ && of != "http://www.w3.org/2000/svg") return false;
@@ -174,15 +174,15 @@ bool SvgReader::is_drawn(const pugi::xml_node& node) const {
     if (tag == unseen) return false;
   }
   if (node.attribute("systemLanguage"))
-    fail(node, "what is drawn depends on the reader's language; keep one and take systemLanguage out");
+    fail(node, "the drawing depends on the reader's language; keep one and remove systemLanguage");
   return !node.attribute("requiredExtensions");
 }
 
-// Refuses what would change the area and is not read.
+// Refuses properties that would change the area but are not supported.
 void SvgReader::refuse_unread(const pugi::xml_node& node, const SvgProperties& css) const {
   for (const char* cut : {"clip-path", "mask", "mask-image"}) {
     if (is_set(property(node, css, cut)))
-      fail(node, fmt::format("{} is not read; cut the shapes themselves, or take it out", cut));
+      fail(node, fmt::format("{} is not read; cut the shapes themselves, or remove it", cut));
   }
   for (const char* move : {"translate", "rotate", "scale", "offset-path"}) {
     const auto given = css.find(move);
@@ -190,7 +190,7 @@ void SvgReader::refuse_unread(const pugi::xml_node& node, const SvgProperties& c
       fail(node, fmt::format("{} in CSS is not read; write it as the attribute transform", move));
   }
   if (node.attribute("transform") && is_set(property(node, css, "transform-origin")))
-    fail(node, "transform-origin is not read; write the transform about 0 0");
+    fail(node, "transform-origin is not read; write the transform with the origin 0 0");
   const std::string_view tag = svg_local_name(node);
   if (tag != "path" && tag != "rect" && tag != "circle" && tag != "ellipse") return;
   for (const char* place : {"d", "x", "y", "cx", "cy", "r", "rx", "ry", "width", "height"}) {
@@ -227,7 +227,7 @@ void SvgReader::element(const pugi::xml_node& node, const SvgTransform& outer, b
     SvgTransform here = outer * transform_of(node, css);
     if (tag == "svg" && depth > 0) {
       if (node.attribute("viewBox"))
-        fail(node, "a drawing with its own viewBox inside the drawing is not read; take it out");
+        fail(node, "a nested drawing with its own viewBox is not read; remove it");
       here = here * SvgTransform{1, 0, 0, 1, length(node, "x"), length(node, "y")};
     }
     const std::string rule = property(node, css, "fill-rule");
@@ -245,8 +245,8 @@ void SvgReader::element(const pugi::xml_node& node, const SvgTransform& outer, b
 
 // Length of the diagonal of the box of all control points; infinite if one of them is not finite.
 double diagonal(const std::vector<Shape>& shapes) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  SvgPoint low{kFar, kFar}, high{-kFar, -kFar};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  SvgPoint low{infinity, infinity}, high{-infinity, -infinity};
   bool finite = true;  // a NaN would pass the comparisons below unseen
   const auto take = [&](const SvgPoint& p) {
     finite = finite && std::isfinite(p[0]) && std::isfinite(p[1]);
@@ -262,7 +262,7 @@ double diagonal(const std::vector<Shape>& shapes) {
         take(piece.control1), take(piece.control2), take(piece.end);
     }
   }
-  if (!finite) return kFar;
+  if (!finite) return infinity;
   return std::hypot(high[0] - low[0], high[1] - low[1]);
 }
 
@@ -287,7 +287,7 @@ std::vector<PolygonPart> SvgReader::read() {
   std::vector<std::vector<PolygonPart>> groups;
   for (const Shape& shape : shapes_) {
     std::vector<Ring> rings;
-    for (const SvgOutline& outline : shape.outlines) rings.push_back(flatten(outline, kSvgTolerance * size));
+    for (const SvgOutline& outline : shape.outlines) rings.push_back(flatten(outline, svg_tolerance * size));
     std::vector<PolygonPart> parts = fill(rings, shape.even_odd, name_);
     if (!parts.empty()) groups.push_back(std::move(parts));
   }

@@ -35,7 +35,7 @@ void add_svg_arc(SvgOutline& outline, double rx, double ry, double rotation, boo
   if (start == end) return;
   if (rx == 0 || ry == 0) return outline.line_to(end);
   const double phi = rotation * std::numbers::pi / 180, cos_phi = std::cos(phi), sin_phi = std::sin(phi);
-  // In the frame of the ellipse, scaled to the unit circle: the chord's half and the centre.
+  // Half of the chord and the centre, in the frame of the ellipse scaled to the unit circle.
   const double hx = (start[0] - end[0]) / 2, hy = (start[1] - end[1]) / 2;
   double ux = (cos_phi * hx + sin_phi * hy) / rx, uy = (-sin_phi * hx + cos_phi * hy) / ry;
   const double half = std::hypot(ux, uy);
@@ -59,8 +59,9 @@ void add_svg_arc(SvgOutline& outline, double rx, double ry, double rotation, boo
     return SvgPoint{cos_phi * px - sin_phi * py + (start[0] + end[0]) / 2,
                     sin_phi * px + cos_phi * py + (start[1] + end[1]) / 2};
   };
-  // An eighth of a turn as a cubic is off by 4e-6 of the radius: below kSvgTolerance.
-  // Radii beyond range leave no angle; the coordinates are then not finite, and refused by the reader.
+  // An eighth of a turn as a cubic is off by 4e-6 of the radius: below svg_tolerance.
+  // Radii beyond the range of doubles give no angle; the reader refuses the coordinates, which are not
+  // finite.
   const double turns = std::isfinite(sweep_angle) ? std::abs(sweep_angle) / (std::numbers::pi / 4) : 0;
   const int pieces = std::max(1, static_cast<int>(std::ceil(turns - 1e-9)));
   const double step = sweep_angle / pieces, reach = 4.0 / 3 * std::tan(step / 4);
@@ -73,7 +74,7 @@ void add_svg_arc(SvgOutline& outline, double rx, double ry, double rotation, boo
 }
 
 Ring flatten(const SvgOutline& outline, double tolerance) {
-  constexpr double kMostSteps = 4096;
+  constexpr double most_steps = 4096;
   Ring ring{outline.start};
   SvgPoint from = outline.start;
   for (const SvgOutline::Piece& piece : outline.pieces) {
@@ -86,7 +87,7 @@ Ring flatten(const SvgOutline& outline, double tolerance) {
       const double bend = std::max(second(from, piece.control1, piece.control2),
                                    second(piece.control1, piece.control2, piece.end));
       steps = tolerance > 0 ? static_cast<int>(std::clamp(std::ceil(std::sqrt(6 * bend / (8 * tolerance))),
-                                                          1.0, kMostSteps))
+                                                          1.0, most_steps))
                             : 1;
     }
     for (int k = 1; k < steps; ++k) {

@@ -8,7 +8,7 @@
 namespace powercell::io {
 namespace {
 
-// How often `ring` runs round p, counter-clockwise positive.
+// The winding number of `ring` about a point, counter-clockwise positive.
 int winding(const Ring& ring, double x, double y) {
   int turns = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -23,11 +23,11 @@ int winding(const Ring& ring, double x, double y) {
 
 }  // namespace
 
-// GEOS cuts the lines where they cross and makes the faces between them; those that are filled are united.
+// GEOS splits the lines where they cross and forms the faces between them; the filled faces are united.
 std::vector<PolygonPart> fill(const std::vector<Ring>& rings, bool even_odd, const std::string& name) {
   Geos geos;
   const auto checked = [&](Geos::Geometry geometry) {
-    if (!geometry) fail_file(name, fmt::format("its outlines cannot be made a polygon: {}", geos.message()));
+    if (!geometry) fail_file(name, fmt::format("its outlines cannot form a polygon: {}", geos.message()));
     return geometry;
   };
   std::vector<Geos::Geometry> lines;

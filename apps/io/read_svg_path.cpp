@@ -15,7 +15,7 @@ bool separator(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == ',';
 }
 
-// Numbers may follow each other without a blank ("1.5.5-3"), flags of arcs even without any sign ("01").
+// Numbers may follow each other without a blank ("1.5.5-3"), and so may flags of arcs ("01").
 class Numbers {
  public:
   explicit Numbers(std::string_view text) : text_(text) {}
@@ -36,7 +36,7 @@ class Numbers {
     double value = 0;
     const auto [end, code] = std::from_chars(text_.data() + begin, text_.data() + text_.size(), value);
     if (code == std::errc::invalid_argument || !std::isfinite(value)) {
-      throw SvgError(fmt::format("a number is due at character {}", at_));
+      throw SvgError(fmt::format("a number is expected at character {}", at_));
     }
     if (code == std::errc::result_out_of_range)
       throw SvgError(fmt::format("the number at character {} is out of range", at_));
@@ -46,7 +46,7 @@ class Numbers {
   bool flag() {
     const char c = peek();
     if (c != '0' && c != '1')
-      throw SvgError(fmt::format("a flag (0 or 1) of an arc is due at character {}", at_));
+      throw SvgError(fmt::format("a flag (0 or 1) of an arc is expected at character {}", at_));
     ++at_;
     return c == '1';
   }
@@ -57,7 +57,7 @@ class Numbers {
   std::size_t at_ = 0;
 };
 
-// Draws one command after the other. Every subpath is closed: a domain is what the path would fill.
+// Follows the commands of a path. Every subpath is closed, since the domain is the filled area.
 class PathReader {
  public:
   explicit PathReader(std::string_view d) : numbers_(d) {}
@@ -157,14 +157,14 @@ class PathReader {
       case 'a':
         return arc(relative);
       default:
-        throw SvgError(fmt::format("character {} of the path data is no command", numbers_.at() - 1));
+        throw SvgError(fmt::format("character {} of the path data is not a command", numbers_.at() - 1));
     }
   }
 
   Numbers numbers_;
   std::vector<SvgOutline> outlines_;
   SvgPoint here_{};
-  SvgPoint reflect_cubic_{}, reflect_quadratic_{};  // what S and T take as their first control point
+  SvgPoint reflect_cubic_{}, reflect_quadratic_{};  // the first control points of S and T
 };
 
 SvgTransform one_transform(std::string_view name, const std::vector<double>& v) {
@@ -181,7 +181,7 @@ SvgTransform one_transform(std::string_view name, const std::vector<double>& v) 
     if (n == 1) return turn;
     return SvgTransform{1, 0, 0, 1, v[1], v[2]} * turn * SvgTransform{1, 0, 0, 1, -v[1], -v[2]};
   }
-  throw SvgError(fmt::format("'{}' with {} numbers is no transform", std::string(name.substr(0, 40)), n));
+  throw SvgError(fmt::format("'{}' with {} numbers is not a transform", std::string(name.substr(0, 40)), n));
 }
 
 }  // namespace

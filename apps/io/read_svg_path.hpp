@@ -35,7 +35,7 @@ struct SvgOutline {
   const SvgPoint& last() const { return pieces.empty() ? start : pieces.back().end; }
 };
 
-/// What is wrong with an attribute; the caller adds file and line.
+/// A fault of an attribute; the caller adds file and line.
 struct SvgError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

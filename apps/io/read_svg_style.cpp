@@ -1,6 +1,6 @@
-// Style sheets of SVG files: enough of CSS to know which shapes are drawn and how they are filled. Drawing
-// programs write classes (Illustrator) or attributes `style` (Inkscape); what goes beyond is refused where it
-// could change an area, and passed over where it could not.
+// Style sheets of SVG files: the part of CSS that determines which shapes are drawn and how they are filled.
+// Drawing programs write classes (Illustrator) or attributes `style` (Inkscape). Everything else is refused
+// if it could change an area, and ignored otherwise.
 #include "apps/io/read_svg_style.hpp"
 
 #include <fmt/format.h>
@@ -13,13 +13,13 @@
 namespace powercell::io {
 namespace {
 
-constexpr std::string_view kKept[] = {
+constexpr std::string_view kept_properties[] = {
     "display",   "fill-rule", "clip-path", "mask",        "mask-image", "transform", "transform-origin",
     "translate", "rotate",    "scale",     "offset-path", "d",          "x",         "y",
     "cx",        "cy",        "r",         "rx",          "ry",         "width",     "height"};
-constexpr int kDeepestNesting = 8;  // of at-rules in one another
+constexpr int deepest_nesting = 8;  // of at-rules in one another
 
-// Without comments, and without the marks that hide a sheet from very old browsers.
+// Without comments and without <!-- and -->, which hide a sheet from very old browsers.
 std::string without_comments(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
@@ -39,7 +39,7 @@ std::string without_comments(std::string_view text) {
   return result;
 }
 
-// The first of `wanted` that is neither quoted nor in parentheses, or the size of the text.
+// The position of the first character of `wanted` outside quotes and parentheses, or the size of the text.
 std::size_t find_bare(std::string_view text, std::string_view wanted, std::size_t from = 0) {
   char quote = '\0';
   int depth = 0;
@@ -73,7 +73,7 @@ std::size_t block_end(std::string_view text, std::size_t open) {
   throw SvgError("a style sheet whose braces do not close");
 }
 
-// What stands before the next `separator`, taken off `text` together with it.
+// Removes the text up to and including the next `separator`, and returns it without the separator.
 std::string_view take_until(std::string_view& text, std::string_view separator) {
   const std::size_t end = find_bare(text, separator);
   const std::string_view first = text.substr(0, end);
@@ -101,7 +101,7 @@ std::vector<SvgStyle::Declaration> SvgStyle::parse_declarations(std::string_view
   while (!text.empty()) {
     std::string_view value = take_until(text, ";");
     const std::string property = lower_case(take_until(value, ":"));
-    if (std::ranges::find(kKept, property) == std::end(kKept)) continue;
+    if (std::ranges::find(kept_properties, property) == std::end(kept_properties)) continue;
     const std::size_t mark = find_bare(value, "!");
     const bool important = mark < value.size() && lower_case(trimmed(value.substr(mark + 1))) == "important";
     value = trimmed(value.substr(0, mark));
@@ -116,8 +116,8 @@ void SvgStyle::add_rule(std::string_view selectors, const std::vector<Declaratio
     const std::string_view name = one.substr(one.starts_with('.') || one.starts_with('#') ? 1 : 0);
     if (one != "*" && !is_name(name)) {
       throw SvgError(fmt::format(
-          "its rule for '{}' sets {}, but only rules for a tag, a .class, an #id or * are read; give the "
-          "elements meant a class of their own",
+          "its rule for '{}' sets {}, but only rules for a tag, a .class, an #id or * are read; give these "
+          "elements a class",
           one.substr(0, 40), declarations.front().property));
     }
     const Kind kind = one == "*"             ? Kind::all
@@ -128,9 +128,9 @@ void SvgStyle::add_rule(std::string_view selectors, const std::vector<Declaratio
   }
 }
 
-// `condition`: the at-rule that the sheet stands in, or nothing.
+// `condition`: the at-rule around the sheet, or empty.
 void SvgStyle::add(std::string_view sheet, std::string_view condition, int depth) {
-  if (depth > kDeepestNesting) throw SvgError("a style sheet that is nested too deeply");
+  if (depth > deepest_nesting) throw SvgError("a style sheet that is nested too deeply");
   const std::string text = without_comments(sheet);
   for (std::string_view rest = trimmed(text); !rest.empty(); rest = trimmed(rest)) {
     const std::size_t stop = find_bare(rest, "{;");
@@ -138,8 +138,7 @@ void SvgStyle::add(std::string_view sheet, std::string_view condition, int depth
     const std::string word = lower_case(first.substr(0, first.find_first_of(" \t\r\n(\"'")));
     if (word.starts_with('@') && stop < rest.size() && rest[stop] == ';') {
       if (word == "@import")
-        throw SvgError(
-            "@import is not read; put the rules in its place, or take it out if it brings only fonts");
+        throw SvgError("@import is not read; replace it by the rules, or remove it if it only imports fonts");
       rest.remove_prefix(stop + 1);
       continue;
     }
@@ -160,7 +159,7 @@ void SvgStyle::add(std::string_view sheet, std::string_view condition, int depth
     const std::vector<Declaration> declarations = parse_declarations(body);
     if (declarations.empty()) continue;
     if (!condition.empty()) {
-      throw SvgError(fmt::format("{} in '{}' depends on where the drawing is shown; take the condition out",
+      throw SvgError(fmt::format("{} in '{}' depends on where the drawing is shown; remove the condition",
                                  declarations.front().property, condition.substr(0, 40)));
     }
     add_rule(selectors, declarations);
@@ -192,7 +191,7 @@ SvgProperties SvgStyle::of(const pugi::xml_node& node) const {
     for (const Declaration& one : declarations) {
       const std::pair rank(one.important, kind);
       const auto [held, fresh] = precedence.try_emplace(one.property, rank);
-      if (!fresh && rank < held->second) continue;  // of equals the last one counts
+      if (!fresh && rank < held->second) continue;  // the last of equals wins
       held->second = rank;
       properties[one.property] = one.value;
     }

@@ -1,5 +1,5 @@
 /// \file
-/// What CSS says of the elements of an SVG file, as far as it decides what they cover.
+/// CSS properties of SVG elements, as far as they determine the covered area.
 #pragma once
 
 #include <map>
@@ -16,16 +16,16 @@ std::string_view svg_local_name(const pugi::xml_node& node);
 /// Values by the names of their properties.
 using SvgProperties = std::map<std::string, std::string, std::less<>>;
 
-/// The style sheets of a file. Of all properties only those that decide what an element covers are kept:
-/// display, fill-rule, clip-path, mask, transforms, and coordinates and lengths of shapes.
+/// The style sheets of a file. Only properties that determine the covered area are kept: display, fill-rule,
+/// clip-path, mask, transforms, and coordinates and lengths of shapes.
 class SvgStyle {
  public:
-  /// Adds the rules of a sheet. Selectors are read if they name a tag, a .class, an #id or all (*), or are a
-  /// list of these; others may not set a property that is kept. \throw SvgError
+  /// Adds the rules of a sheet. Selectors may be a tag, a .class, an #id, * or a list of these; rules with
+  /// other selectors must not set a kept property. \throw SvgError
   void add(std::string_view sheet) { add(sheet, {}, 0); }
 
-  /// What the sheets and the attribute `style` give an element, by CSS's precedence. Presentation attributes
-  /// are not among them: they count where nothing is given here.
+  /// The properties of an element from the sheets and its attribute `style`, by CSS's precedence.
+  /// Presentation attributes are not included; they apply to properties missing here.
   SvgProperties of(const pugi::xml_node& node) const;
 
  private:

@@ -16,7 +16,7 @@ bool blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-std::string shown(std::string_view word) {  // foreign bytes must not break the message or the terminal
+std::string shown(std::string_view word) {  // arbitrary bytes must not disturb the message or the terminal
   std::string safe;
   for (char c : word.substr(0, 40)) safe += (c >= ' ' && c <= '~') ? c : '?';
   return safe + (word.size() > 40 ? "..." : "");
@@ -29,7 +29,7 @@ Parsed parse_number(std::string_view word, double& value) {
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || code == std::errc::invalid_argument) return Parsed::not_a_number;
   if (code == std::errc::result_out_of_range) {
-    // from_chars does not say whether the number is too large or too near zero: strtod does.
+    // from_chars does not distinguish numbers too large from numbers too near zero; strtod does.
     value = std::strtod(std::string(word).c_str(), nullptr);
     return std::isfinite(value) ? Parsed::ok : Parsed::too_large;
   }
@@ -121,7 +121,7 @@ std::string_view TextScanner::peek() {
   const std::size_t at = at_, line = line_;
   skip_blanks();
   const std::string_view next = next_in_text();
-  at_ = at;  // a line end in between still ends the current line for rest_of_line()
+  at_ = at;  // for rest_of_line(), a line end before the word still ends the current line
   line_ = line;
   return next;
 }
@@ -189,7 +189,7 @@ void TextScanner::check_count(std::uint64_t count, std::size_t least, const char
   const std::size_t left = text_.size() - at_;
   if (count > (left + 1) / least) {
     fail(fmt::format(
-        "{} {} are announced, but only {} bytes are left; the file is truncated or the count wrong", count,
+        "{} {} are announced, but only {} bytes are left; the file is truncated or the count is wrong", count,
         things, left));
   }
 }

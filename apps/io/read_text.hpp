@@ -1,5 +1,5 @@
 /// \file
-/// Words and numbers of a text in memory, each with its line.
+/// Words and numbers of a text in memory, with line numbers.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace powercell::io {
 
-/// What a token is meant to be, for messages: "vertex 12".
+/// The item that a word belongs to, for messages: "vertex 12".
 struct Item {
   const char* thing;
   std::size_t index;
@@ -21,7 +21,7 @@ enum class Parsed { ok, not_a_number, not_finite, too_large };
 /// The whole of `word` as a finite double; a leading '+' is allowed.
 Parsed parse_number(std::string_view word, double& value);
 
-/// Whether it would be a number with a point for its comma.
+/// Whether the word is a number with a decimal comma.
 bool has_decimal_comma(std::string_view word);
 
 /// Why parse_number refused `word`: "'nan' is not finite".
@@ -33,8 +33,8 @@ class TextScanner {
  public:
   TextScanner(std::string_view text, std::string name, char comment = '#');
 
-  bool at_end();            ///< nothing left but blanks and comments
-  std::string_view peek();  ///< the next word, empty at the end; nothing is passed over
+  bool at_end();            ///< only blanks and comments are left
+  std::string_view peek();  ///< the next word, which remains to be read; empty at the end
   std::string_view word(Item item);
   double number(Item item);
   std::uint64_t count(Item item);  ///< an integer of at least 0
@@ -43,11 +43,11 @@ class TextScanner {
 
   /// The rest of the current line without its end and comment; moves to the next line.
   std::string_view rest_of_line();
-  /// The next line that holds anything, without its end and comment; nothing at the end.
+  /// The next line that is not empty, without its end and comment; nullopt at the end.
   std::optional<std::string_view> line();
 
-  /// Refuses a count of things that could not fit in what is left of the text, so that a bogus
-  /// header is an error and not an allocation. \param least bytes that each thing takes at least
+  /// Refuses a count of items that does not fit in the rest of the text, so that a wrong header is an error
+  /// and not an allocation. \param least  bytes that each item takes at least
   void check_count(std::uint64_t count, std::size_t least, const char* things) const;
 
   std::size_t line_number() const { return last_line_; }  ///< of the last word or line read, from 1
@@ -66,16 +66,16 @@ class TextScanner {
   char comment_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;       // of the byte at at_
-  std::size_t last_line_ = 1;  // of the last word handed out
+  std::size_t last_line_ = 1;  // of the last word returned
 };
 
 /// Without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// With the letters A to Z made small, in every locale alike.
+/// With the letters A to Z in lower case, independent of the locale.
 std::string lower_case(std::string_view text);
 
-/// Splits at blanks; an element views `text`.
+/// Removes the next word, separated by blanks, from `text`; false at the end.
 bool next_word(std::string_view& text, std::string_view& word);
 
 }  // namespace powercell::io

@@ -4,8 +4,9 @@
 
 #include <filesystem>
 
+#include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
-#include "apps/io/read_tree_formats.hpp"
+#include "apps/io/read_tree_rows.hpp"
 
 namespace powercell::io {
 

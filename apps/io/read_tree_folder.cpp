@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "apps/io/read_file.hpp"
-#include "apps/io/read_tree_formats.hpp"
+#include "apps/io/read_tree_rows.hpp"
 
 namespace powercell::io {
 namespace {
@@ -18,11 +18,11 @@ struct Entry {
   double size;
 };
 
-// The entries of one folder by name, so that the same folder gives the same tree.
+// The entries of a folder sorted by name, so that the same folder gives the same tree.
 std::vector<Entry> list(const fs::path& folder, std::error_code& error) {
   std::vector<Entry> entries;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    std::error_code gone;  // what vanishes meanwhile is left out
+    std::error_code gone;  // entries that vanish meanwhile are omitted
     const fs::file_status status = at->symlink_status(gone);
     if (gone || (!fs::is_directory(status) && !fs::is_regular_file(status))) continue;
     const bool is_folder = fs::is_directory(status);
@@ -68,7 +68,7 @@ NamedTree scan_folder(const std::string& path) {
       add(above == 0 ? own : tree.id[above] + "/" + own, own, static_cast<std::int64_t>(above), entry.size);
     }
   }
-  if (unread > 0) tree.notes.push_back(fmt::format("{} folders could not be read and are left out", unread));
+  if (unread > 0) tree.notes.push_back(fmt::format("{} folders could not be read and are omitted", unread));
   return tree;
 }
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "apps/io/read_file.hpp"
-#include "apps/io/read_tree_formats.hpp"
+#include "apps/io/read_tree_rows.hpp"
 
 namespace powercell::io {
 namespace {
@@ -18,7 +18,7 @@ json parse(std::string_view text, const std::string& name) {
     return json::parse(text);
   } catch (const json::parse_error& error) {
     fail_line(name, line_of(text, error.byte > 0 ? error.byte - 1 : 0),
-              fmt::format("is not JSON from here on: {}", error.what()));
+              fmt::format("is not JSON from this line on: {}", error.what()));
   } catch (const json::out_of_range& error) {  // a number beyond doubles
     fail_file(name, fmt::format("holds a number beyond the range of doubles: {}", error.what()));
   }
@@ -32,7 +32,7 @@ const json* member(const json& object, std::initializer_list<const char*> keys) 
   return nullptr;
 }
 
-// A string as it is, a number as JSON writes it; anything else is refused. `place` says where.
+// A string, or a number as JSON writes it; anything else is refused. `place` returns the place for messages.
 template <class Place>
 std::string as_text(const json* value, const char* what, const std::string& file, const Place& place) {
   if (!value) return {};
@@ -58,7 +58,7 @@ NamedTree read_list(const json& list, const std::string& name) {
   for (std::size_t k = 0; k < list.size(); ++k) {
     const auto place = [&] { return fmt::format("element {}", k + 1); };
     const json& object = list[k];
-    if (!object.is_object()) fail_file(name, place() + ": is no object {id, parent, name, value}");
+    if (!object.is_object()) fail_file(name, place() + ": is not an object {id, parent, name, value}");
     TreeRow row;
     row.place = k + 1;
     row.id = as_text(member(object, {"id", "nodeId"}), "id", name, place);
@@ -71,8 +71,8 @@ NamedTree read_list(const json& list, const std::string& name) {
   return link_rows(std::move(rows), name, false);
 }
 
-// Ids are the names from the root on, joined by slashes; where that is an id already, with "#2" and so on at
-// the end. They grow with the square of the depth.
+// Ids are the names from the root to the node, joined by slashes, with "#2" and so on appended to repeated
+// ones. Their total size grows with the square of the depth.
 constexpr std::size_t most_id_bytes = std::size_t{1} << 28;
 
 class Nested {
@@ -87,7 +87,7 @@ class Nested {
       const std::int64_t node = add(*object, parent);
       const json* children = object->is_object() ? member(*object, {"children"}) : nullptr;
       if (!children) continue;
-      if (!children->is_array()) refuse(node, "its children are no list");
+      if (!children->is_array()) refuse(node, "its children are not a list");
       for (std::size_t k = children->size(); k-- > 0;) open.emplace_back(&(*children)[k], node);
     }
     return std::move(tree_);
@@ -102,7 +102,7 @@ class Nested {
     const auto node = static_cast<std::int64_t>(tree_.size());
     const std::string above = parent < 0 ? "" : tree_.id[static_cast<std::size_t>(parent)] + "/";
     if (!object.is_object())
-      fail_file(file_, fmt::format("a child of '{}' is no object {{name, children, value}}", above));
+      fail_file(file_, fmt::format("a child of '{}' is not an object {{name, children, value}}", above));
     std::string name = as_text(member(object, {"name", "label", "id"}), "name", file_,
                                [&] { return "below '" + above + "'"; });
     if (name.empty()) name = parent < 0 ? "root" : fmt::format("child {}", node);
@@ -111,7 +111,7 @@ class Nested {
     if (id_bytes_ > most_id_bytes)
       fail_file(
           file_,
-          "is nested so deeply that the paths of its nodes fill 256 MiB; give a list of rows {id, parent, "
+          "is nested so deeply that the paths of its nodes exceed 256 MiB; give a list of rows {id, parent, "
           "name, value}");
     tree_.name.push_back(std::move(name));
     tree_.parent.push_back(parent);
@@ -132,27 +132,28 @@ class Nested {
 
   const std::string& file_;
   NamedTree tree_;
-  std::unordered_map<std::string, int> used_;  // ids, and how often each was wanted
+  std::unordered_map<std::string, int> used_;  // ids, and the number of nodes with that path
   std::size_t id_bytes_ = 0;
 };
 
 void add_polygon(const json& element, EarlierLayout& layout, std::size_t place, const std::string& name) {
   const json* polygon = element.is_object() ? member(element, {"polygon"}) : nullptr;
   const auto refuse = [&](const char* what) {
-    fail_file(name,
-              fmt::format("element {}: {}; an earlier layout is what 'powercell treemap -o FILE.json' wrote",
-                          place, what));
+    fail_file(
+        name,
+        fmt::format("element {}: {}; an earlier layout is a file written by 'powercell treemap -o FILE.json'",
+                    place, what));
   };
   if (!polygon || !polygon->is_array()) refuse("has no polygon");
   for (const json& point : *polygon) {
     if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
-      refuse("its polygon has a corner that is no [x, y]");
+      refuse("its polygon has a corner that is not [x, y]");
     layout.vertices.push_back(point[0].get<double>());
     layout.vertices.push_back(point[1].get<double>());
   }
 }
 
-/// What earlier versions wrote has none.
+/// -1 if missing, as in files of earlier versions.
 std::int64_t hue_of(const json& element) {
   constexpr std::int64_t most = 1'000'000'000;  // more branches have no colours of their own
   const json* hue = member(element, {"hue"});
@@ -173,7 +174,7 @@ NamedTree parse_tree_json(std::string_view text, const std::string& name) {
 
 EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree, const std::string& name) {
   const json document = parse(bytes, name);
-  if (!document.is_array()) fail_file(name, "is no list of nodes with polygons");
+  if (!document.is_array()) fail_file(name, "is not a list of nodes with polygons");
   std::unordered_map<std::string, std::size_t> at;
   const auto id_of = [&](const json& element, const char* key) {
     const json* id = element.is_object() ? member(element, {key}) : nullptr;

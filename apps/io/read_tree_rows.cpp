@@ -17,7 +17,7 @@ class Linker {
       : rows_(rows), file_(file), lines_(lines) {}
 
   NamedTree run() {
-    if (rows_.empty()) fail_file(file_, "has no rows, so there is no tree");
+    if (rows_.empty()) fail_file(file_, "has no rows and therefore no tree");
     index();
     add_implied_root();
     link();
@@ -38,12 +38,11 @@ class Linker {
     at_.reserve(rows_.size());
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto [known, fresh] = at_.emplace(rows_[k].id, k);
-      if (!fresh)
-        fail(k, fmt::format("the id '{}' is that of {} already", rows_[k].id, place(known->second)));
+      if (!fresh) fail(k, fmt::format("the id '{}' is also that of {}", rows_[k].id, place(known->second)));
     }
   }
 
-  // Tables may call their root 0 without giving it a row.
+  // Tables may refer to a root 0 that has no row.
   void add_implied_root() {
     if (at_.count(implied_root) > 0) return;
     bool asked = false;
@@ -64,7 +63,7 @@ class Linker {
       std::int64_t parent = -1;
       if (row.parent.empty()) {
         if (root < rows_.size())
-          fail(k, fmt::format("'{}' has no parent, but neither has '{}' of {}; a tree has one root", row.id,
+          fail(k, fmt::format("'{}' has no parent, and neither has '{}' of {}; a tree has one root", row.id,
                               rows_[root].id, place(root)));
         root = k;
       } else {

@@ -1,8 +1,9 @@
 /// \file
-/// Rows of a tree that name their parents. Internal to the readers.
+/// The readers behind read_tree, and rows that refer to their parents. Internal to the readers.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/io/read_tree.hpp"
@@ -10,14 +11,19 @@
 namespace powercell::io {
 
 struct TreeRow {
-  std::string id, parent, name;  ///< an empty parent: the root
+  std::string id, parent, name;  ///< the root has an empty parent
   double value = 0;
   std::size_t place = 0;  ///< line of a table, or number of an element of a list from 1
 };
 
-/// Links the rows. \param file   for messages
-/// \param place  how to call a row's place: "f.csv:12: " or "f.json: element 12: "
+/// Links the rows to a tree. \param file  for messages
+/// \param lines  whether `place` is a line ("f.csv:12: "), else an element ("f.json: element 12: ")
 /// \throw Error invalid_file as read_tree
 NamedTree link_rows(std::vector<TreeRow> rows, const std::string& file, bool lines);
+
+/// The formats of read_tree. \throw Error invalid_file
+NamedTree parse_tree_table(std::string_view text, const std::string& name);
+NamedTree parse_tree_json(std::string_view text, const std::string& name);
+NamedTree scan_folder(const std::string& path);
 
 }  // namespace powercell::io

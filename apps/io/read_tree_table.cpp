@@ -9,7 +9,7 @@
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_text.hpp"
-#include "apps/io/read_tree_formats.hpp"
+#include "apps/io/read_tree_rows.hpp"
 
 namespace powercell::io {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::array<std::array<std::string_view, 4>, columns> headings = {
      {"name", "label", "title", ""},
      {"value", "weight", "size", "area"}}};
 
-// Whichever the first line has most of.
+// The separator that occurs most often in the first line.
 char find_separator(std::string_view text) {
   const std::string_view first = text.substr(0, text.find('\n'));
   char best = ',';
@@ -33,7 +33,7 @@ char find_separator(std::string_view text) {
 
 using Places = std::array<std::optional<std::size_t>, columns>;
 
-// Which field is what, if this is a header.
+// The places of the columns, if this is a header.
 std::optional<Places> read_header(const Fields& fields) {
   Places places;
   for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -58,7 +58,7 @@ TreeRow read_row(const Fields& fields, const Places& places, const std::string& 
   row.name = field_of(fields, places[name_column]);
   if (row.id.empty()) fail_line(name, line, "the row has no id");
   if (printable(row.id) != row.id)
-    fail_line(name, line, "the id is no text in UTF-8; save the table as UTF-8");
+    fail_line(name, line, "the id is not valid UTF-8; save the table as UTF-8");
   const std::string value = field_of(fields, places[value_column]);
   if (value.empty()) return row;
   const Parsed parsed = parse_number(value, row.value);
@@ -88,7 +88,7 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name) {
     if (fields.size() != width)
       fail_line(name, records.line(),
                 fmt::format(
-                    "{} fields where {} are expected (id, parent, name, value; quote what holds separators)",
+                    "{} fields where {} are expected (id, parent, name, value; quote fields with separators)",
                     fields.size(), width));
     rows.push_back(read_row(fields, places, name, records.line()));
   }

@@ -1,4 +1,4 @@
-// Faces of any number of corners as triangles: convex ones as a fan, others by cutting off ears.
+// Triangulation of faces: convex ones as a fan, others by cutting off ears.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,15 +13,15 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// Ear cutting is quadratic at best; a face this large is a drawing, not a mesh.
-constexpr std::size_t kMostCornersOfConcaveFace = 4096;
+// Ear cutting takes at least quadratic time; meshes have no faces this large.
+constexpr std::size_t most_corners_of_concave_face = 4096;
 
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// The corners in the coordinate plane that the face's normal (Newell's) is closest to, seen so that
-// the face runs counter-clockwise. Projecting along an axis keeps sides exactly.
+// The corners projected along the axis nearest to the face's normal (Newell's method), counter-clockwise.
+// Projection along an axis does not round.
 std::vector<Point> projected(const MeshFile& mesh, std::span<const std::uint32_t> corners) {
   const double* origin = &mesh.vertices[3 * std::size_t{corners[0]}];
   std::array<double, 3> normal{};
@@ -65,8 +65,8 @@ bool is_ear(const std::vector<Point>& points, const std::vector<std::uint32_t>& 
   return true;
 }
 
-// Appends the triangles of one concave face. Where no ear is left (a face that crosses itself, or a
-// flat rest), the next corner is cut off all the same: the area of such a face has no one meaning.
+// Appends the triangles of a concave face. If no ear is left (the face crosses itself, or the rest is flat)
+// the next corner is cut off anyway, since the area of such a face is not well defined.
 void cut_ears(const std::vector<Point>& points, std::span<const std::uint32_t> corners,
               std::vector<std::uint32_t>& triangles) {
   std::vector<std::uint32_t> ring(corners.size());
@@ -98,11 +98,11 @@ std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& 
     if (corners.size() > 3) {
       const std::vector<Point> points = projected(mesh, corners);
       if (!is_convex(points)) {
-        if (corners.size() > kMostCornersOfConcaveFace) {
+        if (corners.size() > most_corners_of_concave_face) {
           fail_file(
               name,
               fmt::format("face {} (from 0) is concave with {} corners, more than {}; triangulate it first",
-                          face, corners.size(), kMostCornersOfConcaveFace));
+                          face, corners.size(), most_corners_of_concave_face));
         }
         cut_ears(points, corners, triangles);
         continue;

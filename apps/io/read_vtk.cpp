@@ -57,19 +57,19 @@ std::string LegacyReader::keyword() {
 }
 
 Type LegacyReader::type_named(const std::string& word) const {
-  constexpr std::pair<std::string_view, Type> kTypes[] = {
+  constexpr std::pair<std::string_view, Type> types[] = {
       {"DOUBLE", Type::f64},       {"FLOAT", Type::f32},          {"INT", Type::i32},
       {"UNSIGNED_INT", Type::u32}, {"LONG", Type::i64},           {"UNSIGNED_LONG", Type::u64},
       {"VTKTYPEINT64", Type::i64}, {"VTKIDTYPE", Type::i32},      {"VTKTYPEUINT64", Type::u64},
       {"SHORT", Type::i16},        {"UNSIGNED_SHORT", Type::u16}, {"CHAR", Type::i8},
       {"UNSIGNED_CHAR", Type::u8}};
-  for (const auto& [known, type] : kTypes) {
+  for (const auto& [known, type] : types) {
     if (word == known) return type;
   }
   text_.fail(fmt::format("'{}' is not a type of numbers that is read", word.substr(0, 40)));
 }
 
-// Hands `take` each of `count` numbers, from text or from the bytes after the line end.
+// Calls `take` with each of `count` numbers, from text or from the bytes after the line end.
 template <class Take>
 void LegacyReader::values(std::uint64_t count, Type type, Item item, Take take) {
   if (ascii_) {
@@ -113,7 +113,7 @@ void LegacyReader::read_points() {
   });
 }
 
-// An index above 2^53 is not exact as a double, but it is out of range all the same.
+// Indices above 2^53 are not exact as doubles, but out of range anyway.
 std::int64_t LegacyReader::whole_number(double value, const char* what) const {
   if (!(std::abs(value) < 9e15)) text_.fail(fmt::format("{} is out of range", what));
   if (value != std::floor(value)) text_.fail(fmt::format("{} is {}, not a whole number", what, value));
@@ -161,7 +161,7 @@ void LegacyReader::read_cell_types() {
          [this](double value) { cells_.type.push_back(whole_number(value, "a cell type")); });
 }
 
-// VTK puts a length before each string in binary files; the highest two bits say in how many bytes.
+// In binary files VTK writes a length before each string; its highest two bits are the size of the length.
 void LegacyReader::skip_strings(std::uint64_t count) {
   text_.rest_of_line();
   if (ascii_) {
@@ -187,7 +187,7 @@ void LegacyReader::skip_values(std::uint64_t count, std::size_t array) {
   const std::size_t size = bits ? 1 : size_of(type_named(word));
   if (ascii_) {
     text_.check_count(count, 2, "values");
-    for (std::uint64_t k = 0; k < count; ++k) text_.word({"array", array});  // not a number at times: nan
+    for (std::uint64_t k = 0; k < count; ++k) text_.word({"array", array});  // may be nan
     return;
   }
   text_.rest_of_line();
@@ -228,7 +228,7 @@ bool LegacyReader::read_section(const std::string& keyword) {
     if (grid_ != (keyword == "CELLS"))
       text_.fail(fmt::format("{} does not belong to this data set", keyword));
     read_cells();
-    // The kinds that stand for themselves: 2 points, 4 lines, 6 strips, 7 polygons.
+    // The cell type of each section: 2 points, 4 lines, 6 strips, 7 polygons.
     const int type = keyword == "POLYGONS"          ? 7
                      : keyword == "TRIANGLE_STRIPS" ? 6
                      : keyword == "LINES"           ? 4
@@ -243,8 +243,7 @@ bool LegacyReader::read_section(const std::string& keyword) {
   } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
     return false;
   } else {
-    text_.fail(
-        fmt::format("'{}' stands where a section is due; the count above is wrong", keyword.substr(0, 40)));
+    text_.fail(fmt::format("'{}' instead of a section; the count above is wrong", keyword.substr(0, 40)));
   }
   return true;
 }

@@ -2,58 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/io/read_file.hpp"
 
 namespace powercell::io {
 namespace {
 
 // VTK's numbers of kinds of cells (vtkCellType.h).
-enum : std::int64_t {
-  kEmpty = 0,
-  kVertex = 1,
-  kPolyVertex = 2,
-  kLine = 3,
-  kPolyLine = 4,
-  kTriangle = 5,
-  kStrip = 6,
-  kPolygon = 7,
-  kPixel = 8,
-  kQuad = 9,
-  kTetra = 10,
-  kVoxel = 11,
-  kHexahedron = 12,
-  kWedge = 13,
-  kPyramid = 14,
-  kPentagonalPrism = 15,
-  kHexagonalPrism = 16,
-  kQuadraticEdge = 21,
-  kQuadraticTriangle = 22,
-  kQuadraticQuad = 23,
-  kQuadraticTetra = 24,
-  kPolyhedron = 42
-};
+constexpr std::int64_t vtk_triangle = 5, vtk_strip = 6, vtk_polygon = 7, vtk_pixel = 8, vtk_quad = 9,
+                       vtk_tetra = 10, vtk_quadratic_triangle = 22, vtk_quadratic_quad = 23;
+// Nothing, points and lines.
+constexpr std::int64_t vtk_skipped[] = {0, 1, 2, 3, 4, 21};
 
-const char* solid_name(std::int64_t type) {
-  switch (type) {
-    case kVoxel:
-      return "voxel";
-    case kHexahedron:
-      return "hexahedron";
-    case kWedge:
-      return "wedge";
-    case kPyramid:
-      return "pyramid";
-    case kPentagonalPrism:
-    case kHexagonalPrism:
-      return "prism";
-    case kQuadraticTetra:
-      return "quadratic tetrahedron";
-    case kPolyhedron:
-      return "polyhedron";
-    default:
-      return nullptr;
-  }
-}
+struct Solid {
+  std::int64_t type;
+  const char* name;
+};
+constexpr Solid other_solids[] = {{11, "voxel"},
+                                  {12, "hexahedron"},
+                                  {13, "wedge"},
+                                  {14, "pyramid"},
+                                  {15, "prism"},
+                                  {16, "prism"},
+                                  {24, "quadratic tetrahedron"},
+                                  {42, "polyhedron"}};
 
 void expect_corners(std::size_t cell, std::size_t got, std::size_t due, const char* kind,
                     const std::string& name) {
@@ -68,48 +41,41 @@ void add_face(const std::uint32_t* corners, std::initializer_list<int> order, Me
 void add_cell(std::size_t cell, std::int64_t type, const std::vector<std::uint32_t>& corners,
               const std::string& name, MeshFile& mesh) {
   const std::size_t n = corners.size();
+  if (std::ranges::find(vtk_skipped, type) != std::end(vtk_skipped)) return;
   switch (type) {
-    case kEmpty:
-    case kVertex:
-    case kPolyVertex:
-    case kLine:
-    case kPolyLine:
-    case kQuadraticEdge:
-      return;
-    case kTetra:
+    case vtk_tetra:
       expect_corners(cell, n, 4, "tetrahedron", name);
       mesh.tetrahedra.insert(mesh.tetrahedra.end(), corners.begin(), corners.end());
       return;
-    case kTriangle:
+    case vtk_triangle:
       expect_corners(cell, n, 3, "triangle", name);
       return add_face(corners.data(), {0, 1, 2}, mesh);
-    case kQuad:
+    case vtk_quad:
       expect_corners(cell, n, 4, "quadrilateral", name);
       return add_face(corners.data(), {0, 1, 2, 3}, mesh);
-    case kPixel:
+    case vtk_pixel:
       expect_corners(cell, n, 4, "pixel", name);
       return add_face(corners.data(), {0, 1, 3, 2}, mesh);
-    case kPolygon:
+    case vtk_polygon:
       mesh.face_vertex.insert(mesh.face_vertex.end(), corners.begin(), corners.end());
       return mesh.end_face();
-    case kStrip:  // every second triangle runs the other way round
-      for (std::size_t k = 2; k < n; ++k) {
+    case vtk_strip:  // every second triangle has the opposite orientation
+      for (std::size_t k = 2; k < n; ++k)
         k % 2 == 0 ? add_face(corners.data() + k - 2, {0, 1, 2}, mesh)
                    : add_face(corners.data() + k - 2, {1, 0, 2}, mesh);
-      }
       return;
-    case kQuadraticTriangle:
-    case kQuadraticQuad:
+    case vtk_quadratic_triangle:
+    case vtk_quadratic_quad:
       fail_file(
           name,
           fmt::format("cell {} (from 0) is a curved face of second order; save a mesh of first order", cell));
     default:
       break;
   }
-  const char* solid = solid_name(type);
-  if (solid == nullptr)
+  const auto solid = std::ranges::find(other_solids, type, &Solid::type);
+  if (solid == std::end(other_solids))
     fail_file(name, fmt::format("cell {} (from 0) is of VTK's type {}, which is not read", cell, type));
-  if (mesh.other_solid.empty()) mesh.other_solid = fmt::format("a {} (cell {}, from 0)", solid, cell);
+  if (mesh.other_solid.empty()) mesh.other_solid = fmt::format("a {} (cell {}, from 0)", solid->name, cell);
 }
 
 }  // namespace
@@ -120,8 +86,8 @@ void add_vtk_cells(const VtkCells& cells, std::size_t base, const std::string& n
   for (std::size_t cell = 0; cell < cells.type.size(); ++cell) {
     const std::int64_t begin = cells.offset[cell], end = cells.offset[cell + 1];
     if (begin < 0 || begin > end || end > static_cast<std::int64_t>(cells.connectivity.size())) {
-      fail_file(name, fmt::format("cell {} (from 0): corners {} to {} of {} are no range", cell, begin, end,
-                                  cells.connectivity.size()));
+      fail_file(name, fmt::format("cell {} (from 0): corners {} to {} of {} are not a range", cell, begin,
+                                  end, cells.connectivity.size()));
     }
     corners.clear();
     for (std::int64_t k = begin; k < end; ++k) {

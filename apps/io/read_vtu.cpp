@@ -15,7 +15,7 @@
 namespace powercell::io {
 namespace {
 
-// Raw appended bytes are not XML: they are cut out before the XML is parsed.
+// Raw appended bytes are not XML and are removed before it is parsed.
 struct Split {
   std::string xml;
   std::string_view appended;
@@ -87,7 +87,7 @@ std::vector<Number> VtuReader::array(const pugi::xml_node& node, FromText from_t
     return values;
   }
   if (format == "binary") return from_bytes(decode_vtu_base64(text, storage_, name_), type);
-  if (format != "appended") fail(node, fmt::format("format '{}' is none of ascii, binary, appended", format));
+  if (format != "appended") fail(node, fmt::format("format '{}' is not ascii, binary or appended", format));
   const unsigned long long offset = node.attribute("offset").as_ullong(~0ull);
   if (offset >= storage_.appended.size())
     fail(node, "the offset of an array lies behind the appended data; the file is truncated");
@@ -138,8 +138,9 @@ void VtuReader::read_piece(const pugi::xml_node& piece) {
   const std::vector<double> coordinates = doubles(positions);
   if (coordinates.size() / 3 != points || coordinates.size() % 3 != 0) {
     fail(positions,
-         fmt::format("{} coordinates, but {} points are announced; the file is truncated or the count wrong",
-                     coordinates.size(), points));
+         fmt::format(
+             "{} coordinates, but {} points are announced; the file is truncated or the count is wrong",
+             coordinates.size(), points));
   }
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     if (!std::isfinite(coordinates[k]))

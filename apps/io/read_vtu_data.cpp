@@ -12,8 +12,8 @@
 namespace powercell::io {
 namespace {
 
-// zlib cannot shrink data further than this (its technical notes say 1032 to 1).
-constexpr std::uint64_t kBestCompression = 1040;
+// An upper bound of zlib's compression ratio (1032 in its technical notes).
+constexpr std::uint64_t best_compression = 1040;
 
 std::array<signed char, 256> base64_values() {
   std::array<signed char, 256> values;
@@ -24,7 +24,7 @@ std::array<signed char, 256> base64_values() {
   return values;
 }
 
-// Decodes `text` up to its end or to its first '=' padding, whichever comes first; moves behind it.
+// Decodes `text` up to its end or its first padding '=', and removes that part.
 std::string base64(std::string_view& text, std::size_t most_bytes, const std::string& name) {
   static const std::array<signed char, 256> values = base64_values();
   std::string bytes;
@@ -89,7 +89,7 @@ std::string inflate_blocks(std::string_view header, const Blocks& blocks, std::s
     const std::uint64_t packed = header_number(header, 3 + b, storage, name);
     const std::uint64_t plain = b + 1 == blocks.count && blocks.last != 0 ? blocks.last : blocks.size;
     if (packed > data.size()) fail_file(name, fmt::format("block {} of a compressed array is truncated", b));
-    if (plain / kBestCompression > packed)
+    if (plain / best_compression > packed)
       fail_file(name, fmt::format("block {} of a compressed array announces {} bytes, more than it can hold",
                                   b, plain));
     const std::size_t before = bytes.size();
@@ -115,8 +115,8 @@ std::string decode_vtu_base64(std::string_view text, const VtuStorage& storage, 
     const std::uint64_t size = header_number(base64(rest, storage.header_bytes, name), 0, storage, name);
     if (size > text.size())
       fail_file(name, fmt::format("an array announces {} bytes, more than the file has left", size));
-    // The header is usually one base64 run with the data; where it has its own padding, `rest` begins after
-    // it.
+    // Usually one base64 run contains the header and the data; if the header has its own padding, `rest`
+    // begins after it.
     const bool own_run = rest.data() != text.data() && *(rest.data() - 1) == '=';
     std::string_view run = own_run ? rest : text;
     std::string bytes =
@@ -176,7 +176,7 @@ NumberType type_of(const std::string& word, const std::string& name) {
   for (const auto& [type_word, type] : known) {
     if (word == type_word) return type;
   }
-  fail_file(name, fmt::format("an array of type '{}' is not read here", word.substr(0, 40)));
+  fail_file(name, fmt::format("arrays of type '{}' are not read", word.substr(0, 40)));
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ std::vector<std::int64_t> vtu_integers(std::string_view bytes, const std::string
                                        const VtuStorage& storage, const std::string& name) {
   const NumberType known = type_of(type, name);
   if (known == NumberType::f32 || known == NumberType::f64)
-    fail_file(name, fmt::format("an array of type '{}' is not read here", type));
+    fail_file(name, fmt::format("an array of type '{}' instead of integers", type));
   return with_number_type(known, [&](auto number) {
     return convert<std::int64_t, decltype(number)>(bytes, swapped_from(storage.order), name);
   });

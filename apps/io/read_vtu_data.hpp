@@ -23,7 +23,7 @@ struct VtuStorage {
 std::string decode_vtu_base64(std::string_view text, const VtuStorage& storage, const std::string& name);
 std::string decode_vtu_raw(std::string_view bytes, const VtuStorage& storage, const std::string& name);
 
-/// `type` is VTK's name: "Float64", "Int32" ... Numbers are handed over as double or int64.
+/// \param type  VTK's name: "Float64", "Int32", ...
 std::vector<double> vtu_doubles(std::string_view bytes, const std::string& type, const VtuStorage& storage,
                                 const std::string& name);
 std::vector<std::int64_t> vtu_integers(std::string_view bytes, const std::string& type,

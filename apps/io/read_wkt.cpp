@@ -1,5 +1,5 @@
-// Well-known text, by GEOS's reader. A file may hold several geometries, one after the other; GEOS takes
-// one at a time, so the text is split where the parentheses close or the word EMPTY stands for them.
+// Well-known text, with GEOS's reader. A file may contain several geometries; GEOS reads one at a time, so
+// the text is split where the parentheses close or after the word EMPTY.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace powercell::io {
 namespace {
 
-constexpr int kDeepestNesting = 64;  // GEOS reads collections by recursion
+constexpr int deepest_nesting = 64;  // GEOS reads collections by recursion
 
 bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
@@ -26,7 +26,7 @@ class Geometries {
   }
   // The text of the next one, without blanks before it; empty at the end.
   std::string_view next();
-  [[noreturn]] void fail(const std::string& what) const {  // of the last one
+  [[noreturn]] void fail(const std::string& what) const {  // names the last geometry
     fail_line(name_, line_of(text_, begin_), what);
   }
 
@@ -41,8 +41,7 @@ class Geometries {
   std::string reference_system_;
 };
 
-// PostGIS writes `SRID=n;` before a geometry. Coordinates are taken as they stand, in whatever system; but
-// numbers of two systems in one plane would mean nothing.
+// PostGIS writes `SRID=n;` before a geometry. Coordinates may be of any system, but all of the same.
 void Geometries::skip_reference_system() {
   if (lower_case(text_.substr(at_, 5)) != "srid=") return;
   const std::size_t end = std::min(text_.find_first_not_of("0123456789", at_ + 5), text_.size());
@@ -59,7 +58,7 @@ void Geometries::skip_reference_system() {
   skip_blanks();
 }
 
-// Passes over the word at `at_`, if there is one; true if it is EMPTY.
+// Skips the word at `at_`, if there is one; true if it is EMPTY.
 bool Geometries::skip_empty() {
   const std::size_t begin = at_;
   while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
@@ -73,15 +72,14 @@ std::string_view Geometries::next() {
   if (at_ == text_.size()) return {};
   int depth = 0;
   while (at_ < text_.size()) {
-    // GEOS reads up to the end of one geometry and leaves the rest unread, so that all ends must be found
-    // here.
+    // GEOS reads a geometry and ignores the rest of the text, so every end must be found here.
     if (depth == 0 && is_letter(text_[at_])) {
       if (skip_empty()) return text_.substr(begin_, at_ - begin_);
       continue;
     }
     const char c = text_[at_++];
     if (c == '\0') fail_line(name_, line_of(text_, at_), "a NUL byte; is this a text file?");
-    if (c == '(' && ++depth > kDeepestNesting)
+    if (c == '(' && ++depth > deepest_nesting)
       fail_line(name_, line_of(text_, at_), "parentheses are nested too deeply");
     if (c == ')' && --depth < 0)
       fail_line(name_, line_of(text_, at_), "a parenthesis closes that was not opened");

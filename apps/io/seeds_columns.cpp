@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "apps/io/read_file.hpp"
+#include "apps/io/printable.hpp"
 
 namespace powercell::io {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::string_view x_names[] = {"lon", "long", "longitude", "lng", "east
 constexpr std::string_view y_names[] = {"lat", "latitude", "northing"};
 constexpr std::string_view weight_names[] = {"w", "weight", "weights"};
 constexpr std::string_view radius_names[] = {"r", "radius", "radii"};
-/// Of columns that no coordinate is in; "" is that of row numbers.
+/// Names of columns that are not coordinates; "" is that of row numbers.
 constexpr std::string_view other_names[] = {"",     "id",    "fid",  "gid",    "objectid", "index", "key",
                                             "name", "label", "seed", "status", "mass",     "area"};
 constexpr const char* axis_names = "xyz";
@@ -40,28 +40,28 @@ class Header {
     if (!by_name) take_by_order();
     if (const auto radius = find(radius_names); radius && !columns_.weight)
       records_.fail(fmt::format(
-          "the header has a column {} and none of weights; a weight is a length "
-          "squared: name a column weight, with the radii squared (or rename this one, if it is no radius)",
+          "the header has a column {} and no column of weights; a weight is a length "
+          "squared: add a column weight with the squared radii (or rename this column if it is not a radius)",
           quoted(*radius)));
     columns_.note = note(by_name);
     return columns_;
   }
 
  private:
-  /// The column with one of these names.
+  /// The column with one of these names, if any.
   std::optional<std::size_t> find(Names known) const {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < names_.size(); ++k) {
       if (std::find(known.begin(), known.end(), names_[k]) == known.end()) continue;
       if (found)
-        records_.fail(fmt::format("the header names columns {} and {}, which say the same; rename one",
+        records_.fail(fmt::format("the header has columns {} and {}, which mean the same; rename one",
                                   quoted(*found), quoted(k)));
       found = k;
     }
     return found;
   }
 
-  /// By x, y, z; where there are none, by what maps call them. False where there is neither.
+  /// By x, y, z, or else by the names used for maps. False if there is neither.
   bool find_coordinates() {
     std::array<std::optional<std::size_t>, 3> found;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -74,7 +74,7 @@ class Header {
       if (found[axis].has_value() != (axis < dimension_))
         records_.fail(fmt::format(
             "the header names some of x, y, z, but seeds of this domain have {} coordinates; name their "
-            "columns {}, and others otherwise",
+            "columns {}, and rename others",
             dimension_, row_names(dimension_)));
       columns_.position[axis] = found[axis].value_or(axis);
     }
@@ -134,7 +134,7 @@ SeedColumns columns_by_order(const Records& records, std::size_t count, std::siz
     columns.weight = dimension;
   else if (count != dimension)
     records.fail(fmt::format(
-        "{} columns, but a row of this domain's seeds is {}{}; others need a header that names {}", count,
+        "{} columns, but a row of this domain's seeds is {}{}; other tables need a header with {}", count,
         seed_row(dimension), separated_by(records.separator()), row_names(dimension)));
   return columns;
 }

@@ -18,11 +18,11 @@ struct Array {
   std::uint64_t rows = 0, columns = 0;
 };
 
-// What stands after `'key':` in the header, a literal of a Python dict.
+// The text after `'key':` in the header, which is the literal of a Python dict.
 std::string_view value_of(std::string_view header, std::string_view key, const std::string& name) {
   std::size_t at = header.find(fmt::format("'{}'", key));
   if (at != std::string_view::npos) at = header.find(':', at);
-  if (at != std::string_view::npos) at = header.find_first_not_of(" ", at + 1);
+  if (at != std::string_view::npos) at = header.find_first_not_of(' ', at + 1);
   if (at == std::string_view::npos) fail_file(name, fmt::format("the header of the array has no '{}'", key));
   return header.substr(at);
 }
@@ -70,7 +70,7 @@ void read_shape(std::string_view header, Array& array, const std::string& name) 
   array.columns = extents[1];
 }
 
-// The header's end is where the numbers begin.
+// Leaves the scanner at the first number.
 Array read_header(std::string_view bytes, ByteScanner& scanner, const std::string& name) {
   if (!bytes.starts_with("\x93NUMPY")) fail_file(name, "does not begin as a .npy file");
   scanner.skip(6, 1, "the header");

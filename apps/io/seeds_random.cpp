@@ -1,5 +1,5 @@
-// Random seeds that are the same on every machine: a generator with a fixed definition, and nothing but
-// additions, multiplications and comparisons of doubles after it.
+// Random seeds that are the same on every machine: a generator with a fixed definition, followed only by
+// additions, multiplications and comparisons of doubles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 #include <powercell/regions.hpp>
 #include <powercell/seeds.hpp>
 
-#include "apps/io/read_file.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/read_text.hpp"
 
 namespace powercell::io {
 namespace {
 
-// xoshiro256** 1.0, its state filled by splitmix64 (D. Blackman and S. Vigna, "Scrambled linear
-// pseudorandom number generators", ACM TOMS 47 (2021)).
+// xoshiro256** 1.0, seeded by splitmix64 (D. Blackman and S. Vigna, "Scrambled linear pseudorandom number
+// generators", ACM TOMS 47 (2021)).
 class Generator {
  public:
   explicit Generator(std::uint64_t seed) {
@@ -66,10 +66,10 @@ double dot(const Vec& a, const Vec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The simplices (or boxes) that the domain's regions fall into, with their measures summed up.
+// The domain's regions as simplices (or boxes), with the running sum of their measures.
 struct Pieces {
   std::vector<std::array<std::uint32_t, 4>> corners;  // triangle: 3; tetrahedron: 4; box: corners 0 1 2 4
-  std::vector<double> sum;                            // of the measures up to and with each
+  std::vector<double> sum;                            // of the measures up to each, inclusive
 
   void add(const std::array<std::uint32_t, 4>& piece, double measure) {
     corners.push_back(piece);
@@ -98,8 +98,8 @@ Pieces pieces_of(const RegionsView& mesh) {
   return pieces;
 }
 
-// Folds a uniform point of the unit cube into the simplex u, v, w >= 0, u + v + w <= 1: three maps of
-// equal volume, so that it stays uniform (C. Rocchini and P. Cignoni, J. Graphics Tools 5 (2000) 9-12).
+// Folds a uniform point of the unit cube into the simplex u, v, w >= 0, u + v + w <= 1 by volume-preserving
+// maps, so that it stays uniform (C. Rocchini and P. Cignoni, J. Graphics Tools 5 (2000) 9-12).
 void fold_into_tetrahedron(double& u, double& v, double& w) {
   if (u + v > 1) {
     u = 1 - u;
@@ -116,7 +116,7 @@ void fold_into_tetrahedron(double& u, double& v, double& w) {
   }
 }
 
-// A point of one piece: its corner plus parts of the edges from there.
+// A point of a piece: its first corner plus fractions of the edges from there.
 Vec point_in(const RegionsView& mesh, const std::array<std::uint32_t, 4>& corners, Generator& generator) {
   double u = generator.next(), v = generator.next(), w = 0;
   if (mesh.cell_dimension == 3) w = generator.next();
@@ -159,37 +159,37 @@ RandomSeeds parse_random_spec(const std::string& spec) {
     if (code != std::errc() || end != field.data() + field.size()) fail_spec(spec, what);
     return value;
   };
-  RandomSeeds what;
-  what.count = whole(fields[1], "N is not a whole number");
-  if (what.count > most_seeds_of_diagram)
-    fail_spec(spec, fmt::format("N is above {}", most_seeds_of_diagram));  // what a diagram can hold
+  RandomSeeds seeds;
+  seeds.count = whole(fields[1], "N is not a whole number");
+  if (seeds.count > most_seeds_of_diagram)
+    fail_spec(spec, fmt::format("N is above {}", most_seeds_of_diagram));
   if (fields.size() >= 4) {
-    if (parse_number(fields[2], what.low) != Parsed::ok) fail_spec(spec, "LO is not a number");
-    if (parse_number(fields[3], what.high) != Parsed::ok) fail_spec(spec, "HI is not a number");
-    if (what.low > what.high) fail_spec(spec, "LO is above HI");
+    if (parse_number(fields[2], seeds.low) != Parsed::ok) fail_spec(spec, "LO is not a number");
+    if (parse_number(fields[3], seeds.high) != Parsed::ok) fail_spec(spec, "HI is not a number");
+    if (seeds.low > seeds.high) fail_spec(spec, "LO is above HI");
   }
-  if (fields.size() == 5) what.seed = whole(fields[4], "SEED is not a whole number");
-  return what;
+  if (fields.size() == 5) seeds.seed = whole(fields[4], "SEED is not a whole number");
+  return seeds;
 }
 
-SeedTable random_seeds(const RandomSeeds& what, const Domain& domain) {
+SeedTable random_seeds(const RandomSeeds& seeds, const Domain& domain) {
   const RegionsView mesh = domain.regions();
   const Pieces pieces = pieces_of(mesh);
   if (pieces.sum.empty())
     throw Error(ErrorCode::invalid_domain, "random seeds need a domain that is not empty");
-  Generator generator(what.seed);
+  Generator generator(seeds.seed);
   SeedTable table;
   table.dimension = mesh.dimension;
-  table.positions.reserve(what.count * static_cast<std::size_t>(mesh.dimension));
-  table.weights.reserve(what.count);
-  for (std::uint64_t k = 0; k < what.count; ++k) {
+  table.positions.reserve(seeds.count * static_cast<std::size_t>(mesh.dimension));
+  table.weights.reserve(seeds.count);
+  for (std::uint64_t k = 0; k < seeds.count; ++k) {
     const double target = generator.next() * pieces.sum.back();
     const auto found = std::upper_bound(pieces.sum.begin(), pieces.sum.end(), target);
     const auto piece = std::min<std::size_t>(static_cast<std::size_t>(found - pieces.sum.begin()),
                                              pieces.corners.size() - 1);
     const Vec p = point_in(mesh, pieces.corners[piece], generator);
     table.positions.insert(table.positions.end(), p.begin(), p.begin() + mesh.dimension);
-    table.weights.push_back(what.low + generator.next() * (what.high - what.low));
+    table.weights.push_back(seeds.low + generator.next() * (seeds.high - seeds.low));
   }
   return table;
 }

@@ -49,10 +49,10 @@ double SeedsText::number(std::string_view field, std::size_t column) const {
   if (parsed == Parsed::not_a_number)
     throw Error(ErrorCode::invalid_file, what + fmt::format("; a row is {}{}", seed_row(dimension_),
                                                             separated_by(records_.separator())));
-  throw Error(ErrorCode::invalid_seed, what + "; take the seed out or give it a finite value");
+  throw Error(ErrorCode::invalid_seed, what + "; remove the seed or give it a finite value");
 }
 
-// Whether the first line is a header or a count, and so not a row.
+// Whether the first line is a header or a count rather than a row.
 bool SeedsText::first_line(const Fields& fields) {
   if (is_header(fields)) {
     columns_ = columns_by_header(records_, fields, dimension_);
@@ -72,7 +72,7 @@ bool SeedsText::first_line(const Fields& fields) {
 void SeedsText::fail_width(std::size_t columns) const {
   records_.fail(fmt::format("seed {} (from 0) has {} columns, {} {}; give every row a weight or none{}",
                             table_.count(), columns,
-                            header_ && table_.count() == 0 ? "the header has" : "the ones before have",
+                            header_ && table_.count() == 0 ? "the header has" : "the rows before have",
                             columns_->count, separated_by(records_.separator())));
 }
 
@@ -97,9 +97,10 @@ SeedTable SeedsText::read() {
   for (bool first = true; records_.next(fields); first = false)
     if (!first || !first_line(fields)) row(fields);
   if (announced_ && *announced_ != table_.count()) {
-    fail_line(records_.name(), announced_line_,
-              fmt::format("{} seeds are announced, but the file has {}; it is truncated or the count wrong",
-                          *announced_, table_.count()));
+    fail_line(
+        records_.name(), announced_line_,
+        fmt::format("{} seeds are announced, but the file has {}; it is truncated or the count is wrong",
+                    *announced_, table_.count()));
   }
   if (columns_) table_.note = std::move(columns_->note);
   return std::move(table_);

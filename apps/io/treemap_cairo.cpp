@@ -16,10 +16,6 @@ void select_font(cairo_t* to, bool bold, double size) {
   cairo_set_font_size(to, size);
 }
 
-void set_colour(cairo_t* to, Colour colour, double opacity = 1) {
-  cairo_set_source_rgba(to, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, opacity);
-}
-
 void add_outline(cairo_t* to, const TreemapScene& scene, const TreemapScene::Cell& cell) {
   cairo_new_path(to);
   for (std::uint64_t v = cell.first; v < cell.end; ++v)

@@ -1,4 +1,4 @@
-// Colours of treemaps, in Ottosson's OKLCH (2020), where equal steps look equal.
+// Colours of treemaps, in Ottosson's OKLCH (2020), whose steps are perceptually uniform.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,24 +14,18 @@ struct Lch {
   double lightness, chroma, hue;  // hue in turns
 };
 
-std::uint8_t channel(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * encoded));
-}
-
 Colour to_colour(const Lch& lch) {
   const double a = lch.chroma * std::cos(2 * std::numbers::pi * lch.hue);
   const double b = lch.chroma * std::sin(2 * std::numbers::pi * lch.hue);
   const double l = std::pow(lch.lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
   const double m = std::pow(lch.lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
   const double s = std::pow(lch.lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-  return {channel(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
-          channel(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
-          channel(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+  return {to_srgb(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          to_srgb(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          to_srgb(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-// In [-0.5, 0.5], from the node's number: the same picture every time.
+// In [-0.5, 0.5], from the node's number, so that pictures are reproducible.
 double jitter(std::uint32_t node, std::uint32_t salt) {
   std::uint32_t x = node * 0x9e3779b9u + salt;
   x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -71,7 +65,7 @@ std::vector<Colour> treemap_colours(const TreemapOutput& output) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return map.depth[a] < map.depth[b]; });
   std::vector<Lch> lch(n, {0.86, 0.03, 0.68});
-  // Numbers that are near get hues far apart: steps of the golden section.
+  // Steps of the golden section give close numbers distant hues.
   for (std::size_t i = 0; i < n; ++i)
     if (const std::int64_t k = output.hue[i]; k >= 0)
       lch[i] = {0.80 - 0.05 * static_cast<double>(k % 3), 0.105,

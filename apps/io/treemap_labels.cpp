@@ -18,8 +18,8 @@ struct Box {
   double x = 0, y = 0, half_width = 0, half_height = 0;
 };
 
-// The size s for which the box (x, y, s half_width, s half_height) touches the polygon; negative outside. The
-// least of affine functions of x and y, so it is concave.
+// The size s for which the box (x, y, s half_width, s half_height) touches the polygon; negative outside. It
+// is the minimum of affine functions of x and y and therefore concave.
 double size_at(const Polygon& polygon, double orientation, double x, double y, double half_width,
                double half_height) {
   double size = 1e300;
@@ -64,8 +64,8 @@ double signed_area(const Polygon& p) {
   return twice / 2;
 }
 
-// The largest box of these proportions, at most `most` times as large, by golden sections in y over golden
-// sections in x.
+// The largest box of these proportions, at most `most` times as large, by a golden section search in y over
+// golden section searches in x.
 Box largest_box(const Polygon& polygon, double half_width, double half_height, double most) {
   if (polygon.size() < 3) return {};
   double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
@@ -108,7 +108,7 @@ bool overlap(const Box& a, const Box& b) {
 struct Limits {
   double least, most;  // sizes of the font, pixels
 };
-// `scale` is that of the picture: what can be read stays as it is, what is large grows with it
+// `scale` is that of the picture: it raises the upper limits, not the least legible sizes.
 Limits limits(std::uint32_t depth, bool leaf, double scale) {
   if (leaf) return {6.5, 26 * scale};
   if (depth == 1) return {9, 54 * scale};
@@ -119,8 +119,8 @@ class Labels {
  public:
   Labels(TreemapScene& scene, const TreemapOutput& output) : scene_(scene), output_(output) {}
 
-  // Groups first, from the top; then leaves. A text that meets one that stands already moves above or below
-  // it.
+  // Places the labels of groups from the top down, then those of leaves. A label that overlaps an earlier one
+  // moves above or below it.
   void run() {
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < scene_.cells.size(); ++k)
@@ -130,7 +130,7 @@ class Labels {
     blockers_.resize(scene_.cells.size());
     find_parents();
     for (const std::uint32_t k : order) place(k);
-    // What is drawn last is on top: groups over leaves.
+    // The last label drawn is on top: groups over leaves.
     std::reverse(scene_.labels.begin(), scene_.labels.end());
   }
 
@@ -149,7 +149,7 @@ class Labels {
     }
   }
 
-  // Only labels of ancestors can lie over a cell: cells of others are elsewhere.
+  // Only labels of ancestors can lie over a cell.
   std::vector<Box> over(std::uint32_t k) const {
     std::vector<Box> boxes;
     for (std::uint32_t at = k; parent_[at] != at;) {
@@ -159,7 +159,8 @@ class Labels {
     return boxes;
   }
 
-  // Moves the box above or below what it overlaps, whichever leaves more room; false where that has no end.
+  // Moves the box above or below the boxes that it overlaps, whichever leaves more room; false if it keeps
+  // overlapping.
   static bool avoid(const std::vector<Box>& others, Polygon polygon, double half_width, double half_height,
                     double most, Box& box) {
     const auto touched = [&] {
@@ -185,7 +186,7 @@ class Labels {
     const std::uint32_t depth = output_.map.depth[cell.node];
     if (parent_[k] != k && scene_.below[parent_[k]] == scene_.below[k] + 1 && depth > 1 &&
         blockers_[parent_[k]].half_width > 0) {
-      blockers_[k] = blockers_[parent_[k]];  // an only child: its parent's label says enough, also of its own
+      blockers_[k] = blockers_[parent_[k]];  // the parent's label also stands for an only child
       return;
     }
     const Limits allowed = limits(depth, cell.leaf, std::max(scene_.width, scene_.height) / 1600);

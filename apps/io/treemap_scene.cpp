@@ -12,7 +12,7 @@ namespace {
 
 constexpr double margin = 8;  // pixels
 
-// Walls by depth: what encloses more is wider. A wall takes no more than its share of a small cell.
+// Walls are wider at higher levels, and at most a fixed share of a small cell.
 double wall_width(std::uint32_t depth, double area, double scale) {
   constexpr double widths[] = {5, 5, 2.6, 1.5, 0.9, 0.6, 0.45};
   const double width = widths[std::min<std::size_t>(depth, std::size(widths) - 1)];
@@ -28,7 +28,7 @@ double area_of(const std::vector<double>& p, std::uint64_t first, std::uint64_t 
   return std::fabs(twice) / 2;
 }
 
-// Every node that has a polygon, parents first, each branch together.
+// Every node with a polygon, in preorder.
 std::vector<std::uint32_t> preorder(const TreemapOutput& output, std::vector<std::uint32_t>& below) {
   const std::size_t n = output.tree.size();
   std::vector<std::vector<std::uint32_t>> children(n);

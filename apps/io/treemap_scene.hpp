@@ -1,5 +1,5 @@
 /// \file
-/// The picture of a treemap: made once, drawn as SVG text or by cairo. Internal to the writers.
+/// The picture of a treemap, to be drawn as SVG text or by cairo. Internal to the writers.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct TreemapScene {
   struct Cell {
     std::uint32_t node;
     Colour fill;  ///< of a leaf
-    double wall;  ///< width of the line around it, drawn over all that is inside
+    double wall;  ///< width of the line around it, drawn over everything inside
     bool leaf;
     std::uint64_t first, end;  ///< corners in `points`
   };
@@ -29,8 +29,7 @@ struct TreemapScene {
   };
   double width = 0, height = 0;
   std::string title, description;
-  /// Nodes before their children, children together and in order (preorder), and how many nodes lie below
-  /// each.
+  /// Nodes in preorder, and the number of nodes below each.
   std::vector<Cell> cells;
   std::vector<std::uint32_t> below;
   std::vector<double> points;  ///< x, y pairs
@@ -39,10 +38,10 @@ struct TreemapScene {
 
 TreemapScene make_treemap_scene(const TreemapOutput& output, const TreemapStyle& style);
 
-/// A colour for each node: hue by the branch below the root, tints of it further down.
+/// A colour for each node: the branch below the root sets the hue, deeper nodes vary it.
 std::vector<Colour> treemap_colours(const TreemapOutput& output);
 
-/// Names that fit into their cells without touching each other, large groups first.
+/// Adds names that fit into their cells without overlaps, large groups first.
 void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output);
 
 /// Width of a text of one em in the pictures' font.

@@ -3,16 +3,15 @@
 #include <cmath>
 
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/picture_svg_text.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/treemap_scene.hpp"
 
 namespace powercell::io {
 namespace {
 
-constexpr std::size_t deepest_group = 100;  // readers of XML refuse what is nested too deeply
+constexpr std::size_t deepest_group = 100;  // XML readers refuse deeper nesting
 
-// A thousandth of a pixel, without zeros at the end.
+// Rounded to a thousandth of a pixel, without trailing zeros.
 void append(std::string& text, double pixels) {
   const long long thousandths = std::llround(pixels * 1000);
   fmt::format_to(std::back_inserter(text), "{}", thousandths / 1000);
@@ -88,7 +87,7 @@ class Drawing {
     file_.write(text_);
   }
 
-  // textLength keeps a text in its cell whatever font the viewer has.
+  // textLength keeps a text in its cell with any font.
   void labels() {
     for (const TreemapScene::Label& label : scene_.labels) {
       text_ =

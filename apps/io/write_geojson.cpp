@@ -1,11 +1,10 @@
-#include "apps/io/write_geojson.hpp"
-
 #include <array>
 #include <span>
 #include <vector>
 
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/write_table.hpp"
+#include "apps/io/names.hpp"
+#include "apps/io/write_formats.hpp"
 
 namespace powercell::io {
 namespace {
@@ -20,7 +19,6 @@ struct Part {
   std::vector<Points> holes;
 };
 
-// Twice the signed area would do as well: only signs and comparisons are made of it.
 double signed_area(const Points& ring) {
   double twice = 0;
   const Point& o = ring[0];
@@ -127,7 +125,7 @@ void write_geojson(const std::string& path, const DiagramOutput& output) {
     file.write(",\"weight\":");
     file.number(output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
     file.write(",\"status\":\"");
-    file.write(status_name(output.measures.status[i]));
+    file.write(name(output.measures.status[i]));
     file.write("\",\"measure\":");
     file.number(output.measures.mass[i]);
     file.write("},\"geometry\":");

@@ -1,10 +1,9 @@
-#include "apps/io/write_json.hpp"
-
 #include <cmath>
 #include <powercell/version.hpp>
 
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/write_table.hpp"
+#include "apps/io/names.hpp"
+#include "apps/io/write_formats.hpp"
 
 namespace powercell::io {
 namespace {
@@ -86,7 +85,7 @@ void write_cell(AtomicFile& file, const DiagramOutput& output, std::size_t i) {
   file.write(",\"weight\":");
   write_number(file, output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
   file.write(",\"status\":\"");
-  file.write(status_name(measures.status[i]));
+  file.write(name(measures.status[i]));
   file.write("\",\"measure\":");
   write_number(file, measures.mass[i]);
   file.write(",\"centroid\":");
@@ -100,23 +99,11 @@ void write_cell(AtomicFile& file, const DiagramOutput& output, std::size_t i) {
   file.write('}');
 }
 
-const char* kind_name(DomainKind kind) {
-  switch (kind) {
-    case DomainKind::polygon:
-      return "polygon";
-    case DomainKind::surface:
-      return "surface";
-    case DomainKind::volume:
-      return "volume";
-  }
-  return "unknown";
-}
-
 void write_head(AtomicFile& file, const DiagramOutput& output) {
   const Measures& measures = output.measures;
   file.write(std::string("{\"powercell\":\"") + version() + "\",\n\"domain\":{\"kind\":\"" +
-             kind_name(output.domain.kind()) +
-             "\",\"dimension\":" + std::to_string(output.domain.dimension()) + ",\"measure\":");
+             name(output.domain.kind()) + "\",\"dimension\":" + std::to_string(output.domain.dimension()) +
+             ",\"measure\":");
   write_number(file, output.domain.measure());
   file.write("},\n\"check\":{\"cells\":" + std::to_string(measures.count(SeedStatus::ok)) +
              ",\"hidden\":" + std::to_string(measures.count(SeedStatus::hidden)) +

@@ -1,5 +1,3 @@
-#include "apps/io/write_mesh.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/picture_palette.hpp"
+#include "apps/io/write_formats.hpp"
 #include "apps/io/write_polygons.hpp"
 
 namespace powercell::io {
@@ -18,11 +17,6 @@ void write_point(AtomicFile& file, const double* point) {
     file.number(point[k]);
   }
   file.write('\n');
-}
-
-template <class T>
-void raw(AtomicFile& file, T value) {
-  file.write(std::string_view(reinterpret_cast<const char*>(&value), sizeof value));
 }
 
 std::string ply_header(const PolygonSoup& soup, bool long_faces) {
@@ -79,20 +73,20 @@ void write_ply(const std::string& path, const DiagramOutput& output) {
   const bool long_faces = most > 255;
   AtomicFile file(path);
   file.write(ply_header(soup, long_faces));
-  for (const double x : soup.vertices) raw(file, x);
+  for (const double x : soup.vertices) file.raw(x);
   for (std::size_t p = 0; p < soup.size(); ++p) {
     if (long_faces)
-      raw(file, static_cast<std::uint32_t>(corners(soup, p)));
+      file.raw(static_cast<std::uint32_t>(corners(soup, p)));
     else
-      raw(file, static_cast<std::uint8_t>(corners(soup, p)));
+      file.raw(static_cast<std::uint8_t>(corners(soup, p)));
     for (std::uint64_t e = soup.offset[p]; e < soup.offset[p + 1]; ++e) {
-      raw(file, static_cast<std::int32_t>(soup.corner[e]));
+      file.raw(static_cast<std::int32_t>(soup.corner[e]));
     }
     const Colour colour = colours[soup.seed[p]];
-    raw(file, colour.red);
-    raw(file, colour.green);
-    raw(file, colour.blue);
-    raw(file, static_cast<std::int32_t>(soup.seed[p]));
+    file.raw(colour.red);
+    file.raw(colour.green);
+    file.raw(colour.blue);
+    file.raw(static_cast<std::int32_t>(soup.seed[p]));
   }
   file.commit();
 }

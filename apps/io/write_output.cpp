@@ -1,14 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <powercell/error.hpp>
 
 #include "apps/io/output.hpp"
 #include "apps/io/picture.hpp"
-#include "apps/io/write_geojson.hpp"
-#include "apps/io/write_json.hpp"
-#include "apps/io/write_mesh.hpp"
-#include "apps/io/write_vtk.hpp"
+#include "apps/io/read_file.hpp"
+#include "apps/io/write_formats.hpp"
 
 namespace powercell::io {
 namespace {
@@ -32,25 +28,9 @@ constexpr std::array<Format, 10> formats = {{
     {".geojson", true, write_geojson},
 }};
 
-const Format* find_format(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-  const auto found = std::find_if(formats.begin(), formats.end(),
-                                  [&](const Format& format) { return format.extension == extension; });
-  return found == formats.end() ? nullptr : &*found;
-}
-
-const Format& checked_format(const std::string& path, DomainKind kind) {
+const Format& format_of(const std::string& path) {
   check_output_format(path);
-  const Format* format = find_format(path);
-  if (format->flat_only && kind != DomainKind::polygon) {
-    throw Error(ErrorCode::unsupported,
-                path + ": " + std::string(format->extension) +
-                    " holds flat shapes, of polygon domains; for a surface or volume use .png for a picture, "
-                    ".vtu for geometry");
-  }
-  return *format;
+  return *std::ranges::find(formats, lower_extension(path), &Format::extension);
 }
 
 }  // namespace
@@ -64,22 +44,22 @@ std::string_view known_outputs() {
   return list;
 }
 
-bool known_output(const std::string& path) {
-  return find_format(path) != nullptr;
-}
-
 void check_output_format(const std::string& path) {
-  if (!known_output(path))
-    throw Error(ErrorCode::invalid_file,
-                path + ": unknown extension of an output file; known are " + std::string(known_outputs()));
+  check_extension(path, known_outputs());
 }
 
 void check_output(const std::string& path, DomainKind kind) {
-  (void)checked_format(path, kind);
+  const Format& format = format_of(path);
+  if (!format.flat_only || kind == DomainKind::polygon) return;
+  throw Error(ErrorCode::unsupported,
+              path + ": " + std::string(format.extension) +
+                  " holds flat shapes, of polygon domains; for a surface or volume use .png for a picture, "
+                  ".vtu for geometry");
 }
 
 void write_output(const std::string& path, const DiagramOutput& output) {
-  checked_format(path, output.domain.kind()).write(path, output);
+  check_output(path, output.domain.kind());
+  format_of(path).write(path, output);
 }
 
 }  // namespace powercell::io

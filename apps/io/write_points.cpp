@@ -15,10 +15,6 @@ namespace {
 bool is_table(const std::string& extension) {
   return extension == ".csv" || extension == ".txt";
 }
-bool is_picture(const std::string& extension) {
-  return extension == ".svg" || extension == ".png" || extension == ".pdf";
-}
-
 void write_rows(const std::string& path, const PointOutput& output, bool csv) {
   const auto d = static_cast<std::size_t>(output.domain.dimension());
   AtomicFile file(path);
@@ -74,17 +70,17 @@ void write_svg_dots(const std::string& path, const Scene& scene) {
 }  // namespace
 
 void check_points_format(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  if (!is_table(extension) && !is_picture(extension))
-    throw Error(ErrorCode::invalid_file,
-                path + ": unknown extension; points are written as .csv .txt .svg .png .pdf");
+  check_extension(path, point_outputs);
 }
 
 void check_points(const std::string& path, const Domain& domain) {
   check_points_format(path);
-  if (is_picture(lower_extension(path)) && domain.dimension() != 2)
-    throw Error(ErrorCode::unsupported,
-                path + ": pictures of dots are flat; write points in space as .csv or .txt, or their cells");
+  if (!is_table(lower_extension(path)) && domain.dimension() != 2)
+    throw Error(
+        ErrorCode::unsupported,
+        path +
+            ": pictures of dots need a polygon domain; write points in space as .csv or .txt, or write "
+            "their cells");
 }
 
 void write_points(const std::string& path, const PointOutput& output) {

@@ -1,10 +1,11 @@
 /// \file
-/// Points with the dots that stand for them, as tables and pictures.
+/// Points as tables and as pictures of dots.
 #pragma once
 
 #include <powercell/domain.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace powercell::io {
 
@@ -17,10 +18,12 @@ struct PointOutput {
   std::span<const double> radii;      ///< n, of the dots, length; only pictures need them
 };
 
+inline constexpr std::string_view point_outputs = ".svg .png .pdf .csv .txt";
+
 /// \throw Error invalid_file (unknown extension)
 void check_points_format(const std::string& path);
 
-/// Refuses, before anything is computed, what `write_points` would refuse. \throw Error invalid_file (unknown
+/// Checks before a long computation that `write_points` accepts the file. \throw Error invalid_file (unknown
 /// extension), unsupported (a picture of points in space)
 void check_points(const std::string& path, const Domain& domain);
 

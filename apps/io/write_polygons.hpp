@@ -1,5 +1,5 @@
 /// \file
-/// The polygons of a diagram as one soup in space, the common input of the mesh formats.
+/// The polygons of a diagram in space, the common input of the mesh formats.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ struct PolygonSoup {
   std::vector<std::uint64_t> offset;  ///< polygons + 1
   std::vector<std::uint64_t> corner;
   std::vector<std::uint32_t> seed;     ///< per polygon: its cell
-  std::vector<std::int64_t> neighbor;  ///< per polygon: the seed behind the wall (volumes); -1 none
+  std::vector<std::int64_t> neighbor;  ///< per polygon: the seed behind the wall (volumes), or -1
   std::size_t size() const { return seed.size(); }
   std::size_t vertex_count() const { return vertices.size() / 3; }
 };
 
-/// Polygon and surface domains: the convex pieces of the cells, for these formats know no holes.
+/// Polygon and surface domains: the convex pieces of the cells, since these formats have no holes.
 /// Volumes: the faces of the joined cells, each seen from outside its cell.
 PolygonSoup polygon_soup(const DiagramOutput& output);
 

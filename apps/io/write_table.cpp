@@ -3,20 +3,9 @@
 #include <cmath>
 
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/names.hpp"
 
 namespace powercell::io {
-
-const char* status_name(SeedStatus status) {
-  switch (status) {
-    case SeedStatus::ok:
-      return "ok";
-    case SeedStatus::hidden:
-      return "hidden";
-    case SeedStatus::duplicate:
-      return "duplicate";
-  }
-  return "unknown";
-}
 
 void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
                  const Adjacency& adjacency) {
@@ -34,7 +23,7 @@ void write_table(const std::string& path, const SeedsView& seeds, const Measures
     file.write(',');
     file.number(seeds.weights.empty() ? 0.0 : seeds.weights[i]);
     file.write(',');
-    file.write(status_name(measures.status[i]));
+    file.write(name(measures.status[i]));
     file.write(',');
     file.number(measures.mass[i]);
     for (std::size_t k = 0; k < d; ++k) {

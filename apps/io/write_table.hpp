@@ -1,5 +1,5 @@
 /// \file
-/// Tables: one row a seed, or one row a wall.
+/// Tables with one row for each seed, or for each side of a wall.
 #pragma once
 
 #include <powercell/results.hpp>
@@ -8,12 +8,9 @@
 
 namespace powercell::io {
 
-/// "ok", "hidden" or "duplicate".
-const char* status_name(SeedStatus status);
-
-/// CSV `seed,x,y[,z],weight,status,measure,cx,cy[,cz],second_moment,neighbors`, in input order, every
-/// number such that it reads back the same; the centroid is left empty where the cell is empty;
-/// `neighbors` is the number of cells with which the cell shares a wall. \throw Error write_failed
+/// CSV `seed,x,y[,z],weight,status,measure,cx,cy[,cz],second_moment,neighbors`, in input order. Numbers read
+/// back the same; the centroid of an empty cell is left empty; `neighbors` is the number of cells with a
+/// common wall. \throw Error write_failed
 void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
                  const Adjacency& adjacency);
 

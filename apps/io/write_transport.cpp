@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/write_table.hpp"
+#include "apps/io/names.hpp"
 
 namespace powercell::io {
 namespace {
@@ -50,7 +50,7 @@ void write_transport_table(const std::string& path, const SeedsView& seeds, cons
     for (std::size_t k = 0; k < d; ++k) number(seeds.positions[i * d + k]);
     number(result.weights[i]);
     file.write(',');
-    file.write(status_name(status_of(result, i)));
+    file.write(io::name(status_of(result, i)));
     number(result.target[i]);
     number(result.mass[i]);
     for (std::size_t k = 0; k < d; ++k) number(result.centroid[i * d + k]);

@@ -54,15 +54,8 @@ void write_json(const std::string& path, const TreemapOutput& output) {
 
 }  // namespace
 
-std::string_view known_treemap_outputs() {
-  return ".svg .png .pdf .json";
-}
-
 void check_treemap_output(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  for (const char* known : {".svg", ".png", ".pdf", ".json"})
-    if (extension == known) return;
-  fail_file(path, fmt::format("is no format for a treemap; name it {}", known_treemap_outputs()));
+  check_extension(path, treemap_outputs);
 }
 
 void write_treemap(const std::string& path, const TreemapOutput& output, const TreemapStyle& style) {

@@ -11,11 +11,6 @@
 namespace powercell::io {
 namespace {
 
-template <class T>
-void raw(AtomicFile& file, T value) {
-  file.write(std::string_view(reinterpret_cast<const char*>(&value), sizeof value));
-}
-
 void write_points(AtomicFile& file, const TriangleMesh& mesh, std::string_view start) {
   for (std::size_t v = 0; v < mesh.vertices.size(); v += 3) {
     file.write(start);
@@ -58,10 +53,10 @@ void write_ply_triangles(AtomicFile& file, const TriangleMesh& mesh) {
              "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
              std::to_string(mesh.triangles.size() / 3) +
              "\nproperty list uchar int vertex_indices\nend_header\n");
-  for (const double x : mesh.vertices) raw(file, x);
+  for (const double x : mesh.vertices) file.raw(x);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    raw(file, std::uint8_t{3});
-    for (std::size_t k = 0; k < 3; ++k) raw(file, static_cast<std::int32_t>(mesh.triangles[t + k]));
+    file.raw(std::uint8_t{3});
+    for (std::size_t k = 0; k < 3; ++k) file.raw(static_cast<std::int32_t>(mesh.triangles[t + k]));
   }
 }
 
@@ -70,7 +65,7 @@ void write_stl_triangles(AtomicFile& file, const TriangleMesh& mesh) {
   std::string header = "triangle mesh by powercell";
   header.resize(80, ' ');
   file.write(header);
-  raw(file, static_cast<std::uint32_t>(mesh.triangles.size() / 3));
+  file.raw(static_cast<std::uint32_t>(mesh.triangles.size() / 3));
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     double p[3][3], n[3], size = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -80,10 +75,10 @@ void write_stl_triangles(AtomicFile& file, const TriangleMesh& mesh) {
       n[k] = (p[1][i] - p[0][i]) * (p[2][j] - p[0][j]) - (p[1][j] - p[0][j]) * (p[2][i] - p[0][i]);
       size += n[k] * n[k];
     }
-    for (const double x : n) raw(file, static_cast<float>(size > 0 ? x / std::sqrt(size) : 0));
+    for (const double x : n) file.raw(static_cast<float>(size > 0 ? x / std::sqrt(size) : 0));
     for (const auto& corner : p)
-      for (const double x : corner) raw(file, static_cast<float>(x));
-    raw(file, std::uint16_t{0});
+      for (const double x : corner) file.raw(static_cast<float>(x));
+    file.raw(std::uint16_t{0});
   }
 }
 
@@ -92,8 +87,8 @@ float single(double x) {
   return std::numeric_limits<float>::infinity();
 }
 
-/// STL holds single precision. \throw Error write_failed where that changes an edge by more than half of its
-/// length, so that triangles may lose their area or fold
+/// STL has single precision. \throw Error write_failed if that changes an edge by more than half of its
+/// length, so that triangles may lose their area or fold over
 void require_single_precision(const std::string& path, const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -107,48 +102,27 @@ void require_single_precision(const std::string& path, const TriangleMesh& mesh)
       if (std::hypot(change[0], change[1], change[2]) <= 0.5 * std::hypot(edge[0], edge[1], edge[2]))
         continue;
       throw Error(ErrorCode::write_failed,
-                  path + ": STL holds single precision, which ruins triangle " + std::to_string(t / 3) +
-                      "; write .ply, or scale the surface and move it to the origin");
+                  path + ": STL has single precision, which is not enough for triangle " +
+                      std::to_string(t / 3) + "; write .ply, or scale the surface and move it to the origin");
     }
 }
 
-struct Format {
-  std::string_view extension;
-  void (*write)(AtomicFile& file, const TriangleMesh& mesh);
-};
-constexpr Format formats[] = {{".off", write_off_triangles},
-                              {".obj", write_obj_triangles},
-                              {".ply", write_ply_triangles},
-                              {".stl", write_stl_triangles}};
-
 }  // namespace
 
-std::string_view known_triangle_files() {
-  return ".off .obj .ply .stl";
-}
-
 void check_triangle_output(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  if (extension == ".png") return;
-  for (const Format& format : formats)
-    if (extension == format.extension) return;
-  throw Error(ErrorCode::invalid_file, path + ": unknown extension of an output file; known are " +
-                                           std::string(known_triangle_files()) +
-                                           " for the mesh and .png for a picture");
+  check_extension(path, std::string(triangle_files) + " .png");
 }
 
 void write_triangles(const std::string& path, const TriangleMesh& mesh) {
-  check_triangle_output(path);
+  check_extension(path, triangle_files);
   const std::string extension = lower_extension(path);
-  for (const Format& format : formats) {
-    if (extension != format.extension) continue;
-    if (extension == ".stl") require_single_precision(path, mesh);
-    AtomicFile file(path);
-    format.write(file, mesh);
-    file.commit();
-    return;
-  }
-  throw Error(ErrorCode::invalid_file, path + ": a picture shows two meshes, this is one");
+  if (extension == ".stl") require_single_precision(path, mesh);
+  AtomicFile file(path);
+  if (extension == ".off") write_off_triangles(file, mesh);
+  if (extension == ".obj") write_obj_triangles(file, mesh);
+  if (extension == ".ply") write_ply_triangles(file, mesh);
+  if (extension == ".stl") write_stl_triangles(file, mesh);
+  file.commit();
 }
 
 }  // namespace powercell::io

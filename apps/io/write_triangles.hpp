@@ -1,5 +1,5 @@
 /// \file
-/// Triangle meshes as files and as pictures.
+/// Triangle meshes as files.
 #pragma once
 
 #include <powercell/shapes.hpp>
@@ -8,16 +8,13 @@
 
 namespace powercell::io {
 
-/// Extensions that `write_triangles` knows: ".off .obj .ply .stl".
-std::string_view known_triangle_files();
+inline constexpr std::string_view triangle_files = ".off .obj .ply .stl";
+
 /// \throw Error invalid_file for an extension that is neither one of those nor .png
 void check_triangle_output(const std::string& path);
 
 /// Writes a mesh by the extension of `path`: OFF and OBJ as text in full precision, PLY and STL binary (STL
 /// in single precision). \throw Error invalid_file (extension), write_failed
 void write_triangles(const std::string& path, const TriangleMesh& mesh);
-
-/// PNG of two meshes of one surface beside each other, with their edges. \throw Error write_failed
-void draw_before_and_after(const std::string& path, const TriangleMesh& before, const TriangleMesh& after);
 
 }  // namespace powercell::io

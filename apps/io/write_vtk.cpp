@@ -1,10 +1,9 @@
-#include "apps/io/write_vtk.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "apps/io/write_formats.hpp"
 #include "apps/io/write_polygons.hpp"
 #include "apps/io/write_vtk_file.hpp"
 
@@ -24,7 +23,7 @@ double weight_of(const DiagramOutput& output, std::uint32_t seed) {
   return output.seeds.weights.empty() ? 0.0 : output.seeds.weights[seed];
 }
 
-// The pieces as VTK's arrays: connectivity and offsets, and for polyhedra the stream of faces.
+// The pieces in VTK's arrays: connectivity and offsets, and for polyhedra the stream of faces.
 struct Grid {
   std::vector<double> points;  // np x 3
   std::vector<std::int64_t> connectivity, offsets, faces, face_offsets;
@@ -69,8 +68,8 @@ double add_faces(Grid& grid, const Cells& cells, std::uint64_t piece) {
   return six_volumes / 6;
 }
 
-// Seeds and their pieces, in volumes those with fewer vertices first: meshio gathers polyhedra by their
-// number of vertices, and gives the data of one group to another unless they come in that order.
+// Seeds and their pieces, in volumes sorted by the number of vertices: meshio groups polyhedra by that number
+// and mixes up the data of the groups in any other order.
 std::vector<std::pair<std::uint32_t, std::uint64_t>> ordered_pieces(const Cells& cells) {
   std::vector<std::pair<std::uint32_t, std::uint64_t>> order;
   order.reserve(cells.piece_count());

@@ -36,11 +36,12 @@ void VtkFile::close(std::string_view element) {
   file_.write(">\n");
 }
 
-// The format: a header of 64-bit integers (number of blocks, size of a block, size of the last one if
-// it is shorter else 0, compressed size of each block), then the blocks; each part in its own base64.
+// The format: a header of 64-bit integers (number of blocks, size of a block, size of the last block if it is
+// shorter, else 0, and the compressed size of each block), then the blocks; header and blocks are separate
+// base64 runs.
 void VtkFile::array_bytes(std::string_view name, std::string_view type, int components,
                           std::string_view bytes) {
-  // One component is the default; saying so makes meshio read a column of a matrix.
+  // One component is the default; written out, it makes meshio read a matrix of one column.
   const std::string shape = components == 1 ? "" : "\" NumberOfComponents=\"" + std::to_string(components);
   file_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + std::string(name) + shape +
               "\" format=\"binary\">\n");

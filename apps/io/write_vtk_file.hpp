@@ -11,14 +11,14 @@
 
 namespace powercell::io {
 
-/// One VTK XML file. Arrays are written inline as base64 of zlib blocks, so that the file stays
-/// well-formed XML (VTK's raw appended data does not) and every reader of the format takes it.
+/// A VTK XML file. Arrays are written inline as base64 of zlib blocks, so that the file is well-formed XML
+/// (with VTK's raw appended data it would not be) and every reader of the format accepts it.
 class VtkFile {
  public:
   /// \param type "UnstructuredGrid" or "PolyData"
   VtkFile(const std::string& path, std::string_view type);
 
-  /// Opens an element; `attributes` as in `NumberOfPoints="8"`, already escaped.
+  /// Opens an element. \param attributes  e.g. `NumberOfPoints="8"`, already escaped
   void open(std::string_view element, std::string_view attributes = {});
   void close(std::string_view element);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/common.hpp"
+#include "apps/io/names.hpp"
 #include "apps/io/read_domain.hpp"
 
 namespace powercell::app {
@@ -24,7 +25,7 @@ Source image_source(const SourceArguments& arguments) {
   std::string description = fmt::format("{}: {} x {} pixels", arguments.image, ink.width, ink.height);
   std::optional<Domain> domain;
   if (!arguments.domain.empty()) {
-    io::LoadedDomain loaded = io::read_domain(arguments.domain, domain_kind(arguments.kind));
+    io::LoadedDomain loaded = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
     domain = loaded.domain;
     description += ", over " + loaded.description;
   } else {
@@ -43,12 +44,13 @@ Source read_source(const SourceArguments& arguments) {
   check(arguments);
   if (arguments.paper != 0) {
     if (!(arguments.density + arguments.image + arguments.domain).empty())
-      throw Error(ErrorCode::invalid_argument, "--paper has a domain and a density of its own");
+      throw Error(ErrorCode::invalid_argument,
+                  "--paper cannot be combined with --domain, --density or --image");
     return paper_source(arguments.paper);
   }
   if (!arguments.image.empty()) return image_source(arguments);
   const std::string spec = arguments.domain.empty() ? "square" : arguments.domain;
-  const io::LoadedDomain loaded = io::read_domain(spec, domain_kind(arguments.kind));
+  const io::LoadedDomain loaded = io::read_domain(spec, io::domain_kind(arguments.kind));
   return {loaded.domain, loaded.description, read_density(arguments, loaded.domain), std::nullopt};
 }
 
@@ -65,7 +67,7 @@ std::vector<double> dot_radii(const Device& device, const Source& source, const 
     for (double& r : radii) r = std::sqrt(std::max(r, 0.0) / std::acos(-1.0));
     return radii;
   }
-  // Equal dots that leave room between them where the points are densest, but for the densest twentieth.
+  // Equal dots that leave gaps even where the points are densest, the densest twentieth excepted.
   std::vector<double> areas = diagram.measures().mass;
   const auto at = areas.begin() + static_cast<std::ptrdiff_t>(n / 20);
   std::nth_element(areas.begin(), at, areas.end());

@@ -1,5 +1,5 @@
 /// \file
-/// What `powercell sample` samples: the domain and the density, from its arguments.
+/// The domain and the density of `powercell sample`, from its arguments.
 #pragma once
 
 #include <optional>
@@ -13,23 +13,22 @@ namespace powercell::app {
 
 struct SourceArguments : DensityArguments {
   std::string domain, kind;
-  double dot_contrast = 0.3;  ///< share of the darkness that dot sizes show, instead of their number
-  int paper = 0;              ///< 2 or 3: the experiment of the paper in that dimension
+  double dot_contrast = 0.3;  ///< share of the darkness shown by the sizes of dots instead of their number
+  int paper = 0;              ///< 2 or 3 for the experiment of the paper in that dimension
 };
 
 struct Source {
   Domain domain;
   std::string description;
   Density density;  ///< of the points
-  /// Image: the part of the paper that ink is to cover, 0 to 1. Else nothing.
+  /// For an image: the share of the paper to be covered with ink, 0 to 1.
   std::optional<Density> ink;
 };
 
 /// \throw Error invalid_argument (arguments that contradict each other), as the readers
 Source read_source(const SourceArguments& arguments);
 
-/// Radii of dots: for an image such that the ink in each cell is what the image has there, else equal ones.
-/// \param weights  those of the cells of equal mass
+/// Radii of dots. For an image the ink in each cell equals that of the image there; else all radii are equal.
 std::vector<double> dot_radii(const Device& device, const Source& source, const SamplingResult& points);
 
 }  // namespace powercell::app

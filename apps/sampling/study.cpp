@@ -15,7 +15,7 @@
 namespace powercell::app {
 namespace {
 
-/// Of sqrt(n): what counts as low is not agreed upon, and the power rises steeply there.
+/// In units of sqrt(n). There is no agreed limit of low frequencies, and the power rises steeply there.
 constexpr std::array<double, 5> cutoffs{0.3, 0.4, 0.44, 0.5, 0.6};
 
 double processor_seconds() {

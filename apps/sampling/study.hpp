@@ -1,5 +1,5 @@
 /// \file
-/// Several samplings and what is said of them.
+/// Several samplings and their figures.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,16 +20,17 @@ struct Run {
 
 struct Study {
   std::vector<Run> runs;
-  std::optional<Spectrum> spectrum;  ///< the mean, in periodic boxes, if asked for
+  std::optional<Spectrum> spectrum;  ///< mean of the runs; only for periodic boxes and on request
 };
 
-/// \param runs  with the random seeds from options.random_seed on   \param spectra  take n² time
+/// \param runs  their number; random seeds count up from options.random_seed
+/// \param spectra  whether to compute them, which takes n² time
 Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
                 int runs, bool spectra);
 
-/// Keys: runs (a list), mean, spectrum (radial frequencies in waves a box; power, anisotropy in decibels,
-/// low_frequency up to half of sqrt(n), low_frequencies up to several parts of it). \param with_power  also
-/// all of the spectrum, row by row
+/// Keys: runs (a list), mean, spectrum (radial frequencies in waves per box; power; anisotropy in decibels;
+/// low_frequency up to half of sqrt(n); low_frequencies up to several fractions of sqrt(n)).
+/// \param with_power  also the whole spectrum, row by row
 nlohmann::json as_json(const Study& study, bool with_power);
 
 /// "1,024 points, 22 iterations, ..."

@@ -1,5 +1,5 @@
 /// \file
-/// The figures of the paper that a program can redo. Each writes one CSV file; docs/paper.md says what it
+/// The figures of the paper that a program can redo. Each writes one CSV file; README.md says what it
 /// tests, and plot.py draws it.
 #pragma once
 

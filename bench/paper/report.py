@@ -1,4 +1,4 @@
-"""Writes what the data say into docs/paper.md: report.py FOLDER FILE NAME...
+"""Writes the tables and verdicts of the data into bench/paper/README.md: report.py FOLDER FILE NAME...
 The text between '<!-- NAME -->' and '<!-- /NAME -->' is replaced. Verdicts follow from the data."""
 import math
 import statistics
@@ -34,9 +34,9 @@ def figure3(rows):
     seed, twin = min(ratios["seed"]), ratios["twin"]
     return table(["query", "η up to, × largest weight", "neighbours tried", "µs", "time ratio", "tree µs"], lines) + f"""
 
-**{"Agrees" if seed > SLOWER else "Does not agree"} where lists are asked at the lifted seed**: the largest η takes \
+**{"Agrees" if seed > SLOWER else "Does not agree"} where lists are searched at the lifted seed**: the largest η takes \
 {seed:.2f} to {max(ratios["seed"]):.1f} times as long as the least one. **{"Agrees" if min(twin) > SLOWER else
-"Does not agree"} where they are asked at the twin**: there the ratio is {min(twin):.2f} to {max(twin):.2f}."""
+"Does not agree"} where they are searched at the twin**: there the ratio is {min(twin):.2f} to {max(twin):.2f}."""
 
 
 def figure4(rows):
@@ -145,7 +145,8 @@ def main():
         if text.count(begin) != 1 or text.count(end) != 1:
             sys.exit(f"report.py: {path} must have one {begin} and one {end}")
         before, after = text.split(begin)[0], text.split(end)[1]
-        made_on = ", ".join(line.removeprefix("device: ") for line in data.comments(folder, name)[1:])
+        _, device, measured = data.comments(folder, name)[:3]
+        made_on = f"{measured.split(',')[0].capitalize()} by `bench/paper/run.sh {name}`, {device.removeprefix('device: ')}."
         text = f"{before}{begin}\n{FIGURES[name](data.read(folder, name))}\n\n*{made_on}*\n{end}{after}"
     with open(path, "w") as file:
         file.write(text)

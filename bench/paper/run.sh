@@ -1,6 +1,6 @@
 #!/bin/sh
 # Redoes the evaluation of the paper: computes the data, draws the plots and writes the numbers into
-# docs/paper.md. About ten minutes for all of it on two idle cores.
+# bench/paper/README.md. About ten minutes for all of it on two idle cores.
 #
 #   bench/paper/run.sh figure3|figure4|figure6|figure8|figure9|figure10|table1|all... [--quick]
 #
@@ -9,7 +9,7 @@
 set -eu
 here=$(cd "$(dirname "$0")/../.." && pwd)
 build=$here/build/bench
-out=$here/docs/paper
+out=$here/bench/paper/results
 quick=""
 wanted=""
 for word in "$@"; do
@@ -37,10 +37,10 @@ for name in $wanted; do
   esac
   "$python" "$here/bench/paper/plot.py" "$out" "$name"
 done
-page=$here/docs/paper.md
+page=$here/bench/paper/README.md
 if [ -n "$quick" ]; then
-  cp "$page" "$out/paper.md"
-  page=$out/paper.md
+  cp "$page" "$out/README.md"
+  page=$out/README.md
 fi
 # shellcheck disable=SC2086 # the list is meant to be split
 "$python" "$here/bench/paper/report.py" "$out" "$page" $wanted

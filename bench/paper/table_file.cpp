@@ -1,11 +1,22 @@
 #include "bench/paper/table_file.hpp"
 
 #include <cstdio>
+#include <ctime>
 #include <powercell/error.hpp>
 #include <powercell/version.hpp>
 #include <thread>
 
 namespace powercell::paper {
+namespace {
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+  return text;
+}
+
+}  // namespace
 
 Command parse_command(int argc, char** argv) {
   std::filesystem::path folder = ".";
@@ -33,7 +44,7 @@ TableFile::TableFile(const Study& study, const std::string& name, const std::str
   const DeviceInfo& info = study.device.info();
   file_ << "# " << setting << "\n# device: " << info.name << ", driver " << info.driver_version << ", "
         << info.compute_units << " compute units; host threads: " << std::thread::hardware_concurrency()
-        << "\n# powercell " << version() << ", revision " << POWERCELL_REVISION
+        << "\n# measured on " << today() << ", powercell " << version() << ", revision " << POWERCELL_REVISION
         << (study.quick ? "; quick: small inputs" : "") << "\n";
   const char* comma = "";
   for (const char* column : columns) {

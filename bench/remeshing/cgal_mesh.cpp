@@ -11,8 +11,9 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
+
+#include "bench/clocks.hpp"
 
 namespace powercell::bench {
 namespace {
@@ -22,7 +23,7 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace pmp = CGAL::Polygon_mesh_processing;
 namespace named = CGAL::parameters;
 
-/// \throw std::runtime_error where CGAL cannot make a mesh of the triangles
+/// \throw std::runtime_error if CGAL cannot make a mesh of the triangles
 Mesh mesh_of(const TriangleMesh& input) {
   std::vector<Kernel::Point_3> points;
   for (std::size_t v = 0; v < input.vertices.size(); v += 3)
@@ -56,10 +57,6 @@ double distance(const Mesh& from, const Mesh& to) {
         return points;
       }(),
       to);
-}
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 /// \file
-/// CGAL on triangle meshes, behind a plain header: the checks of a mesh, and the peer that makes one.
+/// CGAL on triangle meshes, behind a plain header: checks of a mesh, and isotropic remeshing as a peer.
 #pragma once
 
 #include <powercell/shapes.hpp>
 
 namespace powercell::bench {
 
-/// What CGAL says of a mesh made from an input.
+/// CGAL's checks of a mesh made from an input.
 struct MeshVerdict {
-  bool valid = false;  ///< a polygon mesh in its sense: an oriented manifold
+  bool valid = false;  ///< a polygon mesh in CGAL's sense: an oriented manifold
   bool self_intersecting = false;
   int euler = 0;  ///< vertices - edges + faces
   int boundary_loops = 0;
@@ -17,9 +17,9 @@ struct MeshVerdict {
 
 MeshVerdict check_by_cgal(const TriangleMesh& input, const TriangleMesh& mesh);
 
-/// CGAL's isotropic remeshing with `iterations`, sharp edges protected as PMP::detect_sharp_edges finds them.
-/// The edge length is searched until the mesh has `count` vertices within 1 %, in at most seven tries: on
-/// even inputs the number jumps. \param seconds  of processor time of the last try alone
+/// CGAL's isotropic remeshing with `iterations`, protecting the edges that PMP::detect_sharp_edges finds.
+/// Searches the edge length until the mesh has `count` vertices within 1 %, in at most seven attempts, since
+/// on regular inputs the number jumps. \param seconds  output: processor time of the last attempt
 TriangleMesh remesh_by_cgal(const TriangleMesh& input, std::size_t count, int iterations, double sharp_angle,
                             double& seconds);
 

@@ -1,18 +1,19 @@
-// compare_remeshing: powercell's meshes and CGAL's of the same surfaces, checked by CGAL, as rows of a table.
+// compare_remeshing: remeshes surfaces with powercell and with CGAL, checks the meshes with CGAL and prints a
+// row of a table for each.
 //
 //   compare_remeshing COUNT [FILE.off ...]
 //
-// Without files: shapes made on the spot, open and closed, smooth and with sharp edges.
+// Without files it uses generated shapes: open and closed, smooth and with sharp edges.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <powercell/powercell.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/io/read_domain.hpp"
+#include "bench/clocks.hpp"
 #include "bench/remeshing/cgal_mesh.hpp"
 #include "tests/applications/remeshing/shapes.hpp"
 
@@ -45,12 +46,9 @@ double diagonal(const TriangleMesh& mesh) {
   return std::sqrt(sum);
 }
 
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-/// One row; returns whether all that must hold holds.
-bool tell(const Shape& shape, const char* what, const TriangleMesh& mesh, double seconds) {
+/// Prints one row; returns whether the mesh is a manifold of the input's topology that does not intersect
+/// itself.
+bool print_row(const Shape& shape, const char* method, const TriangleMesh& mesh, double seconds) {
   const MeshQuality q = mesh_quality(mesh.vertices, mesh.triangles);
   const MeshQuality before = mesh_quality(shape.mesh.vertices, shape.mesh.triangles);
   const bench::MeshVerdict verdict = bench::check_by_cgal(shape.mesh, mesh);
@@ -59,12 +57,12 @@ bool tell(const Shape& shape, const char* what, const TriangleMesh& mesh, double
                      verdict.euler == before.euler_characteristic &&
                      verdict.boundary_loops == before.boundary_loops;
   fmt::print("{:10} {:9} {:6} {:7.2f}  {:.3f} {:.3f} {:5.1f} {:7.3f} {:7.2f}  {:.3f} {:.3f}  {}\n",
-             shape.name, what, q.vertices, seconds, q.q_min, q.q_mean, q.angle_min, 100 * q.below_30,
+             shape.name, method, q.vertices, seconds, q.q_min, q.q_mean, q.angle_min, 100 * q.below_30,
              100 * q.regular, percent * verdict.mesh_to_input, percent * verdict.input_to_mesh,
              right                       ? "ok"
-             : !verdict.valid            ? "no manifold"
+             : !verdict.valid            ? "not a manifold"
              : verdict.self_intersecting ? "intersects itself"
-                                         : "topology");
+                                         : "wrong topology");
   std::fflush(stdout);
   return right;
 }
@@ -75,14 +73,15 @@ bool compare(const Shape& shape, std::size_t count) {
     RemeshOptions options;
     options.count = count;
     options.method = transport ? RemeshMethod::transport : RemeshMethod::farthest_point;
-    const double start = processor_seconds();
+    const double start = bench::processor_seconds();
     const RemeshResult result = remesh(shape.mesh.vertices, shape.mesh.triangles, options);
-    right &= tell(shape, transport ? "transport" : "fpo", result.mesh, processor_seconds() - start);
+    const double seconds = bench::processor_seconds() - start;
+    right &= print_row(shape, transport ? "transport" : "fpo", result.mesh, seconds);
   }
   double seconds = 0;
   for (const int iterations : {5, 20}) {
     const TriangleMesh peer = bench::remesh_by_cgal(shape.mesh, count, iterations, 45, seconds);
-    tell(shape, iterations == 5 ? "CGAL 5" : "CGAL 20", peer, seconds);
+    print_row(shape, iterations == 5 ? "CGAL 5" : "CGAL 20", peer, seconds);
   }
   return right;
 }

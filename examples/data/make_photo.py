@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A gray picture to stipple: three balls and a ring on a table in the light of one lamp, traced ray by ray.
+"""Renders a gray picture to stipple, by ray tracing: three balls on a table in the light of one lamp.
 
 usage: make_photo.py [FILE.png [WIDTH]]
 """
@@ -14,7 +14,7 @@ BALLS = [((-1.15, 0.1, 1.0), 1.0, 0.85), ((0.95, -0.55, 0.7), 0.7, 0.45), ((0.35
 
 
 def hits(origin, way):
-    """Distance along each ray to the nearest ball (infinite: none), and which."""
+    """Distance along each ray to the nearest ball (infinite if there is none), and the index of that ball."""
     nearest = np.full(way.shape[:-1], np.inf)
     which = np.full(way.shape[:-1], -1)
     for k, (centre, radius, _) in enumerate(BALLS):
@@ -29,7 +29,7 @@ def hits(origin, way):
 
 
 def lit(point, normal, albedo):
-    """Lambert's law with shadows, some light from the sky, and a highlight."""
+    """Lambert's law with shadows and some light from the sky."""
     to = LIGHT - point
     to /= np.linalg.norm(to, axis=-1, keepdims=True)
     shadow, _ = hits(point + 1e-3 * normal, to)

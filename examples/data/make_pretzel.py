@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes pretzel.off: python3 make_pretzel.py pretzel.off   (Debian's package python3-vtk9)
 
-Three rings, tilted and blended: the zero set of a smooth minimum of three torus distances, a closed
-surface of genus 3, found on a grid, smoothed and thinned out to some thousand triangles. Unit: none.
+The surface is the zero set of a smooth minimum of the distances to three tilted tori: closed, of genus 3. It is
+contoured on a grid, smoothed and decimated to 6,000 triangles. No unit.
 """
 
 import sys
@@ -13,7 +13,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 GRID = 128
 TRIANGLES = 6000
-BLEND = 0.10  # how far apart two rings begin to melt into one another
+BLEND = 0.10  # distance within which two rings blend
 
 
 def torus(x, y, z, angle):
@@ -58,7 +58,7 @@ def surface():
 
 
 def check(points, triangles):
-    """Closed, oriented, of genus 3 (Euler characteristic -4)."""
+    """Checks that the mesh is closed, oriented and of genus 3 (Euler characteristic -4)."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     key = edges[:, 0].astype(np.int64) * len(points) + edges[:, 1]
     twin = edges[:, 1].astype(np.int64) * len(points) + edges[:, 0]

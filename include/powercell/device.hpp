@@ -1,5 +1,5 @@
 /// \file
-/// OpenCL devices: what there is, and the one a diagram runs on.
+/// OpenCL devices: the list of them, and the one that a diagram runs on.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace cl {
 class Context;
 }
 
-/// One OpenCL device as enumerated on this machine.
+/// An OpenCL device of this machine.
 struct DeviceInfo {
   enum class Type { cpu, gpu, accelerator, other };
   int platform = 0;  ///< index of the platform, in the order of the ICD loader
@@ -34,27 +34,27 @@ struct DeviceInfo {
   std::uint64_t largest_allocation = 0;  ///< largest single buffer, bytes
   std::size_t max_work_group_size = 0;
 
-  /// "P:D", what `Device::choose` and `--device` accept.
+  /// "P:D", as `Device::choose` and `--device` accept it.
   std::string selector() const { return std::to_string(platform) + ":" + std::to_string(device); }
 };
 
-/// All devices of all platforms, in enumeration order. Empty when there is no platform.
+/// All devices of all platforms, in the order of the ICD loader. Empty without a platform.
 /// \throw Error opencl if a platform cannot be queried.
 POWERCELL_API std::vector<DeviceInfo> devices();
 
 /// A device with its context, queue and program cache. Copies share one state; the last one frees it.
-/// Thread-safe to share between diagrams.
+/// Diagrams in different threads may share a device.
 class POWERCELL_API Device {
  public:
-  /// The device that `selector` names: "P:D" by index, or a case-insensitive part of the device's or
-  /// platform's name, or "cpu" / "gpu". An empty selector asks the environment variable
-  /// POWERCELL_DEVICE, then takes the GPU with the most compute units, then a CPU.
-  /// The device has passed a self-test (a tiny diagram with a known answer) when this returns.
-  /// \throw Error device_not_found, self_test_failed, build_failed, opencl
+  /// Opens the device that `selector` names: "P:D" by index, a case-insensitive part of the device's or
+  /// platform's name, or "cpu" / "gpu". An empty selector stands for the environment variable
+  /// POWERCELL_DEVICE; without it, for the GPU with the most compute units, else a CPU. The device is
+  /// returned only if it passes a self-test (primitives with known results). \throw Error device_not_found,
+  /// self_test_failed, build_failed, opencl
   static Device choose(std::string_view selector = {});
 
   const DeviceInfo& info() const;
-  /// Seconds spent compiling kernels so far (0 when all came from a cache).
+  /// Seconds spent on compiling kernels since the device was opened; 0 if all came from the cache.
   double build_seconds() const;
 
   explicit Device(std::shared_ptr<cl::Context> context) : context_(std::move(context)) {}

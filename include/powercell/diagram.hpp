@@ -1,6 +1,5 @@
 /// \file
-/// Power diagrams restricted to a domain: the class that keeps its state between calls, and one-off
-/// functions beside it.
+/// Power diagrams restricted to a domain: a class that keeps its state between calls, and one-off functions.
 #pragma once
 
 #include <memory>
@@ -14,35 +13,36 @@
 
 namespace powercell {
 
-/// A power diagram of seeds in a domain, on a device. Results are computed when asked for and kept
-/// until the seeds or weights change; references stay valid until then. Not thread-safe; different
-/// diagrams may run in different threads, also on one device.
-/// If a call throws, the diagram keeps its seeds and can be used again.
+/// A power diagram of seeds in a domain, on a device. Results are computed on request and kept until the
+/// seeds or weights change; references to them stay valid until then. Not thread-safe; different diagrams may
+/// run in different threads, also on one device. After an exception the diagram has its seeds still and can
+/// be used again.
 class POWERCELL_API Diagram {
  public:
-  /// \throw Error no_fp64 if options ask for double on a device without it
+  /// \throw Error no_fp64 if the options ask for double on a device without it; invalid_argument, unsupported
+  /// (options)
   Diagram(Device device, Domain domain, Options options = {});
   Diagram(Diagram&&) noexcept;
   Diagram& operator=(Diagram&&) noexcept;
   ~Diagram();
 
-  /// Copies the seeds. At most 2^30 of them.
-  /// \throw Error invalid_argument (sizes), invalid_seed (which: NaN, infinity, or so large that
-  /// its square is not finite in the precision)
+  /// Copies the seeds, at most 2^30.
+  /// \throw Error invalid_argument (sizes), invalid_seed (names the seed: NaN, infinity, or so large that its
+  /// square is not finite in the precision)
   void set_seeds(const SeedsView& seeds);
-  /// New weights for the same positions; re-does only what depends on weights.
+  /// Sets new weights for the same positions; only the work that depends on weights is repeated.
   /// \throw Error invalid_argument (size), invalid_seed
   void set_weights(std::span<const double> weights);
 
   std::size_t size() const;               ///< number of seeds
-  std::vector<double> positions() const;  ///< of the seeds as given: n x d, row-major
+  std::vector<double> positions() const;  ///< of the seeds, in the caller's order: n x d, row-major
   const Domain& domain() const;
   const Device& device() const;
   Precision precision() const;  ///< as chosen: float64 or float32
   Neighbors neighbors() const;  ///< as chosen: tree or flann
 
-  /// Computes now, in one pass, the measures and what else is named; each is also computed when first
-  /// asked for, but then in a pass of its own.
+  /// Computes the measures, and the adjacency and cells where requested, in as few passes as possible. The
+  /// getters below compute what is missing, each in a pass of its own.
   void compute(bool adjacency, bool cells);
 
   const Measures& measures();
@@ -63,9 +63,9 @@ class POWERCELL_API Diagram {
 POWERCELL_API Measures measure(const Device& device, const Domain& domain, const SeedsView& seeds,
                                const Options& options = {});
 
-/// Pieces of one cell joined across the regions of the domain (see JoinedCells). A facet between two pieces
-/// stays, and still says interior, where the piece behind it was too thin to be kept (single precision).
-/// \throw Error invalid_argument if the cells are not of this kind of domain
+/// Joins the pieces of each cell across the regions of the domain. A facet between two pieces stays, with the
+/// border `interior`, where the piece behind it was too thin to be kept (single precision). \throw Error
+/// invalid_argument if the cells belong to another kind of domain
 POWERCELL_API JoinedCells join(const Domain& domain, const Cells& cells);
 
 }  // namespace powercell

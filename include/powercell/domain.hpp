@@ -1,5 +1,5 @@
 /// \file
-/// Domains: what a diagram is restricted to.
+/// Domains: the polygon, surface or volume that a diagram is restricted to.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct RegionsView;
 
 using Ring = std::vector<std::array<double, 2>>;  ///< a closed curve, the last point joined to the first
 
-/// One part of a polygon: an outer ring and its holes, each in either orientation, with or without
-/// the first point repeated at the end; collinear and repeated points are allowed.
+/// One part of a polygon: an outer ring and its holes. Each ring may have either orientation, collinear and
+/// repeated points, and its first point again at the end.
 struct PolygonPart {
   Ring outer;
   std::vector<Ring> holes;
@@ -25,30 +25,28 @@ struct PolygonPart {
 
 enum class DomainKind { polygon, surface, volume };
 
-/// An immutable, validated domain; copies share one state. Safe to share between threads. Its largest
-/// coordinate is within 10^-100 .. 10^100, or it is refused (invalid_domain): beyond, measures leave the
-/// range of double.
+/// An immutable, validated domain; copies share one state. Thread-safe. The largest absolute coordinate must
+/// be from 1e-100 to 1e100 (else Error invalid_domain): beyond, measures leave the range of double.
 class POWERCELL_API Domain {
  public:
-  /// The union of parts with disjoint interiors. Rings and parts may touch in points, and parts along
-  /// edges: what they share there is inside the domain. A ring may not touch itself.
-  /// Boundary edges are numbered by part, ring and edge: outer rings counter-clockwise, holes clockwise,
-  /// each from its first corner, with corners also where another ring touches an edge.
-  /// \throw Error invalid_domain (which part, where)
+  /// The union of parts with disjoint interiors. Rings and parts may touch in points, and parts along edges,
+  /// which then are inside the domain. A ring must not touch itself. Boundary edges are numbered by part,
+  /// ring and edge: outer rings counter-clockwise, holes clockwise, each from its first corner; a point where
+  /// another ring touches an edge is a corner too. \throw Error invalid_domain (names the part and the place)
   static Domain polygon(std::span<const PolygonPart> parts);
 
   /// A triangle mesh in space: open, closed or non-manifold.
   /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
   /// Vertices at the same position count as one. Triangles of zero area are left out: those whose least
-  /// height is at most 2^-50 of their longest edge. \throw Error invalid_domain (which triangle)
+  /// height is at most 2^-50 of their longest edge. \throw Error invalid_domain (names the triangle)
   static Domain surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
   /// A tetrahedral mesh, each tetrahedron in either orientation.
   /// \param vertices nv x 3, row-major   \param tetrahedra nt x 4 indices from 0
   /// Vertices at the same position count as one. Flat tetrahedra are left out: those whose least height
   /// is at most 2^-50 of their longest edge. Two tetrahedra on the same side of a shared facet are
-  /// refused; any other overlap is not looked for, and counts twice.
-  /// \throw Error invalid_domain (which tetrahedron)
+  /// an error; other overlaps are not detected and count twice.
+  /// \throw Error invalid_domain (names the tetrahedron)
   static Domain volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
   /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain
@@ -61,7 +59,7 @@ class POWERCELL_API Domain {
   std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;
   RegionsView regions() const;       ///< see powercell/regions.hpp
-  std::size_t region_count() const;  ///< convex pieces, triangles or tetrahedra kept
+  std::size_t region_count() const;  ///< convex pieces, triangles or tetrahedra that were kept
 
   explicit Domain(std::shared_ptr<const RegionMesh> mesh) : mesh_(std::move(mesh)) {}
   /// For the library's own use.

@@ -8,23 +8,23 @@
 
 namespace powercell {
 
-/// What kind of thing went wrong; `Error::what()` says it in words.
+/// The kind of a failure; `Error::what()` gives the details in words.
 enum class ErrorCode {
   invalid_argument,      ///< sizes that do not match, an option out of range
   invalid_seed,          ///< NaN or infinity in a position or weight (which seed)
   invalid_domain,        ///< self-intersection, index out of range, empty domain (which element)
   invalid_file,          ///< unreadable, truncated or malformed file (file and line), unknown extension
   write_failed,          ///< a file could not be written whole
-  device_not_found,      ///< no device matches the selector (the message lists those that exist)
-  no_fp64,               ///< double precision asked of a device that has none
+  device_not_found,      ///< no device matches the selector (the message lists the devices)
+  no_fp64,               ///< double precision requested on a device without it
   build_failed,          ///< a kernel did not compile (device, options and log in the message)
-  self_test_failed,      ///< the device computed a known diagram wrongly
-  out_of_device_memory,  ///< allocation failed even in the smallest chunks
+  self_test_failed,      ///< the device computed a known diagram incorrectly
+  out_of_device_memory,  ///< an allocation failed, even in the smallest chunks
   opencl,                ///< any other OpenCL error (name and place in the message)
-  unsupported,           ///< asked for what this build or device does not have
+  unsupported,           ///< this build or device does not have the feature
   interrupted,           ///< the progress callback asked to stop
   not_converged,         ///< an iteration ended above its tolerance
-  internal,              ///< a law of the library was broken: please report
+  internal,              ///< an invariant of the library does not hold: please report
 };
 
 /// Stable lower-case name of a code, e.g. "invalid_seed".

@@ -1,15 +1,15 @@
 /// \file
-/// The choice of a solver for the linear systems of optimal transport.
+/// Choice of the solver for the linear systems of optimal transport.
 #pragma once
 
 #include <powercell/export.hpp>
 
 namespace powercell {
 
-/// What solves the linear system of a Newton step.
+/// Solver for the linear system of a Newton step.
 enum class LinearSolver {
-  automatic,   ///< by the number of seeds and the dimension of the cells
-  dense,       ///< Cholesky on a full matrix: up to some hundred seeds
+  automatic,   ///< chosen by the number of seeds and the dimension of the cells
+  dense,       ///< Cholesky on a full matrix, for up to some hundred seeds
   direct,      ///< sparse Cholesky
   multilevel,  ///< conjugate gradients, preconditioned by smoothed aggregation
 };

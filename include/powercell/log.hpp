@@ -1,5 +1,5 @@
 /// \file
-/// What the library does while it works, in lines of text. It is silent unless asked.
+/// Lines of text about the work in progress. The library is silent unless a sink is set.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,16 @@
 namespace powercell {
 
 enum class LogLevel {
-  info,    ///< devices, compiled kernels, each computation with its times, whatever had to be done again
+  info,    ///< devices, compiled kernels, each computation with its times, repeated work
   detail,  ///< also each chunk, and kernels taken from the cache
 };
 
-/// Gets one line, without its end. Called by the thread that computes, by one at a time.
+/// Receives one line, without a newline. Called from the computing threads, one call at a time.
 using LogSink = std::function<void(LogLevel level, std::string_view line)>;
 
-/// From now on `sink` gets all lines of the process up to level `most`; an empty sink ends that. While there
-/// is none, the environment variable POWERCELL_LOG (`info` or `detail`) sends them to standard error. What
-/// the sink throws is passed over, and it must not call this function.
+/// Sends all lines of the process up to level `most` to `sink`; an empty sink removes it. Without a sink the
+/// environment variable POWERCELL_LOG (`info` or `detail`) sends them to standard error. Exceptions of the
+/// sink are ignored; it must not call this function.
 POWERCELL_API void set_log(LogSink sink, LogLevel most = LogLevel::info);
 
 }  // namespace powercell

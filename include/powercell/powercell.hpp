@@ -1,5 +1,5 @@
 /// \file
-/// The whole C++ interface but for opencl.hpp.
+/// The whole C++ interface except opencl.hpp.
 #pragma once
 
 #include <powercell/density.hpp>

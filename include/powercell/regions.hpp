@@ -1,5 +1,6 @@
 /// \file
-/// The convex regions of a domain: convex pieces of a polygon, triangles of a surface, tetrahedra of a volume.
+/// The convex regions of a domain: convex pieces of a polygon, triangles of a surface, tetrahedra of a
+/// volume.
 #pragma once
 
 #include <array>
@@ -20,16 +21,16 @@ enum class RegionShape {
 
 /// A view of the regions; the domain and its copies own the arrays.
 /// Region r has the vertices region_vertex[region_offset[r] .. region_offset[r+1]) and the facets
-/// [facet_offset[r], facet_offset[r+1]): of a polygon, edge k from its vertex k to vertex k+1; of a tetrahedron,
-/// facet k opposite vertex k; of a box, -x +x -y +y -z +z.
+/// [facet_offset[r], facet_offset[r+1]): of a polygon, edge k from its vertex k to vertex k+1; of a
+/// tetrahedron, facet k opposite vertex k; of a box, -x +x -y +y -z +z.
 struct RegionsView {
   RegionShape shape = RegionShape::polygon;
-  int dimension = 0;                            ///< coordinates of a vertex
-  int cell_dimension = 0;                       ///< 2 or 3
-  std::span<const double> vertices;             ///< nv x dimension, row-major
-  std::span<const std::uint32_t> region_offset; ///< regions + 1
-  std::span<const std::uint32_t> region_vertex; ///< indices of vertices
-  std::span<const std::uint32_t> facet_offset;  ///< regions + 1
+  int dimension = 0;                             ///< coordinates of a vertex
+  int cell_dimension = 0;                        ///< 2 or 3
+  std::span<const double> vertices;              ///< nv x dimension, row-major
+  std::span<const std::uint32_t> region_offset;  ///< regions + 1
+  std::span<const std::uint32_t> region_vertex;  ///< indices of vertices
+  std::span<const std::uint32_t> facet_offset;   ///< regions + 1
   /// Per facet: a boundary facet and its number, or interior and the region behind it. Edges between convex
   /// pieces of a polygon, and edges that triangles share, are interior.
   std::span<const Border> facet;

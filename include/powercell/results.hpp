@@ -1,5 +1,5 @@
 /// \file
-/// What a diagram gives back. All arrays are owned by the struct; seeds keep their input order.
+/// The results of a diagram. The structs own their arrays; seeds keep the caller's order.
 #pragma once
 
 #include <array>
@@ -29,22 +29,22 @@ struct POWERCELL_API Measures {
   std::size_t count(SeedStatus s) const;
 };
 
-/// Which cells share a wall inside the domain. Compressed sparse rows; symmetric: j is in row i with
-/// the same wall measure as i in row j.
+/// The pairs of cells that share a wall inside the domain, as compressed sparse rows. Symmetric: j is in row
+/// i with the same wall measure as i in row j.
 struct Adjacency {
-  std::vector<std::uint64_t> offset;    ///< n + 1; row i is [offset[i], offset[i+1])
-  std::vector<std::uint32_t> neighbor;  ///< ascending within a row
-  std::vector<double> wall;             ///< length (polygon, surface) or area (volume) of the wall
-  double asymmetry = 0;                 ///< largest |a_ij - a_ji| seen before the two sides were averaged
-  std::array<std::uint32_t, 2> asymmetric{};  ///< i and j of that difference; equal where none was seen
+  std::vector<std::uint64_t> offset;          ///< n + 1; row i is [offset[i], offset[i+1])
+  std::vector<std::uint32_t> neighbor;        ///< ascending within a row
+  std::vector<double> wall;                   ///< length (polygon, surface) or area (volume) of the wall
+  double asymmetry = 0;                       ///< largest |a_ij - a_ji| before the two sides were averaged
+  std::array<std::uint32_t, 2> asymmetric{};  ///< i and j of that difference; equal if there was none
 };
 
-/// What lies behind a face of a cell.
+/// The other side of a face of a cell.
 struct Border {
   enum class Kind : std::uint32_t {
     wall,      ///< the cell of seed `index`
     boundary,  ///< the outside: facet `index` of the domain's boundary
-    interior,  ///< the same cell goes on in region `index` of the domain
+    interior,  ///< the same cell, in region `index` of the domain
   };
   Kind kind;
   std::uint32_t index;
@@ -52,14 +52,18 @@ struct Border {
 };
 
 /// The geometry of the cells as convex pieces, one for each region of the domain that a cell meets.
-/// A piece without thickness in a facet between regions is kept, since it carries a wall, but adds nothing to
-/// the measures; where seeds tie, faces and edges may have no extent. Cell i owns the pieces [cell_offset[i],
+/// A piece without thickness in a facet between regions is kept, since it carries a wall; it adds nothing to
+/// the measures. Where seeds tie, faces and edges may have no extent. Cell i owns the pieces [cell_offset[i],
 /// cell_offset[i+1]). Piece p has the vertices [vertex_offset[p], vertex_offset[p+1]) and the faces
 /// [face_offset[p], face_offset[p+1]). For polygons and surfaces a face is an edge: face k of a piece
 /// goes from its vertex k to its vertex k+1 (cyclic), counter-clockwise (on a surface, as the
 /// triangle is oriented), and `loop_offset` and `loop` are empty. For volumes face f is the polygon
 /// loop[loop_offset[f] .. loop_offset[f+1]), indices from 0 within the piece's vertices,
-/// counter-clockwise seen from outside.
+/// counter-clockwise seen from outside. For example, the vertices of cell i:
+///
+///     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
+///       for (std::uint64_t v = cells.vertex_offset[p]; v < cells.vertex_offset[p + 1]; ++v)
+///         use(&cells.vertices[v * cells.dimension]);
 struct POWERCELL_API Cells {
   int dimension = 0;                         ///< d, coordinates of a vertex
   int cell_dimension = 0;                    ///< 2 or 3
@@ -76,15 +80,14 @@ struct POWERCELL_API Cells {
   std::size_t piece_count() const { return region.size(); }
 };
 
-/// Cells joined across the regions of the domain: vertices of a cell are shared, and faces between
-/// pieces of the same cell are gone.
-/// Cell i owns the vertices [vertex_offset[i], vertex_offset[i+1]) and the faces
+/// Cells joined across the regions of the domain: the faces of a cell share vertices, and the faces between
+/// its pieces are removed. Cell i owns the vertices [vertex_offset[i], vertex_offset[i+1]) and the faces
 /// [face_offset[i], face_offset[i+1]); face f is loop[loop_offset[f] .. loop_offset[f+1]), indices
 /// from 0 within the cell's vertices.
 /// Polygon: the faces of a cell are its boundary rings, outer ones counter-clockwise, holes
-/// clockwise, and `edge_border` gives what lies behind the edge that starts at each loop entry.
+/// clockwise, and `edge_border` is the border of the edge that starts at each loop entry.
 /// Surface: a face is a polygon in one triangle of the domain; `edge_border` as for polygons.
-/// Volume: a face is a polygon on the cell's boundary; `face_border` says what lies behind it.
+/// Volume: a face is a polygon on the cell's boundary, and `face_border` its border.
 struct JoinedCells {
   int dimension = 0;
   int cell_dimension = 0;
@@ -97,11 +100,11 @@ struct JoinedCells {
   std::vector<Border> edge_border;  ///< per loop entry (polygons and surfaces only)
 };
 
-/// The regular triangulation restricted to the domain: one simplex for each point of the domain in
-/// which d+1 cells meet (three on polygons and surfaces, four in volumes). With exact decisions more cells
-/// meet in no point: ties are broken by the order of their positions, so that the simplices form a
-/// triangulation for any seeds. Their corners have cells: a seed whose cell only touches the domain from
-/// outside is hidden, and none of them.
+/// The regular triangulation restricted to the domain: one simplex for each point of the domain in which d+1
+/// cells meet (three on polygons and surfaces, four in volumes). With exact decisions no more than d+1 cells
+/// meet in a point: the order of the positions breaks ties, so that the simplices form a triangulation for
+/// any seeds. All corners have cells: a seed whose cell only touches the domain from outside is hidden, and
+/// not a corner.
 struct Dual {
   int corners = 0;                       ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented
@@ -109,7 +112,7 @@ struct Dual {
   std::size_t size() const { return corners ? simplices.size() / static_cast<std::size_t>(corners) : 0; }
 };
 
-/// Seconds spent in each part of the last computation, and what it did.
+/// Seconds spent in each part of the last computation, and counts.
 struct Timings {
   double total = 0;              ///< seeds in host memory to results in host memory, kernels built before
   double prepare = 0;            ///< validation, duplicates, ordering, tree
@@ -120,7 +123,7 @@ struct Timings {
   double certify = 0;            ///< checking laws (Options::certify)
   double build = 0;              ///< compiling kernels (not in total)
   std::uint64_t pair_count = 0;  ///< candidate (region, seed) pairs
-  std::uint64_t retried = 0;     ///< pairs that needed a larger variant
+  std::uint64_t retried = 0;     ///< pairs that needed a larger capacity
   std::uint64_t on_host = 0;     ///< pairs that ended on the host
   std::uint64_t uncertain = 0;   ///< pairs in which rounding may have decided
   int rounds = 0;                ///< rounds of neighbour lists (FLANN)

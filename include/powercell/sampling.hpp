@@ -1,5 +1,5 @@
 /// \file
-/// Blue noise: points whose power cells all hold the same mass of a density.
+/// Blue-noise sampling: points whose power cells all have the same mass of a density.
 #pragma once
 
 #include <cstdint>
@@ -13,80 +13,85 @@
 
 namespace powercell {
 
-/// What points are for. Minimising the energy to the end makes crystals, so there are two answers.
+/// Purpose of the points. Minimising the energy to convergence makes them crystallise, which blue noise must
+/// not.
 enum class SamplingMode {
-  blue,  ///< evenly spaced and irregular: in the plane stopped at a hexatic order, else after 20 iterations
-  quantise,  ///< of least energy: the best points to stand for the density
+  blue,      ///< even but irregular: stops at a hexatic order in the plane, elsewhere after 20 iterations
+  quantise,  ///< lowest energy: the best quantiser of the density
 };
 
-/// How points move.
+/// How the points move.
 enum class SamplingDescent {
   lloyd,  ///< to the centroids of their cells
-  lbfgs,  ///< limited-memory BFGS, 7 pairs, started from 1 / (2 m_i)
+  lbfgs,  ///< limited-memory BFGS with 7 pairs and the initial inverse Hessian 1 / (2 m_i)
 };
 
-/// One move of all points.
+/// State after one iteration, which moves all points. M is the mass of the domain.
 struct SamplingStep {
-  int iteration = 0;  ///< from 0, the points at the start
-  /// E = max over weights of the dual: sum of the second moments. Short of it by the order of
-  /// capacity_error².
+  int iteration = 0;  ///< 0 for the initial points
+  /// E = max over the weights of the dual, the sum of the second moments. The value here is below that
+  /// maximum by the order of capacity_error².
   double energy = 0;
-  double gradient = 0;        ///< root mean square of |c_i - p_i|, length
-  double hexatic = 0;         ///< Spacing::hexatic; NaN where it was not needed
+  double gradient = 0;        ///< root mean square of |c_i - p_i|, a length
+  double hexatic = 0;         ///< Spacing::hexatic; NaN if not needed
   double capacity_error = 0;  ///< max |m_i / (M/n) - 1|
   int newton_steps = 0;       ///< of the transport
-  double seconds = 0;         ///< wall clock, of this iteration
+  double seconds = 0;         ///< wall-clock time of this iteration
 };
 
 struct SamplingOptions {
   Density density = Density::constant(1);
   SamplingMode mode = SamplingMode::blue;
   SamplingDescent descent = SamplingDescent::lloyd;
-  /// The domain is a box of the plane with its opposite sides identified; the density must be constant.
+  /// The domain is a box of the plane with its opposite sides identified. The density must be constant.
   bool periodic = false;
-  /// Moves at most. 0: 100 for blue in the plane, 20 for blue elsewhere, 1000 for quantise.
+  /// Limit on iterations. 0 means 100 for blue in the plane, 20 for blue elsewhere, 1000 for quantise.
   int iterations = 0;
-  /// Blue in the plane ends at this hexatic order, after a move at least; of less than 50 points, or where
-  /// they have less than five neighbours on average, as in a row, the order says nothing, and it ends after
-  /// 20 moves.
+  /// Blue in the plane stops at this hexatic order, after at least one iteration. With fewer than 50 points,
+  /// or fewer than five neighbours per point on average (as in a row of points), the order is not meaningful
+  /// and it stops after 20 iterations. Between 0 and 1.
   double hexatic = 0.61;
-  /// Quantise, and blue in the plane, end when the gradient is below this fraction of the spacing
-  /// (M's measure / n)^(1/d'); with 0 quantise ends after `iterations` moves, or where rounding allows none.
+  /// Quantise, and blue in the plane, stop when the gradient is below this fraction of the spacing
+  /// (measure of the domain / n)^(1/d'), d' the dimension of the cells. With 0, quantise stops after
+  /// `iterations`, or when rounding allows no further descent.
   double movement = 1e-4;
-  /// max |m_i / (M/n) - 1| at the end.
+  /// Limit on max |m_i / (M/n) - 1| in the result. Between 0 and 1.
   double capacity_tolerance = 1e-6;
-  std::uint64_t random_seed = 1;  ///< of the points to start from
+  std::uint64_t random_seed = 1;  ///< of the initial points
   Options diagram;
   /// Called after each iteration; returning false stops with Error interrupted.
   std::function<bool(const SamplingStep&)> progress;
 };
 
-/// Points in the order of those at the start.
+/// The points, in the order of the initial points. Arrays are owned.
 struct SamplingResult {
-  /// Both errors below the tolerance of the capacities, and by mode: hexatic order or movement reached, or
-  /// all iterations done where that was asked (elsewhere than in the plane; movement 0).
+  /// Both errors are below capacity_tolerance, and the mode's criterion is met: the hexatic order or movement
+  /// is reached, or all iterations are done where they are the criterion (outside the plane; movement 0).
   bool converged = false;
   std::vector<double> positions;  ///< n x d, row-major, in the domain (on a surface: on it)
-  std::vector<double> weights;    ///< n, length^2: of the cells of equal mass
-  std::vector<double> mass;       ///< n
+  std::vector<double> weights;    ///< n, length²: with them all cells have equal mass
+  std::vector<double> mass;       ///< n: masses of the cells
   double capacity_error = 0;      ///< max |m_i / (M/n) - 1|
-  double quadrature_error = 0;    ///< of these masses, over M/n: see TransportResult
-  double energy = 0;              ///< of the positions and weights
-  /// Energy over that of the best lattice with cells of the same measures: hexagonal (5 / (18 sqrt 3)) on
-  /// polygons and surfaces, body-centred cubic in volumes. 1 is the least possible for many points.
+  double quadrature_error = 0;    ///< of these masses, relative to M/n: see TransportResult
+  double energy = 0;              ///< sum of the cells' second moments about their points
+  /// Energy relative to the best lattice with cells of the same measure: hexagonal (5 / (18 sqrt 3)) on
+  /// polygons and surfaces, body-centred cubic in volumes. Its minimum tends to 1 for many points.
   double relative_energy = 0;
   std::vector<SamplingStep> steps;
 };
 
-/// Capacity-constrained sampling (Balzer et al. 2009; by power diagrams de Goes et al. 2012; Xiao et al.
-/// 2023): each iteration finds the weights that give every cell the same mass (TransportSolver) and moves the
-/// points (mathematics, (35)-(37)). \param n  points, started at random in the density \throw Error
-/// invalid_argument (no points, an option out of its range), unsupported (a periodic domain that is
-///   no box of the plane, or has another density), interrupted, and what TransportSolver throws
+/// Capacity-constrained sampling (Balzer et al. 2009; by power diagrams: de Goes et al. 2012, Xiao et al.
+/// 2023). Each iteration finds the weights that give every cell the same mass (TransportSolver), then moves
+/// the points ((35)-(37) of docs/mathematics.md).
+/// \param n  number of points; they start at random with the density (random_points)
+/// \throw Error invalid_argument (no points; an option out of range), unsupported (a periodic domain that is
+///   not a box of the plane, or a density that is not constant there), interrupted; as TransportSolver and
+///   random_points
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                                     const SamplingOptions& options = {});
 
-/// The same from points of the caller's, no two at one place. \param positions  n x d, row-major
+/// The same, from given initial points.
+/// \param positions  n x d, row-major; they may lie outside the domain, but no two at the same position
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain,
                                     std::span<const double> positions, const SamplingOptions& options = {});
 

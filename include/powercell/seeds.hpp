@@ -7,10 +7,10 @@
 
 namespace powercell {
 
-/// A diagram takes this many seeds at most.
+/// The most seeds of one diagram.
 inline constexpr std::size_t most_seeds_of_diagram = std::size_t{1} << 30;
 
-/// A view of n seeds in host memory; the caller owns the arrays for the length of the call.
+/// A view of n seeds in host memory; the caller owns the arrays, which must last for the call.
 /// The power distance of x to seed i is |x - p_i|^2 - w_i, so a weight has the unit length^2
 /// (for a disc or ball of radius r around p_i, w_i = r^2), may have any sign, and a constant added
 /// to all weights changes nothing.

@@ -10,16 +10,15 @@
 namespace powercell {
 
 /// The regular triangulation of seeds in the plane (triangles) or in space (tetrahedra): rows of 3 or 4 seed
-/// indices as in Dual. Decided exactly, ties broken by infinitesimal weights (docs/mathematics.md, "Certain
-/// decisions"): a triangulation of the convex hull for any seeds, none of its simplices flat. Seeds that are
-/// no vertex of it are hidden or duplicates. Empty where the seeds do not span the space. The cells inside a
-/// box around the seeds come from the device, those that leave it from the host, which follows them as far as
-/// 2^80 times the extent of the seeds: a simplex whose centre is farther out, next to the hull and flat to
-/// that degree, is not found. Coordinates are taken to multiples of 2^-990 of that
-/// extent, weights of 2^-910 of its square.
-/// \param options  decisions are exact whatever they say
-/// \throw Error as Diagram; invalid_argument where coordinates are below 1e-100 or beyond 1e100, or extend
-/// over more than 8e75
+/// indices as in Dual. It triangulates the convex hull of any seeds without flat simplices: decisions are
+/// exact, and infinitesimal weights break ties (docs/mathematics.md, "Certain decisions"). Seeds that are not
+/// vertices of it are hidden or duplicates. Empty if the seeds do not span the space.
+///
+/// The device computes the cells inside a box around the seeds, the host those that leave it, as far as 2^80
+/// times the extent of the seeds: a simplex whose centre lies farther out, next to the hull and flat to that
+/// degree, is not found. Coordinates are rounded to multiples of 2^-990 of that extent, weights to multiples
+/// of 2^-910 of its square. \param options  as for Diagram; `decisions` is ignored \throw Error as Diagram;
+/// invalid_argument if coordinates are below 1e-100 or above 1e100, or extend over more than 8e75
 POWERCELL_API Dual regular_triangulation(const Device& device, const SeedsView& seeds,
                                          const Options& options = {});
 

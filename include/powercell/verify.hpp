@@ -9,24 +9,38 @@
 
 namespace powercell {
 
-/// One law and how well it was met.
+/// One law and how well it holds.
 struct LawCheck {
   std::string law;  ///< e.g. "partition: the measures sum to the domain's"
   bool passed = false;
   double value = 0;      ///< the measured defect
-  double tolerance = 0;  ///< what was allowed
-  std::string detail;    ///< the worst offender, with seed numbers, when not passed
+  double tolerance = 0;  ///< the largest defect allowed
+  std::string detail;    ///< if not passed: the worst offender, with seed numbers
 };
 
 struct VerifyOptions {
-  std::size_t samples = 1000;  ///< random points whose owner is sought by brute force
+  std::size_t samples = 1000;  ///< random points at which all seeds are tried
   std::uint64_t random_seed = 1;
 };
 
-/// Checks the laws that need no reference: partition of the measure, symmetric walls, ownership of
-/// random points of the domain by brute force, each cell's pieces against its measure.
-/// Tolerances follow from the diagram's precision and size. \throw as Diagram
+/// A diagram without its domain, as `powercell diagram -o FILE.json` saves it. Nothing is owned.
+struct SavedDiagram {
+  DomainKind kind = DomainKind::polygon;
+  Precision precision = Precision::float64;  ///< in which it was computed: float32 or float64
+  SeedsView seeds;                           ///< n
+  const Measures& measures;                  ///< n; `centroid` may be empty, `second_moment` is not read
+  const JoinedCells& cells;                  ///< n
+};
+
+/// Checks the laws that need no reference: partition of the measure; statuses; walls equal from both sides
+/// and on their bisectors; each cell's measure and centroid from its pieces; random points of the domain in
+/// the cell of least power distance, found by trying all seeds. Tolerances follow from the diagram's
+/// precision and size. \throw as Diagram
 POWERCELL_API std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds,
                                            const VerifyOptions& options = {});
+
+/// The same laws from the arrays alone, nothing of which is trusted; vertices of the cells take the place of
+/// random points. \throw Error invalid_argument if the arrays do not fit together (which cell)
+POWERCELL_API std::vector<LawCheck> verify(const SavedDiagram& diagram, const VerifyOptions& options = {});
 
 }  // namespace powercell

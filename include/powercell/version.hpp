@@ -9,6 +9,6 @@
 #define POWERCELL_VERSION "0.1.0"
 
 namespace powercell {
-/// Version of the library that is linked, "major.minor.patch".
+/// The version of the linked library, "major.minor.patch".
 POWERCELL_API const char* version() noexcept;
 }  // namespace powercell

@@ -11,19 +11,19 @@
 
 namespace powercell {
 
-/// Asks for what will be needed soon from places all over the memory.
+/// Loads the cache line at `place` ahead of its use, for accesses at scattered addresses.
 inline void prefetch([[maybe_unused]] const void* place) {
 #if defined(__GNUC__)
   __builtin_prefetch(place);
-  asm volatile("");  // else a function that does nothing else passes for one without effect, and its calls go
+  asm volatile("");  // or the compiler takes the function for one without effects and drops its calls
 #endif
 }
 
-/// Asks the system for the pages of memory that will be written, by all threads at once: else the one that
-/// fills it first waits for each. Where that cannot be asked nothing happens.
+/// Makes the system map the pages of memory that is about to be written, on all threads at once; otherwise
+/// the thread that writes it first waits for one page after the other. Does nothing on systems that cannot.
 void populate(void* begin, std::size_t bytes, int threads);
 
-/// Resizes an array that may become large, populated by all threads.
+/// Resizes an array that may become large, populating its new pages on all threads.
 template <class T>
 void resize_populated(std::vector<T>& values, std::size_t count, int threads, const T& value = {}) {
   values.reserve(count);
@@ -32,8 +32,8 @@ void resize_populated(std::vector<T>& values, std::size_t count, int threads, co
   values.resize(count, value);
 }
 
-/// An array that grows without touching what is new, and without a second copy of itself where the system can
-/// move pages.
+/// An array that grows without writing its new elements, and without a second copy of itself where the system
+/// can move pages (realloc).
 template <class T>
 class GrowingArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -52,8 +52,8 @@ class GrowingArray {
   }
   ~GrowingArray() { std::free(data_); }
 
-  /// Values beyond the old size are undefined. \param factor  of the size, room to make where there is none
-  /// \throw std::bad_alloc
+  /// Values beyond the old size are undefined. \throw std::bad_alloc
+  /// \param factor  capacity over size if the array must be reallocated
   void resize(std::size_t size, double factor = 1.25) {
     if (size > capacity_) grow(static_cast<std::size_t>(static_cast<double>(size) * factor) + 1);
     size_ = size;

@@ -19,21 +19,21 @@ void check_simplices(std::span<const double> vertices, std::span<const std::uint
            std::to_string(elements.size()) + " numbers");
   }
   if (rows == 0) refuse("the domain is empty: it has no " + elements_name);
-  // Places in the array of indices are numbered by 32 bits, vertices on the device by 31.
+  // Positions in the array of indices have 32 bits, indices of vertices on the device 31.
   constexpr std::size_t most_rows = std::numeric_limits<std::uint32_t>::max(),
                         most_vertices = (std::size_t{1} << 31) - 1;
   if (rows > most_rows / static_cast<std::size_t>(corners)) {
-    refuse(std::to_string(rows) + " " + elements_name + " are more than the " +
-           std::to_string(most_rows / static_cast<std::size_t>(corners)) + " that a domain can have");
+    refuse(std::to_string(rows) + " " + elements_name + " are more than the limit of " +
+           std::to_string(most_rows / static_cast<std::size_t>(corners)) + " for one domain");
   }
   if (vertices.size() / 3 > most_vertices) {
-    refuse(std::to_string(vertices.size() / 3) + " vertices are more than the " +
-           std::to_string(most_vertices) + " that a domain can have");
+    refuse(std::to_string(vertices.size() / 3) + " vertices are more than the limit of " +
+           std::to_string(most_vertices) + " for one domain");
   }
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     if (!std::isfinite(vertices[k])) {
       refuse("vertex " + std::to_string(k / 3) + ": coordinate " + "xyz"[k % 3] + " is " +
-             digits(vertices[k]));
+             digits(vertices[k]) + "; coordinates must be finite");
     }
   }
   for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -48,8 +48,8 @@ void check_simplices(std::span<const double> vertices, std::span<const std::uint
 void check_magnitude(double largest) {
   if (largest <= 1e100 && largest >= 1e-100) return;
   throw Error(ErrorCode::invalid_domain,
-              "the coordinates of the domain are of size " + digits(largest) +
-                  ": outside 1e-100 .. 1e100 measures leave the range of double, scale them");
+              "the largest coordinate of the domain has the magnitude " + digits(largest) +
+                  ": outside 1e-100 .. 1e100 measures leave the range of double; scale the domain");
 }
 
 }  // namespace powercell

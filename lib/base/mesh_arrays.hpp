@@ -1,5 +1,5 @@
 /// \file
-/// What every domain has to keep, and every list of triangles that is not made into one (remeshing).
+/// Checks of the arrays that describe a mesh, for domains and for remeshing. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,17 @@
 
 namespace powercell {
 
+/// Checks the arrays of a mesh of triangles or tetrahedra.
 /// \param vertices nv x 3   \param elements rows of `corners` indices
-/// \param element, elements_name e.g. "triangle", "triangles"
-/// \throw Error invalid_domain: sizes, which vertex is not finite, which element has which bad index
+/// \param element, elements_name e.g. "triangle", "triangles", for messages
+/// \throw Error invalid_domain: wrong sizes, a coordinate that is not finite, an index out of range (the
+/// first)
 void check_simplices(std::span<const double> vertices, std::span<const std::uint32_t> elements, int corners,
                      const std::string& element, const std::string& elements_name);
 
-/// Refuses a domain whose largest coordinate is not within 10^-100 .. 10^100, where neither volumes nor the
-/// rounding errors of areas leave the range of double. \throw Error invalid_domain
+/// \param largest  the largest magnitude of a coordinate of the domain
+/// \throw Error invalid_domain unless it is within 10^-100 .. 10^100, where neither volumes nor the rounding
+/// errors of areas leave the range of double
 void check_magnitude(double largest);
 
 }  // namespace powercell

@@ -9,10 +9,10 @@
 namespace powercell {
 namespace {
 
-constexpr unsigned digit_bits = 11;
+constexpr unsigned digit_bits = 11;  // a histogram then takes 16 KiB
 constexpr std::size_t buckets = std::size_t{1} << digit_bits;
-constexpr std::size_t small_count = 1024;   // below, comparing beats clearing the buckets
-constexpr std::size_t share_count = 32768;  // below, threads cost more than they save
+constexpr std::size_t least_by_digits = 1024;  // records; fewer are sorted faster by comparing
+constexpr std::size_t least_shared = 32768;    // records per thread; fewer are faster on one thread
 
 using Histogram = std::array<std::size_t, buckets>;
 
@@ -20,9 +20,9 @@ std::size_t digit(std::uint64_t key, unsigned shift) {
   return (key >> shift) & (buckets - 1);
 }
 
-/// One pass of the sort, by the digit at `shift`. Each part of `from` counts and then writes by itself, and
-/// within a bucket the parts follow each other, which keeps the sort stable for any number of parts.
-/// Returns false, with nothing written, when all records have the same digit.
+/// One pass of the sort, by the digit at `shift`. Each part of `from` is counted and then written
+/// independently; within a bucket the parts follow each other, so the sort is stable for any number of parts.
+/// Returns false and writes nothing if all records have the same digit.
 bool scatter(std::span<const KeyedIndex> from, std::span<KeyedIndex> to, unsigned shift,
              std::vector<Histogram>& histograms) {
   const std::size_t parts = histograms.size();
@@ -53,11 +53,10 @@ bool scatter(std::span<const KeyedIndex> from, std::span<KeyedIndex> to, unsigne
   return true;
 }
 
-/// By the digits from `first_shift` up.
+/// Sorts by the bits from `first_shift` up.
 void sort_by_digits(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, unsigned first_shift,
                     int threads) {
-  // More parts than a few would only add histograms: 16 KiB each.
-  const std::size_t parts = std::clamp<std::size_t>(records.size() / share_count, 1,
+  const std::size_t parts = std::clamp<std::size_t>(records.size() / least_shared, 1,
                                                     static_cast<std::size_t>(std::max(threads, 1)));
   std::vector<Histogram> histograms(parts);
   std::span<KeyedIndex> from = records;
@@ -79,9 +78,9 @@ void sort_short(std::span<KeyedIndex> records) {
 }  // namespace
 
 void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads) {
-  if (records.size() < small_count) return sort_short(records);
-  // As many digits from the top as tell most records apart, an even number so that they end where they began;
-  // the few runs that are left are short, or sorted by all digits.
+  if (records.size() < least_by_digits) return sort_short(records);
+  // Sort by enough of the highest digits to separate most records: an even number of passes, which ends in
+  // `records`. Runs that agree in these digits are mostly short; long ones are sorted by all digits.
   unsigned passes = 2;
   while (passes * digit_bits < 64 && (records.size() >> (passes * digit_bits - 1)) > 1) passes += 2;
   const unsigned first_shift = passes * digit_bits < 64 ? 64 - passes * digit_bits : 0;
@@ -90,7 +89,7 @@ void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, i
   for (std::size_t run = 0; run < records.size();) {
     std::size_t end = run + 1;
     while (end < records.size() && records[end].key >> first_shift == records[run].key >> first_shift) ++end;
-    if (end - run >= small_count)
+    if (end - run >= least_by_digits)
       sort_by_digits(records.subspan(run, end - run), scratch.subspan(run, end - run), 0, threads);
     else if (end - run > 1)
       sort_short(records.subspan(run, end - run));

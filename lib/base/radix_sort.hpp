@@ -12,7 +12,7 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Sorts `records` by key; records of equal key keep their order. `scratch` has the same size.
+/// Sorts `records` by key; records of equal key keep their order. `scratch` has the size of `records`.
 void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads);
 
 }  // namespace powercell

@@ -17,7 +17,7 @@ inline double uniform(std::mt19937_64& engine) {
   return unit_from_bits(engine());
 }
 
-/// The output function of splitmix64: consecutive numbers become independent ones.
+/// One step of splitmix64: consecutive integers become independent random bits.
 inline std::uint64_t mixed_bits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -25,8 +25,8 @@ inline std::uint64_t mixed_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Barycentric coordinates of a uniform point of a triangle (3 corners; the last is 0) or a tetrahedron (4):
-/// the lengths into which sorted uniform numbers divide [0, 1].
+/// Barycentric coordinates of a uniform point of a triangle (`corners` 3; the last coordinate is 0) or a
+/// tetrahedron (4): the lengths into which corners - 1 uniform numbers divide [0, 1].
 inline std::array<long double, 4> uniform_barycentric(std::size_t corners, std::mt19937_64& engine) {
   std::array<double, 5> cut{0, 1, 1, 1, 1};
   for (std::size_t k = 1; k < corners; ++k) cut[k] = uniform(engine);

@@ -7,7 +7,7 @@
 
 namespace powercell {
 
-/// Neumaier's compensated sum: the part that an addition rounds away is kept beside the sum, so a million
+/// Neumaier's compensated sum: the rounding error of each addition is accumulated separately, so a million
 /// terms lose no more digits than one.
 template <std::floating_point T>
 class CompensatedSum {

@@ -1,5 +1,5 @@
 /// \file
-/// Numbers and callers' text in messages, the same in every locale. Internal.
+/// Numbers and callers' text for messages, the same in every locale. Internal.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,14 @@
 
 namespace powercell {
 
-/// The shortest decimal number that reads back as `value`: for input values, and for two that are compared.
+/// The shortest decimal number that reads back as `value`: for input values and for values that are compared.
 std::string digits(double value);
 
-/// `value` to at most so many significant digits, as %g of printf: for measured values.
+/// `value` with at most `significant` digits, like printf's %g: for measured values.
 std::string digits(double value, int significant);
 
-/// `text` without control characters, so that a message stays on one line and leaves the terminal alone, and
-/// cut off after `most` bytes.
+/// `text` cut off after `most` bytes, with control characters replaced, so that a message stays on one line
+/// and cannot control the terminal.
 std::string readable(std::string text, std::size_t most);
 
 }  // namespace powercell

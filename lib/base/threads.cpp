@@ -9,7 +9,7 @@
 namespace powercell {
 
 int thread_count(int requested) {
-  constexpr int most = 4096;  // above it threads cost more than they could do
+  constexpr int most = 4096;  // more threads than this cost more than they do
   if (requested > 0) return std::min(requested, most);
   static const unsigned machine = std::thread::hardware_concurrency();  // reads a file; 0 where unknown
   return machine == 0 ? 1 : static_cast<int>(machine);
@@ -31,7 +31,7 @@ void run_workers(int workers, const std::function<void(int)>& worker) {
   try {
     for (; next < workers; ++next) started.emplace_back(guarded, next);
   } catch (const std::system_error&) {
-    // No further thread to be had: the calling thread takes the rest.
+    // The system refuses more threads: the calling thread runs the remaining workers.
   }
   guarded(0);
   for (; next < workers; ++next) guarded(next);

@@ -9,23 +9,22 @@
 
 namespace powercell {
 
-/// Number of worker threads meant by an option value (0: all of the machine).
+/// Number of worker threads for an option value: `requested`, or those of the machine if it is 0 or less.
 int thread_count(int requested);
 
-/// Runs `worker(w)` for w = 0 .. workers-1 at the same time; worker 0 is the calling thread. Returns when
-/// all have ended; an exception of a worker reaches the caller (of several, that of the lowest w).
-/// Where the system refuses another thread, the calling thread does that worker's part after its own,
-/// so workers must not wait for each other.
+/// Runs `worker(w)` for w = 0 .. workers-1 concurrently; worker 0 runs on the calling thread. Returns when
+/// all have ended. Rethrows an exception of a worker (of several, that of the lowest w). Where the system
+/// refuses a thread the calling thread runs that worker later, so workers must not wait for each other.
 void run_workers(int workers, const std::function<void(int)>& worker);
 
-/// Threads that `count` items of a few operations each are worth: to start one costs as much as thousands do.
-inline int threads_for(std::size_t count, int threads) {
-  constexpr std::size_t share_count = 32768;
-  return count < share_count ? 1 : threads;
+/// `threads`, or 1 for fewer than `least_shared` items: starting a thread costs as much as thousands of items
+/// of a few operations each.
+inline int threads_for(std::size_t count, int threads, std::size_t least_shared = 32768) {
+  return count < least_shared ? 1 : threads;
 }
 
-/// Calls `body(begin, end)` on contiguous ranges that cover [0, count), at most one for each thread.
-/// `body` runs at the same time for different ranges; the first exception reaches the caller.
+/// Calls `body(begin, end)` concurrently on contiguous ranges that cover [0, count), at most one per thread.
+/// Rethrows the first exception.
 template <class Body>
 void parallel_for(int threads, std::size_t count, const Body& body) {
   const std::size_t ranges = std::min<std::size_t>(count, static_cast<std::size_t>(std::max(threads, 1)));
@@ -38,8 +37,8 @@ void parallel_for(int threads, std::size_t count, const Body& body) {
   });
 }
 
-/// Calls `body(worker, task)` for task = 0 .. tasks-1, each taken by whichever worker is free: for tasks of
-/// uneven length. Tasks not yet begun are dropped once one throws.
+/// Calls `body(worker, task)` for task = 0 .. tasks-1; a worker takes the next task when it is free, so tasks
+/// may be of uneven length. After an exception no further task is begun; rethrows it.
 template <class Body>
 void parallel_tasks(int threads, std::size_t tasks, const Body& body) {
   const std::size_t workers = std::min<std::size_t>(tasks, static_cast<std::size_t>(std::max(threads, 1)));
@@ -55,8 +54,7 @@ void parallel_tasks(int threads, std::size_t tasks, const Body& body) {
   });
 }
 
-/// The least k < count with `holds(k)`, or `count`. `holds`, of a few operations, runs at the same time for
-/// different k.
+/// The least k < count with `holds(k)`, or `count`. Calls `holds`, of a few operations, concurrently.
 template <class Predicate>
 std::size_t first_of(std::size_t count, int threads, const Predicate& holds) {
   std::atomic<std::size_t> first{count};

@@ -36,7 +36,7 @@ T norm(const Vector3<T>& a) {
   return std::sqrt(dot(a, a));
 }
 
-/// a - b for rows of three coordinates, computed in T.
+/// a - b for rows of three coordinates, subtracted in T.
 template <std::floating_point T>
 Vector3<T> difference(const double* a, const double* b) {
   return {T{a[0]} - b[0], T{a[1]} - b[1], T{a[2]} - b[2]};

@@ -1,4 +1,4 @@
-// The C interface: each function is the C++ one behind a guard that no exception crosses.
+// The C interface: each function calls its C++ counterpart and converts exceptions to a status.
 #include <powercell.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ static_assert(static_cast<int>(powercell::Neighbors::flann) == PC_FLANN);
 
 thread_local std::string last_error;
 
-// Remembering the message must not throw either: without memory for it the status has to do.
+// Must not throw: if there is no memory for the message, the status alone is returned.
 pc_status fail(pc_status status, const char* message) noexcept {
   try {
     last_error = message;
@@ -46,7 +46,7 @@ pc_status fail(pc_status status, const char* message) noexcept {
   return status;
 }
 
-// Runs `body`; whatever it throws becomes a status and a message.
+// Runs `body` and converts an exception to a status and a message.
 template <class Body>
 pc_status guarded(Body&& body) noexcept {
   try {
@@ -57,7 +57,7 @@ pc_status guarded(Body&& body) noexcept {
   } catch (const std::bad_alloc&) {
     return fail(PC_OUT_OF_MEMORY, "out of host memory");
   } catch (const std::length_error&) {
-    return fail(PC_OUT_OF_MEMORY, "out of host memory: a count is more than any array can have");
+    return fail(PC_OUT_OF_MEMORY, "out of host memory: a count exceeds the largest possible array");
   } catch (const std::exception& error) {
     return fail(PC_INTERNAL, error.what());
   } catch (...) {
@@ -70,12 +70,12 @@ void require(bool condition, const char* message) {
 }
 
 template <class Handle>
-Handle& checked(Handle* handle, const char* what) {
-  require(handle != nullptr, what);
+Handle& checked(Handle* handle, const char* message) {
+  require(handle != nullptr, message);
   return *handle;
 }
 
-// A result goes to the caller only when it is whole.
+// Sets *out only if the object was constructed.
 template <class Handle, class... Arguments>
 void hand_over(Handle** out, Arguments&&... arguments) {
   *out = new Handle{std::forward<Arguments>(arguments)...};
@@ -87,12 +87,12 @@ std::span<const T> view(const T* data, std::size_t size, const char* message) {
   return {data, size};
 }
 
-/// The same for `count` rows of `columns`; a product beyond size_t would look like a small array.
+// The same for `count` rows of `columns`. A product that overflows size_t would look like a small array.
 template <class T>
 std::span<const T> rows_view(const T* data, std::size_t count, std::size_t columns, const char* message) {
   if (count > std::numeric_limits<std::size_t>::max() / sizeof(T) / columns)
     throw Error(ErrorCode::invalid_argument,
-                "a count of " + std::to_string(count) + " is more than memory can hold");
+                "a count of " + std::to_string(count) + " exceeds the address space");
   return view(data, count * columns, message);
 }
 
@@ -108,8 +108,7 @@ powercell::Ring ring(const double* points, std::size_t first, std::size_t last) 
   return result;
 }
 
-// The bits of a C enumeration: a C caller may put any number there, which C++ must not read as the
-// enumeration.
+// The bits of a C enumeration. A C caller can store any number, which C++ must not read as the enumeration.
 template <class Enumeration>
 int number_in(const Enumeration& value) {
   static_assert(sizeof(Enumeration) == sizeof(int));
@@ -121,12 +120,12 @@ int number_in(const Enumeration& value) {
 powercell::Options options_of(const pc_options& from) {
   const int precision = number_in(from.precision), neighbors = number_in(from.neighbors);
   require(precision >= PC_PRECISION_AUTOMATIC && precision <= PC_FLOAT32,
-          "options.precision is none of pc_precision");
+          "options.precision is not a value of pc_precision");
   require(neighbors >= PC_NEIGHBORS_AUTOMATIC && neighbors <= PC_FLANN,
-          "options.neighbors is none of pc_neighbors");
+          "options.neighbors is not a value of pc_neighbors");
   const int decisions = number_in(from.decisions);
   require(decisions == PC_DECISIONS_EXACT || decisions == PC_DECISIONS_FAST,
-          "options.decisions is none of pc_decisions");
+          "options.decisions is not a value of pc_decisions");
   powercell::Options to;
   to.decisions = decisions == PC_DECISIONS_FAST ? powercell::Decisions::fast : powercell::Decisions::exact;
   to.certify = from.certify != 0;
@@ -170,7 +169,7 @@ const char* pc_last_error(void) {
 pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user) {
   return guarded([&] {
     const int level = number_in(most);
-    require(level == PC_LOG_INFO || level == PC_LOG_DETAIL, "most is none of pc_log_level");
+    require(level == PC_LOG_INFO || level == PC_LOG_DETAIL, "most is not a value of pc_log_level");
     if (!sink) return powercell::set_log({});
     powercell::set_log(
         [sink, user](powercell::LogLevel of, std::string_view line) {
@@ -312,12 +311,12 @@ pc_status pc_diagram_adjacency(pc_diagram* diagram, uint64_t* offset, uint32_t* 
                                size_t* count) {
   return guarded([&] {
     require(count != nullptr, "count is NULL");
-    require(neighbor || !wall, "wall is asked for together with neighbor");
+    require(neighbor || !wall, "wall needs neighbor: pass both, or NULL for wall");
     const powercell::Adjacency& adjacency = checked(diagram, null_diagram).diagram.adjacency();
     const std::size_t needed = adjacency.neighbor.size();
     const bool fits = !neighbor || *count >= needed;
     *count = needed;
-    require(fits, "neighbor is too short: *count says how many entries are needed");
+    require(fits, "neighbor is too short; *count is now the number of entries needed");
     copy_out(adjacency.offset, offset);
     copy_out(adjacency.neighbor, neighbor);
     copy_out(adjacency.wall, wall);
@@ -331,7 +330,7 @@ pc_status pc_diagram_dual(pc_diagram* diagram, int* corners, uint32_t* simplices
     const bool fits = !simplices || *count >= dual.size();
     *corners = dual.corners;
     *count = dual.size();
-    require(fits, "simplices is too short: *count says how many rows are needed");
+    require(fits, "simplices is too short; *count is now the number of rows needed");
     copy_out(dual.simplices, simplices);
   });
 }

@@ -4,6 +4,7 @@
 
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program.hpp"
+#include "lib/cl/quirks.hpp"
 #include "lib/report/log.hpp"
 
 namespace powercell::cl {
@@ -93,7 +94,7 @@ void Context::add_build_seconds(double seconds) {
 }
 
 bool Context::compiles_at_launch(const Program& program, const std::string& kernel, std::size_t local) {
-  if (!is_pocl(info_)) return false;
+  if (!quirks_of(info_).compiles_at_launch) return false;
   std::lock_guard lock(record_mutex_);
   return launched_.emplace(program.handle(), kernel, local).second;
 }

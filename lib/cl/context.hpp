@@ -41,8 +41,8 @@ class Context {
   const DeviceInfo& info() const { return info_; }
   double build_seconds() const;
   void add_build_seconds(double seconds);
-  /// Whether the driver compiles this kernel for groups of `local` at its next launch, as far as can be
-  /// told: PoCL does at the first. Answers true once.
+  /// Whether the driver compiles this kernel for groups of `local` at its next launch: true at the first call
+  /// for drivers that compile at the first launch (quirks.hpp), else false.
   bool compiles_at_launch(const Program& program, const std::string& kernel, std::size_t local);
 
   /// The program built from the embedded source `kernels/<file>` with -D `defines` (each "NAME=VALUE",

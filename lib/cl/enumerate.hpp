@@ -21,11 +21,6 @@ std::vector<FoundDevice> find_devices();
 /// What `device` says of itself, but for the indices, which stay 0.
 DeviceInfo describe(cl_platform_id platform, cl_device_id device);
 
-/// PoCL keeps compiled kernels on disk itself, and finishes compiling them only when they are launched.
-inline bool is_pocl(const DeviceInfo& info) {
-  return info.platform_name == "Portable Computing Language";
-}
-
 /// A text the driver reports, without the terminating zero. \throw Error opencl
 std::string platform_text(cl_platform_id platform, cl_platform_info which);
 

@@ -4,16 +4,11 @@
 #include <utility>
 
 #include "lib/cl/program.hpp"
+#include "lib/cl/quirks.hpp"
 #include "lib/report/log.hpp"
 
 namespace powercell::cl {
 namespace {
-
-// Work-items of a group where the class chooses. CPU drivers run a group as a loop on one thread: long
-// enough to pay for the group, short enough to share the work evenly, and one number, since PoCL compiles
-// a kernel anew for each size. GPUs: some warps, but few enough to leave each item its registers.
-constexpr std::size_t cpu_group_size = 32;
-constexpr std::size_t gpu_group_size = 128;
 
 struct Launch {
   cl_kernel kernel;
@@ -40,9 +35,11 @@ std::size_t choose_group_size(const Launch& launch) {
   const std::size_t limit = std::max<std::size_t>(
       1,
       std::min(group_value<std::size_t>(launch, CL_KERNEL_WORK_GROUP_SIZE), launch.info.max_work_group_size));
-  if (launch.info.type != DeviceInfo::Type::gpu) return std::bit_floor(std::min(limit, cpu_group_size));
-  const auto multiple = group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE);
-  return std::bit_floor(std::min(limit, std::max(multiple, gpu_group_size)));
+  std::size_t wanted = quirks_of(launch.info).group_size;
+  // One size for all kernels where each size may be compiled apart; on a GPU whole warps.
+  if (launch.info.type == DeviceInfo::Type::gpu)
+    wanted = std::max(wanted, group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE));
+  return std::bit_floor(std::min(limit, wanted));
 }
 
 bool profiles(cl_command_queue queue) {
@@ -110,13 +107,18 @@ Kernel::Kernel(std::shared_ptr<Context> context, std::shared_ptr<const Program> 
   cl_int status = CL_SUCCESS;
   kernel_ = clCreateKernel(program_->handle(), name_.c_str(), &status);
   check(status, "creating the kernel " + name_);
+  status = clGetKernelInfo(kernel_, CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr);
+  if (status != CL_SUCCESS) clReleaseKernel(kernel_);  // no destructor runs where a constructor throws
+  check(status, "counting the arguments of the kernel " + name_);
 }
 
 Kernel::Kernel(Kernel&& other) noexcept
     : context_(std::move(other.context_)),
       program_(std::move(other.program_)),
       kernel_(std::exchange(other.kernel_, nullptr)),
-      name_(std::move(other.name_)) {}
+      name_(std::move(other.name_)),
+      argument_count_(other.argument_count_),
+      arguments_set_(other.arguments_set_) {}
 
 Kernel& Kernel::operator=(Kernel&& other) noexcept {
   if (this == &other) return *this;
@@ -125,6 +127,8 @@ Kernel& Kernel::operator=(Kernel&& other) noexcept {
   program_ = std::move(other.program_);
   kernel_ = std::exchange(other.kernel_, nullptr);
   name_ = std::move(other.name_);
+  argument_count_ = other.argument_count_;
+  arguments_set_ = other.arguments_set_;
   return *this;
 }
 
@@ -134,6 +138,7 @@ Kernel::~Kernel() {
 
 void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
   if (global == 0) return;
+  require_all_arguments();
   const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
                       "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
@@ -155,10 +160,18 @@ void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
 
 void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
   if (global == 0) return;
+  require_all_arguments();
   const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
                       "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
   enqueue(launch, (global + local - 1) / local * local, local, done);
+}
+
+void Kernel::require_all_arguments() const {
+  if (arguments_set_ == argument_count_) return;
+  throw Error(ErrorCode::internal, "the kernel " + name_ + " has " + std::to_string(argument_count_) +
+                                       " arguments, but " + std::to_string(arguments_set_) +
+                                       " are set at its launch");
 }
 
 void Kernel::set_memory(cl_uint index, cl_mem memory) {

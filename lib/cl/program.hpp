@@ -34,6 +34,10 @@ class Program {
 };
 
 /// One kernel object: set arguments, launch. Not thread-safe; make one per call or per diagram.
+///
+///     kernel.args(count, positions, weights);  // the first three arguments
+///     tree.append_arguments(kernel);           // calls kernel.more_args(...) for those that follow
+///     kernel.launch(count);                    // throws unless the kernel has exactly as many
 class Kernel {
  public:
   Kernel(std::shared_ptr<Context> context, std::shared_ptr<const Program> program, const std::string& name);
@@ -41,20 +45,28 @@ class Kernel {
   Kernel& operator=(Kernel&&) noexcept;
   ~Kernel();
 
-  /// Sets all arguments in order: Buffer<T>, RawBuffer, cl_mem, or a plain scalar of the exact OpenCL type.
+  /// Sets the arguments in order from the first on: Buffer<T>, RawBuffer, cl_mem, or a plain scalar of the
+  /// exact OpenCL type.
   template <class... Args>
   Kernel& args(const Args&... values) {
     return args_from(0, values...);
   }
-  /// The same from argument `first` on.
+  /// Sets the arguments that follow the last one set.
+  template <class... Args>
+  Kernel& more_args(const Args&... values) {
+    return args_from(arguments_set_, values...);
+  }
+  /// Sets the arguments from argument `first` on.
   template <class... Args>
   Kernel& args_from(cl_uint first, const Args&... values) {
     (set(first++, values), ...);
+    arguments_set_ = first;
     return *this;
   }
   /// Enqueues `global` work-items (rounded up to the group size; kernels guard their tail) and adds
   /// the event's device time to `seconds` when it is not null (waits for it then).
   /// local = 0 lets the class choose: a power of two within the queried limits of device and kernel.
+  /// \throw Error internal unless the last argument set is the kernel's last; opencl, out_of_device_memory
   void launch(std::size_t global, std::size_t local = 0, double* seconds = nullptr);
   /// The same without ever waiting, also where the driver compiles at the first launch: for queues that
   /// hold back until the caller signals them. \param done  the caller's to release, if not null
@@ -72,11 +84,14 @@ class Kernel {
   void set(cl_uint index, T value) { set_bytes(index, sizeof(T), &value); }
   void set_memory(cl_uint index, cl_mem memory);
   void set_bytes(cl_uint index, std::size_t size, const void* value);
+  void require_all_arguments() const;
 
   std::shared_ptr<Context> context_;
   std::shared_ptr<const Program> program_;
   cl_kernel kernel_ = nullptr;
   std::string name_;
+  cl_uint argument_count_ = 0;  // of the kernel
+  cl_uint arguments_set_ = 0;   // in order, by the last calls of args() and more_args()
 };
 
 }  // namespace powercell::cl

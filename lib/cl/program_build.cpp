@@ -7,6 +7,7 @@
 
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program_source.hpp"
+#include "lib/cl/quirks.hpp"
 #include "lib/report/log.hpp"
 
 namespace powercell::cl {
@@ -145,7 +146,7 @@ bool uses_disk_cache(const Context& context) {
   const std::string_view wish = set ? set : "";
   if (wish == "always") return true;
   if (wish == "never") return false;
-  return !is_pocl(context.info());
+  return !quirks_of(context.info()).keeps_programs;
 }
 
 std::shared_ptr<const Program> build_program(const Context& context, const ProgramRequest& request,

@@ -28,7 +28,7 @@ std::string build_options(const std::vector<std::string>& defines);
 /// Names the program on this device with this driver and this version of the library.
 CacheKey cache_key(const Context& context, const ProgramRequest& request);
 
-/// Whether compiled programs go to disk: not where the driver does so itself (PoCL), unless
+/// Whether compiled programs go to disk: not where the driver keeps them itself (quirks.hpp), unless
 /// POWERCELL_CACHE is "always"; nowhere if it is "never".
 bool uses_disk_cache(const Context& context);
 

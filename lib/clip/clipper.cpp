@@ -1,13 +1,9 @@
 #include "lib/clip/clipper.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <limits>
 #include <numeric>
-#include <type_traits>
 
 #include "kernels/layout.h"
-#include "lib/base/threads.hpp"
 #include "lib/clip/golden.hpp"
 #include "lib/report/log.hpp"
 
@@ -15,13 +11,10 @@ namespace powercell {
 
 namespace {
 
-/// Bytes of output rows in device memory at once.
+/// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
-/// Pairs that a thread of the host takes at once.
-constexpr std::size_t pairs_of_task = 64;
-
-/// Arguments that all clip kernels share come first; those of the candidates follow.
+/// Number of arguments common to all clip kernels; those of the candidates follow.
 constexpr unsigned common_arguments = 17;
 
 }  // namespace
@@ -65,26 +58,28 @@ bool Clipper::wants_rows() const {
   return (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0;
 }
 
-cl::Kernel& Clipper::kernel(std::size_t rung) {
-  const auto found = kernels_.find(rung);
+const Capacity& Clipper::capacity(std::size_t number) const {
+  return capacities(scene_.mesh().cell_dimension)[number];
+}
+
+cl::Kernel& Clipper::kernel(std::size_t number) {
+  const auto found = kernels_.find(number);
   if (found != kernels_.end()) return found->second;
   const RegionMesh& mesh = scene_.mesh();
-  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(),
-                        capacities(mesh.cell_dimension)[rung], outputs_};
+  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number), outputs_};
   auto program = scene_.context()->program(candidates_.file(), variant.defines());
-  program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, rung); });
+  program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, number); });
   return kernels_
-      .emplace(rung, cl::Kernel(scene_.context(), std::move(program), std::string(candidates_.kernel())))
+      .emplace(number, cl::Kernel(scene_.context(), std::move(program), std::string(candidates_.kernel())))
       .first->second;
 }
 
-std::size_t Clipper::rows_that_fit(std::size_t rung) const {
+std::size_t Clipper::rows_that_fit(std::size_t number) const {
   if (!wants_rows()) return std::size_t{1} << 30;
-  const RegionMesh& mesh = scene_.mesh();
-  const Capacity capacity = capacities(mesh.cell_dimension)[rung];
-  std::size_t bytes = static_cast<std::size_t>(capacity.faces) * 12;
+  const auto [vertices, faces] = capacity(number);
+  std::size_t bytes = static_cast<std::size_t>(faces) * 12;
   if (outputs_ & OUTPUT_GEOMETRY)
-    bytes += static_cast<std::size_t>(capacity.vertices * (mesh.dimension * 8 + 24));
+    bytes += static_cast<std::size_t>(vertices * (scene_.mesh().dimension * 8 + 24));
   return std::max<std::size_t>(1, row_budget / bytes);
 }
 
@@ -106,88 +101,96 @@ void Clipper::reserve_rows(std::size_t rows, const Capacity& capacity) {
 
 void Clipper::read_rows(const Capacity& capacity, PieceBatch& batch) {
   if (!reader_) reader_.emplace(scene_.context());
-  const auto room = static_cast<std::size_t>(capacity.faces);
+  const auto stride = static_cast<std::size_t>(capacity.faces);
   const bool walls_alone = (outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) == OUTPUT_WALLS;
-  reader_->begin(memory_.faces, room, batch.face_offset, walls_alone && !scene_.float32());
-  if (reader_->lends()) {
-    batch.lent_border = reader_->lend<std::int32_t>(memory_.border.raw());
-    batch.lent_wall = reader_->lend<double>(memory_.wall);
-    batch.room = room;
+  reader_->read_counts(memory_.faces, stride, batch.face_offset, walls_alone && !scene_.float32());
+  if (reader_->maps()) {
+    batch.mapped_border = reader_->map<std::int32_t>(memory_.border.raw());
+    batch.mapped_wall = reader_->map<double>(memory_.wall);
+    batch.stride = stride;
     return;
   }
   reader_->read(memory_.border, 1, batch.border);
   if (outputs_ & OUTPUT_WALLS) reader_->read_reals(memory_.wall, scene_.float32(), 1, batch.wall);
   if (!(outputs_ & OUTPUT_GEOMETRY)) return;
-  reader_->begin(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset, false);
+  reader_->read_counts(memory_.vertices, static_cast<std::size_t>(capacity.vertices), batch.vertex_offset,
+                       false);
   reader_->read_reals(memory_.vertex, scene_.float32(), static_cast<std::size_t>(scene_.mesh().dimension),
                       batch.vertex);
   if (scene_.mesh().cell_dimension == 3) reader_->read(memory_.link, 6, batch.link);
 }
 
-void Clipper::take_back_rows() {
+void Clipper::unmap_rows() {
   if (!reader_) return;
-  for (std::size_t k = 0; k < memory_.pieces.used; ++k) memory_.pieces.batches[k].keep();
-  reader_->take_back();
+  for (std::size_t k = 0; k < memory_.pieces.used; ++k) memory_.pieces.batches[k].copy_mapped();
+  reader_->unmap();
 }
 
-void Clipper::launch(std::size_t rung, std::span<const std::uint32_t> active, int round, Outcome& outcome) {
-  const Capacity capacity = capacities(scene_.mesh().cell_dimension)[rung];
+void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, int round, Outcome& outcome) {
   const std::size_t rows = active.size();
   launch_ranks_.resize(rows);
   std::transform(active.begin(), active.end(), launch_ranks_.begin(),
                  [&](std::uint32_t pair) { return pair_seed_[pair]; });
   candidates_.prepare(launch_ranks_, round);
-  take_back_rows();
+  unmap_rows();
   memory_.active.upload(active);
   memory_.status.resize(rows);
-  reserve_rows(rows, capacity);
+  reserve_rows(rows, capacity(number));
 
-  cl::Kernel& call = kernel(rung);
-  call.args(static_cast<cl_uint>(rows), memory_.active, memory_.seed, memory_.region, scene_.corners,
-            scene_.region_offset, scene_.region_vertex, scene_.behind, scene_.shape, memory_.status,
+  const DomainBuffers& domain = scene_.domain;
+  cl::Kernel& call = kernel(number);
+  call.args(static_cast<cl_uint>(rows), memory_.active, memory_.seed, memory_.region, domain.corners,
+            domain.region_offset, domain.region_vertex, domain.behind, domain.shape, memory_.status,
             memory_.moments, memory_.faces, memory_.border, memory_.wall, memory_.vertices, memory_.vertex,
             memory_.link);
   candidates_.set_arguments(call, common_arguments);
   call.launch(rows);
 
-  launch_status_.resize(rows);
-  memory_.status.download(std::span(launch_status_));
-  const auto batch = static_cast<std::uint32_t>(memory_.pieces.used);
   const std::size_t first_uncertain = outcome.uncertain.size();
-  std::uint32_t worst = PIECE_WHOLE;
-  for (std::size_t row = 0; row < rows; ++row) {
-    memory_.pieces.status[active[row]] = launch_status_[row];
-    memory_.pieces.batch[active[row]] = batch;
-    memory_.pieces.row[active[row]] = static_cast<std::uint32_t>(row);
-    worst = std::max(worst, launch_status_[row]);
-  }
-  if (worst > PIECE_FLAT)
-    for (std::size_t row = 0; row < rows; ++row) {
-      if (launch_status_[row] & PIECE_UNCERTAIN) outcome.uncertain.push_back(active[row]);
-      memory_.pieces.status[active[row]] = launch_status_[row] &= ~std::uint32_t{PIECE_UNCERTAIN};
-      if (launch_status_[row] == PIECE_MORE) outcome.more.push_back(active[row]);
-      if (launch_status_[row] == PIECE_FULL) outcome.full.push_back(active[row]);
-      if (launch_status_[row] == PIECE_TANGLED) outcome.tangled.push_back(active[row]);
-    }
+  read_statuses(active, outcome);
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
-  rows_of_launch.lent_border = nullptr;
+  rows_of_launch.mapped_border = nullptr;
   rows_of_launch.repeats = false;
   if (!wants_rows()) return;
-  read_rows(capacity, rows_of_launch);
-  if (options_.exact) return;  // rows of uncertain pieces give way to the host's
+  read_rows(capacity(number), rows_of_launch);
+  if (options_.exact) return;  // the host's rows replace those of uncertain pieces
   rows_of_launch.repeats = std::any_of(
       outcome.uncertain.begin() + static_cast<std::ptrdiff_t>(first_uncertain), outcome.uncertain.end(),
       [&](std::uint32_t pair) { return rows_of_launch.row_repeats(memory_.pieces.row[pair]); });
 }
 
-void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {
+void Clipper::read_statuses(std::span<const std::uint32_t> active, Outcome& outcome) {
+  PieceSet& pieces = memory_.pieces;
+  const std::size_t rows = active.size();
+  launch_status_.resize(rows);
+  memory_.status.download(std::span(launch_status_));
+  const auto batch = static_cast<std::uint32_t>(pieces.used);
+  std::uint32_t worst = PIECE_WHOLE;
+  for (std::size_t row = 0; row < rows; ++row) {
+    pieces.status[active[row]] = launch_status_[row];
+    pieces.batch[active[row]] = batch;
+    pieces.row[active[row]] = static_cast<std::uint32_t>(row);
+    worst = std::max(worst, launch_status_[row]);
+  }
+  if (worst <= PIECE_FLAT) return;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::uint32_t pair = active[row], status = launch_status_[row] & ~std::uint32_t{PIECE_UNCERTAIN};
+    if (launch_status_[row] & PIECE_UNCERTAIN) outcome.uncertain.push_back(pair);
+    pieces.status[pair] = status;
+    if (status == PIECE_MORE) outcome.more.push_back(pair);
+    if (status == PIECE_FULL) outcome.full.push_back(pair);
+    if (status == PIECE_TANGLED) outcome.tangled.push_back(pair);
+  }
+}
+
+void Clipper::run(std::size_t number, const List& active, Outcome& outcome) {
   List pending = active;
   for (int round = 0; !pending.empty(); ++round) {
     outcome.more.clear();
-    const std::size_t most = std::min(candidates_.most_pairs(round), rows_that_fit(rung));
+    const std::size_t most = std::min(candidates_.most_pairs(round), rows_that_fit(number));
     for (std::size_t begin = 0; begin < pending.size(); begin += most) {
       const std::size_t count = std::min(most, pending.size() - begin);
-      launch(rung, std::span(pending).subspan(begin, count), round, outcome);
+      launch(number, std::span(pending).subspan(begin, count), round, outcome);
     }
     statistics_.rounds = std::max(statistics_.rounds, round + 1);
     pending = outcome.more;
@@ -196,93 +199,14 @@ void Clipper::run_rung(std::size_t rung, const List& active, Outcome& outcome) {
 
 ClipMemory Clipper::release() && {
   memory_.pieces.used = 0;
-  take_back_rows();
+  unmap_rows();
   return std::move(memory_);
 }
 
-void Clipper::write_moments(const List& pairs, std::span<const double> moments) {
-  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
-  const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
-  const auto patch = [&](auto& all) {
-    using Real = typename std::remove_reference_t<decltype(all)>::value_type;
-    memory_.moments.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
-    // A measure above 0 says that there is a cell. In single precision, where devices may take numbers below
-    // 2^-126 for 0, it stays above 0, and so do the moments that go with it.
-    constexpr double least = std::is_same_v<Real, float> ? 0x1p-100 : std::numeric_limits<double>::min();
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const double measure = moments[k * count],
-                   factor = measure > 0 && measure < least ? least / measure : 1;
-      for (std::size_t m = 0; m < count; ++m)
-        all[(pairs[k] - first) * count + m] = static_cast<Real>(factor * moments[k * count + m]);
-    }
-    memory_.moments.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
-  };
-  if (scene_.float32()) {
-    std::vector<float> all(rows * count);
-    patch(all);
-  } else {
-    std::vector<double> all(rows * count);
-    patch(all);
-  }
-}
-
-int Clipper::clip_on_host(HostClipper& host, std::uint32_t pair, std::span<double> moments,
-                          PieceBatch& rows) const {
-  const std::vector<std::uint32_t> regions =
-      candidates_.regions_for_host(pair_seed_[pair], pair_region_[pair]);
-  if (regions.size() == 1) return host.clip(pair_seed_[pair], regions.front(), moments, rows);
-  if (rows.face_offset.empty()) rows.face_offset = rows.vertex_offset = {0};
-  const std::size_t row = rows.face_offset.size() - 1;
-  int status = PIECE_EMPTY;
-  std::fill(moments.begin(), moments.end(), 0.0);
-  std::vector<double> part(moments.size());
-  for (const std::uint32_t region : regions) {
-    const int of_part = host.clip(pair_seed_[pair], region, part, rows);
-    if (of_part == PIECE_EMPTY) continue;
-    if (status != PIECE_WHOLE) status = of_part;
-    std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
-  }
-  // Their rows become one, of walls alone: parts have no geometry in common.
-  rows.repeats = true;
-  rows.face_offset.resize(row + 1);
-  rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));
-  rows.vertex_offset.resize(row + 1);
-  rows.vertex_offset.push_back(
-      static_cast<std::uint32_t>(rows.vertex.size() / static_cast<std::size_t>(scene_.mesh().dimension)));
-  return status;
-}
-
-void Clipper::finish_on_host(const List& pairs) {
-  if (pairs.empty()) return;
-  if (!host_scene_) host_scene_ = make_host_scene(scene_);
-  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
-  const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task,
-                    first_batch = memory_.pieces.used;
-  for (std::size_t task = 0; task < tasks; ++task) memory_.pieces.add_batch().clear();
-  std::vector<double> moments(pairs.size() * count);
-  std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
-  parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
-    std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
-    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0);
-    const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
-    PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t pair = pairs[k];
-      const int status = clip_on_host(*host, pair, std::span(moments).subspan(k * count, count), rows);
-      memory_.pieces.status[pair] = static_cast<std::uint32_t>(status);
-      memory_.pieces.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
-      memory_.pieces.row[pair] = static_cast<std::uint32_t>(k - begin);
-    }
-  });
-  write_moments(pairs, moments);
-  statistics_.on_host += pairs.size();
-  write_log(LogLevel::detail, [&] { return "pieces finished on the host: " + std::to_string(pairs.size()); });
-}
-
-Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
-                             std::span<const std::uint32_t> pair_region) {
-  memory_.pieces.used = 0;  // nobody needs those of the last chunk
-  take_back_rows();
+Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
+                                   std::span<const std::uint32_t> pair_region) {
+  memory_.pieces.used = 0;
+  unmap_rows();
   pair_seed_ = pair_seed;
   pair_region_ = pair_region;
   const std::size_t count = pair_seed.size();
@@ -298,39 +222,41 @@ Clipper::List Clipper::begin(std::span<const std::uint32_t> pair_seed,
   return pending;
 }
 
-const PieceSet& Clipper::clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
+const PieceSet& Clipper::clip_with(std::size_t number, std::span<const std::uint32_t> pair_seed,
                                    std::span<const std::uint32_t> pair_region) {
   Outcome outcome;
-  run_rung(rung, begin(pair_seed, pair_region), outcome);
+  run(number, begin_chunk(pair_seed, pair_region), outcome);
   return memory_.pieces;
 }
 
 const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
                               std::span<const std::uint32_t> pair_region) {
-  List pending = begin(pair_seed, pair_region), last_resort;
-  for (std::size_t rung = 0; rung < capacities(scene_.mesh().cell_dimension).size() && !pending.empty();
-       ++rung) {
-    if (rung > 0) {
+  return finish_on_host(clip_on_device(pair_seed, pair_region));
+}
+
+std::vector<std::uint32_t> Clipper::clip_on_device(std::span<const std::uint32_t> pair_seed,
+                                                   std::span<const std::uint32_t> pair_region) {
+  List pending = begin_chunk(pair_seed, pair_region), for_host;
+  const std::size_t numbers = capacities(scene_.mesh().cell_dimension).size();
+  for (std::size_t number = 0; number < numbers && !pending.empty(); ++number) {
+    if (number > 0) {
       statistics_.retried += pending.size();
       write_log(LogLevel::detail, [&] {
-        return "pieces tried again with room for " +
-               std::to_string(capacities(scene_.mesh().cell_dimension)[rung].vertices) +
-               " vertices: " + std::to_string(pending.size());
+        return "clipping " + std::to_string(pending.size()) + " pieces again with a capacity of " +
+               std::to_string(capacity(number).vertices) + " vertices";
       });
     }
     Outcome outcome;
-    run_rung(rung, pending, outcome);
-    last_resort.insert(last_resort.end(), outcome.tangled.begin(), outcome.tangled.end());
+    run(number, pending, outcome);
+    for_host.insert(for_host.end(), outcome.tangled.begin(), outcome.tangled.end());
     statistics_.uncertain += outcome.uncertain.size();
-    if (options_.exact)
-      last_resort.insert(last_resort.end(), outcome.uncertain.begin(), outcome.uncertain.end());
+    if (options_.exact) for_host.insert(for_host.end(), outcome.uncertain.begin(), outcome.uncertain.end());
     pending = std::move(outcome.full);
     std::sort(pending.begin(), pending.end());
   }
-  last_resort.insert(last_resort.end(), pending.begin(), pending.end());
-  std::sort(last_resort.begin(), last_resort.end());
-  finish_on_host(last_resort);
-  return memory_.pieces;
+  for_host.insert(for_host.end(), pending.begin(), pending.end());
+  std::sort(for_host.begin(), for_host.end());
+  return for_host;
 }
 
 }  // namespace powercell

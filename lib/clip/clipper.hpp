@@ -1,37 +1,37 @@
 /// \file
-/// Clips chunks of (region, seed) pairs on the device: rounds of candidates, the capacity ladder, and
-/// the host for what rounding may have decided and as the last resort.
+/// Clips chunks of (region, seed) pairs: on the device in rounds of candidates, with larger capacities for
+/// pieces that do not fit, and on the host for pieces that rounding may have decided or that fit no capacity.
+/// Internal.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lib/clip/host_clip.hpp"
 #include "lib/clip/pieces.hpp"
 #include "lib/clip/row_reader.hpp"
 #include "lib/neighbors/candidates.hpp"
-#include "lib/scene/scene.hpp"
 
 namespace powercell {
 
-/// What clipping has done so far.
 struct ClipStatistics {
-  std::uint64_t retried = 0;    ///< pairs that went to a larger variant
-  std::uint64_t on_host = 0;    ///< pairs that ended on the host
+  std::uint64_t retried = 0;    ///< pairs clipped again with a larger capacity
+  std::uint64_t on_host = 0;    ///< pairs finished on the host
   std::uint64_t uncertain = 0;  ///< pairs that rounding may have decided
-  int rounds = 0;               ///< most rounds of candidates that a chunk needed
+  int rounds = 0;               ///< largest number of rounds of candidates of a chunk
 
   void add(const ClipStatistics& other);
 };
 
 struct ClipOptions {
-  bool exact = true;  ///< pairs that rounding may have decided are decided on the host
+  bool exact = true;  ///< clip pairs that rounding may have decided again on the host
   int threads = 1;    ///< of the host
 };
 
-/// What a Clipper reads from and writes to. The system hands out new memory page by page, which for some
-/// thousand pairs takes a tenth of the time of clipping: whoever clips again can keep it.
+/// The buffers and pieces of a Clipper. A caller that clips again passes them on: to touch new memory page by
+/// page takes a tenth of the time of clipping some thousand pairs.
 struct ClipMemory {
   explicit ClipMemory(const std::shared_ptr<cl::Context>& context);
   std::size_t bytes() const;  ///< on the device
@@ -42,28 +42,44 @@ struct ClipMemory {
   PieceSet pieces;
 };
 
+/// A pair that the device clips by planes of the boundary, and the host, which does not have them, region by
+/// region.
+struct SplitPair {
+  std::uint32_t pair;
+  std::vector<std::uint32_t> regions;
+};
+
 class Clipper {
  public:
-  /// \param outputs OUTPUT_... of kernels/layout.h
-  /// \param memory  of an earlier one on the same device
+  /// \param outputs  OUTPUT_... of kernels/layout.h
+  /// \param memory   released by an earlier clipper on the same device
   Clipper(const Scene& scene, Candidates& candidates, int outputs, ClipOptions options = {},
           std::optional<ClipMemory> memory = {});
 
-  /// Its memory, for the next one. Nothing may be asked of this one any more.
+  /// The memory, for another clipper. This one must not be used any more.
   ClipMemory release() &&;
 
-  /// Clips pair k = (pair_seed[k], pair_region[k]), ranks ascending. Afterwards every pair has a final
-  /// status; moments() holds its moments in device memory, and the result, good until the next call, its rows
-  /// where asked for.
-  /// \throw Error opencl, out_of_device_memory, build_failed, internal
+  /// Clips the pairs (pair_seed[k], pair_region[k]), ranks ascending. Afterwards moments() holds their
+  /// moments in device memory.
+  /// \return the final statuses and, if `outputs` has them, the rows; valid until the next call
+  /// \throw Error opencl, out_of_device_memory, build_failed, self_test_failed, internal
   const PieceSet& clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
 
-  /// The same with rung `rung` of the capacity ladder alone: pairs that do not fit it keep PIECE_FULL or
-  /// PIECE_TANGLED.
-  const PieceSet& clip_with(std::size_t rung, std::span<const std::uint32_t> pair_seed,
+  /// The first step of clip(), for callers with split pairs.
+  /// \return the pairs, ascending, that finish_on_host() must be called with
+  std::vector<std::uint32_t> clip_on_device(std::span<const std::uint32_t> pair_seed,
+                                            std::span<const std::uint32_t> pair_region);
+  /// The second step of clip().
+  /// \param split  those of `pairs` that are clipped region by region, ascending
+  const PieceSet& finish_on_host(const std::vector<std::uint32_t>& pairs,
+                                 std::span<const SplitPair> split = {});
+
+  /// As clip(), with one of capacities() only and without the host: pairs that fail keep the status
+  /// PIECE_FULL or PIECE_TANGLED.
+  const PieceSet& clip_with(std::size_t capacity, std::span<const std::uint32_t> pair_seed,
                             std::span<const std::uint32_t> pair_region);
 
-  /// Moments by pair of the last chunk: rows of 2 + dimension reals of the device's precision.
+  /// The moments of the last chunk, by pair: rows of 2 + dimension reals of the device's precision.
   const cl::RawBuffer& moments() const { return memory_.moments; }
   const ClipStatistics& statistics() const { return statistics_; }
 
@@ -73,31 +89,37 @@ class Clipper {
     List more, full, tangled, uncertain;
   };
 
-  cl::Kernel& kernel(std::size_t rung);
-  std::size_t rows_that_fit(std::size_t rung) const;
-  void launch(std::size_t rung, std::span<const std::uint32_t> active, int round, Outcome& outcome);
-  /// Room for what the pairs of one launch leave.
+  const Capacity& capacity(std::size_t number) const;
+  cl::Kernel& kernel(std::size_t capacity);
+  std::size_t rows_that_fit(std::size_t capacity) const;
+  /// Uploads the pairs of a chunk and returns all of them, as pending.
+  List begin_chunk(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
+  /// Clips `active` with one capacity until no pair needs more candidates.
+  void run(std::size_t capacity, const List& active, Outcome& outcome);
+  void launch(std::size_t capacity, std::span<const std::uint32_t> active, int round, Outcome& outcome);
+  /// Reads the statuses of a launch and appends its unfinished pairs to `outcome`.
+  void read_statuses(std::span<const std::uint32_t> active, Outcome& outcome);
+  /// Allocates the rows of one launch.
   void reserve_rows(std::size_t rows, const Capacity& capacity);
   void read_rows(const Capacity& capacity, PieceBatch& batch);
-  /// Before the next launch writes to where rows were taken from; those of this chunk are copied.
-  void take_back_rows();
-  /// Clips `active` with one rung until no pair asks for more candidates.
-  void run_rung(std::size_t rung, const List& active, Outcome& outcome);
-  /// Takes in the pairs of a chunk; returns all of them as pending.
-  List begin(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
-  /// Appends one row. Returns the status.
-  int clip_on_host(HostClipper& host, std::uint32_t pair, std::span<double> moments, PieceBatch& rows) const;
-  /// Clips `pairs`, ascending, on the host.
-  void finish_on_host(const List& pairs);
-  /// Rows of 2 + dimension moments, one for each of `pairs`, ascending.
-  void write_moments(const List& pairs, std::span<const double> moments);
+  /// Copies the mapped rows of this chunk and unmaps them, before the next launch overwrites them.
+  void unmap_rows();
   bool wants_rows() const;
 
-  const Scene& scene_;
+  // clipper_host.cpp
+  /// Appends one row and returns the status.
+  int clip_on_host(HostClipper& host, std::uint32_t pair, const SplitPair* split, std::span<double> moments,
+                   PieceBatch& rows) const;
+  int clip_split(HostClipper& host, const SplitPair& split, std::span<double> moments,
+                 PieceBatch& rows) const;
+  /// \param moments  rows of 2 + dimension for `pairs`, ascending
+  void write_moments(const List& pairs, std::span<const double> moments);
+
+  const Scene scene_;
   Candidates& candidates_;
   int outputs_;
   ClipOptions options_;
-  std::map<std::size_t, cl::Kernel> kernels_;
+  std::map<std::size_t, cl::Kernel> kernels_;  // by number of the capacity
   std::optional<HostScene> host_scene_;
   std::span<const std::uint32_t> pair_seed_, pair_region_;
   ClipStatistics statistics_;

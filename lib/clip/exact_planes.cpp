@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "lib/clip/host_clip.hpp"
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {

@@ -10,8 +10,8 @@ namespace powercell {
 
 namespace {
 
-/// Along each axis two seeds at 1/4 and 3/4 of the unit interval with these weights: the wall between
-/// the layers is at 1/2 + (w_0 - w_1), and the weights of the axes add up in the seeds.
+/// The weights of the seeds at 1/4 and 3/4 along each axis, summed over the axes in a seed. The wall between
+/// the layers of an axis is at 1/2 + (w_0 - w_1).
 constexpr double layer_weight[3][2] = {{0.0, 0.125}, {0.0625, 0.0}, {0.0, 0.03125}};
 
 double wall_position(int axis) {
@@ -47,7 +47,7 @@ RegionMesh golden_mesh(const Variant& variant) {
   return mesh;
 }
 
-// A seed for each choice of layers; on a surface both z-layers have seeds, and the upper ones are hidden.
+// One seed for each choice of layers. On a surface those of the upper z-layer are hidden.
 SeedSet golden_seeds(int dimension) {
   std::vector<double> positions, weights;
   for (int s = 0; s < 1 << dimension; ++s) {
@@ -61,7 +61,7 @@ SeedSet golden_seeds(int dimension) {
   return make_seed_set({dimension, positions, weights}, dimension, 1);
 }
 
-// The bits of `s` are its layers.
+// The bits of `s` are the layers of the seed.
 double golden_measure(const Variant& variant, std::uint32_t s) {
   double product = 1;
   for (int k = 0; k < variant.cell_dimension; ++k)
@@ -81,14 +81,14 @@ void require_golden(const cl::Context& context, std::string_view program, const 
   throw Error(ErrorCode::self_test_failed,
               "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
                   ") computed a known diagram wrongly: cell " + std::to_string(s) + " measures " +
-                  digits(measure) + ", not " + digits(expected) + ", in " + std::string(program) + options +
-                  "; update its driver or choose another device");
+                  digits(measure) + " instead of " + digits(expected) + ", in " + std::string(program) +
+                  options + "; update its driver or choose another device");
 }
 
 namespace {
 
 std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
-  const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds().size();
+  const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds.size();
   std::vector<double> measures(n);
   std::vector<float> narrow(n * stride);
   std::vector<double> wide(n * stride);
@@ -105,18 +105,17 @@ std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
 }  // namespace
 
 void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates,
-                 const Variant& variant, std::size_t rung) {
+                 const Variant& variant, std::size_t capacity) {
   const RegionMesh mesh = golden_mesh(variant);
   const SeedSet seeds = golden_seeds(variant.dimension);
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(context, mesh, variant.float32);
-  scene.set_seeds(seeds, tree);
-  const std::unique_ptr<Candidates> source = candidates.for_scene(scene);
-  Clipper clipper(scene, *source, variant.outputs);
+  const OwnScene own(context, mesh, variant.float32, seeds, tree);
+  const std::unique_ptr<Candidates> source = candidates.for_scene(own.scene);
+  Clipper clipper(own.scene, *source, variant.outputs);
   std::vector<std::uint32_t> pair_seed, pair_region(seeds.size(), 0);
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank) pair_seed.push_back(rank);
-  clipper.clip_with(rung, pair_seed, pair_region);
-  const std::vector<double> measures = read_measures(clipper, scene);
+  clipper.clip_with(capacity, pair_seed, pair_region);
+  const std::vector<double> measures = read_measures(clipper, own.scene);
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
     require_golden(*context, candidates.file(), variant, seeds.input[rank], measures[rank]);
 }

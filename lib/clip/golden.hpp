@@ -1,6 +1,6 @@
 /// \file
-/// A tiny diagram with a known answer, computed with each clip program before its first use, so that a
-/// driver that miscompiles it is refused and not believed.
+/// A tiny diagram with known measures, computed with each clip program before its first use, to detect
+/// drivers that miscompile it. Internal.
 #pragma once
 
 #include "lib/domain/region_mesh.hpp"
@@ -10,21 +10,23 @@
 
 namespace powercell {
 
-/// The known diagram for the dimensions of a variant: two layers of seeds along each axis of the unit square
-/// or cube, whose cells are boxes (on a surface, the square in the plane z = 1/4: rectangles).
+/// The domain of the diagram: the unit square or cube, or as a surface the square in the plane z = 1/4.
 RegionMesh golden_mesh(const Variant& variant);
+/// Two layers of seeds along each axis, whose cells are boxes, or rectangles on a surface.
 SeedSet golden_seeds(int dimension);
-/// Measure of the cell of seed `s`.
+/// The measure of the cell of seed `s`.
 double golden_measure(const Variant& variant, std::uint32_t s);
-/// Throws self_test_failed for the cell of seed `s` unless it measures what it must.
+/// \param s        the seed
+/// \param measure  of its cell, as computed
 /// \param program  for the message
+/// \throw Error self_test_failed if the measure is wrong
 void require_golden(const cl::Context& context, std::string_view program, const Variant& variant,
                     std::uint32_t s, double measure);
 
-/// Clips two layers of seeds along each axis, whose cells are boxes known in closed form, with the
-/// program of `variant` (rung `rung` of the ladder).
-/// \throw Error self_test_failed naming the device, the variant and the wrong figure
+/// Clips the golden diagram with the program of `variant`.
+/// \param capacity  of the variant: its number in capacities()
+/// \throw Error self_test_failed, naming the device, the variant and the wrong measure
 void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates,
-                 const Variant& variant, std::size_t rung);
+                 const Variant& variant, std::size_t capacity);
 
 }  // namespace powercell

@@ -154,8 +154,8 @@ HostScene make_host_scene(const Scene& scene) {
   Frame frame = scene.frame();
   frame.split = false;  // differences of doubles need no shift, and scaling is exact
   frame.centre = {};
-  const SeedSet& seeds = scene.seeds();
-  const PackedTree& tree = scene.tree();
+  const SeedSet& seeds = scene.seeds;
+  const PackedTree& tree = scene.tree;
   const RegionMesh& mesh = scene.mesh();
   HostScene host{&mesh,
                  &tree,

@@ -5,16 +5,16 @@
 
 namespace powercell {
 
-void PieceBatch::keep() {
-  if (!lent_border) return;
+void PieceBatch::copy_mapped() {
+  if (!mapped_border) return;
   border.resize(face_offset.back());
   wall.resize(face_offset.back());
   for (std::size_t row = 0; row + 1 < face_offset.size(); ++row) {
     std::copy_n(borders(row), faces(row), border.data() + face_offset[row]);
     std::copy_n(walls(row), faces(row), wall.data() + face_offset[row]);
   }
-  lent_border = nullptr;
-  lent_wall = nullptr;
+  mapped_border = nullptr;
+  mapped_wall = nullptr;
 }
 
 bool PieceBatch::row_repeats(std::size_t row) const {

@@ -7,7 +7,7 @@
 namespace powercell {
 namespace {
 
-/// Entries of all rows, full or not, that are read as they are.
+/// Up to this many entries, used or not, are read unpacked.
 constexpr std::size_t few_entries = std::size_t{1} << 16;
 
 }  // namespace
@@ -17,14 +17,14 @@ RowReader::Packer::Packer(const std::shared_ptr<cl::Context>& context)
       scan(context, ExclusiveScan::Type::uint32),
       packed(context) {}
 
-void RowReader::begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
-                      std::vector<std::uint32_t>& offset, bool may_lend) {
+void RowReader::read_counts(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
+                            std::vector<std::uint32_t>& offset, bool allow_map) {
   rows_ = counts.size() - 1;
   capacity_ = capacity;
   few_ = rows_ * capacity_ <= few_entries;
-  lends_ = may_lend && !few_ && context_->info().type == DeviceInfo::Type::cpu;
+  maps_ = allow_map && !few_ && context_->info().type == DeviceInfo::Type::cpu;
   offset.resize(counts.size());
-  if (few_ || lends_) {
+  if (few_ || maps_) {
     counts.download(std::span(offset));
     std::exclusive_scan(offset.begin(), offset.end(), offset.begin(), std::uint32_t{0});
   } else {
@@ -37,9 +37,9 @@ void RowReader::begin(cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
   total_ = offset.back();
 }
 
-void RowReader::take_back() {
-  for (cl::Mapping& lent : lent_) lent.end();
-  lent_.clear();
+void RowReader::unmap() {
+  for (cl::Mapping& mapping : mappings_) mapping.end();
+  mappings_.clear();
 }
 
 template <class T>
@@ -60,7 +60,7 @@ void RowReader::read_values(const cl::RawBuffer& rows, std::size_t width, std::v
   if (few_) return read_few(rows, width, to);
   const std::size_t bytes = to.size() * sizeof(T);
   cl::RawBuffer& packed = packer_->packed;
-  if (bytes > packed.bytes()) packed.reserve(bytes + bytes / 4);  // the next launch has about as many
+  if (bytes > packed.bytes()) packed.reserve(bytes + bytes / 4);  // the next launch needs about as much
   packer_->pack
       .args(static_cast<cl_uint>(rows_), static_cast<cl_uint>(capacity_),
             static_cast<cl_uint>(width * sizeof(T) / sizeof(cl_uint)), device_offset_, rows, packed)

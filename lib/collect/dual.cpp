@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/domain/exact_orientation.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 template <std::size_t C>
 using Row = std::array<std::uint32_t, C>;
 
-/// The seeds of a row in ascending order; rows start with their smallest seed.
+/// The seeds of a row in ascending order. \pre a row starts with its smallest seed
 Row<3> key(const Row<3>& row) {
   return row[1] < row[2] ? row : Row<3>{row[0], row[2], row[1]};
 }
@@ -30,7 +30,7 @@ template <std::size_t C>
 void keep_distinct(std::vector<Row<C>>& rows, std::size_t begin) {
   const auto first = rows.begin() + static_cast<std::ptrdiff_t>(begin);
   if constexpr (C == 3) {
-    std::stable_sort(first, rows.end(), by_key<C>);  // the first found gives the orientation
+    std::stable_sort(first, rows.end(), by_key<C>);  // the first one found determines the orientation
   } else {
     std::sort(first, rows.end(), by_key<C>);
   }
@@ -42,9 +42,9 @@ bool is_wall(const Border& border) {
   return border.kind == Border::Kind::wall;
 }
 
-/// Calls `found` with the triangle of each vertex of a polygonal piece between two walls.
-/// With the cell on the left of its edges, the cells around the vertex follow each other as
-/// (cell, behind the edge that ends there, behind the edge that starts there).
+/// Calls `found` with the triangle of each vertex of a polygonal piece between two walls. The cell lies to
+/// the left of its edges, so the counter-clockwise order around the vertex is: the cell, the neighbour across
+/// the edge that ends there, the neighbour across the edge that starts there.
 template <class Found>
 void corners_of_polygon(const Cells& cells, std::uint32_t cell, std::size_t piece, const Found& found) {
   const std::uint64_t begin = cells.face_offset[piece], end = cells.face_offset[piece + 1];
@@ -58,10 +58,10 @@ void corners_of_polygon(const Cells& cells, std::uint32_t cell, std::size_t piec
   }
 }
 
-/// Scratch for the faces around each vertex of a polyhedral piece.
+/// Scratch memory: the walls at each vertex of a polyhedral piece.
 struct Incidence {
-  std::vector<std::array<std::uint32_t, 3>> wall;  ///< the seeds behind the faces at a vertex
-  std::vector<std::uint32_t> count;                ///< how many of its faces are walls
+  std::vector<std::array<std::uint32_t, 3>> wall;  ///< neighbours across the first three walls
+  std::vector<std::uint32_t> count;                ///< number of walls
 };
 
 /// Calls `found` with the tetrahedron of each vertex of a polyhedral piece where three walls meet.
@@ -87,7 +87,8 @@ void corners_of_polyhedron(const Cells& cells, std::uint32_t cell, std::size_t p
   }
 }
 
-/// A hidden seed whose bisector holds a facet of the boundary still has edges of no length at corners there.
+/// False if a seed of the row is hidden. Cells may have edges of length 0 with such a seed, where its
+/// bisector contains a facet of the boundary.
 template <std::size_t C>
 bool all_have_cells(const Cells& cells, const Row<C>& row) {
   return std::all_of(row.begin(), row.end(), [&](std::uint32_t seed) {
@@ -109,9 +110,9 @@ void corners_of_cell(const Cells& cells, std::uint32_t cell, Incidence& around, 
   }
 }
 
-/// Rows by ascending key. Nearly every simplex is seen from its smallest seed's cell, so those are taken
-/// first, cell by cell, which leaves them sorted in little memory. A cell does not see a corner that lies
-/// on the border between two of its regions; hence the second pass over the other cells of each corner.
+/// Rows by ascending key. The cell of a simplex's smallest seed nearly always has its corner, so a first pass
+/// takes simplices from there, which are then sorted already. It lacks corners on the border between two of
+/// its regions; a second pass takes those from the other cells.
 template <std::size_t C>
 std::vector<Row<C>> collect(const Cells& cells) {
   const std::uint32_t n = static_cast<std::uint32_t>(cells.cell_count());
@@ -143,9 +144,9 @@ std::vector<Row<C>> collect(const Cells& cells) {
   return rows;
 }
 
-/// Turns each row to positive orientation by the positions of its seeds. Differences are exact in long
-/// double unless positions differ in scale by more than its extra bits; below `rounding` times the product
-/// of the edge lengths the sign of the determinant is found exactly.
+/// Orients each row positively by the positions of its seeds. Differences in long double are exact unless
+/// positions differ in scale by more than its extra bits. If the determinant is below `rounding` times the
+/// product of the edge lengths, its sign is computed exactly.
 template <std::size_t C>
 void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
   constexpr std::size_t d = C - 1;
@@ -176,7 +177,7 @@ void orient(std::vector<Row<C>>& rows, const SeedsView& seeds) {
 
 template <std::size_t C>
 Dual finish(std::vector<Row<C>> rows) {
-  // Turning a row moves it only among rows with the same smallest seed.
+  // Orientation changed the order only among rows with the same smallest seed.
   for (auto begin = rows.begin(); begin != rows.end();) {
     const auto end =
         std::find_if(begin, rows.end(), [&](const Row<C>& row) { return row[0] != (*begin)[0]; });
@@ -190,7 +191,7 @@ Dual finish(std::vector<Row<C>> rows) {
   return dual;
 }
 
-/// Rows with their smallest seed first, in space all ascending, in the plane turned by `orient` if at all.
+/// All rows start ascending; orient() may exchange their last two seeds.
 template <std::size_t C>
 Dual extended(const Dual& dual, const std::vector<std::uint32_t>& more, const SeedsView& seeds) {
   std::vector<Row<C>> rows;

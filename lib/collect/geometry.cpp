@@ -66,7 +66,7 @@ void GeometryCollector::add(std::span<const std::uint32_t> pair_seed,
 
 namespace {
 
-/// Appends rows [from.offset[k], from.offset[k+1]) of `values`, `width` values each.
+/// Appends the rows [begin, end) of `values`, of `width` values each.
 template <class T>
 void append_row(std::vector<T>& to, const std::vector<T>& values, std::uint64_t begin, std::uint64_t end,
                 std::size_t width = 1) {

@@ -1,5 +1,5 @@
 /// \file
-/// Gathers the geometry of clipped pieces into Cells.
+/// Collects the geometry of clipped pieces into Cells. Internal.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class GeometryCollector {
  public:
   GeometryCollector(const RegionMesh& mesh, const SeedSet& seeds, const Frame& frame);
 
-  /// Adds the pieces of a chunk, in the order of the pairs.
+  /// Adds the pieces of a chunk in the order of the pairs. Ranks ascend over all chunks.
   void add(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
            const PieceSet& pieces);
 
@@ -33,7 +33,7 @@ class GeometryCollector {
   const RegionMesh& mesh_;
   const SeedSet& seeds_;
   const Frame& frame_;
-  Cells cells_;  // by rank; cell_offset unused until finish
+  Cells cells_;  // pieces in the order of the pairs; cell_offset is not set
   std::vector<std::uint32_t> piece_rank_;
 };
 

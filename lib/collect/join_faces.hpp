@@ -9,25 +9,25 @@
 
 namespace powercell {
 
-/// Loops over the vertices of a CellWeld, each vertex by the one that stands for it.
+/// Loops over the vertices of a CellWeld, as CellWeld::same() numbers them.
 struct JoinedFaces {
   std::vector<std::uint32_t> loop;
-  std::vector<std::size_t> end;     ///< per face: where its loop ends
+  std::vector<std::size_t> end;     ///< per face: end of its loop
   std::vector<Border> face_border;  ///< per face (volumes)
   std::vector<Border> edge_border;  ///< per loop entry (polygons and surfaces)
 
   void clear();
 };
 
-/// Polygon: chains the edges that are left into rings. A ring meets no vertex twice; where two meet in a
-/// vertex, each keeps the cell on its left. An edge that the cutting of the domain has split is one again.
+/// Polygon: chains the remaining edges into rings with the cell on the left. No ring passes a vertex twice.
+/// Edges that the cutting of the domain split are rejoined.
 void join_rings(const CellWeld& weld, JoinedFaces& faces);
 
-/// Surface: each piece stays a face; edges between welded vertices are gone.
+/// Surface: each piece stays a face, without edges whose ends are welded.
 void join_triangles(const CellWeld& weld, JoinedFaces& faces);
 
-/// Volume: the faces that are left, those of one wall made one polygon where they form one without holes,
-/// and without the vertices that only split an edge between two walls.
+/// Volume: takes the remaining faces. Joins the faces of one wall if they form a polygon without holes, and
+/// removes vertices that only split an edge between two walls.
 void join_polyhedron(const CellWeld& weld, JoinedFaces& faces);
 
 }  // namespace powercell

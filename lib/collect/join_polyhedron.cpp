@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 
 #include "lib/collect/join_faces.hpp"
@@ -24,7 +23,7 @@ bool same_ends(const Edge& a, const Edge& b) {
 std::vector<Polygon> faces_left(const CellWeld& weld) {
   std::vector<Polygon> polygons;
   for (std::size_t f = 0; f < weld.face_count(); ++f) {
-    if (weld.gone(f)) continue;
+    if (weld.removed(f)) continue;
     Polygon polygon{{}, weld.border(f)};
     for (const std::uint32_t v : weld.face(f))
       if (polygon.loop.empty() || polygon.loop.back() != weld.same(v)) polygon.loop.push_back(weld.same(v));
@@ -34,7 +33,7 @@ std::vector<Polygon> faces_left(const CellWeld& weld) {
   return polygons;
 }
 
-/// The one ring that the edges form, or nothing if they form several or meet in a vertex.
+/// The ring that the edges form; empty if they form several rings, or one that touches itself in a vertex.
 std::vector<std::uint32_t> single_ring(std::vector<Edge>& edges) {
   const auto by_start = [](const Edge& a, const Edge& b) { return a.from < b.from; };
   std::sort(edges.begin(), edges.end(), by_start);
@@ -48,11 +47,10 @@ std::vector<std::uint32_t> single_ring(std::vector<Edge>& edges) {
   return ring.size() == edges.size() ? ring : std::vector<std::uint32_t>{};
 }
 
-/// Polygons of one border, joined where they share edges.
+/// Joins polygons with the same border along common edges.
 class Merge {
  public:
   explicit Merge(std::span<Polygon> polygons) : polygons_(polygons), group_(polygons.size()) {
-    std::iota(group_.begin(), group_.end(), 0u);
     for (std::uint32_t p = 0; p < polygons.size(); ++p) {
       const auto& loop = polygons[p].loop;
       for (std::size_t k = 0; k < loop.size(); ++k)
@@ -63,7 +61,7 @@ class Merge {
 
   void append_to(std::vector<Polygon>& out) {
     std::vector<std::vector<Edge>> outline(polygons_.size());
-    for (const Edge& e : edges_) outline[root(e.polygon)].push_back(e);
+    for (const Edge& e : edges_) outline[group_.root(e.polygon)].push_back(e);
     std::vector<std::uint8_t> merged(polygons_.size(), 0);
     for (std::uint32_t g = 0; g < polygons_.size(); ++g) {
       if (outline[g].empty()) continue;
@@ -73,16 +71,11 @@ class Merge {
       out.push_back({std::move(ring), polygons_[g].border});
     }
     for (std::uint32_t p = 0; p < polygons_.size(); ++p)
-      if (!merged[root(p)]) out.push_back(std::move(polygons_[p]));
+      if (!merged[group_.root(p)]) out.push_back(std::move(polygons_[p]));
   }
 
  private:
-  std::uint32_t root(std::uint32_t p) {
-    while (group_[p] != p) p = group_[p] = group_[group_[p]];
-    return p;
-  }
-
-  /// Drops each edge that two polygons have in opposite directions, and puts the two in one group.
+  /// Removes the edges that two polygons share in opposite directions, and unites the groups of the two.
   void drop_shared_edges() {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tuple(std::minmax(a.from, a.to), a.polygon) <
@@ -92,8 +85,7 @@ class Merge {
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       if (k + 1 < edges_.size() && same_ends(edges_[k], edges_[k + 1]) &&
           edges_[k].from == edges_[k + 1].to) {
-        const std::uint32_t a = root(edges_[k].polygon), b = root(edges_[k + 1].polygon);
-        group_[std::max(a, b)] = std::min(a, b);
+        group_.unite(edges_[k].polygon, edges_[k + 1].polygon);
         ++k;
       } else {
         edges_[kept++] = edges_[k];
@@ -103,7 +95,7 @@ class Merge {
   }
 
   std::span<Polygon> polygons_;
-  std::vector<std::uint32_t> group_;
+  DisjointSets group_;
   std::vector<Edge> edges_;
 };
 
@@ -126,8 +118,8 @@ std::vector<Polygon> merge_walls(std::vector<Polygon> polygons) {
   return out;
 }
 
-/// Which vertices only split an edge between two walls: exactly two faces have them, of different walls,
-/// both between the same two neighbours. Both planes hold the edge, so it is straight there.
+/// The vertices that only split an edge between two walls: they belong to exactly two faces, of different
+/// walls, with the same neighbouring vertices in both. Both planes contain the edge, so it is straight there.
 class SplitVertices {
  public:
   SplitVertices(const CellWeld& weld, const std::vector<Polygon>& polygons)
@@ -135,7 +127,8 @@ class SplitVertices {
     for (const Polygon& polygon : polygons) {
       const auto& loop = polygon.loop;
       for (std::size_t k = 0; k < loop.size(); ++k)
-        note(loop[k], loop[(k + loop.size() - 1) % loop.size()], loop[(k + 1) % loop.size()], polygon.border);
+        add_use(loop[k], loop[(k + loop.size() - 1) % loop.size()], loop[(k + 1) % loop.size()],
+                polygon.border);
     }
     for (std::uint32_t v = 0; v < uses_.size(); ++v) {
       const Use& u = uses_[v];
@@ -154,7 +147,7 @@ class SplitVertices {
     std::uint32_t count = 0;
   };
 
-  void note(std::uint32_t v, std::uint32_t before, std::uint32_t after, const Border& border) {
+  void add_use(std::uint32_t v, std::uint32_t before, std::uint32_t after, const Border& border) {
     Use& u = uses_[v];
     if (u.count < 2) {
       u.ends[u.count] = std::minmax(before, after);
@@ -163,7 +156,7 @@ class SplitVertices {
     ++u.count;
   }
 
-  /// A face needs three corners: a sliver whose sides are all split keeps its vertices, in both its faces.
+  /// Keeps all vertices of faces that would be left with fewer than three.
   void keep_polygons(const std::vector<Polygon>& polygons) {
     for (const Polygon& polygon : polygons) {
       const auto corners = std::count_if(polygon.loop.begin(), polygon.loop.end(),

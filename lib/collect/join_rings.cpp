@@ -13,12 +13,12 @@ struct Edge {
   bool used = false;
 };
 
-/// Walks the directed edges of a planar cell, the cell on the left.
+/// Walks along the directed edges of a planar cell, with the cell on the left.
 class RingWalk {
  public:
   RingWalk(const CellWeld& weld, JoinedFaces& faces) : weld_(weld), faces_(faces) {
     for (std::size_t f = 0; f < weld.face_count(); ++f) {
-      if (weld.gone(f)) continue;
+      if (weld.removed(f)) continue;
       const std::uint32_t a = weld.same(weld.face(f)[0]), b = weld.same(weld.face(f)[1]);
       if (a != b) edges_.push_back({a, b, weld.border(f)});
     }
@@ -35,7 +35,7 @@ class RingWalk {
         at_[edge->from] = static_cast<std::uint32_t>(path_.size());
         path_.push_back(edge);
         if (at_[edge->to] == none) continue;
-        take_ring(at_[edge->to]);  // what is left of the path ends at the same vertex
+        close_ring(at_[edge->to]);  // the rest of the path ends at the same vertex
         if (path_.empty()) break;
       }
     }
@@ -44,7 +44,7 @@ class RingWalk {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  /// How far the direction of `out` lies clockwise from the way back along `in`, in (0, 2 pi].
+  /// The angle from the reversed direction of `in` clockwise to the direction of `out`, in (0, 2 pi].
   double clockwise(const Edge& in, const Edge& out) const {
     const double *a = weld_.position(in.from), *v = weld_.position(in.to), *b = weld_.position(out.to);
     const double back[2] = {a[0] - v[0], a[1] - v[1]}, on[2] = {b[0] - v[0], b[1] - v[1]};
@@ -52,8 +52,8 @@ class RingWalk {
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   }
 
-  /// The edge that goes on along the same part of the cell. As many edges start at a vertex as end there,
-  /// so there is one.
+  /// The next edge along the same part of the cell. As many edges start at a vertex as end there, so one
+  /// exists.
   Edge* next(const Edge& in) {
     auto out = std::lower_bound(edges_.begin(), edges_.end(), in.to,
                                 [](const Edge& e, std::uint32_t v) { return e.from < v; });
@@ -65,7 +65,7 @@ class RingWalk {
     return best;
   }
 
-  void take_ring(std::size_t begin) {
+  void close_ring(std::size_t begin) {
     const std::size_t n = path_.size() - begin;
     const auto edge = [&](std::size_t k) -> const Edge& { return *path_[begin + k % n]; };
     const auto stays = [&](std::size_t k) {
@@ -73,7 +73,7 @@ class RingWalk {
     };
     std::size_t corners = 0;
     for (std::size_t k = 0; k < n; ++k) corners += stays(k);
-    // An edge starts at a corner and takes in those that only go on from it; they have its border.
+    // An edge starts at a corner and includes the following ones, which have the same border.
     for (std::size_t k = 0; n > 2 && k < n; ++k) {
       if (corners > 2 && !stays(k)) continue;
       faces_.loop.push_back(edge(k).from);
@@ -87,7 +87,7 @@ class RingWalk {
   const CellWeld& weld_;
   JoinedFaces& faces_;
   std::vector<Edge> edges_;        // by start
-  std::vector<const Edge*> path_;  // no vertex twice
+  std::vector<const Edge*> path_;  // passes no vertex twice
   std::vector<std::uint32_t> at_;  // by vertex: the place in path_ of the edge that starts there
 };
 

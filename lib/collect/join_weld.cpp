@@ -9,11 +9,11 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Corners that share a name are taken for one if rounding in float can have moved them apart by so much
-/// of the domain's diagonal, or if they are nearer than half the facet's extent.
+/// Corresponding corners are welded if they are closer than this times the domain's diagonal, a bound for
+/// rounding in float, or than half the extent of the facet.
 constexpr double float_rounding = 1e-5;
 
-/// Facets left without a partner are sealed within so many times the usual distance of welded corners.
+/// Facets without a partner are sealed within this times the median distance of welded corners.
 constexpr double seal_ratio = 16;
 
 }  // namespace
@@ -22,11 +22,11 @@ CellWeld::CellWeld(const Domain& domain, const Cells& cells)
     : cells_(cells),
       mesh_(domain.mesh()),
       surface_(domain.kind() == DomainKind::surface),
-      size_(0),
+      diagonal_(0),
       rounding_(0) {
   const std::array<double, 3> low = domain.low(), high = domain.high();
   for (std::size_t k = 0; k < 3; ++k) {
-    size_ = std::hypot(size_, high[k] - low[k]);
+    diagonal_ = std::hypot(diagonal_, high[k] - low[k]);
     rounding_ = std::max({rounding_, std::abs(low[k]), std::abs(high[k])});
   }
   rounding_ *= 4 * std::numeric_limits<double>::epsilon();
@@ -41,19 +41,8 @@ CellWeld::CellWeld(const Domain& domain, const Cells& cells)
   }
 }
 
-std::uint32_t CellWeld::root(std::uint32_t v) {
-  while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-  return v;
-}
-
-void CellWeld::unite(std::uint32_t a, std::uint32_t b) {
-  a = root(a);
-  b = root(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
 void CellWeld::unite(const Pairs& pairs) {
-  for (const auto& [a, b] : pairs) unite(a, b);
+  for (const auto& [a, b] : pairs) welded_.unite(a, b);
 }
 
 double CellWeld::distance2(std::uint32_t a, std::uint32_t b) const {
@@ -73,10 +62,9 @@ void CellWeld::gather(std::size_t cell) {
   const std::uint64_t begin = cells_.cell_offset[cell], end = cells_.cell_offset[cell + 1];
   first_vertex_ = cells_.vertex_offset[begin];
   first_face_ = cells_.face_offset[begin];
-  parent_.resize(cells_.vertex_offset[end] - first_vertex_);
-  for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = v;
-  on_interior_.assign(parent_.size(), 0);
-  gone_.assign(cells_.face_offset[end] - first_face_, 0);
+  welded_.reset(cells_.vertex_offset[end] - first_vertex_);
+  on_interior_.assign(welded_.size(), 0);
+  removed_.assign(cells_.face_offset[end] - first_face_, 0);
   corners_.clear();
   face_ = {0};
   piece_ = {0};
@@ -101,7 +89,7 @@ void CellWeld::gather(std::size_t cell) {
   }
 }
 
-/// Pairs each corner of either facet with the nearest of the other; the largest squared distance.
+/// Pairs each corner of either facet with the nearest one of the other. Returns the largest squared distance.
 double CellWeld::pair_nearest(std::uint32_t a, std::uint32_t b, Pairs& pairs) const {
   double most = 0;
   for (const auto& [from, to] : {std::pair{face(a), face(b)}, std::pair{face(b), face(a)}}) {
@@ -116,8 +104,8 @@ double CellWeld::pair_nearest(std::uint32_t a, std::uint32_t b, Pairs& pairs) co
   return most;
 }
 
-/// Pairs the corners of facet a, in order, with those of facet b in the opposite (or the same) order, in the
-/// turn that brings them nearest; where rounding has given one of them an edge more, by distance alone.
+/// Pairs the corners of facet a, in order, with those of facet b in the opposite (or the same) order, with
+/// the rotation that brings them closest. If rounding has given one facet more edges, pairs by distance only.
 /// \return the largest squared distance
 double CellWeld::pair_corners(std::uint32_t a, std::uint32_t b, bool opposite, Pairs& pairs) const {
   pairs.clear();
@@ -130,7 +118,7 @@ double CellWeld::pair_corners(std::uint32_t a, std::uint32_t b, bool opposite, P
   };
   double least = infinite;
   std::size_t best = 0;
-  // Facets of a surface have ends that correspond by direction; a ring of an edge has only that turn.
+  // The ends of an edge correspond by direction, so there is only one rotation.
   for (std::size_t turn = 0; turn < (n == 2 ? 1 : n); ++turn) {
     double most = 0;
     for (std::size_t k = 0; k < n && most < least; ++k)
@@ -146,9 +134,9 @@ double CellWeld::pair_corners(std::uint32_t a, std::uint32_t b, bool opposite, P
   return least;
 }
 
-/// An edge of a surface may be shared by several triangles, each naming the next, in any orientation, so
-/// its partner is whichever edge of the triangle behind it lies nearest.
-void CellWeld::match_sheets(std::uint32_t f, const Facet& facet) {
+/// Several triangles may share an edge of a surface, each with the next one behind it, in any orientation. So
+/// the partner is the nearest edge of the triangle behind.
+void CellWeld::match_surface_edge(std::uint32_t f, const Facet& facet) {
   Pairs pairs, best;
   double least = infinite;
   const auto begin = std::lower_bound(facets_.begin(), facets_.end(), facet.behind,
@@ -161,31 +149,31 @@ void CellWeld::match_sheets(std::uint32_t f, const Facet& facet) {
       best = pairs;
     }
   }
-  const double bound = float_rounding * size_;
+  const double bound = float_rounding * diagonal_;
   if (least <= extent2(f) / 4 + bound * bound) unite(best);
 }
 
-void CellWeld::match_by_name() {
+void CellWeld::match_facets() {
   const auto by_name = [](const Facet& a, const Facet& b) {
     return std::tie(a.region, a.behind, a.face) < std::tie(b.region, b.behind, b.face);
   };
   std::sort(facets_.begin(), facets_.end(), by_name);
   mismatch2_.clear();
   Pairs pairs, best;
-  const double bound = float_rounding * size_;
+  const double bound = float_rounding * diagonal_;
   for (const Facet& facet : facets_) {
     if (surface_) {
-      match_sheets(facet.face, facet);
+      match_surface_edge(facet.face, facet);
       continue;
     }
-    if (facet.region > facet.behind || gone_[facet.face]) continue;
+    if (facet.region > facet.behind || removed_[facet.face]) continue;
     double least = infinite;
     std::uint32_t partner = 0;
     auto other =
         std::lower_bound(facets_.begin(), facets_.end(), Facet{facet.behind, facet.region, 0}, by_name);
     for (; other != facets_.end() && other->region == facet.behind && other->behind == facet.region;
          ++other) {
-      if (gone_[other->face]) continue;
+      if (removed_[other->face]) continue;
       const double apart = pair_corners(facet.face, other->face, true, pairs);
       if (apart >= least) continue;
       least = apart;
@@ -194,27 +182,27 @@ void CellWeld::match_by_name() {
     }
     if (!(least <= std::max(extent2(facet.face), extent2(partner)) / 4 + bound * bound)) continue;
     unite(best);
-    gone_[facet.face] = gone_[partner] = 1;
+    removed_[facet.face] = removed_[partner] = 1;
     mismatch2_.push_back(least);
   }
 }
 
-/// Facets whose partner is missing since the piece behind was too flat to be kept: small ones shrink to a
-/// point, and two that face each other across the missing piece are joined. Larger ones stay.
+/// Closes facets without a partner, because the piece behind was too flat to be kept: shrinks small ones to a
+/// point, and joins two that face each other across the missing piece. Larger ones stay.
 void CellWeld::seal(const std::vector<Facet>& open) {
-  double usual = 0;
+  double median = 0;
   if (!mismatch2_.empty()) {
     const auto middle = mismatch2_.begin() + static_cast<std::ptrdiff_t>(mismatch2_.size() / 2);
     std::nth_element(mismatch2_.begin(), middle, mismatch2_.end());
-    usual = std::sqrt(*middle);
+    median = std::sqrt(*middle);
   }
-  const double within = seal_ratio * std::max(usual, rounding_);
+  const double within = seal_ratio * std::max(median, rounding_);
   std::vector<std::pair<double, std::uint32_t>> by_x;  // least coordinate, face
   for (const Facet& facet : open) {
     const std::span<const std::uint32_t> corners = face(facet.face);
     if (extent2(facet.face) <= within * within) {
-      for (const std::uint32_t v : corners) unite(corners[0], v);
-      gone_[facet.face] = 1;
+      for (const std::uint32_t v : corners) welded_.unite(corners[0], v);
+      removed_[facet.face] = 1;
       continue;
     }
     double x = infinite;
@@ -225,15 +213,15 @@ void CellWeld::seal(const std::vector<Facet>& open) {
   Pairs pairs;
   for (std::size_t a = 0; a < by_x.size(); ++a) {
     for (std::size_t b = a + 1; b < by_x.size() && by_x[b].first <= by_x[a].first + within; ++b) {
-      if (gone_[by_x[a].second] || gone_[by_x[b].second]) continue;
+      if (removed_[by_x[a].second] || removed_[by_x[b].second]) continue;
       if (pair_corners(by_x[a].second, by_x[b].second, true, pairs) > within * within) continue;
       unite(pairs);
-      gone_[by_x[a].second] = gone_[by_x[b].second] = 1;
+      removed_[by_x[a].second] = removed_[by_x[b].second] = 1;
     }
   }
 }
 
-void CellWeld::meet_at_boundary_vertices() {
+void CellWeld::unite_at_boundary_vertices() {
   struct Place {
     std::array<double, 2> vertex;  // of the domain, so equal exactly
     std::uint32_t corner;
@@ -244,7 +232,7 @@ void CellWeld::meet_at_boundary_vertices() {
     const std::size_t begin = piece(p), n = piece(p + 1) - begin;
     for (std::size_t k = 0; k < n; ++k) {
       if (border(begin + k).kind != Border::Kind::boundary) continue;
-      // An edge of the boundary starts or ends in its domain vertex unless a wall cuts it short there.
+      // An edge of the boundary starts and ends in vertices of the domain, except where a wall cuts it.
       const std::array<std::uint32_t, 2> ends = boundary_ends_[border(begin + k).index];
       const bool open[2] = {wall(begin + (k + n - 1) % n), wall(begin + (k + 1) % n)};
       for (std::size_t e = 0; e < 2; ++e)
@@ -255,33 +243,34 @@ void CellWeld::meet_at_boundary_vertices() {
   }
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
   for (std::size_t k = 1; k < places.size(); ++k)
-    if (places[k].vertex == places[k - 1].vertex) unite(places[k].corner, places[k - 1].corner);
+    if (places[k].vertex == places[k - 1].vertex) welded_.unite(places[k].corner, places[k - 1].corner);
 }
 
-void CellWeld::close_short_edges() {
+void CellWeld::unite_short_edges() {
   for (std::size_t f = 0; f < face_count(); ++f) {
     const std::span<const std::uint32_t> corners = face(f);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const std::uint32_t a = corners[k], b = corners[(k + 1) % corners.size()];
-      if (distance2(a, b) <= rounding_ * rounding_) unite(a, b);
+      if (distance2(a, b) <= rounding_ * rounding_) welded_.unite(a, b);
     }
   }
 }
 
 void CellWeld::weld(std::size_t cell) {
   gather(cell);
-  if (!facets_.empty()) match_by_name();
+  if (!facets_.empty()) match_facets();
   if (!surface_) {
     std::vector<Facet> open;
     for (const Facet& facet : facets_)
-      if (!gone_[facet.face]) open.push_back(facet);
+      if (!removed_[facet.face]) open.push_back(facet);
     if (!open.empty()) seal(open);
   }
-  if (!boundary_ends_.empty() && piece_count() > 1) meet_at_boundary_vertices();
-  close_short_edges();
-  for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = root(v);
+  if (!boundary_ends_.empty() && piece_count() > 1) unite_at_boundary_vertices();
+  unite_short_edges();
+  same_.resize(welded_.size());
+  for (std::uint32_t v = 0; v < same_.size(); ++v) same_[v] = welded_.root(v);
   for (const Facet& facet : facets_)
-    for (const std::uint32_t v : face(facet.face)) on_interior_[parent_[v]] = 1;
+    for (const std::uint32_t v : face(facet.face)) on_interior_[same_[v]] = 1;
 }
 
 }  // namespace powercell

@@ -6,20 +6,19 @@
 
 #include "lib/base/threads.hpp"
 #include "lib/base/vector_copies.hpp"
-#include "lib/collect/sort_row.hpp"
 #include "lib/collect/walls.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
+constexpr std::size_t share_count = 4096;  // with fewer ranks, threads cost more than they save
 
-// Vectors of the compiler: it does not find them by itself in loops as short as these.
-typedef std::uint32_t Vector __attribute__((vector_size(WallRow::lanes * sizeof(std::uint32_t))));
+// A vector of the compiler, which does not vectorise such short loops by itself.
+using Vector [[gnu::vector_size(WallRow::lanes * sizeof(std::uint32_t))]] = std::uint32_t;
 static_assert(WallRow::lanes == 8);
 
-/// Where a row has neighbour i, or its count. Without branches that cannot be foreseen, and in whole vectors,
-/// which may reach beyond the neighbours.
+/// The place of neighbour i in a row, or the row's count. Uses no unpredictable branches, and whole vectors,
+/// which may extend beyond the neighbours.
 [[gnu::always_inline]] inline std::size_t find(const WallRow& row, std::uint32_t i) {
   const auto count = static_cast<std::uint32_t>(row.count());
   Vector place = {}, here = {1, 2, 3, 4, 5, 6, 7, 8};  // counted from 1
@@ -33,21 +32,21 @@ static_assert(WallRow::lanes == 8);
   return found == 0 ? count : found - 1;
 }
 
-/// The two sides of a wall, and by how much they differ.
+/// How much the two sides of a wall differ.
 struct Difference {
   double value = 0;
   std::uint32_t from = 0, to = 0;  // ranks
 
-  /// Of equal ones the same is kept in whatever order they are seen.
-  void see(const Difference& other) {
+  /// Keeps the larger one. Of equal ones the result does not depend on the order of calls.
+  void update(const Difference& other) {
     const auto order = [](const Difference& d) { return std::tuple(-d.value, d.from, d.to); };
     if (order(other) < order(*this)) *this = other;
   }
 };
 
-/// Walls that both sides have get the mean, and the sign bit, which no measure has before. Each pair is met
-/// once, by its lower rank, so that threads write to different places, whatever rows those are in. Returns
-/// the largest difference; of equal ones that of the lowest rank, and there of the highest neighbour.
+/// Replaces both sides of a wall by their mean, with the sign bit set to mark the wall as two-sided. The
+/// lower rank of a pair does so, and so threads write to different places. Returns the largest difference; of
+/// equal ones that of the lowest rank, and there of the highest neighbour.
 POWERCELL_VECTOR_COPIES
 Difference average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std::uint32_t first,
                         std::uint32_t last) {
@@ -70,7 +69,7 @@ Difference average_rows(WallRows& rows, const std::vector<std::uint8_t>& ok, std
   return worst;
 }
 
-/// Brings the two sides of each wall together, with the seeds shared between threads.
+/// Combines the two sides of each wall; threads share the seeds.
 class WallMatcher {
  public:
   WallMatcher(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
@@ -109,7 +108,7 @@ class WallMatcher {
   }
 
  private:
-  /// A wall that `from` has with `to`, and `to` not with `from`.
+  /// A wall of `from` with `to` that `to` does not have.
   struct OneSided {
     std::uint32_t to, from;  // ranks
     double measure;          // in the caller's unit
@@ -131,11 +130,11 @@ class WallMatcher {
   void average(std::uint32_t first, std::uint32_t last) {
     const Difference worst = average_rows(rows_, ok_, first, last);
     const std::lock_guard lock(mutex_);
-    worst_.see(worst);
+    worst_.update(worst);
   }
 
-  /// Brings rows into their final form where they are, but for the order: without what is dropped, by input
-  /// index. Sets how long they are, without what only the other side has.
+  /// Drops walls, and replaces ranks by input indices and measures by final ones, in place. Sets the lengths
+  /// of the rows, one-sided walls of other cells not included.
   void finish_rows(std::uint32_t first, std::uint32_t last) {
     std::vector<OneSided> alone;
     for (std::uint32_t i = first; i < last; ++i) {
@@ -152,10 +151,10 @@ class WallMatcher {
     }
     const std::lock_guard lock(mutex_);
     one_sided_.insert(one_sided_.end(), alone.begin(), alone.end());
-    for (const OneSided& wall : alone) worst_.see({wall.measure / unit_, wall.from, wall.to});
+    for (const OneSided& wall : alone) worst_.update({wall.measure / unit_, wall.from, wall.to});
   }
 
-  /// Leaves in a row what stays of it, and notes what only this side has.
+  /// Drops the negligible walls of a row, and appends its one-sided ones to `alone`.
   void drop_walls(std::uint32_t i, std::vector<OneSided>& alone) {
     const WallRow row = rows_.row(i);
     std::vector<std::uint32_t> neighbor;
@@ -163,7 +162,7 @@ class WallMatcher {
     for (std::size_t k = 0; k < row.count(); ++k) {
       const std::uint32_t j = row.neighbors()[k];
       const double here = row.measures()[k];
-      if (here == 0) continue;  // a tie without extent, on both sides
+      if (here == 0) continue;  // two-sided, of measure 0
       if (!std::signbit(here)) {
         if (!ok_[j]) continue;
         if (negligible_ > 0 && !(here > negligible_ * std::max(largest_[i], largest_[j]))) continue;
@@ -177,7 +176,7 @@ class WallMatcher {
     std::copy(measure.begin(), measure.end(), row.measures());
   }
 
-  /// Rows come from all over the memory: those of the seeds to come are asked for ahead.
+  /// Prefetches the rows of the next seeds, which are scattered in memory.
   void fetch_ahead(std::size_t i, std::size_t last) {
     constexpr std::size_t place_ahead = 24, row_ahead = 12, line = 64 / sizeof(std::uint32_t);
     if (i + place_ahead < last && rank_[i + place_ahead] != no_rank)
@@ -189,7 +188,7 @@ class WallMatcher {
     prefetch(row.words + words - 1);
   }
 
-  /// Rows of the result for the input indices [first, last).
+  /// Writes the rows of the input indices [first, last) to the result.
   void write(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       fetch_ahead(i, last);
@@ -204,7 +203,7 @@ class WallMatcher {
     }
   }
 
-  /// A row with what only other cells have with this one.
+  /// Writes a row together with the one-sided walls that other cells have with this one.
   void write_with_one_sided(const WallRow& row, std::uint32_t rank, std::uint32_t* neighbor, double* wall) {
     std::vector<std::uint32_t> neighbors(row.neighbors(), row.neighbors() + row.count());
     std::vector<double> measures(row.measures(), row.measures() + row.count());
@@ -221,10 +220,10 @@ class WallMatcher {
   double unit_, negligible_;
   int threads_;
   std::vector<std::uint8_t> ok_;  // by rank
-  std::vector<double> largest_;   // by rank: its largest wall, where it matters
+  std::vector<double> largest_;   // by rank: the largest wall; empty unless negligible_ > 0
   static constexpr std::uint32_t no_rank = ~std::uint32_t{0};
-  std::vector<std::uint32_t> rank_;  // by input index, no_rank where the cell is empty
-  std::mutex mutex_;                 // guards the two below while ranks are shared
+  std::vector<std::uint32_t> rank_;  // by input index; no_rank if the cell is empty
+  std::mutex mutex_;                 // guards the next two
   Difference worst_;
   std::vector<OneSided> one_sided_;
   Adjacency out_;

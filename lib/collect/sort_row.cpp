@@ -1,5 +1,3 @@
-#include "lib/collect/sort_row.hpp"
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -7,12 +5,13 @@
 #include <vector>
 
 #include "lib/base/vector_copies.hpp"
+#include "lib/collect/walls.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr std::size_t lanes = 8;       // entries that are compared at a time
-constexpr std::size_t short_row = 64;  // up to here comparing all with all is the fastest
+constexpr std::size_t lanes = 8;       // entries compared at a time
+constexpr std::size_t short_row = 64;  // up to this length, comparing all with all is the fastest
 
 bool sort_long(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
                double* sorted_value) {
@@ -35,8 +34,9 @@ POWERCELL_VECTOR_COPIES
 bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, std::uint32_t* sorted_key,
               double* sorted_value) {
   if (count > short_row) return sort_long(key, value, count, sorted_key, sorted_value);
-  // Each entry's place is the number of smaller ones: no branch that could be mispredicted, and the inner
-  // loops are whole vectors. Nothing is read as a vector that was just written in parts, which has to wait.
+  // The place of an entry is the number of smaller ones. That needs no branches, and the inner loops are
+  // whole vectors. `own` and `smaller` are local, since reading vectors just after their parts were written
+  // stalls.
   std::array<std::int32_t, short_row> place;
   for (std::size_t block = 0; block < count; block += lanes) {
     std::array<std::int32_t, lanes> own, smaller{};
@@ -50,7 +50,7 @@ bool sort_row(const std::uint32_t* key, const double* value, std::size_t count, 
   }
   std::size_t sum = 0;
   for (std::size_t k = 0; k < count; ++k) sum += static_cast<std::size_t>(place[k]);
-  const bool equal = 2 * sum + count != count * count;  // two have the same place
+  const bool equal = 2 * sum + count != count * count;  // distinct places sum to count (count - 1) / 2
   for (std::size_t k = 1; equal && k < count; ++k) {
     std::int32_t before = 0;
     for (std::size_t m = 0; m < k; ++m) before += key[m] == key[k] ? 1 : 0;

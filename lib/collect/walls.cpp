@@ -4,12 +4,11 @@
 
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
-#include "lib/collect/sort_row.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 2048;  // pairs; below, threads cost more than they save
+constexpr std::size_t share_count = 2048;  // with fewer pairs, threads cost more than they save
 constexpr std::uint32_t no_rank = ~std::uint32_t{0};
 
 bool has_walls(const PieceSet& pieces, std::size_t pair) {
@@ -35,7 +34,7 @@ WallRows::WallRows(std::size_t ranks, std::size_t parts, Memory memory)
 WallRow WallRows::add(std::size_t part, std::uint32_t rank, std::size_t count) {
   GrowingArray<std::uint32_t>& words = memory_[part];
   const std::size_t first = words.size();
-  // The rows so far tell about how many words there will be; where nothing is written no memory is taken.
+  // Estimates the number of words from the rows so far. Pages that are never written take no memory.
   const double ranks = static_cast<double>(place_.size()), so_far = static_cast<double>(rank) + 1;
   words.resize(first + WallRow::words_for(count), std::clamp(1.05 * ranks / so_far, 1.25, 4.0));
   place_[rank].part = part & 0xffff;
@@ -58,7 +57,7 @@ void WallCollector::reopen(std::uint32_t rank) {
   open_rank_ = open_neighbor_.empty() ? no_rank : rank;
 }
 
-void WallCollector::share_out(std::span<const std::uint32_t> pair_seed) {
+void WallCollector::divide(std::span<const std::uint32_t> pair_seed) {
   const std::size_t pairs = pair_seed.size();
   const std::size_t wanted = pairs < share_count ? 1 : static_cast<std::size_t>(std::max(threads_, 1));
   parts_.resize(wanted);
@@ -78,7 +77,7 @@ void WallCollector::OpenRow::add(const std::int32_t* border, const double* wall,
     measure.resize(size + count);
   }
   for (std::size_t f = 0; f < count; ++f) {
-    neighbor[size] = static_cast<std::uint32_t>(border[f]);  // the next overwrites what is no wall
+    neighbor[size] = static_cast<std::uint32_t>(border[f]);  // overwritten by the next one if not a wall
     measure[size] = wall[f];
     size += border[f] >= 0 ? 1 : 0;
   }
@@ -94,7 +93,7 @@ void WallCollector::add_row(std::size_t part, std::uint32_t rank, const PieceBat
   for (std::size_t f = 0; f < faces; ++f) {
     if (border[f] < 0) continue;
     const auto neighbor = static_cast<std::uint32_t>(border[f]);
-    const bool is_lower = neighbor < rank;  // as likely as not
+    const bool is_lower = neighbor < rank;  // unpredictable, so without branches
     higher -= is_lower ? 0 : 1;
     const std::size_t k = is_lower ? lower : higher;
     lower += is_lower ? 1 : 0;
@@ -113,7 +112,7 @@ void WallCollector::close_row(std::size_t part, std::uint32_t rank) {
   }
   std::size_t count = open.size;
   if (sort_row(open.neighbor.data(), open.measure.data(), open.size, neighbor.data(), measure.data())) {
-    // Sums run in the order of the pairs, so chunks do not change a bit of them.
+    // Sums are in the order of the pairs, so their bits do not depend on the chunks.
     count = 1;
     for (std::size_t k = 1; k < open.size; ++k) {
       if (neighbor[count - 1] == neighbor[k]) {
@@ -156,7 +155,7 @@ void WallCollector::fill(std::size_t part, std::span<const std::uint32_t> pair_s
 void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
   if (pair_seed.empty()) return;
   reopen(pair_seed.front());
-  share_out(pair_seed);
+  divide(pair_seed);
   parallel_for(static_cast<int>(parts_.size()), parts_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) fill(p, pair_seed, pieces);
   });

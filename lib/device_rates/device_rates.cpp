@@ -7,15 +7,15 @@
 namespace powercell {
 namespace {
 
-constexpr int launches = 5;      // timed ones; the best counts
-constexpr double enough = 0.03;  // seconds of a launch that clocks can tell; no watchdog minds
-constexpr std::size_t buffer_limit = std::size_t{256} << 20;  // beyond the caches of today's devices
-constexpr std::size_t items_per_unit = 2048;                  // work-items that fill a unit of a GPU
+constexpr int launches = 5;      // timed launches; the best counts
+constexpr double enough = 0.03;  // seconds of a launch: clocks resolve it, watchdogs allow it
+constexpr std::size_t buffer_limit = std::size_t{256} << 20;  // bytes: exceeds the caches of today's devices
+constexpr std::size_t items_per_unit = 2048;                  // work-items that fill a compute unit of a GPU
 
 using ContextPointer = std::shared_ptr<cl::Context>;
 using ProgramPointer = std::shared_ptr<const cl::Program>;
 
-// The best rate of some launches, each of `amount`.
+// The best rate over several launches, each of which does `amount`.
 double best_rate(const cl::Context& context, cl::Kernel& kernel, std::size_t items, double amount) {
   double best = 0;
   for (int k = 0; k < launches; ++k) {
@@ -24,18 +24,18 @@ double best_rate(const cl::Context& context, cl::Kernel& kernel, std::size_t ite
     if (seconds > 0) best = std::max(best, amount / seconds);
   }
   if (best > 0) return best;
-  throw Error(ErrorCode::opencl, "the clock of the device " + context.info().name +
-                                     " does not tell how long a kernel ran; its rates cannot be measured");
+  throw Error(ErrorCode::opencl, "device " + context.info().name +
+                                     " reports no time for a kernel; its rates cannot be measured");
 }
 
 void require_no_fault(const cl::Context& context, const std::string& fault) {
   if (fault.empty()) return;
   throw Error(ErrorCode::self_test_failed,
-              "the device " + context.info().name + " computes wrongly: " + fault +
+              "device " + context.info().name + " computes wrong results: " + fault +
                   "; update its driver or choose another device (POWERCELL_DEVICE or --device)");
 }
 
-// In pieces, so that the host needs little memory beside.
+// Downloads in parts, so that the host needs little memory.
 template <class T>
 void check_copy(const cl::Context& context, const cl::Buffer<T>& copied) {
   std::vector<T> part(std::min<std::size_t>(copied.size(), std::size_t{1} << 20));

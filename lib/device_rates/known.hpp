@@ -9,10 +9,10 @@
 
 namespace powercell {
 
-/// Most rounds for which the sums of the chains are exact in single precision.
+/// The largest number of rounds for which the sums of the chains are exact in single precision.
 constexpr std::uint32_t most_chain_rounds = 1u << 17;
 
-/// Small whole numbers that differ between neighbours. T is float or double, here and below.
+/// Small integers, different for neighbouring elements. T is float or double, here and below.
 template <class T>
 std::vector<T> chain_starts(std::size_t count) {
   std::vector<T> start(count);
@@ -20,7 +20,7 @@ std::vector<T> chain_starts(std::size_t count) {
   return start;
 }
 
-/// What is wrong with the sums after that many rounds of x <- x * 1 + 1; empty if they are right.
+/// Describes the first wrong sum after `rounds` rounds of x <- x * 1 + 1; empty if all are right.
 template <class T>
 std::string chain_fault(std::span<const T> start, std::span<const T> sums, std::uint32_t rounds) {
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -37,13 +37,13 @@ std::string chain_fault(const std::vector<T>& start, const std::vector<T>& sums,
   return chain_fault(std::span<const T>(start), std::span<const T>(sums), rounds);
 }
 
-/// What is wrong with the part of the copy that starts at number `first`; empty if it is right.
+/// Describes the first wrong element of the part of the copy that starts at `first`; empty if all are right.
 template <class T>
 std::string copy_fault(const std::vector<T>& part, std::size_t first) {
   for (std::size_t i = 0; i < part.size(); ++i) {
     const T right = static_cast<T>((first + i) % 8191);
     if (!(part[i] == right))
-      return "number " + std::to_string(first + i) + " of a copy is " + std::to_string(part[i]) + ", not " +
+      return "element " + std::to_string(first + i) + " of a copy is " + std::to_string(part[i]) + ", not " +
              std::to_string(right);
   }
   return {};

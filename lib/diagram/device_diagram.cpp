@@ -6,7 +6,7 @@
 
 #include "kernels/layout.h"
 #include "lib/clip/golden.hpp"
-#include "lib/diagram/state.hpp"
+#include "lib/diagram/setup.hpp"
 #include "lib/scene/variant.hpp"
 
 namespace powercell {
@@ -21,10 +21,10 @@ static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
 static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
 static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
 
-/// Pairs of one launch, unless options say otherwise: short enough for a display driver's watchdog.
+/// Pairs of one launch, unless Options::chunk_pairs is set: short enough for a display driver's watchdog.
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
-/// Its arguments from here on are those of the search.
+/// The first of its arguments that belong to the search.
 constexpr unsigned tree_argument = 16;
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
@@ -32,7 +32,7 @@ Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
           OUTPUT_MOMENTS};
 }
 
-/// Of the kernels that hold no cell.
+/// The defines of kernels that hold no cell.
 std::vector<std::string> plain_defines(const Domain& domain, Precision precision) {
   return variant(domain, precision, {1, 1}).defines();
 }
@@ -44,7 +44,7 @@ cl::Buffer<Real> uploaded(const Device& device, const std::vector<double>& value
   return buffer;
 }
 
-/// Computes the known diagram (lib/clip/golden.hpp) in device memory, beginning with one rung.
+/// Computes the golden diagram (lib/clip/golden.hpp) in device memory. \throw Error self_test_failed
 template <class Real>
 void run_golden(DeviceDiagram::State& state, const Variant& variant) {
   const SeedSet seeds = golden_seeds(variant.dimension);
@@ -62,12 +62,13 @@ void run_golden(DeviceDiagram::State& state, const Variant& variant) {
     require_golden(*state.device.context(), clip_file, variant, seeds.input[i], rows[i * columns]);
 }
 
-/// A program that a driver miscompiles is refused, not believed. \throw Error self_test_failed
-void test_rung(const Device& device, const Variant& variant, std::size_t rung) {
+/// Computes the golden diagram with one capacity, to detect drivers that miscompile its program.
+/// \throw Error self_test_failed
+void test_capacity(const Device& device, const Variant& variant, std::size_t capacity) {
   Options options;
   options.precision = variant.float32 ? Precision::float32 : Precision::float64;
   DeviceDiagram::State state(device, Domain(std::make_shared<RegionMesh>(golden_mesh(variant))), options);
-  state.first_rung = rung;
+  state.first_capacity = capacity;
   variant.float32 ? run_golden<float>(state, variant) : run_golden<double>(state, variant);
 }
 
@@ -78,12 +79,12 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       domain(std::move(domain_in)),
       options(std::move(options_in)),
       precision(choose_precision(device, options.precision)),
-      scene(device.context(), domain.mesh(), precision == Precision::float32),
+      domain_buffers(device.context(), domain.mesh(), precision == Precision::float32),
       frame_(device.context()),
       seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
       tree_(device.context(), plain_defines(domain, precision)),
       blocks_(device.context(), variant(domain, precision, {1, 1})),
-      pairs_(scene, plain_defines(domain, precision)),
+      pairs_(domain_buffers, plain_defines(domain, precision)),
       compaction_(device.context()),
       finish_(device.context(),
               device.context()->program("diagram/finish.cl", plain_defines(domain, precision)),
@@ -93,22 +94,23 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       found_(device.context()),
       moments_(device.context()) {
   upload_frame();
-  for (std::size_t rung = 0; rung < capacities(domain.cell_dimension()).size(); ++rung) add_rung(rung);
+  for (std::size_t capacity = 0; capacity < capacities(domain.cell_dimension()).size(); ++capacity)
+    add_capacity(capacity);
 }
 
-void DeviceDiagram::State::add_rung(std::size_t rung) {
-  const Variant rung_variant = variant(domain, precision, capacities(domain.cell_dimension())[rung]);
-  auto program = device.context()->program(clip_file, rung_variant.defines());
-  program->trust_after([&] { test_rung(device, rung_variant, rung); });
+void DeviceDiagram::State::add_capacity(std::size_t capacity) {
+  const Variant used = variant(domain, precision, capacities(domain.cell_dimension())[capacity]);
+  auto program = device.context()->program(clip_file, used.defines());
+  program->trust_after([&] { test_capacity(device, used, capacity); });
   clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
 }
 
 void DeviceDiagram::State::upload_frame() {
-  const Frame& frame = scene.frame();
+  const Frame& frame = domain_buffers.frame();
   const auto fits = [](double x) { return std::isnormal(static_cast<float>(x)); };
   if (frame.split && !(fits(frame.scale) && fits(1 / frame.scale) && fits(domain.measure())))
     throw Error(ErrorCode::unsupported,
-                "the size or measure of the domain is not in the range of single precision; choose "
+                "the size or measure of the domain is outside the range of single precision; choose "
                 "Precision::float64");
   std::array<double, FRAME_SIZE> numbers{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -139,16 +141,17 @@ TreeBlocks::Tree DeviceDiagram::State::device_tree(std::uint32_t n) const {
           tree_.levels()};
 }
 
-void DeviceDiagram::State::clip_rung(std::size_t rung, bool listed, std::uint32_t n) {
+void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uint32_t n) {
   const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : default_launch_pairs;
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
-    clip_[rung].args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
-                     seeds_.state, scene.corners, scene.region_offset, scene.region_vertex, scene.behind,
-                     scene.shape, piece_status_, moments_);
-    blocks_.set_arguments(clip_[rung], tree_argument, device_tree(n));
-    clip_[rung].submit(end - first);
+    clip_[capacity].args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
+                         seeds_.state, domain_buffers.corners, domain_buffers.region_offset,
+                         domain_buffers.region_vertex, domain_buffers.behind, domain_buffers.shape,
+                         piece_status_, moments_);
+    blocks_.set_arguments(clip_[capacity], tree_argument, device_tree(n));
+    clip_[capacity].submit(end - first);
   }
 }
 
@@ -160,10 +163,10 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
   found_.resize(1);
   moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real);
   piece_status_.zero();
-  clip_rung(first_rung, false, n);
-  for (std::size_t rung = first_rung + 1; rung < clip_.size(); ++rung) {
+  clip_with(first_capacity, false, n);
+  for (std::size_t capacity = first_capacity + 1; capacity < clip_.size(); ++capacity) {
     compaction_.enqueue(piece_status_.handle(), pairs_.capacity, PIECE_FULL, list_.handle(), found_.handle());
-    clip_rung(rung, true, n);
+    clip_with(capacity, true, n);
   }
 }
 

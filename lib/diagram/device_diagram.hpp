@@ -1,5 +1,5 @@
 /// \file
-/// The pipeline from device memory to device memory. Internal.
+/// The pipeline of a DeviceDiagram, from device memory to device memory. Internal.
 #pragma once
 
 #include <powercell/opencl.hpp>
@@ -20,18 +20,18 @@ struct DeviceDiagram::State {
   Domain domain;
   Options options;
   Precision precision;
-  Scene scene;
-  std::uint32_t pair_capacity = 0;  // 0: as many as there are
-  std::size_t first_rung = 0;       // of the capacity ladder
+  DomainBuffers domain_buffers;
+  std::uint32_t pair_capacity = 0;  // 0: as many as needed
+  std::size_t first_capacity = 0;   // number of the smallest capacity to use
 
  private:
   void upload_frame();
-  /// The program of a rung; computes a known diagram with it if it has not yet.
-  void add_rung(std::size_t rung);
+  /// Builds the program of a capacity, tested with the golden diagram before its first use.
+  void add_capacity(std::size_t capacity);
   TreeBlocks::Tree device_tree(std::uint32_t n) const;
   void clip(std::uint32_t n);
-  /// One rung over all pairs, or over those listed.
-  void clip_rung(std::size_t rung, bool listed, std::uint32_t n);
+  /// Launches one capacity over all pairs, or over those in list_.
+  void clip_with(std::size_t capacity, bool listed, std::uint32_t n);
 
   cl::RawBuffer frame_;
   DeviceSeeds seeds_;
@@ -40,7 +40,7 @@ struct DeviceDiagram::State {
   DevicePairs pairs_;
   Compaction compaction_;
   cl::Kernel finish_;
-  std::vector<cl::Kernel> clip_;  // per rung
+  std::vector<cl::Kernel> clip_;  // by number of the capacity
   cl::Buffer<std::uint32_t> piece_status_, list_, found_;
   cl::RawBuffer moments_;
 };

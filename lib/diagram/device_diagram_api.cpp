@@ -15,19 +15,20 @@ T memory_value(cl_mem memory, cl_mem_info which, const char* name) {
   return value;
 }
 
-/// A buffer of the caller must be there, of our context, and hold `bytes`.
+/// \throw Error invalid_argument unless the caller's buffer exists, belongs to the device's context and has
+///        at least `bytes` bytes
 void require_buffer(const cl::Context& context, cl_mem memory, std::size_t bytes, const char* name) {
   if (!memory) throw Error(ErrorCode::invalid_argument, std::string("the buffer of ") + name + " is null");
   if (memory_value<cl_context>(memory, CL_MEM_CONTEXT, name) != context.context())
     throw Error(ErrorCode::invalid_argument,
                 std::string("the buffer of ") + name +
-                    " is of another context than the device's queue; make the device "
+                    " belongs to another context than the device's queue; make the device "
                     "with device_from_queue on a queue of the buffer's context");
   const auto size = memory_value<std::size_t>(memory, CL_MEM_SIZE, name);
   if (size < bytes)
     throw Error(ErrorCode::invalid_argument, std::string("the buffer of ") + name + " has " +
-                                                 std::to_string(size) + " bytes, " + std::to_string(bytes) +
-                                                 " are needed");
+                                                 std::to_string(size) + " bytes; it needs " +
+                                                 std::to_string(bytes));
 }
 
 }  // namespace
@@ -35,8 +36,8 @@ void require_buffer(const cl::Context& context, cl_mem memory, std::size_t bytes
 DeviceDiagram::DeviceDiagram(Device device, Domain domain, Options options) {
   if (options.neighbors == Neighbors::flann)
     throw Error(ErrorCode::unsupported,
-                "neighbour lists come from FLANN on the host; a diagram in device memory has the tree only: "
-                "use Neighbors::tree, or Diagram");
+                "FLANN makes neighbour lists on the host, so a diagram in device memory cannot use them; use "
+                "Neighbors::tree, or Diagram");
   state_ = std::make_unique<State>(std::move(device), std::move(domain), std::move(options));
 }
 DeviceDiagram::DeviceDiagram(DeviceDiagram&&) noexcept = default;
@@ -73,7 +74,7 @@ void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, c
     require_buffer(context, measures, n * (2 + d) * real, "measures");
     require_buffer(context, status, n * sizeof(cl_uint), "status");
   }
-  // The queue is in order: what comes after this barrier waits for the caller's events too.
+  // The queue is in order, so all later commands wait for the caller's events too.
   if (wait_count > 0)
     cl::check(clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
               "enqueueing a barrier for the caller's events");
@@ -82,7 +83,7 @@ void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, c
   else if (done)
     cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
   const cl_int flushed = clFlush(context.queue());
-  if (flushed != CL_SUCCESS && done) {  // an exception hands out no event
+  if (flushed != CL_SUCCESS && done) {  // callers get no event with an exception
     clReleaseEvent(*done);
     *done = nullptr;
   }

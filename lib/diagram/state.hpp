@@ -1,85 +1,54 @@
 /// \file
-/// What a Diagram keeps between calls.
+/// The state of a Diagram: a chain of values, each made from those before it. Internal.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <powercell/diagram.hpp>
-#include <span>
 #include <vector>
 
-#include "lib/clip/clipper.hpp"
-#include "lib/collect/walls.hpp"
-#include "lib/neighbors/candidates.hpp"
-#include "lib/pairs/enumerate.hpp"
-#include "lib/scene/scene.hpp"
+#include "lib/diagram/clip.hpp"
 
 namespace powercell {
 
-/// The precision that the option means on this device. \throw Error no_fp64
-Precision choose_precision(const Device& device, Precision asked);
-
 struct Diagram::State {
-  Device device;
-  Domain domain;
-  Options options;
-  Precision precision;
-  Neighbors neighbors;
-  RegionMesh clip_mesh;  // where cells can be wholly inside: the regions and a container behind them
-  Scene scene;
+  Setup setup;
+  std::optional<Input> input;
+  std::optional<Active> active;             // of the input
+  std::optional<Plan> integrals, geometry;  // of the active seeds, by PlanKind
 
-  SeedSet seeds;
-  std::optional<SeedSet> rest;  // `seeds` without those known to be hidden, if these are many
-  // Of the duplicates, which `seeds` has not, in their order.
-  std::vector<double> duplicate_positions, duplicate_weights;
-  bool given = false;    // set_seeds has been called
-  bool sifted = false;   // `rest` belongs to the weights
-  bool ordered = false;  // the tree and its boxes on the device belong to the positions
-  bool paired = false;   // the pairs belong to the positions, and to some weights
-  bool ready = false;    // tree, pairs, candidates and device buffers belong to the positions and weights
-  PackedTree tree;
-  std::optional<PairFinder> finder;
-  Pairs pairs;
-  bool whole_cells = false;              // pairs take cells inside the domain as wholes
-  std::vector<std::uint32_t> not_whole;  // ranks of cells that turned out to need their regions
-  std::unique_ptr<Candidates> candidates;
-  std::optional<ClipMemory> clip_memory;  // of the last pass, if it is little
-  WallRows::Memory wall_memory;           // the same
+  struct Results {
+    std::optional<Measures> measures;
+    std::optional<Adjacency> adjacency;
+    std::optional<Cells> cells;
+    std::optional<Dual> dual;
+  } results;
   Timings timings;
 
-  std::optional<Measures> measures;
-  std::optional<Adjacency> adjacency;
-  std::optional<Cells> cells;
-  std::optional<Dual> dual;
+  // Memory reused by the next values.
+  SeedBuffers seed_buffers;
+  std::optional<PackedTree> tree;  // of the last active seeds, while the positions are the same
+  Workspace workspace;
 
-  State(Device device, Domain domain, Options options);
-  void forget_results();
-  /// The seeds that may have cells: the pipeline works on their ranks.
-  const SeedSet& contenders() const { return rest ? *rest : seeds; }
-  /// Sets aside the seeds that are known to be hidden, if there are many. Tree and seeds are on the device
-  /// afterwards.
-  void sift(int threads);
-  /// Tree and device buffers for the contenders.
-  void upload(int threads);
-  /// Tree, pairs, device buffers and candidate source for the present seeds and weights.
-  /// \param want_regions  every cell is to be cut along the regions
-  void prepare(bool want_regions);
-  void find_pairs(bool want_regions);
-  std::unique_ptr<Candidates> make_candidates() const;
-  /// Whether whole cells tell the pairs, and their walls the candidates.
-  bool cells_come_first(bool want_regions) const;
-  void find_pairs_by_cells();
-  /// Clips all pairs once; again where cells turn out to need their regions.
-  void pass(bool want_adjacency, bool want_cells);
-  /// Returns whether that was all.
-  bool pass_once(bool want_adjacency, bool want_cells);
-  /// Takes the weights of ranks so far down that nothing is left of their cells.
-  void silence(std::span<const std::uint32_t> ranks);
-  /// Throws unless the results keep their laws, and forgets them then.
+  State(Device device, Domain domain, Options options)
+      : setup(std::move(device), std::move(domain), std::move(options)),
+        seed_buffers(setup.device.context()) {}
+
+  void set_seeds(const SeedsView& seeds);
+  void set_weights(std::span<const double> weights);
+  /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
+  void compute(Wanted want);
+  const Dual& dual();
+
+ private:
+  /// Discards everything that depends on the seeds, except their tree.
+  void retire_active();
+  Plan& plan(PlanKind kind);
+  /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
+  void pass(PlanKind kind, Wanted want);
+  Clipped clip_once(PlanKind kind, Wanted want);
+  void compute_missing(Wanted want);
+  /// Checks the laws of the results; discards the results if one fails. \throw Error internal
   void certify();
-  void log_run() const;
-  /// Clips all pairs and fills measures, and adjacency and cells where asked.
-  void run(bool want_adjacency, bool want_cells);
 };
 
 }  // namespace powercell

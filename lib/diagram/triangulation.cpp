@@ -19,10 +19,10 @@
 namespace powercell {
 namespace {
 
-/// Half the side of the box on the device, in extents of the seeds: few cells inside leave it.
-constexpr double near_room = 2;
-/// The same of the box on the host: 2^80.
-constexpr double far_room = 0x1p80;
+/// Half the side of the box for the device, in extents of the seeds. Few inner cells leave it.
+constexpr double near_half_side = 2;
+/// The same for the box on the host.
+constexpr double far_half_side = 0x1p80;
 
 struct Extent {
   std::vector<double> middle;
@@ -41,67 +41,64 @@ struct Extent {
     }
   }
 
-  /// Of the boxes around the seeds measures would leave the range of doubles.
+  /// \throw Error invalid_argument if measures of the boxes would leave the range of doubles
   void check() const {
     double near = 0, far = 0;
     for (const double x : middle) {
-      near = std::max(near, std::abs(x) + near_room * size);
-      far = std::max(far, std::abs(x) + far_room * size);
+      near = std::max(near, std::abs(x) + near_half_side * size);
+      far = std::max(far, std::abs(x) + far_half_side * size);
     }
     if (near >= 1e-100 && far <= 1e100) return;
-    throw Error(
-        ErrorCode::invalid_argument,
-        "the seeds extend over " + digits(size, 3) +
-            ": a triangulation is made of those with coordinates from 1e-100 to 1e100 that extend over 8e75 "
-            "at most; scale them");
+    throw Error(ErrorCode::invalid_argument, "the seeds extend over " + digits(size, 3) +
+                                                 "; a triangulation needs coordinates from 1e-100 to 1e100 "
+                                                 "and an extent of at most 8e75; scale them");
   }
 
-  Domain box(double room) const {
+  Domain box(double half_side) const {
     std::vector<double> low, high;
     for (const double x : middle) {
-      low.push_back(x - room * size);
-      high.push_back(x + room * size);
+      low.push_back(x - half_side * size);
+      high.push_back(x + half_side * size);
     }
     return Domain::box(low, high);
   }
 };
 
-/// Seeds as the frame of the far box has them: its scale takes numbers that are some 280 orders of magnitude
-/// below the extent beyond the range of doubles, where the near box still tells them apart.
+/// The seeds after rounding in the frame of the far box, so that both boxes see the same seeds. Its scale
+/// makes numbers underflow that are some 280 orders of magnitude below the extent.
 struct FarSeeds {
   std::vector<double> positions, weights;
 
   FarSeeds(const SeedsView& seeds, const Extent& extent)
       : positions(seeds.positions.begin(), seeds.positions.end()),
         weights(seeds.weights.begin(), seeds.weights.end()) {
-    const Frame frame = Frame::of(extent.box(far_room).mesh(), false);
+    const Frame frame = Frame::of(extent.box(far_half_side).mesh(), false);
     for (double& x : positions) x = frame.to_device(x, 0) / frame.scale;
     for (double& w : weights) w = frame.weight_to_device(w) / frame.scale / frame.scale;
   }
 };
 
-/// Cells clipped on the host in the far box, from those that leave the near one outwards.
+/// Clips cells on the host in the far box: those that leave the near box, and from them outwards.
 class OuterCells {
  public:
   OuterCells(const Device& device, const Extent& extent, const SeedSet& seeds, int threads)
       : threads_(threads),
         seeds_(seeds),
         tree_(build_packed_tree(seeds_, threads)),
-        domain_(extent.box(far_room)),
-        scene_(device.context(), domain_.mesh(), false),
-        known_(seeds_.size(), false) {
-    scene_.set_seeds(seeds_, tree_);
-    host_ = make_host_scene(scene_);
-  }
+        domain_(extent.box(far_half_side)),
+        scene_(device.context(), domain_.mesh(), false, seeds_, tree_),
+        host_(make_host_scene(scene_.scene)),
+        known_(seeds_.size(), false) {}
 
+  /// Appends the simplices of the outer cells as rows of seed indices.
   /// \param inside  per seed as given: its cell is known and does not leave the near box
-  /// Appends rows of seed indices.
+  /// \param leaves  per seed as given: its cell leaves the near box
   void collect(const std::vector<bool>& inside, const std::vector<bool>& leaves,
                std::vector<std::uint32_t>& rows) {
     std::vector<std::uint32_t> front;
     for (std::uint32_t rank = 0; rank < seeds_.size(); ++rank) {
       known_[rank] = inside[seeds_.input[rank]];
-      if (leaves[seeds_.input[rank]]) reach(rank, front);
+      if (leaves[seeds_.input[rank]]) visit_once(rank, front);
     }
     while (!front.empty()) {
       std::vector<Piece> pieces(front.size());
@@ -115,7 +112,7 @@ class OuterCells {
       for (std::size_t k = 0; k < front.size(); ++k) {
         if (pieces[k].status == PIECE_EMPTY) continue;
         for (const std::int32_t border : pieces[k].row.border)
-          if (border >= 0) reach(static_cast<std::uint32_t>(border), next);
+          if (border >= 0) visit_once(static_cast<std::uint32_t>(border), next);
         add_corners(front[k], pieces[k].row, rows);
       }
       front = std::move(next);
@@ -128,7 +125,7 @@ class OuterCells {
     PieceBatch row;
   };
 
-  void reach(std::uint32_t rank, std::vector<std::uint32_t>& front) {
+  void visit_once(std::uint32_t rank, std::vector<std::uint32_t>& front) {
     if (known_[rank]) return;
     known_[rank] = true;
     front.push_back(rank);
@@ -136,7 +133,7 @@ class OuterCells {
 
   void add_row(std::uint32_t rank, std::initializer_list<std::int32_t> borders,
                std::vector<std::uint32_t>& rows) const {
-    if (*std::min_element(borders.begin(), borders.end()) < 0) return;  // a corner at the box
+    if (*std::min_element(borders.begin(), borders.end()) < 0) return;  // a corner on the box
     rows.push_back(seeds_.input[rank]);
     for (const std::int32_t border : borders)
       rows.push_back(seeds_.input[static_cast<std::uint32_t>(border)]);
@@ -159,12 +156,12 @@ class OuterCells {
   const SeedSet& seeds_;
   PackedTree tree_;
   Domain domain_;
-  Scene scene_;
+  OwnScene scene_;
   HostScene host_;
   std::vector<bool> known_;
 };
 
-/// Which cells meet the boundary of the domain.
+/// Per cell, whether it meets the boundary of the domain.
 std::vector<bool> at_boundary(const Cells& cells) {
   std::vector<bool> at(cells.cell_count(), false);
   for (std::size_t i = 0; i < cells.cell_count(); ++i)
@@ -181,7 +178,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
     throw Error(ErrorCode::invalid_argument,
                 "a triangulation needs seeds of 2 or 3 coordinates, not " + std::to_string(seeds.dimension));
   const int threads = thread_count(options.threads);
-  make_seed_set(seeds, seeds.dimension, threads);  // refuses what is not finite before anything is made of it
+  make_seed_set(seeds, seeds.dimension, threads);  // validates the seeds before their extent is computed
   Dual none;
   none.corners = seeds.dimension + 1;
   if (seeds.size() < static_cast<std::size_t>(none.corners)) return none;
@@ -192,7 +189,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   const SeedsView rounded{seeds.dimension, far.positions, far.weights};
   Options exact = options;
   exact.decisions = Decisions::exact;
-  Diagram diagram(device, extent.box(near_room), exact);
+  Diagram diagram(device, extent.box(near_half_side), exact);
   diagram.set_seeds(rounded);
   diagram.compute(false, true);
   const std::vector<bool> leaves = at_boundary(diagram.cells());
@@ -200,7 +197,7 @@ Dual regular_triangulation(const Device& device, const SeedsView& seeds, const O
   for (std::size_t i = 0; i < inside.size(); ++i)
     inside[i] = diagram.measures().status[i] == SeedStatus::ok && !leaves[i];
   std::vector<std::uint32_t> rows;
-  OuterCells(device, extent, diagram.state().seeds, threads).collect(inside, leaves, rows);
+  OuterCells(device, extent, diagram.state().input->seeds, threads).collect(inside, leaves, rows);
   return extend_dual(diagram.dual(), rows, rounded);
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// Which facets of regions are the same: by sorting, linear in memory and near-linear in time.
+/// Finds the facets that regions share, by sorting: linear in memory, near-linear in time. Internal.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace powercell {
+#include "lib/domain/region_mesh.hpp"
 
-/// For each vertex the first one, in coordinate order, at the same position (-0 equals 0).
-/// \param vertices nv x dimension, row-major, no NaN
-std::vector<std::uint32_t> weld(std::span<const double> vertices, int dimension);
+namespace powercell {
 
 /// One facet of a region: its N vertices ascending, and the slot in RegionMesh::facet.
 template <std::size_t N>
@@ -22,8 +20,8 @@ struct FacetKey {
   friend auto operator<=>(const FacetKey&, const FacetKey&) = default;
 };
 
-/// Sorts the keys and calls `group(first, last)` for each run of facets with the same vertices; within
-/// a run slots ascend.
+/// Sorts the keys and calls `group` with each run of facets that have the same vertices; slots ascend in a
+/// run.
 template <std::size_t N, class Group>
 void for_each_shared(std::vector<FacetKey<N>>& keys, Group&& group) {
   std::sort(keys.begin(), keys.end());
@@ -34,5 +32,8 @@ void for_each_shared(std::vector<FacetKey<N>>& keys, Group&& group) {
     first = last;
   }
 }
+
+/// Numbers the facets whose kind is `boundary`, in the order of their slots.
+void number_boundary(RegionMesh& mesh);
 
 }  // namespace powercell

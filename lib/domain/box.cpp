@@ -25,7 +25,7 @@ void check_corners(std::span<const double> low, std::span<const double> high) {
   }
 }
 
-/// All facets bound the domain, numbered as they come.
+/// Makes the mesh one region whose facets all bound the domain, numbered in order.
 void close_single_region(RegionMesh& mesh, std::uint32_t facets) {
   const auto corners = static_cast<std::uint32_t>(mesh.vertices.size()) / mesh.dimension;
   mesh.region_offset = {0, corners};

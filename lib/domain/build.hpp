@@ -1,5 +1,5 @@
 /// \file
-/// The constructors of region meshes behind Domain's, one file each.
+/// The constructors of region meshes, one file each. Internal.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,18 @@ namespace powercell {
 
 using RegionMeshPtr = std::shared_ptr<const RegionMesh>;
 
-/// Each as the function of Domain with the same name.
+/// The mesh behind the function of Domain with the same name.
 RegionMeshPtr build_box(std::span<const double> low, std::span<const double> high);
 RegionMeshPtr build_polygon(std::span<const PolygonPart> parts);
 RegionMeshPtr build_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
+
+/// The mesh of a list of triangles (`corners` 3) or tetrahedra (4), without borders. Leaves out flat
+/// simplices and swaps the last two corners of negative ones.
+/// \param signed_measure  the area or volume of the simplex with these corners, 0 if it is flat
+/// \throw Error invalid_domain: wrong arrays, all simplices flat, coordinates or measure out of range
+std::shared_ptr<RegionMesh> simplex_mesh(std::span<const double> vertices,
+                                         std::span<const std::uint32_t> simplices, int corners,
+                                         long double (*signed_measure)(const double* const* corner));
 
 }  // namespace powercell

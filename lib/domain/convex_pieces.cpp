@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 #include "lib/domain/triangulation.hpp"
 
 namespace powercell {
 namespace {
 
-/// No turn to the right; `strict`: no straight vertex either. (The rings are simple, so this is
+/// Whether the ring has no right turn and, if `strict`, no straight vertex. (Rings are simple, so this is
 /// convexity.)
 bool is_convex(const IndexedRings& rings, const std::vector<std::uint32_t>& ring, bool strict) {
   for (std::size_t k = 0, n = ring.size(); k < n; ++k) {
@@ -25,7 +25,7 @@ void append(Pieces& pieces, std::span<const std::uint32_t> piece) {
   pieces.offset.push_back(static_cast<std::uint32_t>(pieces.vertex.size()));
 }
 
-/// Cuts a strictly convex polygon by chords through its middle until the pieces are small enough.
+/// Halves a strictly convex polygon by chords until the pieces are small enough.
 void append_halves(Pieces& pieces, std::span<const std::uint32_t> ring) {
   if (ring.size() <= piece_capacity) return append(pieces, ring);
   const std::size_t middle = ring.size() / 2;
@@ -35,8 +35,8 @@ void append_halves(Pieces& pieces, std::span<const std::uint32_t> ring) {
   append_halves(pieces, rest);
 }
 
-/// Hertel and Mehlhorn: diagonals go, longest first, while both ends stay convex and the merged piece
-/// small enough. At most four times the least number of pieces, but for the capacity.
+/// Hertel and Mehlhorn: removes diagonals, longest first, if both ends stay convex and the merged piece is
+/// small enough. Apart from the capacity, the number of pieces is at most four times the least possible.
 class Merge {
  public:
   Merge(const IndexedRings& rings, const Triangulation& mesh) : rings_(rings), mesh_(mesh) {
@@ -92,7 +92,7 @@ class Merge {
     return t;
   }
 
-  /// The corner that stays where the half-edges `in` and `out` become neighbours.
+  /// Whether the corner between the half-edges `in` and `out` is convex once they are consecutive.
   bool convex_after(std::uint32_t in, std::uint32_t out) const {
     const double *a = from(in), *v = from(out), *b = from(next_[out]);
     return orient2d(a, v, b) > 0 || strictly_between(a, v, b);

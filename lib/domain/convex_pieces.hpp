@@ -1,5 +1,5 @@
 /// \file
-/// One part of a polygon cut into convex pieces that tile it exactly.
+/// Cuts a part of a polygon into convex pieces that tile it exactly. Internal.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace powercell {
 
-/// Most vertices of a piece: the clip kernels start with room for about 32 and cells add some.
+/// Most vertices of a piece: the smallest clip kernels have room for about 32, and cutting adds some.
 inline constexpr std::size_t piece_capacity = 24;
 
 /// Convex polygons, counter-clockwise; piece k is vertex[offset[k] .. offset[k+1]).
@@ -19,9 +19,9 @@ struct Pieces {
   std::vector<std::uint32_t> vertex;
 };
 
-/// Appends the pieces of the part with these rings. All their vertices are vertices of the
-/// rings, and a vertex on an edge of a piece is a vertex of both pieces beside it. A convex part of at
-/// most `piece_capacity` vertices is one piece.
+/// Appends the pieces of the part with these rings. All their vertices are vertices of the rings, and a
+/// vertex on an edge shared by two pieces is a vertex of both. A convex part of at most `piece_capacity`
+/// vertices is one piece.
 void append_convex_pieces(const IndexedRings& vertices, std::span<const IndexedRing> rings, Pieces& pieces);
 
 }  // namespace powercell

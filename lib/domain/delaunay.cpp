@@ -1,15 +1,15 @@
 #include <cmath>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 #include "lib/domain/triangulation.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr std::size_t flips_per_edge = 16;
+constexpr std::size_t flips_per_edge = 16;  // at most, so that the work stays linear
 
-/// True if d is inside the circle through a, b, c (counter-clockwise) beyond doubt. Where it is not
-/// sure, either diagonal is as good.
+/// True if d is certainly inside the circle through a, b, c (counter-clockwise). Where rounding leaves it
+/// open, either diagonal is as good.
 bool surely_in_circle(const double* a, const double* b, const double* c, const double* d) {
   long double x[3], y[3], square[3];
   const double* corner[3] = {a, b, c};
@@ -27,9 +27,9 @@ bool surely_in_circle(const double* a, const double* b, const double* c, const d
   return sum > 1e-15L * size;
 }
 
-/// Lawson's flips. Each one lowers the triangulation lifted to the paraboloid by more than rounding
-/// can hide, so they come to an end; a bound on their number keeps the worst case linear. Stopping
-/// early costs only the shape of some triangles.
+/// Lawson's flips. Each one lowers the triangulation lifted to the paraboloid by more than the rounding
+/// errors, so they terminate; a limit on their number keeps the worst case linear. Stopping early affects
+/// only the shape of some triangles.
 class Flips {
  public:
   Flips(const IndexedRings& rings, Triangulation& mesh) : at_(rings), mesh_(mesh) {}
@@ -64,7 +64,7 @@ class Flips {
     if (t != no_twin) mesh_.twin[t] = h;
   }
 
-  /// Triangles a b c and b a d become c a d and d b c.
+  /// Replaces the triangles a b c and b a d by c a d and d b c.
   void flip(std::uint32_t h) {
     const std::uint32_t t = mesh_.twin[h];
     const std::uint32_t h_next = next(h), h_before = before(h), t_next = next(t), t_before = before(t);

@@ -8,7 +8,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 16384;  // points; below, threads cost more than they save
+constexpr std::size_t least_shared = 16384;  // points; fewer are faster on one thread
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void Frame::pack_to(std::byte* to, int dimension, std::span<const double> positi
                     std::span<const double> weights, int threads) const {
   const auto d = static_cast<std::size_t>(dimension);
   const std::size_t count = d == 0 ? 0 : positions.size() / d;
-  parallel_for(count < share_count ? 1 : threads, count, [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads_for(count, threads, least_shared), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double value[4] = {0, 0, 0, weights.empty() ? 0 : weight_to_device(weights[i])};
       for (std::size_t k = 0; k < d; ++k) value[k] = to_device(positions[i * d + k], static_cast<int>(k));

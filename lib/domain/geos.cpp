@@ -39,7 +39,7 @@ Geometry Context::polygon(const IndexedRings& vertices, std::span<const IndexedR
     closed.push_back(own(GEOSGeom_createLinearRing_r(handle_, sequence(xy)), "making a ring"));
   }
   std::vector<GEOSGeometry*> raw;
-  for (Geometry& ring : closed) raw.push_back(ring.release());  // the polygon takes them, also on failure
+  for (Geometry& ring : closed) raw.push_back(ring.release());  // createPolygon owns them, even if it fails
   return own(GEOSGeom_createPolygon_r(handle_, raw[0], raw.data() + 1, static_cast<unsigned>(raw.size() - 1)),
              "making a polygon");
 }
@@ -64,7 +64,7 @@ std::optional<std::string> Context::defect(const Geometry& geometry) {
   std::string reason = text ? text : "";
   GEOSFree_r(handle_, text);
   if (valid == 1) return std::nullopt;
-  if (valid != 0) return "cannot be judged in double precision (" + message_ + ")";
+  if (valid != 0) return "cannot be checked in double precision (" + message_ + ")";
   double x = 0, y = 0;
   if (location && GEOSGeomGetX_r(handle_, location.get(), &x) == 1 &&
       GEOSGeomGetY_r(handle_, location.get(), &y) == 1)
@@ -75,7 +75,7 @@ std::optional<std::string> Context::defect(const Geometry& geometry) {
 std::optional<std::string> Context::overlap(const Geometry& a, const Geometry& b) {
   const char meet = GEOSRelatePattern_r(handle_, a.get(), b.get(), "T********");
   if (meet == 0) return std::nullopt;
-  if (meet != 1) return "cannot be told apart in double precision (" + message_ + ")";
+  if (meet != 1) return "cannot be checked for overlap in double precision (" + message_ + ")";
   std::string reason = "overlap";
   const Geometry common(GEOSIntersection_r(handle_, a.get(), b.get()), Destroy{handle_});
   if (!common) return reason;

@@ -1,5 +1,5 @@
 /// \file
-/// The few operations of GEOS that polygons need, behind its reentrant C interface.
+/// The few operations of GEOS that polygons need, by its reentrant C interface. Internal.
 #pragma once
 
 #include <geos_c.h>
@@ -24,8 +24,8 @@ struct Destroy {
 };
 using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
-/// A context of its own for each use, so that domains can be built in several threads.
-/// Failures inside GEOS become Error internal with its message, unless said otherwise.
+/// A GEOS context. Each domain is built with its own, so several threads can build domains.
+/// A failure inside GEOS throws Error internal with its message, except where stated otherwise.
 class Context {
  public:
   Context();
@@ -38,12 +38,12 @@ class Context {
   Geometry multipolygon(const std::vector<Geometry>& polygons);
   Geometry segment(const double* a, const double* b);
 
-  // GEOS computes in double: where coordinates span many orders of magnitude it may give up. What may be
-  // wrong counts as wrong, and why it is not known is the reason.
+  // GEOS computes in double and may give up if coordinates span many orders of magnitude. A geometry that it
+  // cannot check counts as invalid; the reason is then its message.
 
-  /// If the geometry is not valid: why, and where.
+  /// Why and where the geometry is not valid; nothing if it is.
   std::optional<std::string> defect(const Geometry& geometry);
-  /// If the interiors of a and b meet: where.
+  /// Where the interiors of a and b intersect; nothing if they do not.
   std::optional<std::string> overlap(const Geometry& a, const Geometry& b);
 
  private:
@@ -55,7 +55,7 @@ class Context {
   std::string message_;
 };
 
-/// Bounding boxes with numbers, and which of them meet a box.
+/// Numbered bounding boxes; finds those that intersect a box.
 class Tree {
  public:
   explicit Tree(Context& context);

@@ -27,7 +27,7 @@ void finish(RegionMesh& mesh, const CompensatedSum<long double>& measure) {
   if (!std::isfinite(mesh.measure) || mesh.measure <= 0) {
     throw Error(ErrorCode::invalid_domain,
                 std::string("the ") + (mesh.cell_dimension == 3 ? "volume" : "area") + " of the domain is " +
-                    digits(mesh.measure) + " in double precision: scale the coordinates to a moderate size");
+                    digits(mesh.measure) + " in double precision; scale the coordinates to a moderate size");
   }
 }
 

@@ -3,9 +3,6 @@
 namespace powercell {
 namespace {
 
-/// The corners of facet k of a positive tetrahedron.
-constexpr std::uint32_t facet_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
 void add_corner(RegionMesh& mesh, const std::array<double, 3>& x) {
   mesh.region_vertex.push_back(
       static_cast<std::uint32_t>(mesh.vertices.size() / static_cast<std::size_t>(mesh.dimension)));
@@ -35,7 +32,7 @@ RegionMesh boundary_of(const RegionMesh& mesh) {
       if (mesh.facet[f].kind != Border::Kind::boundary) continue;
       const std::uint32_t k = f - first;
       if (mesh.dimension == 3) {
-        for (const std::uint32_t c : facet_corner[k]) boundary.region_vertex.push_back(corner[c]);
+        for (const std::uint32_t c : tetrahedron_facet[k]) boundary.region_vertex.push_back(corner[c]);
       } else {
         boundary.region_vertex.push_back(corner[k]);
         boundary.region_vertex.push_back(corner[k + 1 == last - first ? 0 : k + 1]);
@@ -59,7 +56,7 @@ RegionMesh with_container(const RegionMesh& mesh) {
     for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
       add_corner(all, {low[0] + x * size[0], low[1] + y * size[1], 0});
   } else {
-    // The half-spaces x, y, z >= low and the one whose plane goes through the far corner of the box.
+    // The tetrahedron of the half-spaces x, y, z >= low and one whose plane passes through the far corner.
     add_corner(all, low);
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<double, 3> x = low;

@@ -1,5 +1,5 @@
 /// \file
-/// What cells that lie wholly inside the domain need: its boundary, and one region around all of it.
+/// Meshes for cells that lie entirely inside the domain: its boundary, and one region that contains it.
 /// Internal.
 #pragma once
 
@@ -7,15 +7,15 @@
 
 namespace powercell {
 
-/// The boundary facets as regions of one dimension less: edges or triangles, with what pair enumeration reads
-/// (corners and dimensions). Empty for surfaces.
+/// The boundary facets as regions of one dimension less, edges or triangles. Has only what the enumeration of
+/// pairs reads: corners and dimensions. Empty for surfaces.
 RegionMesh boundary_of(const RegionMesh& mesh);
 
-/// Whether the domain is a part of the space with more than one region, so that a cell can be wholly inside.
+/// Whether a cell can lie inside the domain and meet several of its regions. (A box is one region.)
 bool has_inside(const RegionMesh& mesh);
 
-/// The mesh with one region more behind the others, of the same shape, that holds the whole domain; its
-/// facets bound nothing of the domain. \pre has_inside(mesh)
+/// The mesh with one more region at the end, of the same shape, that contains the domain; its facets lie
+/// outside. \pre has_inside(mesh)
 RegionMesh with_container(const RegionMesh& mesh);
 
 }  // namespace powercell

@@ -11,7 +11,7 @@
 namespace powercell {
 namespace {
 
-/// Number of the first ring of each part, and the number of rings.
+/// Index of the first ring of each part, then the number of rings.
 std::vector<std::size_t> first_rings(const IndexedRings& rings) {
   std::vector<std::size_t> first;
   for (std::size_t r = 0; r < rings.rings.size(); ++r) {
@@ -26,16 +26,17 @@ void validate(geos::Context& geos, const IndexedRings& rings, const std::vector<
   for (std::uint32_t p = 0; p < rings.parts; ++p) {
     polygons.push_back(geos.polygon(rings, rings.part(first[p], first[p + 1])));
     if (const auto defect = geos.defect(polygons.back())) {
-      throw Error(ErrorCode::invalid_domain,
-                  "part " + std::to_string(p) + ": " + *defect +
-                      ": rings must not cross or touch themselves, and holes lie inside their outer ring");
+      throw Error(
+          ErrorCode::invalid_domain,
+          "part " + std::to_string(p) + ": " + *defect +
+              "; rings must not cross or touch themselves, and holes must lie inside their outer ring");
     }
   }
   check_disjoint(geos, polygons);
 }
 
-/// Edges shared by two pieces are interior. The others bound the domain and are numbered in the order
-/// of the rings.
+/// Fills in the borders of all edges. Edges of two pieces are interior; the others bound the domain and are
+/// numbered in the order of the rings.
 void connect(RegionMesh& mesh, const IndexedRings& rings) {
   std::vector<std::uint32_t> region(mesh.region_vertex.size()), next(mesh.region_vertex.size());
   std::vector<FacetKey<2>> keys(mesh.region_vertex.size()), open;
@@ -73,7 +74,7 @@ void connect(RegionMesh& mesh, const IndexedRings& rings) {
   }
 }
 
-/// Twice the area of a piece, from differences to its first vertex.
+/// Twice the area of a piece, from differences from its first vertex.
 long double twice_area(const IndexedRings& rings, std::span<const std::uint32_t> piece) {
   const double* o = rings.at(piece[0]);
   long double sum = 0;

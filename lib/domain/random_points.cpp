@@ -8,7 +8,7 @@
 namespace powercell {
 namespace {
 
-/// A triangle or tetrahedron of a region, by its place among the region's vertices.
+/// A triangle or tetrahedron of a region.
 struct Simplex {
   std::uint32_t region;
   std::array<std::uint32_t, 4> vertex;
@@ -20,7 +20,7 @@ Vector vertex(const RegionMesh& mesh, std::uint32_t v) {
   return {x[0], x[1], mesh.dimension == 3 ? x[2] : 0.0};
 }
 
-/// Regions as simplices: convex polygons fanned from their first vertex.
+/// The simplices of all regions: convex polygons are fans of triangles around their first vertex.
 std::vector<Simplex> simplices_of(const RegionMesh& mesh) {
   std::vector<Simplex> list;
   for (std::uint32_t r = 0; r < mesh.region_count(); ++r) {
@@ -70,13 +70,13 @@ std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std
     return samples;
   }
   const std::vector<Simplex> simplices = simplices_of(mesh);
-  std::vector<double> up_to;
-  up_to.reserve(simplices.size());
+  std::vector<double> cumulative;  // measure of the simplices up to and including each
+  cumulative.reserve(simplices.size());
   double sum = 0;
-  for (const Simplex& simplex : simplices) up_to.push_back(sum += measure_of(mesh, simplex));
+  for (const Simplex& simplex : simplices) cumulative.push_back(sum += measure_of(mesh, simplex));
   for (Sample& sample : samples) {
-    const auto at = std::upper_bound(up_to.begin(), up_to.end() - 1, uniform(engine) * sum);
-    const Simplex& simplex = simplices[static_cast<std::size_t>(at - up_to.begin())];
+    const auto at = std::upper_bound(cumulative.begin(), cumulative.end() - 1, uniform(engine) * sum);
+    const Simplex& simplex = simplices[static_cast<std::size_t>(at - cumulative.begin())];
     sample = {simplex.region, point_in(mesh, simplex, engine)};
   }
   return samples;

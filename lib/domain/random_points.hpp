@@ -13,7 +13,7 @@ struct Sample {
   Vector point;  ///< third coordinate 0 in 2D
 };
 
-/// Points uniform in measure; the same ones for the same random seed on every machine.
+/// Points with uniform density, the same for the same random seed on every machine.
 std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std::uint64_t random_seed);
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// A domain cut into convex regions, the form that pair enumeration and the kernels read.
+/// A domain as convex regions, the form that the enumeration of pairs and the kernels read. Internal.
 #pragma once
 
 #include <array>
@@ -9,6 +9,9 @@
 
 namespace powercell {
 
+/// The corners of facet k of a positive tetrahedron, opposite corner k, counter-clockwise seen from outside.
+inline constexpr std::uint32_t tetrahedron_facet[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
 struct RegionMesh {
   DomainKind kind = DomainKind::polygon;
   int dimension = 0;       ///< coordinates of a vertex
@@ -17,13 +20,13 @@ struct RegionMesh {
   std::vector<double> vertices;              ///< nv x dimension
   std::vector<std::uint32_t> region_offset;  ///< regions + 1, into region_vertex
   std::vector<std::uint32_t> region_vertex;
-  /// Per facet slot of each region: polygon: edge k from vertex k to k+1, so facet slots run parallel
-  /// to region_vertex; tetrahedron: facet k opposite vertex k (4 a region); box: -x +x -y +y -z +z.
-  /// `boundary` facets are numbered 0 .. boundary_count-1; `interior` ones name the region behind.
-  /// Edges between convex pieces of a polygon and edges shared by triangles are interior.
+  /// Facet slots of each region. Polygon: edge k goes from vertex k to k+1, so slots are parallel to
+  /// region_vertex. Tetrahedron: facet k is opposite vertex k. Box: -x +x -y +y -z +z.
+  /// `boundary` facets are numbered 0 .. boundary_count-1; `interior` ones have the index of the region
+  /// behind. Edges between convex pieces of a polygon and edges shared by triangles are interior.
   std::vector<Border> facet;
   std::vector<std::uint32_t> facet_offset;  ///< regions + 1, into facet
-  std::vector<std::uint32_t> source;        ///< per region: input part, triangle or tetrahedron
+  std::vector<std::uint32_t> source;        ///< per region: index of the input part, triangle or tetrahedron
   std::uint32_t boundary_count = 0;
   double measure = 0;
   std::array<double, 3> low{}, high{};  ///< bounding box of the regions

@@ -5,14 +5,14 @@
 
 #include "lib/base/mesh_arrays.hpp"
 #include "lib/base/text.hpp"
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr std::size_t most_points = std::size_t{1} << 30;  // so that edges of convex pieces fit 32 bits
+constexpr std::size_t most_points = std::size_t{1} << 30;  // indices of edges of the pieces then fit 32 bits
 
-/// Ring 0 is the outer one, ring k hole k - 1.
+/// Ring 0 is the outer ring, ring k hole k - 1.
 const Ring& ring_of(const PolygonPart& part, std::uint32_t k) {
   return k == 0 ? part.outer : part.holes[k - 1];
 }
@@ -21,19 +21,19 @@ const Ring& ring_of(const PolygonPart& part, std::uint32_t k) {
   throw Error(ErrorCode::invalid_domain, why);
 }
 
-/// The largest magnitude of a coordinate. \throw Error for one that is not finite
+/// The largest magnitude of a coordinate. \throw Error invalid_domain for a coordinate that is not finite
 double largest_coordinate(const Ring& ring, const std::string& where) {
   double largest = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     largest = std::max({largest, std::fabs(ring[k][0]), std::fabs(ring[k][1])});
     if (std::isfinite(ring[k][0]) && std::isfinite(ring[k][1])) continue;
     refuse(where + ", point " + std::to_string(k) + ": (" + std::to_string(ring[k][0]) + ", " +
-           std::to_string(ring[k][1]) + ") is not finite");
+           std::to_string(ring[k][1]) + ") is not finite; correct or remove it");
   }
   return largest;
 }
 
-/// The corners of a ring, from the first one on.
+/// The corners of a ring in order, without repeated points and points inside straight edges.
 Ring corners(const Ring& ring) {
   Ring kept;
   auto straight = [](const auto& a, const auto& b, const auto& c) {
@@ -52,7 +52,7 @@ Ring corners(const Ring& ring) {
   return kept;
 }
 
-/// The turn at the lexicographically least corner gives the orientation of a simple ring.
+/// The orientation of a simple ring is the turn at its lexicographically least corner.
 bool counter_clockwise(const Ring& ring) {
   const auto least = static_cast<std::size_t>(std::ranges::min_element(ring) - ring.begin());
   const std::size_t n = ring.size();
@@ -63,8 +63,8 @@ Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
   const std::string where = ring_name(part, hole);
   Ring kept = corners(ring);
   if (kept.size() < 3) {
-    refuse(where + ": a ring needs three points that are not on one line, these " +
-           std::to_string(ring.size()) + " have no area between them");
+    refuse(where + ": a ring needs three points that are not collinear; its " + std::to_string(ring.size()) +
+           " points enclose no area");
   }
   const bool outer = hole == 0;
   if (counter_clockwise(kept) != outer) std::reverse(kept.begin() + 1, kept.end());
@@ -107,7 +107,7 @@ IndexedRings index_rings(std::span<const PolygonPart> parts) {
       largest = std::max(largest, largest_coordinate(ring_of(parts[p], h), ring_name(p, h)));
     }
   }
-  if (largest > 0) check_magnitude(largest);  // a ring at 0 is refused for its shape
+  if (largest > 0) check_magnitude(largest);  // else all points are 0, and the shape is refused below
 
   IndexedRings indexed;
   indexed.parts = static_cast<std::uint32_t>(parts.size());

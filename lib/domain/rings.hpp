@@ -1,5 +1,5 @@
 /// \file
-/// The rings of a polygon, cleaned and as indices into distinct vertices.
+/// The rings of a polygon, cleaned, as indices of distinct vertices. Internal.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ std::string place(double x, double y);
 /// "part 2, hole 0"
 std::string ring_name(std::uint32_t part, std::uint32_t hole);
 
-/// Drops repeated points and points inside a straight edge, orients, and indexes.
+/// Removes repeated points and points inside straight edges, orients the rings, and indexes their vertices.
 /// \throw Error invalid_domain: no parts, a coordinate that is not finite, a ring without area
 IndexedRings index_rings(std::span<const PolygonPart> parts);
 

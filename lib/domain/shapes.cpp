@@ -10,10 +10,10 @@
 namespace powercell {
 namespace {
 
-void check_range(int value, int least, int most, const char* what) {
+void check_range(int value, int least, int most, const char* name) {
   if (value >= least && value <= most) return;
-  throw Error(ErrorCode::invalid_argument, std::string(what) + " is " + std::to_string(value) +
-                                               ", not from " + std::to_string(least) + " to " +
+  throw Error(ErrorCode::invalid_argument, std::string(name) + " is " + std::to_string(value) +
+                                               "; it must be from " + std::to_string(least) + " to " +
                                                std::to_string(most));
 }
 
@@ -52,17 +52,15 @@ Icosahedron icosahedron() {
       for (int c = b + 1; c < 12; ++c) {
         if (!adjacent(a, c) || !adjacent(b, c)) continue;
         const Point &p = solid.corner[a], &q = solid.corner[b], &r = solid.corner[c];
-        const double volume = p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-                              p[2] * (q[0] * r[1] - q[1] * r[0]);
-        solid.face.push_back(volume > 0 ? std::array{a, b, c} : std::array{a, c, b});
+        solid.face.push_back(dot(p, cross(q, r)) > 0 ? std::array{a, b, c} : std::array{a, c, b});
       }
     }
   }
   return solid;
 }
 
-/// The point of a spherical triangle with weights i, j, k (sum n): weights as sines of the angle they
-/// stand for keep edges evenly divided and triangles of much the same size.
+/// The point of a spherical triangle with weights i, j, k (sum n). The sines of the angles that the weights
+/// stand for divide edges evenly and give triangles of similar size.
 Point on_sphere(const std::array<Point, 3>& corner, const std::array<int, 3>& weight) {
   const double edge = std::acos(dot(corner[0], corner[1]));
   const int n = weight[0] + weight[1] + weight[2];
@@ -109,7 +107,7 @@ class SphereGrid {
   std::uint32_t first_on_face_, face_size_;
 };
 
-/// Vertices of the ball: integer points with |x| + |y| + |z| <= n, numbered as they come.
+/// Vertices of the ball: the integer points with |x| + |y| + |z| <= n, in lexicographic order.
 class BallGrid {
  public:
   explicit BallGrid(int n) : n_(n), side_(2 * n + 1), index_(std::size_t(side_) * side_ * side_) {
@@ -134,7 +132,7 @@ class BallGrid {
   std::size_t slot(const std::array<int, 3>& at) const {
     return (std::size_t(at[0] + n_) * side_ + (at[1] + n_)) * side_ + (at[2] + n_);
   }
-  /// Shells of the octahedron become spheres; sines divide the quarter circles evenly.
+  /// Maps shells of the octahedron to spheres; sines divide quarter circles evenly.
   Point position(const std::array<int, 3>& at, int shell) const {
     if (shell == 0) return {};
     Point p;

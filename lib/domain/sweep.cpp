@@ -1,19 +1,18 @@
-#include "lib/domain/sweep.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <set>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
+#include "lib/domain/triangulation.hpp"
 
 namespace powercell {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// The border of what is triangulated so far, between two edges that the sweep line crosses: vertices
-/// from the lower edge to the upper one, as nodes of a doubly linked list. Seen from the right it has
-/// no corner that a triangle could still be cut from.
+/// The right border of the triangles so far, between two edges that the sweep line crosses: vertices from the
+/// lower edge to the upper one, as nodes of a doubly linked list. No three consecutive ones form a triangle
+/// that could still be cut off on the right.
 struct Chain {
   std::uint32_t bottom = none, top = none;
   std::uint32_t latest = none;  ///< the vertex swept last: visible from the next one
@@ -26,7 +25,7 @@ struct Edge {
   Chain chain;        ///< of the gap above it, if that is inside
 };
 
-/// The sweep passes the vertices in lexicographic order, which is the order of their numbers.
+/// The sweep passes the vertices in lexicographic order, the order of their indices.
 class Sweep {
  public:
   Sweep(const IndexedRings& vertices, std::span<const IndexedRing> rings)
@@ -37,7 +36,7 @@ class Sweep {
         edges_.push_back({std::min(a, b), std::max(a, b), a < b, {}});
       }
     }
-    // Edges that start from the same vertex: from bottom to top.
+    // Edges with the same left end are sorted from bottom to top.
     std::ranges::sort(edges_, [&](const Edge& e, const Edge& f) {
       return e.left != f.left ? e.left < f.left : turn(e.left, e.right, f.right) > 0;
     });
@@ -71,7 +70,7 @@ class Sweep {
   struct Point {
     std::uint32_t vertex;
   };
-  /// The order of edges that the sweep line crosses, and of a point among them.
+  /// The order of the edges that the sweep line crosses, from bottom to top, and of a point among them.
   struct Below {
     using is_transparent = void;
     const Sweep* sweep;
@@ -99,13 +98,14 @@ class Sweep {
     return n;
   }
 
-  /// The triangle of v and the chain's step from `down` to `up`, if it is positive.
+  /// If the triangle of v and the chain's edge from `down` to `up` is positive, cuts it off and returns true.
   bool cut(std::uint32_t v, std::uint32_t down, std::uint32_t up) {
     if (down == none || up == none || turn(v, nodes_[up].vertex, nodes_[down].vertex) <= 0) return false;
     triangles_.insert(triangles_.end(), {v, nodes_[up].vertex, nodes_[down].vertex});
     return true;
   }
-  /// Cuts what v sees from node n downwards, or upwards; returns the last node seen.
+  /// Cuts off the triangles of v and the edges visible from it, from node n downwards or upwards; returns the
+  /// last visible node.
   std::uint32_t cut_down(std::uint32_t v, std::uint32_t n) {
     while (cut(v, nodes_[n].down, n)) n = nodes_[n].down;
     return n;
@@ -115,17 +115,18 @@ class Sweep {
     return n;
   }
 
-  /// v ends the chain from below: what is above the last node seen is cut off.
+  /// Cuts off what v sees from node `from` downwards; v becomes the top of the chain.
   Chain end_chain(std::uint32_t v, const Chain& chain, std::uint32_t from) {
     const std::uint32_t last = cut_down(v, from), n = node(v, last, none);
     return {chain.bottom, n, n};
   }
+  /// Cuts off what v sees from node `from` upwards; v becomes the bottom of the chain.
   Chain begin_chain(std::uint32_t v, const Chain& chain, std::uint32_t from) {
     const std::uint32_t last = cut_up(v, from), n = node(v, none, last);
     return {n, chain.top, n};
   }
 
-  /// Moves the sweep line over v. False if edges are not in the order that uncrossed ones have.
+  /// Moves the sweep line over v. False if the order of the edges shows that some cross.
   bool pass(std::uint32_t v, std::uint32_t end_first, std::uint32_t end_last, std::uint32_t start_first,
             std::uint32_t start_last) {
     Chain upper;  // of the gap above v
@@ -159,7 +160,7 @@ class Sweep {
     return true;
   }
 
-  /// A chain seen from v in its gap becomes two, both with v; returns the upper one.
+  /// Splits the chain of the gap in which v lies into two, both with v; returns the upper one.
   Chain split(std::uint32_t v, Chain& lower) {
     const Chain whole = lower;
     const std::uint32_t up = nodes_[whole.latest].up;
@@ -170,7 +171,8 @@ class Sweep {
     return begin_chain(v, upper, latest_again);
   }
 
-  /// Takes the edges that end at v out of the status.
+  /// Removes the edges that end at v from the status; `upper` becomes the chain above the topmost, if the
+  /// domain is there. False if these edges are not consecutive or a gap between two of them is not filled.
   bool close(std::uint32_t v, std::uint32_t end_first, std::uint32_t end_last, Status::iterator& above,
              Chain& upper) {
     auto first = place_[ending_[end_first].edge];
@@ -197,7 +199,7 @@ class Sweep {
     return count == end_last - end_first;
   }
 
-  /// Two chains that meet in v, as one.
+  /// Joins two chains that meet in v.
   Chain join(const Chain& lower, const Chain& upper) {
     const std::uint32_t next = nodes_[upper.bottom].up;
     nodes_[lower.top].up = next;

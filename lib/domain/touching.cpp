@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 
@@ -34,7 +34,7 @@ void split_touched_edges(geos::Context& geos, IndexedRings& rings) {
 
 void check_disjoint(geos::Context& geos, const std::vector<geos::Geometry>& polygons) {
   if (polygons.size() < 2 || !geos.defect(geos.multipolygon(polygons))) return;
-  // A multipolygon may not have shared edges, here they are legal: ask each pair about its interiors.
+  // A multipolygon must not have shared edges, which are legal here, so test the interiors of each pair.
   geos::Tree parts(geos);
   for (std::size_t p = 0; p < polygons.size(); ++p) parts.insert(polygons[p], p);
   std::vector<std::size_t> near;
@@ -48,7 +48,7 @@ void check_disjoint(geos::Context& geos, const std::vector<geos::Geometry>& poly
       if (const auto common = geos.overlap(polygons[p], polygons[q])) {
         throw Error(ErrorCode::invalid_domain, "parts " + std::to_string(p) + " and " + std::to_string(q) +
                                                    " " + *common +
-                                                   ": parts may touch but not overlap, unite them first");
+                                                   "; parts may touch but not overlap: unite them first");
       }
     }
   }

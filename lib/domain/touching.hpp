@@ -1,5 +1,5 @@
 /// \file
-/// Rings and parts of a polygon that meet: what is legal, and shared vertices where they touch.
+/// Rings and parts of a polygon that touch or overlap. Internal.
 #pragma once
 
 #include "lib/domain/geos.hpp"
@@ -11,9 +11,9 @@ namespace powercell {
 /// touching rings share whole edges.
 void split_touched_edges(geos::Context& geos, IndexedRings& rings);
 
-/// \param polygons one for each part, each valid on its own
-/// \throw Error invalid_domain: two parts overlap (which, where). Touching in points or along edges is
-/// legal.
+/// Checks that no two parts overlap; they may touch in points or along edges.
+/// \param polygons one for each part, each valid
+/// \throw Error invalid_domain: which two parts overlap, and where
 void check_disjoint(geos::Context& geos, const std::vector<geos::Geometry>& polygons);
 
 }  // namespace powercell

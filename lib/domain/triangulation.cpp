@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "lib/domain/adjacency.hpp"
-#include "lib/domain/orient2d.hpp"
-#include "lib/domain/sweep.hpp"
-#include "lib/domain/touching.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell {
 namespace {
@@ -34,7 +32,7 @@ std::vector<DirectedEdge> ring_edges(std::span<const IndexedRing> rings) {
   return edges;
 }
 
-/// Fills the twins; false unless half-edges without a twin are just the edges of the rings.
+/// Fills in the twins; false unless the half-edges without a twin are exactly the edges of the rings.
 bool link(Triangulation& mesh, const std::vector<DirectedEdge>& boundary) {
   std::vector<FacetKey<2>> keys(mesh.corner.size());
   for (std::uint32_t h = 0; h < keys.size(); ++h) {

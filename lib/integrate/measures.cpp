@@ -1,5 +1,3 @@
-/// \file
-/// Sums over measures.
 #include <algorithm>
 #include <cmath>
 #include <powercell/results.hpp>

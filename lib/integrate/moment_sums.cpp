@@ -11,18 +11,19 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 4096;  // ranks; below, threads cost more than they save
+constexpr std::size_t least_shared = 4096;  // ranks; fewer are faster on one thread
+constexpr std::size_t ahead = 16;           // ranks between a prefetch and its use
 
-cl::Kernel gather_kernel(const Scene& scene) {
+cl::Kernel gather_kernel(const DomainBuffers& domain) {
   Variant variant;
-  variant.dimension = scene.mesh().dimension;
-  variant.cell_dimension = scene.mesh().cell_dimension;
-  variant.float32 = scene.float32();
+  variant.dimension = domain.mesh().dimension;
+  variant.cell_dimension = domain.mesh().cell_dimension;
+  variant.float32 = domain.float32();
   variant.capacity = {1, 1};
-  return {scene.context(), scene.context()->program("integrate/gather.cl", variant.defines()), "gather"};
+  return {domain.context(), domain.context()->program("integrate/gather.cl", variant.defines()), "gather"};
 }
 
-/// Value `k` of reals of the device's precision.
+/// Value `k` of an array in the device's precision.
 double real_at(const std::byte* reals, std::size_t k, bool float32) {
   if (!float32) {
     double value;
@@ -36,17 +37,17 @@ double real_at(const std::byte* reals, std::size_t k, bool float32) {
 
 }  // namespace
 
-MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_measure, int threads)
-    : scene_(scene),
+MomentSums::MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double domain_measure, int threads)
+    : domain_(domain),
       seeds_(seeds),
       threads_(threads),
-      columns_(2 + static_cast<std::size_t>(scene.mesh().dimension)),
-      row_bytes_(columns_ * (scene.float32() ? sizeof(float) : sizeof(double))),
-      offset_(scene.context()),
-      before_(scene.context()),
-      device_sums_(scene.context()) {
+      columns_(2 + static_cast<std::size_t>(domain.mesh().dimension)),
+      row_bytes_(columns_ * (domain.float32() ? sizeof(float) : sizeof(double))),
+      offset_(domain.context()),
+      before_(domain.context()),
+      device_sums_(domain.context()) {
   const std::size_t n = seeds.input_count;
-  measures_.dimension = scene.mesh().dimension;
+  measures_.dimension = domain.mesh().dimension;
   measures_.domain_measure = domain_measure;
   resize_populated(measures_.mass, n, threads);
   resize_populated(measures_.centroid, n * static_cast<std::size_t>(measures_.dimension), threads,
@@ -56,8 +57,8 @@ MomentSums::MomentSums(const Scene& scene, const SeedSet& seeds, double domain_m
   for (const std::uint32_t i : seeds.duplicate) measures_.status[i] = SeedStatus::duplicate;
 }
 
-bool MomentSums::one_each(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
-                          std::uint64_t end, std::uint32_t first, std::uint32_t last) {
+bool MomentSums::one_pair_per_rank(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                                   std::uint64_t end, std::uint32_t first, std::uint32_t last) {
   if (end - begin != std::uint64_t{last} - first + 1 || pair_offset[last + 1] != end) return false;
   for (std::uint32_t rank = first; rank <= last; ++rank)
     if (pair_offset[rank] != begin + (rank - first)) return false;
@@ -77,7 +78,7 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
   before_.reserve(row_bytes_);
   if (goes_on) before_.write(open_.data(), row_bytes_);
   device_sums_.reserve(count * row_bytes_);
-  if (!gather_) gather_.emplace(gather_kernel(scene_));
+  if (!gather_) gather_.emplace(gather_kernel(domain_));
   gather_
       ->args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
              device_sums_)
@@ -86,53 +87,53 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
 
 void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
-  const bool float32 = scene_.float32();
-  constexpr std::size_t ahead = 16;
-  const double scale = scene_.frame().scale, unit = scene_.frame().unit(1);
-  // Step by step: the power of a long domain's size may be out of range where its measure is not.
+  const bool float32 = domain_.float32();
+  const double scale = domain_.frame().scale, unit = domain_.frame().unit(1);
+  // One factor at a time: a power of a long domain's size may overflow although its measure does not.
   const auto unscaled = [&](double integral, int power) {
     for (; power > 0; --power) integral *= unit;
     return integral;
   };
-  const int power = scene_.mesh().cell_dimension;
-  parallel_for(
-      last - first < share_count ? 1 : threads_, last - first, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-          if (t + ahead < end) {
-            const std::size_t next = seeds_.input[first + t + ahead];
-            prefetch(&measures_.status[next]);
-            prefetch(&measures_.mass[next]);
-            prefetch(&measures_.centroid[next * d]);
-            prefetch(&measures_.second_moment[next]);
-          }
-          const std::byte* const row = sums + t * row_bytes_;
-          const double mass = real_at(row, 0, float32);
-          if (!(mass > 0)) continue;
-          const std::size_t rank = first + t, i = seeds_.input[rank];
-          measures_.status[i] = SeedStatus::ok;
-          measures_.mass[i] = std::max(unscaled(mass, power),
-                                       std::numeric_limits<double>::min());  // not empty, however small
-          for (std::size_t c = 0; c < d; ++c)
-            measures_.centroid[i * d + c] =
-                seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
-          measures_.second_moment[i] = unscaled(real_at(row, 1 + d, float32), power + 2);
-        }
-      });
+  const int power = domain_.mesh().cell_dimension;
+  parallel_for(threads_for(last - first, threads_, least_shared), last - first,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t t = begin; t < end; ++t) {
+                   if (t + ahead < end) {
+                     const std::size_t next = seeds_.input[first + t + ahead];
+                     prefetch(&measures_.status[next]);
+                     prefetch(&measures_.mass[next]);
+                     prefetch(&measures_.centroid[next * d]);
+                     prefetch(&measures_.second_moment[next]);
+                   }
+                   const std::byte* const row = sums + t * row_bytes_;
+                   const double mass = real_at(row, 0, float32);
+                   if (!(mass > 0)) continue;
+                   const std::size_t rank = first + t, i = seeds_.input[rank];
+                   measures_.status[i] = SeedStatus::ok;
+                   measures_.mass[i] =
+                       std::max(unscaled(mass, power),
+                                std::numeric_limits<double>::min());  // a cell that is not empty
+                   for (std::size_t c = 0; c < d; ++c)
+                     measures_.centroid[i * d + c] =
+                         seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
+                   measures_.second_moment[i] = unscaled(real_at(row, 1 + d, float32), power + 2);
+                 }
+               });
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
-  const bool summed = one_each(pair_offset, begin, end, first, last);
+  const bool summed = one_pair_per_rank(pair_offset, begin, end, first, last);
   if (!summed) sum_on_device(pair_offset, begin, end, first, last, moments);
   const std::size_t ranks = std::size_t{last} - first + 1;
   cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);
   const bool open = pair_offset[last + 1] > end;
   set_measures(first, open ? last : last + 1, sums.data());
-  // The row of the chunk before is needed once more if ending the map fails and the chunk is repeated.
-  std::vector<std::byte> goes_on;
-  if (open) goes_on.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
+  // Keep the row of the previous chunk until the map has ended: if that fails the chunk is repeated.
+  std::vector<std::byte> row;
+  if (open) row.assign(sums.data() + (ranks - 1) * row_bytes_, sums.data() + ranks * row_bytes_);
   sums.end();
-  if (open) open_ = std::move(goes_on);
+  if (open) open_ = std::move(row);
 }
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// From the moments of pieces to the measures of cells, chunk after chunk.
+/// Sums the moments of pieces into the measures of cells, chunk by chunk. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,21 @@
 #include <vector>
 
 #include "lib/cl/program.hpp"
-#include "lib/scene/scene.hpp"
+#include "lib/scene/domain_buffers.hpp"
+#include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 
-/// Sums on the device and finishes on the host what a chunk completes: memory by chunk, not by seed.
+/// Sums on the device and converts the rows that a chunk completes on the host, so device memory grows with
+/// the chunk and not with the number of seeds.
 class MomentSums {
  public:
-  /// Every seed starts as hidden, or as duplicate. Keeps references to all but `domain_measure`.
-  MomentSums(const Scene& scene, const SeedSet& seeds, double domain_measure, int threads);
+  /// Every seed starts as hidden or duplicate. Keeps references to `domain` and `seeds`.
+  MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double domain_measure, int threads);
 
-  /// Adds the pairs [begin, end), which are of the ranks [first, last]; the last one may go on in the next
-  /// chunk, which begins with pair `end`. If this throws nothing has been added.
-  /// \param pair_offset  per rank: its first pair, then the number of pairs
+  /// Adds the pairs [begin, end), which belong to the ranks [first, last]. The last rank may have more pairs
+  /// in the next chunk, which must begin with pair `end`. Adds nothing if it throws.
+  /// \param pair_offset  per rank: its first pair; then the number of pairs
   /// \param moments      by pair of the chunk, in device memory
   void add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
            std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
@@ -30,23 +32,23 @@ class MomentSums {
   Measures finish() { return std::move(measures_); }
 
  private:
-  /// One pair a rank, as where the domain is one region: sums are the moments as they are.
-  static bool one_each(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-                       std::uint32_t first, std::uint32_t last);
+  /// Whether each rank has one pair, for instance in a domain of one region: the moments are then the sums.
+  static bool one_pair_per_rank(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                                std::uint64_t end, std::uint32_t first, std::uint32_t last);
   void sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
-  /// \param sums  rows of the ranks from `first` on
+  /// Sets the measures of the ranks [first, last). \param sums  a row for each rank
   void set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums);
 
-  const Scene& scene_;
+  const DomainBuffers& domain_;
   const SeedSet& seeds_;
   int threads_;
   std::size_t columns_, row_bytes_;
-  std::optional<cl::Kernel> gather_;  // where ranks have several pairs
+  std::optional<cl::Kernel> gather_;  // built when a rank has several pairs
   cl::Buffer<std::uint32_t> offset_;
   cl::RawBuffer before_, device_sums_;
   std::vector<std::uint32_t> chunk_offset_;
-  std::vector<std::byte> open_;  // the row of the rank that goes on, in the device's precision
+  std::vector<std::byte> open_;  // sum so far of a rank that continues, in the device's precision
   Measures measures_;
 };
 

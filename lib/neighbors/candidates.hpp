@@ -1,44 +1,40 @@
 /// \file
-/// Where a clip kernel gets its candidate neighbours from: the seam between search and clipping.
+/// Candidate neighbours for the clip kernels: the interface between search and clipping. Internal.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "lib/cl/program.hpp"
+#include "lib/scene/scene.hpp"
 
 namespace powercell {
 
-class Scene;
-
-/// One source of candidates. A launch is prepared for its seeds, then adds its arguments behind the
-/// common ones of the clip kernels (kernels/clip/by_*.cl).
+/// A clip kernel (kernels/clip/by_*.cl) and the buffers that it reads candidates from.
 class Candidates {
  public:
   virtual ~Candidates() = default;
   virtual std::string_view file() const = 0;    ///< kernel source
   virtual std::string_view kernel() const = 0;  ///< kernel name
-
-  /// Most pairs one launch may have in this round, for the memory of the lists.
-  virtual std::size_t most_pairs(int round) const = 0;
-  /// Readies candidates for pairs with these ranks (ascending); in round r > 0 for pairs that ended
-  /// with PIECE_MORE in round r-1.
-  virtual void prepare(std::span<const std::uint32_t> ranks, int round) = 0;
-  /// Sets the arguments from `first` on.
-  virtual void set_arguments(cl::Kernel& kernel, unsigned first) = 0;
-  /// OUTPUT_... of kernels/layout.h that this source adds to those of the clipper.
-  virtual int outputs() const { return 0; }
-  /// The regions whose pieces together are that of the pair, where the host clips them: it knows no more than
-  /// regions and seeds.
-  virtual std::vector<std::uint32_t> regions_for_host(std::uint32_t /*rank*/, std::uint32_t region) const {
-    return {region};
-  }
-  /// The same source for another scene.
+  /// Sets the arguments that follow those common to all clip kernels, from index `first` on.
+  virtual void set_arguments(cl::Kernel& kernel, unsigned first) const = 0;
+  /// Candidates of the same kind for the golden diagram: a small scene in which every seed may be a neighbour
+  /// of every other and meet every region.
   virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;
-  /// Seconds spent on the host in prepare() since construction.
+
+  // For lists of candidates, which are made for each launch. The tree needs none of this.
+
+  /// Maximum number of pairs in one launch of this round.
+  virtual std::size_t most_pairs(int /*round*/) const { return std::numeric_limits<std::uint32_t>::max(); }
+  /// Makes the lists of these ranks, ascending. Round r > 0 makes longer lists for the pairs that ended with
+  /// PIECE_MORE in round r-1.
+  virtual void prepare(std::span<const std::uint32_t> /*ranks*/, int /*round*/) {}
+  /// OUTPUT_... (kernels/layout.h) in addition to those of the clipper.
+  virtual int outputs() const { return 0; }
+  /// Seconds spent in prepare() on the host since construction.
   virtual double host_seconds() const { return 0; }
 };
 

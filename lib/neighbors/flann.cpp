@@ -34,23 +34,23 @@ FlannIndex::~FlannIndex() = default;
 void FlannIndex::query(std::span<const std::uint32_t> ranks, std::size_t count, bool twins, int threads,
                        std::vector<std::uint32_t>& rows) const {
   const Tree& tree = *tree_;
-  const std::size_t asked = count + 1;  // the seed itself may be among them
+  const std::size_t wanted = count + 1;  // the seed itself may be among them
   rows.resize(ranks.size() * count);
   parallel_for(threads, ranks.size(), [&](std::size_t begin, std::size_t end) {
     flann::SearchParams parameters(flann::FLANN_CHECKS_UNLIMITED);
-    parameters.use_heap = asked > 512 ? flann::FLANN_True : flann::FLANN_False;
-    std::vector<double> query(tree.dimension), distance(asked);
-    std::vector<std::size_t> found(asked);
-    flann::Matrix<double> query_row(query.data(), 1, tree.dimension), distances(distance.data(), 1, asked);
-    flann::Matrix<std::size_t> indices(found.data(), 1, asked);
+    parameters.use_heap = wanted > 512 ? flann::FLANN_True : flann::FLANN_False;
+    std::vector<double> query(tree.dimension), distance(wanted);
+    std::vector<std::size_t> found(wanted);
+    flann::Matrix<double> query_row(query.data(), 1, tree.dimension), distances(distance.data(), 1, wanted);
+    flann::Matrix<std::size_t> indices(found.data(), 1, wanted);
     for (std::size_t q = begin; q < end; ++q) {
       const double* point = &tree.points[ranks[q] * tree.dimension];
       std::copy(point, point + tree.dimension, query.begin());
       if (twins) query.back() = -query.back();
-      tree.index->knnSearch(query_row, indices, distances, asked, parameters);
+      tree.index->knnSearch(query_row, indices, distances, wanted, parameters);
       std::uint32_t* row = rows.data() + q * count;
       std::size_t kept = 0;
-      for (std::size_t k = 0; k < asked && kept < count; ++k)
+      for (std::size_t k = 0; k < wanted && kept < count; ++k)
         if (found[k] != ranks[q]) row[kept++] = static_cast<std::uint32_t>(found[k]);
     }
   });

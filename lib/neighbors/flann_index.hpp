@@ -1,5 +1,5 @@
 /// \file
-/// Nearest lifted neighbours through FLANN's KDTreeSingleIndex; the only user of FLANN is flann.cpp.
+/// Nearest lifted seeds by FLANN's KDTreeSingleIndex. Only flann.cpp includes FLANN. Internal.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,15 @@ namespace powercell {
 
 class FlannIndex {
  public:
-  /// \param scale    a power of two that positions are multiplied by, so that their squares are in range
-  /// \param heights  the lift h_i by rank, as many as seeds, in the unit that `scale` makes
+  /// \param scale    power of two that brings the squares of positions into range
+  /// \param heights  the lift h_i of (5) by rank, scaled
   FlannIndex(const SeedSet& seeds, double scale, std::span<const double> heights);
   ~FlannIndex();
 
-  /// For each rank the `count` nearest other seeds by lifted distance from its query point (the twin
-  /// (p, -h) or the lifted seed (p, h)), nearest first: rows of `count` ranks. count <= seeds - 1.
+  /// Finds for each rank the `count` lifted seeds nearest to its query point, the twin (p, -h) or the lifted
+  /// seed (p, h) itself, without the seed, nearest first.
+  /// \param rows  set to rows of `count` ranks
+  /// \pre count < number of seeds
   void query(std::span<const std::uint32_t> ranks, std::size_t count, bool twins, int threads,
              std::vector<std::uint32_t>& rows) const;
 

@@ -9,17 +9,17 @@
 namespace powercell {
 namespace {
 
-/// Fewer seeds are clipped before it is known which are hidden.
+/// The search pays from this number of seeds on.
 constexpr std::size_t least_seeds = 2048;
-/// Leaves asked first, and the part of their seeds that must be hidden for the others to be asked.
+/// Number of leaves in a first sample, and the share of its seeds that must be hidden for a full search.
 constexpr std::uint32_t sample_leaves = 256;
 constexpr double least_share = 0.15;
-/// Seeds of the sample that costs no kernel, and how many ranks on either side each is compared with.
+/// Number of seeds in a sample on the host, and how many ranks on either side each is compared with.
 constexpr std::size_t sample_seeds = 512, ranks_beside = 8;
-/// With fewer, the search for the seeds that meet a region of a surface leaves the hidden ones out.
+/// On a surface with fewer seeds per region, the search for pairs excludes the hidden ones anyway.
 constexpr std::size_t seeds_a_region = 8;
 
-/// Whether the bisector of seeds a and b leaves a outside of its own side.
+/// Whether seed a lies beyond its bisector with b: s_ab < 0 in (4).
 bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   double distance2 = 0;
@@ -30,17 +30,17 @@ bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
   return distance2 < seeds.weights[b] - seeds.weights[a];
 }
 
-/// A guess from seeds next to each other on the curve. Of white noise that is beyond some bisector a quarter
-/// to a half is hidden.
+/// An estimate from neighbours along the curve. Of seeds of white noise that lie beyond a bisector, a quarter
+/// to a half are hidden.
 bool may_hide_many(const SeedSet& seeds) {
-  std::size_t asked = 0, beyond = 0;
+  std::size_t tested = 0, beyond = 0;
   for (std::size_t a = ranks_beside; a + ranks_beside < seeds.size(); a += seeds.size() / sample_seeds) {
     bool any = false;
     for (std::size_t b = a - ranks_beside; b <= a + ranks_beside; ++b) any = any || is_beyond(seeds, a, b);
-    ++asked;
+    ++tested;
     beyond += any ? 1 : 0;
   }
-  return static_cast<double>(beyond) > 2 * least_share * static_cast<double>(asked);
+  return static_cast<double>(beyond) > 2 * least_share * static_cast<double>(tested);
 }
 
 class HiddenSearch {
@@ -63,8 +63,8 @@ class HiddenSearch {
     blocks_.pack(tree_);
   }
 
-  /// Of the seeds of every `stride`-th leaf.
-  std::vector<std::uint8_t> ask(std::uint32_t stride) {
+  /// Searches the seeds of every `stride`-th leaf.
+  std::vector<std::uint8_t> find(std::uint32_t stride) {
     const std::uint32_t leaves = (tree_.seed_count - 1) / PackedTree::fan + 1,
                         count = (leaves - 1) / stride + 1;
     hidden_.resize(std::size_t{count} * PackedTree::fan);
@@ -86,13 +86,13 @@ class HiddenSearch {
 }  // namespace
 
 std::vector<std::uint8_t> hidden_seeds(const Scene& scene) {
-  std::vector<std::uint8_t> hidden = HiddenSearch(scene).ask(1);
-  hidden.resize(scene.seeds().size());
+  std::vector<std::uint8_t> hidden = HiddenSearch(scene).find(1);
+  hidden.resize(scene.seeds.size());
   return hidden;
 }
 
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {
-  const SeedSet& seeds = scene.seeds();
+  const SeedSet& seeds = scene.seeds;
   const RegionMesh& mesh = scene.mesh();
   const bool surface = mesh.cell_dimension < mesh.dimension;
   if (surface && seeds.size() < seeds_a_region * mesh.region_count()) return {};
@@ -100,36 +100,36 @@ std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {
   HiddenSearch search(scene);
   const std::size_t leaves = seeds.size() / PackedTree::fan;
   const auto stride = static_cast<std::uint32_t>(std::max<std::size_t>(1, leaves / sample_leaves));
-  const std::vector<std::uint8_t> sample = search.ask(stride);
+  const std::vector<std::uint8_t> sample = search.find(stride);
   const auto found = static_cast<double>(std::count(sample.begin(), sample.end(), 1));
   if (found < least_share * static_cast<double>(sample.size())) return {};
-  std::vector<std::uint8_t> hidden = search.ask(1);
+  std::vector<std::uint8_t> hidden = search.find(1);
   hidden.resize(seeds.size());
   return hidden;
 }
 
 SeedSet without_hidden(const SeedSet& seeds, const std::vector<std::uint8_t>& hidden, int threads) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
-  SeedSet rest;
-  rest.dimension = seeds.dimension;
-  rest.input_count = seeds.input_count;
-  rest.duplicate = seeds.duplicate;
+  SeedSet remaining;
+  remaining.dimension = seeds.dimension;
+  remaining.input_count = seeds.input_count;
+  remaining.duplicate = seeds.duplicate;
   std::vector<std::uint32_t> kept;
   kept.reserve(static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), 0)));
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
     if (!hidden[rank]) kept.push_back(rank);
-  rest.positions.resize(kept.size() * d);
-  rest.weights.resize(kept.size());
-  rest.input.resize(kept.size());
+  remaining.positions.resize(kept.size() * d);
+  remaining.weights.resize(kept.size());
+  remaining.input.resize(kept.size());
   parallel_for(threads_for(kept.size(), threads), kept.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t rank = kept[k];
-      std::copy_n(&seeds.positions[rank * d], d, &rest.positions[k * d]);
-      rest.weights[k] = seeds.weights[rank];
-      rest.input[k] = seeds.input[rank];
+      std::copy_n(&seeds.positions[rank * d], d, &remaining.positions[k * d]);
+      remaining.weights[k] = seeds.weights[rank];
+      remaining.input[k] = seeds.input[rank];
     }
   });
-  return rest;
+  return remaining;
 }
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// Seeds without a cell, found out before any cell is clipped. Internal.
+/// Seeds that are proved hidden before any cell is clipped. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace powercell {
 
-/// For each rank of scene.seeds() 1 if it is certain that the seed has no cell in the box around the domain,
-/// since a few seeds nearby beat it everywhere there (docs/mathematics.md, "Hidden seeds";
-/// kernels/neighbors/hidden.cl), else 0. \pre more than PackedTree::fan seeds   \throw Error opencl,
-/// out_of_device_memory, build_failed
+/// By rank: 1 if every point of the domain's bounding box is nearer, in power distance, to one of a few other
+/// seeds (docs/mathematics.md, (10c); kernels/neighbors/hidden.cl), else 0. Seeds with 0 may be hidden too.
+/// \pre more than PackedTree::fan seeds
+/// \throw Error opencl, out_of_device_memory, build_failed
 std::vector<std::uint8_t> hidden_seeds(const Scene& scene);
-/// The same, or nothing where it is not worth the time: few seeds, or few that seem to be hidden.
+/// The same, or an empty vector where the search does not pay: few seeds, or few hidden ones in a sample.
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene);
 
-/// The seeds whose `hidden`, by rank, is 0, in their order.
+/// The seeds for which `hidden`, by rank, is 0, in their order.
 SeedSet without_hidden(const SeedSet& seeds, const std::vector<std::uint8_t>& hidden, int threads);
 
 }  // namespace powercell

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <powercell/error.hpp>
+#include <string>
 
 #include "kernels/layout.h"
+#include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
-#include "lib/seeds/lift.hpp"
 
 namespace powercell {
 
 namespace {
 
-/// Entries of neighbour lists in device memory at once.
+/// Maximum number of list entries in device memory at once.
 constexpr std::size_t most_entries = std::size_t{1} << 25;
 
 std::size_t initial_neighbors(const Options& options, int cell_dimension) {
@@ -19,17 +22,40 @@ std::size_t initial_neighbors(const Options& options, int cell_dimension) {
   return cell_dimension == 3 ? 32 : 16;
 }
 
+[[noreturn]] void refuse_lift(double eta, const std::string& why) {
+  throw Error(ErrorCode::invalid_argument, "the height of the lift, " + digits(eta) + ", is " + why +
+                                               "; leave it unset to use the largest weight");
+}
+
+/// The lift of weighted seeds to unweighted points one dimension up (paper, section 3): h_i = sqrt(eta - w_i)
+/// by rank, in units of the frame; eta = NaN means the largest weight.
+/// \throw Error invalid_argument if eta is below the largest weight or above Frame::most_weight
+std::vector<double> lift_heights(const SeedSet& seeds, double eta, const Frame& frame) {
+  std::vector<double> heights(seeds.size());
+  if (heights.empty()) return heights;
+  const double largest = *std::max_element(seeds.weights.begin(), seeds.weights.end());
+  if (std::isnan(eta)) eta = largest;
+  if (!(eta >= largest)) refuse_lift(eta, "below the largest weight, " + digits(largest));
+  const double top = frame.weight_to_device(eta);
+  // Above it, distances between lifted seeds are infinite and the lists hold arbitrary seeds.
+  if (!(top <= frame.most_weight()))
+    refuse_lift(eta, "too large for the size of the domain: its square would not be finite");
+  std::transform(seeds.weights.begin(), seeds.weights.end(), heights.begin(),
+                 [&](double w) { return std::sqrt(top - frame.weight_to_device(w)); });
+  return heights;
+}
+
 }  // namespace
 
 ListCandidates::ListCandidates(const Scene& scene, const Options& options)
-    : ListCandidates(scene, options, lift_heights(scene.seeds(), options.lift_eta, scene.frame())) {}
+    : ListCandidates(scene, options, lift_heights(scene.seeds, options.lift_eta, scene.frame())) {}
 
 ListCandidates::ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights)
     : scene_(scene),
       initial_(initial_neighbors(options, scene.mesh().cell_dimension)),
       twins_(options.twin_queries),
       threads_(thread_count(options.threads)),
-      index_(scene.seeds(), scene.frame().scale, heights),
+      index_(scene.seeds, scene.frame().scale, heights),
       lift_(scene.context()),
       neighbor_(scene.context()),
       active_list_(scene.context()),
@@ -45,7 +71,7 @@ ListCandidates::ListCandidates(const Scene& scene, const Options& options, const
 }
 
 std::size_t ListCandidates::neighbors(int round) const {
-  const std::size_t others = scene_.seeds().size() - 1;
+  const std::size_t others = scene_.seeds.size() - 1;
   return round > 40 ? others : std::min(others, initial_ << round);
 }
 
@@ -63,7 +89,7 @@ int ListCandidates::outputs() const {
   return counting_ ? OUTPUT_LIST_USE : 0;
 }
 
-void ListCandidates::take_in_use() {
+void ListCandidates::read_use() {
   if (launched_rows_ == 0) return;
   std::vector<std::uint32_t> rows(launched_rows_ * 3);
   list_use_.download(std::span(rows));
@@ -80,12 +106,12 @@ void ListCandidates::take_in_use() {
 }
 
 const ListUse& ListCandidates::use() {
-  take_in_use();
+  read_use();
   return use_;
 }
 
 void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
-  take_in_use();
+  read_use();
   const auto start = std::chrono::steady_clock::now();
   distinct_.clear();
   pair_row_.clear();
@@ -106,8 +132,8 @@ void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
   use_.entries += distinct_.size() * count_;
 }
 
-void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) {
-  kernel.args_from(first, scene_.points, static_cast<cl_uint>(scene_.seeds().size()), lift_, neighbor_,
+void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) const {
+  kernel.args_from(first, scene_.buffers.points, static_cast<cl_uint>(scene_.seeds.size()), lift_, neighbor_,
                    active_list_, static_cast<cl_uint>(count_), static_cast<cl_uint>(count_),
                    static_cast<cl_int>(twins_), list_use_);
 }

@@ -6,18 +6,17 @@
 
 #include "lib/neighbors/candidates.hpp"
 #include "lib/neighbors/flann_index.hpp"
-#include "lib/scene/scene.hpp"
 
 namespace powercell {
 
-/// How much of the lists was asked for and needed.
+/// How much of the lists was made and needed.
 struct ListUse {
-  std::uint64_t queries = 0;  ///< lists made, those of later rounds included
-  std::uint64_t entries = 0;  ///< neighbours in them
-  std::uint64_t pairs = 0;    ///< (region, seed) pairs finished
-  std::uint64_t tried = 0;    ///< neighbours tried until the stopping rule held, over these pairs
-  std::uint64_t cuts = 0;     ///< of those, the ones that cut something off
-  std::vector<std::uint64_t> pairs_per_round;  ///< pairs finished in round r: lists doubled r times
+  std::uint64_t queries = 0;                   ///< lists made, including those of later rounds
+  std::uint64_t entries = 0;                   ///< neighbours in them
+  std::uint64_t pairs = 0;                     ///< (region, seed) pairs finished
+  std::uint64_t tried = 0;                     ///< neighbours of these pairs tried until (8) held
+  std::uint64_t cuts = 0;                      ///< those of them that cut the cell
+  std::vector<std::uint64_t> pairs_per_round;  ///< pairs finished in round r, with lists doubled r times
 };
 
 class ListCandidates : public Candidates {
@@ -28,24 +27,24 @@ class ListCandidates : public Candidates {
   std::string_view kernel() const override { return "clip_by_list_kernel"; }
   std::size_t most_pairs(int round) const override;
   void prepare(std::span<const std::uint32_t> ranks, int round) override;
-  void set_arguments(cl::Kernel& kernel, unsigned first) override;
+  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
   int outputs() const override;
   double host_seconds() const override { return host_seconds_; }
 
-  /// Counts how lists are used from now on. \pre no clipper has been made with this source yet
+  /// Turns the counts of use() on. \pre no clipper was made with these candidates yet
   void count_use() { counting_ = true; }
-  /// What has been counted since construction.
+  /// The counts so far.
   const ListUse& use();
 
  private:
-  /// \param heights the lift by rank, in units of the scene's frame
+  /// \param heights  the lift by rank, in units of the scene's frame
   ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights);
 
   std::size_t neighbors(int round) const;  ///< length of a list in this round
-  void take_in_use();                      ///< adds what the last launch wrote
+  void read_use();                         ///< adds the counts of the last launch to use_
 
-  const Scene& scene_;
+  const Scene scene_;
   std::size_t initial_;
   bool twins_;
   int threads_;

@@ -1,5 +1,5 @@
 /// \file
-/// The packed tree by blocks of eight, and the near leaves of each leaf, in device memory. Internal.
+/// The packed tree in blocks of eight, and the near leaves of each leaf, in device memory. Internal.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace powercell {
 
 struct Variant;
 
-/// What the clip kernels search (kernels/neighbors/blocks.cl, near.cl): made from seeds and tree on the
-/// device.
+/// The structure that the clip kernels search, built on the device from seeds and tree
+/// (kernels/neighbors/blocks.cl, near.cl).
 class TreeBlocks {
  public:
   /// Builds the kernels for the precision and dimensions of `variant`.
@@ -24,20 +24,20 @@ class TreeBlocks {
     std::uint32_t seed_count, node_count;
     int levels;
   };
-  /// Both steps. Enqueues without waiting.
+  /// Enqueues both steps, without waiting.
   void enqueue(const Tree& tree) {
     pack(tree);
     list(tree);
   }
   void pack(const Tree& tree);  ///< the blocks
   void list(const Tree& tree);  ///< the near leaves, from the blocks
-  /// For kernels that take the arguments and do not search.
+  /// Leaves the buffers empty, for kernels that take the arguments but do not search.
   void leave_empty();
 
   static constexpr unsigned argument_count = 11, pack_argument_count = 8;
-  /// Sets so many arguments of a clip kernel from `first` on: the tree, then what was made of it.
+  /// Sets `argument_count` arguments of a clip kernel from `first` on: tree, blocks and near leaves.
   void set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
-  /// The same without the near leaves.
+  /// Sets `pack_argument_count` arguments: the same without the near leaves.
   void set_pack_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
 
  private:

@@ -1,38 +1,72 @@
 /// \file
-/// Candidates from the packed tree, searched in the kernel (kernels/neighbors/tree.cl).
+/// Candidates from a search of the packed tree in the kernel, or from lists that replace the search.
+/// Internal.
 #pragma once
 
-#include <limits>
-
 #include "lib/neighbors/candidates.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
-#include "lib/scene/scene.hpp"
+#include "lib/scene/variant.hpp"
 
 namespace powercell {
 
-/// The tree of the scene as it is on the device.
+/// The scene's tree on the device.
 TreeBlocks::Tree device_tree(const Scene& scene);
-/// The precision and dimensions of the scene, of programs without cells.
+/// A variant with the scene's precision and dimensions, for programs that hold no cell.
 Variant without_cells(const Scene& scene);
 
+/// Searches the tree for each pair (kernels/clip/by_tree.cl).
 class TreeCandidates : public Candidates {
  public:
-  /// \param searched  whether any pair is to be searched for in the tree
+  /// Enqueues the construction of the tree's blocks, without waiting.
+  /// \param searched  false if no pair will need the tree
   explicit TreeCandidates(const Scene& scene, bool searched = true);
   std::string_view file() const override { return "clip/by_tree.cl"; }
   std::string_view kernel() const override { return "clip_by_tree_kernel"; }
-  std::size_t most_pairs(int) const override { return std::numeric_limits<std::uint32_t>::max(); }
-  void prepare(std::span<const std::uint32_t>, int) override {}
-  void set_arguments(cl::Kernel& kernel, unsigned first) override {
-    blocks_.set_arguments(kernel, first, device_tree(scene_));
-  }
-  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
-    return std::make_unique<TreeCandidates>(scene);
-  }
+  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+
+ protected:
+  const Scene& scene() const { return scene_; }
 
  private:
-  const Scene& scene_;
+  const Scene scene_;
   TreeBlocks blocks_;
+};
+
+/// Takes candidates from the list of seeds of a pair's region, or searches the tree if it has none
+/// (kernels/clip/by_region.cl).
+class RegionCandidates : public TreeCandidates {
+ public:
+  /// Uploads the lists (Pairs::list_offset, list_seed). Regions after the last list have none.
+  /// \param all_listed  whether every region with a pair has a list
+  RegionCandidates(const Scene& scene, std::span<const std::uint64_t> list_offset,
+                   std::span<const std::uint32_t> list_seed, bool all_listed);
+  std::string_view file() const override { return "clip/by_region.cl"; }
+  std::string_view kernel() const override { return "clip_by_region_kernel"; }
+  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+
+ private:
+  cl::Buffer<std::uint64_t> list_offset_;  ///< regions + 1
+  cl::Buffer<std::uint32_t> list_seed_;
+};
+
+/// Takes the known neighbours of a pair's cell, and the planes of the boundary that cut it, or searches the
+/// tree if they are not known (kernels/clip/by_cell.cl). Pays where a cell meets several regions. For domains
+/// of full dimension, where no other bisector than those of its unrestricted cell cuts a piece.
+class CellCandidates : public TreeCandidates {
+ public:
+  /// Uploads walls and planes. \pre planes are for double precision and fewer than BORDER_PLANE seeds
+  CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes);
+  std::string_view file() const override { return "clip/by_cell.cl"; }
+  std::string_view kernel() const override { return "clip_by_cell_kernel"; }
+  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+
+ private:
+  cl::Buffer<std::uint32_t> wall_offset_, neighbor_, plane_offset_;
+  cl::RawBuffer plane_;
 };
 
 }  // namespace powercell

@@ -1,25 +1,27 @@
 #include "lib/pairs/boundary_planes.hpp"
 
 #include <map>
-#include <numeric>
 #include <span>
 
+#include "lib/base/disjoint_sets.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/vectors.hpp"
 #include "lib/domain/adjacency.hpp"
-#include "lib/domain/exact_orientation.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell::pairs {
 namespace {
 
 using Vector = Vector3<double>;
 
-/// More would cost more than the regions.
+/// With more planes, clipping by regions is cheaper.
 constexpr std::size_t most_planes = 24;
-/// Of the terms: more than the rounding of a determinant of differences of corners, or of a scalar product
-/// with a cross product.
+/// Relative to the terms. Bounds the rounding of a determinant of differences of corners, and of a scalar
+/// product with a cross product.
 constexpr double rounding = 1e-14;
 
-/// The sign of the place of vertex x: above 0 outside the plane of a facet seen from outside as a, b, c.
+/// The side of vertex x, exactly: positive outside the plane of the facet a b c, counter-clockwise from
+/// outside.
 int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                   std::uint32_t x) {
   const auto at = [&](std::uint32_t v) { return &vertices[std::size_t{v} * 3]; };
@@ -31,13 +33,13 @@ int side_of_plane(const std::vector<double>& vertices, std::uint32_t a, std::uin
   return exact_orientation(vertices, corners);
 }
 
-/// Whether some vertex is inside all planes, so that something is left of the cell.
+/// Whether some vertex of the cell is inside all planes, so that they leave a part of it.
 bool has_vertex_inside(const CellHull& cell, std::span<const LocalPlane> planes) {
   const std::size_t count = cell.vertex.size() / 3;
   for (std::size_t v = 0; v < count; ++v) {
     const Vector y = {cell.vertex[v], cell.vertex[count + v], cell.vertex[2 * count + v]};
     if (std::all_of(planes.begin(), planes.end(),
-                    [&](const LocalPlane& p) { return dot(p.normal, y) < p.height - 4 * cell.error; }))
+                    [&](const LocalPlane& p) { return dot(p.normal, y) < p.offset - 4 * cell.error; }))
       return true;
   }
   return false;
@@ -49,13 +51,9 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
     : mesh_(boundary),
       groups_(groups),
       blocks_(boundary, groups),
-      vertex_(weld(boundary.vertices, 3)),
+      vertex_(first_at_position(boundary.vertices, 3)),
       plane_(boundary.region_count()) {
-  std::iota(plane_.begin(), plane_.end(), 0U);
-  const auto root = [&](std::uint32_t f) {
-    while (plane_[f] != f) f = plane_[f] = plane_[plane_[f]];
-    return f;
-  };
+  DisjointSets coplanar(plane_.size());
   const auto corners = [&](std::uint32_t f) { return &mesh_.region_vertex[std::size_t{f} * 3]; };
   const auto normal = [&](std::uint32_t f) {
     const auto at = [&](std::size_t k) { return &mesh_.vertices[std::size_t{corners(f)[k]} * 3]; };
@@ -74,24 +72,24 @@ BoundaryPlanes::BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& g
     if (other == edges.end() || ends.first > ends.second) continue;
     const std::uint32_t f = edge.facet, g = other->second.facet;
     const std::uint32_t *a = corners(f), x = corners(g)[(other->second.from + 2) % 3];
-    // Turned round against each other along the edge, two triangles in one plane face the same way unless
-    // folded.
+    // Coplanar triangles with a common edge have equal normals unless they are folded onto each other.
     if (side_of_plane(mesh_.vertices, a[0], a[1], a[2], x) == 0 && dot(normal(f), normal(g)) > 0)
-      plane_[std::max(root(f), root(g))] = std::min(root(f), root(g));
+      coplanar.unite(f, g);
   }
-  for (std::uint32_t f = 0; f < plane_.size(); ++f) plane_[f] = root(f);
+  for (std::uint32_t f = 0; f < plane_.size(); ++f) plane_[f] = coplanar.root(f);
 }
 
 const double* PlaneSearch::corner(std::uint32_t facet, std::size_t k) const {
-  return &b_.mesh_.vertices[std::size_t{b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]} * 3];
+  return &boundary_.mesh_
+              .vertices[std::size_t{boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]} * 3];
 }
 
 std::uint32_t PlaneSearch::vertex(std::uint32_t facet, std::size_t k) const {
-  return b_.vertex_[b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]];
+  return boundary_.vertex_[boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]];
 }
 
-/// Whether a facet meets the box of the cell: a direction among these thirteen parts two convex bodies, or
-/// none does.
+/// Whether a facet meets the box of the cell, by the thirteen possible separating axes of a triangle and a
+/// box.
 PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* seed,
                                             const CellHull& cell) const {
   Vector middle, half, x[3];
@@ -101,81 +99,81 @@ PlaneSearch::Meeting PlaneSearch::meets_box(std::uint32_t facet, const double* s
     for (std::size_t c = 0; c < 3; ++c) x[c][k] = corner(facet, c)[k] - seed[k] - middle[k];
   }
   bool clear = true;
-  const auto parted = [&](const Vector& axis) {
+  const auto separated = [&](const Vector& axis) {
     double low = dot(axis, x[0]), high = low, radius = 0, terms = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      low = std::min(low, dot(axis, x[c]));
-      high = std::max(high, dot(axis, x[c]));
+    for (const Vector& corner : x) {
+      low = std::min(low, dot(axis, corner));
+      high = std::max(high, dot(axis, corner));
       for (std::size_t k = 0; k < 3; ++k)
-        terms += std::abs(axis[k]) * (std::abs(x[c][k]) + std::abs(seed[k]) + std::abs(middle[k]));
+        terms += std::abs(axis[k]) * (std::abs(corner[k]) + std::abs(seed[k]) + std::abs(middle[k]));
     }
     for (std::size_t k = 0; k < 3; ++k) radius += std::abs(axis[k]) * half[k];
     const double gap = std::max(low, -high) - radius, error = rounding * (terms + radius);
-    // A direction of 0, of an edge along an axis, parts nothing.
+    // The axis is 0 for an edge along a coordinate axis; it separates nothing.
     if (std::abs(gap) <= error && radius > 0) clear = false;
     return gap > error;
   };
   for (std::size_t k = 0; k < 3; ++k) {
     Vector axis{};
     axis[k] = 1;
-    if (parted(axis)) return Meeting::none;
+    if (separated(axis)) return Meeting::none;
   }
   const Vector edge[3] = {difference<double>(x[1].data(), x[0].data()),
                           difference<double>(x[2].data(), x[1].data()),
                           difference<double>(x[0].data(), x[2].data())};
-  if (parted(cross(edge[0], edge[1]))) return Meeting::none;
+  if (separated(cross(edge[0], edge[1]))) return Meeting::none;
   for (const Vector& e : edge)
     for (std::size_t k = 0; k < 3; ++k) {
       Vector axis{};
       axis[k] = 1;
-      if (parted(cross(axis, e))) return Meeting::none;
+      if (separated(cross(axis, e))) return Meeting::none;
     }
   return clear ? Meeting::some : Meeting::unclear;
 }
 
-/// Returns whether all facets are clear.
+/// Appends the facets of a group that meet the cell's box to near_. Returns false if one is unclear.
 bool PlaneSearch::gather(std::size_t level, std::size_t group, const double* seed, const CellHull& cell) {
   if (level == 0) {
-    const std::uint32_t facet = b_.groups_.order[group];
+    const std::uint32_t facet = boundary_.groups_.order[group];
     const Meeting meeting = meets_box(facet, seed, cell);
     if (meeting == Meeting::some) near_.push_back(facet);
     return meeting != Meeting::unclear;
   }
-  const std::size_t below = b_.groups_.level[level - 1].low.size() / 3;
+  const std::size_t below = boundary_.groups_.level[level - 1].low.size() / 3;
   const std::size_t members = std::min(RegionGroups::fan, below - group * RegionGroups::fan);
   Lanes gap;
-  b_.blocks_.find_gaps(level - 1, group, seed, cell.low.data(), cell.high.data(), gap);
+  boundary_.blocks_.find_gaps(level - 1, group, seed, cell.low.data(), cell.high.data(), gap);
   for (std::size_t lane = 0; lane < members; ++lane)
-    // Boxes that touch to rounding are looked at.
+    // Boxes that touch to within rounding count as overlapping.
     if (!(gap[lane] > cell.error) && !gather(level - 1, group * RegionGroups::fan + lane, seed, cell))
       return false;
   return true;
 }
 
-/// Sets in_plane_ to the vertices of the near facets in the plane.
+/// Sets in_plane_ to the vertices of the near facets in a plane.
 void PlaneSearch::gather_vertices(std::uint32_t plane) {
   in_plane_.clear();
   for (const std::uint32_t f : near_)
-    if (b_.plane_[f] == plane)
+    if (boundary_.plane_[f] == plane)
       for (std::size_t k = 0; k < 3; ++k) in_plane_.push_back(vertex(f, k));
   std::sort(in_plane_.begin(), in_plane_.end());
 }
 
-/// Where a corner is, after gather_vertices(plane).
+/// The side of a facet's corner k, exactly. \pre gather_vertices(plane)
 int PlaneSearch::side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const {
   if (std::binary_search(in_plane_.begin(), in_plane_.end(), vertex(facet, k))) return 0;
-  const std::uint32_t* a = &b_.mesh_.region_vertex[std::size_t{plane} * 3];
-  return side_of_plane(b_.mesh_.vertices, a[0], a[1], a[2],
-                       b_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
+  const std::uint32_t* a = &boundary_.mesh_.region_vertex[std::size_t{plane} * 3];
+  return side_of_plane(boundary_.mesh_.vertices, a[0], a[1], a[2],
+                       boundary_.mesh_.region_vertex[std::size_t{facet} * 3 + k]);
 }
 
-/// Whether each facet is inside the planes of all others, and in none of them.
+/// Whether (12c) holds: each facet lies inside all planes of the others, and in none of them.
 bool PlaneSearch::convex_around() {
   if (plane_.size() < 2) return true;
   for (const std::uint32_t plane : plane_) {
     gather_vertices(plane);
     for (const std::uint32_t facet : near_) {
-      if (b_.plane_[facet] == plane) continue;
+      if (boundary_.plane_[facet] == plane) continue;
       bool within = true;
       for (std::size_t k = 0; k < 3; ++k) {
         const int s = side(plane, facet, k);
@@ -195,7 +193,7 @@ LocalPlane PlaneSearch::plane_of(std::uint32_t facet, const double* seed, double
   const double size = norm(n);
   LocalPlane plane;
   for (std::size_t k = 0; k < 3; ++k) plane.normal[k] = n[k] / size;
-  plane.height = dot(plane.normal, y);
+  plane.offset = dot(plane.normal, y);
   reach += std::abs(y[0]) + std::abs(y[1]) + std::abs(y[2]);
   plane.error = 16 * std::numeric_limits<double>::epsilon() * reach * (norm(a) * norm(b) / size);
   return plane;
@@ -203,14 +201,14 @@ LocalPlane PlaneSearch::plane_of(std::uint32_t facet, const double* seed, double
 
 PlaneSearch::Found PlaneSearch::find(const double* seed, const CellHull& cell,
                                      std::vector<LocalPlane>& planes) {
-  if (cell.empty() || b_.plane_.empty()) return Found::unclear;
+  if (cell.empty() || boundary_.plane_.empty()) return Found::unclear;
   near_.clear();
   plane_.clear();
-  if (!gather(b_.groups_.level.size() - 1, 0, seed, cell)) return Found::unclear;
+  if (!gather(boundary_.groups_.level.size() - 1, 0, seed, cell)) return Found::unclear;
   for (const std::uint32_t facet : near_)
-    if (std::find(plane_.begin(), plane_.end(), b_.plane_[facet]) == plane_.end()) {
+    if (std::find(plane_.begin(), plane_.end(), boundary_.plane_[facet]) == plane_.end()) {
       if (plane_.size() == most_planes) return Found::unclear;
-      plane_.push_back(b_.plane_[facet]);
+      plane_.push_back(boundary_.plane_[facet]);
     }
   if (plane_.empty()) return Found::nothing;
   if (!convex_around()) return Found::unclear;
@@ -221,7 +219,7 @@ PlaneSearch::Found PlaneSearch::find(const double* seed, const CellHull& cell,
     LocalPlane best{};
     best.error = std::numeric_limits<double>::infinity();
     for (const std::uint32_t facet : near_) {
-      if (b_.plane_[facet] != first) continue;
+      if (boundary_.plane_[facet] != first) continue;
       const LocalPlane plane = plane_of(facet, seed, reach);
       if (plane.error < best.error) best = plane;
     }

@@ -1,21 +1,21 @@
 /// \file
-/// Cells that the domain is convex around: cut by planes of its boundary, not by its regions. Internal.
+/// Boundary planes for cells around which the domain is convex: they replace its regions. Internal.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "lib/domain/region_mesh.hpp"
-#include "lib/neighbors/cell_planes.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
 #include "lib/pairs/cell_hull.hpp"
 #include "lib/regions/region_blocks.hpp"
 
 namespace powercell::pairs {
 
-/// The triangles of a boundary, and which of them lie in one plane exactly.
+/// The triangles of a boundary, and which of them are exactly coplanar.
 class BoundaryPlanes {
  public:
-  /// Keeps references. \pre boundary is that of tetrahedra (boundary_of), seen from outside
+  /// Keeps references. \pre `boundary` is boundary_of() a mesh of tetrahedra
   BoundaryPlanes(const RegionMesh& boundary, const RegionGroups& groups);
 
   std::size_t facets() const { return plane_.size(); }
@@ -25,21 +25,22 @@ class BoundaryPlanes {
   const RegionMesh& mesh_;
   const RegionGroups& groups_;
   RegionBlocks blocks_;
-  std::vector<std::uint32_t> vertex_;  // per vertex of the mesh: the first one at this place
-  std::vector<std::uint32_t> plane_;   // per facet: the first facet of its plane
+  std::vector<std::uint32_t> vertex_;  // per vertex of the mesh: the first one at its position
+  std::vector<std::uint32_t> plane_;   // per facet: the first facet in its plane
 };
 
-/// One worker's search with its scratch memory; not thread-safe.
+/// The search of one thread, with its scratch memory.
 class PlaneSearch {
  public:
-  explicit PlaneSearch(const BoundaryPlanes& boundary) : b_(boundary) {}
+  explicit PlaneSearch(const BoundaryPlanes& boundary) : boundary_(boundary) {}
 
   enum class Found {
     nothing,  ///< the cell does not meet the boundary
-    planes,   ///< the domain is the intersection of the half-spaces as far as the cell reaches
-    unclear   ///< neither, as far as can be told
+    planes,   ///< within the cell, the domain is the intersection of their half-spaces (12d)
+    unclear   ///< neither could be proved
   };
-  /// Appends the planes if they are found. \param seed  of the cell
+  /// Appends the planes that cut a cell, if it finds them.
+  /// \param seed  of the cell
   Found find(const double* seed, const CellHull& cell, std::vector<LocalPlane>& planes);
 
  private:
@@ -53,10 +54,10 @@ class PlaneSearch {
   int side(std::uint32_t plane, std::uint32_t facet, std::size_t k) const;
   LocalPlane plane_of(std::uint32_t facet, const double* seed, double reach) const;
 
-  const BoundaryPlanes& b_;
+  const BoundaryPlanes& boundary_;
   std::vector<std::uint32_t> near_;      // facets that meet the box of the cell
-  std::vector<std::uint32_t> plane_;     // planes of those
-  std::vector<std::uint32_t> in_plane_;  // ascending: vertices of those in the plane that is looked at
+  std::vector<std::uint32_t> plane_;     // their planes
+  std::vector<std::uint32_t> in_plane_;  // vertices of near facets in one plane, ascending
 };
 
 }  // namespace powercell::pairs

@@ -7,24 +7,16 @@
 namespace powercell::pairs {
 namespace {
 
-// At most this many seeds in question are put in a list, all of which is tested at once.
+// Up to this many undecided seeds are put in a list and tested at once.
 constexpr std::uint64_t few_seeds = 2048;
-// Where splitting does not thin them out even so many are: there weights vary with the position, as those of
-// seeds far outside whose cells lie in the domain, so that all nodes of the tree are too coarse.
+// The same after splits that excluded few seeds. There weights vary with the position, as those of seeds far
+// outside whose cells lie in the domain, and all nodes of the tree are too coarse.
 constexpr std::uint64_t few_after_failures = std::uint64_t{1} << 18;
-// Entries a frontier is expanded to. Coarser ones test worse, finer ones cost each part more.
-constexpr std::size_t enough_for_part = 32;
-constexpr std::size_t enough_for_box = 64;
-// Splits in a row that may fail to thin out the seeds in question before splitting is given up.
+// Number of entries to which a frontier is expanded. Fewer exclude less, more cost time in each part.
+constexpr std::size_t min_entries_of_part = 32;
+constexpr std::size_t min_entries_of_box = 64;
+// Splitting ends after so many splits in a row that exclude few seeds.
 constexpr int most_failures = 5;
-
-template <int D>
-double radius(const Part<D>& part, const Point<D>& centroid) {
-  double most = 0;
-  for (std::size_t v = 0; v < part.corners; ++v)
-    most = std::max(most, squared_distance<D>(part.corner[v], centroid));
-  return std::sqrt(most);
-}
 
 }  // namespace
 
@@ -34,7 +26,7 @@ void CandidateSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const
   to.listed = true;
   if (from.listed) return list_search_.narrow(low, high, from.list, to.list);
   to.listed =
-      node_search_.narrow(low, high, from.frontier, enough_for_box, few_seeds, to.frontier) <= few_seeds;
+      node_search_.narrow(low, high, from.frontier, min_entries_of_box, few_seeds, to.frontier) <= few_seeds;
   if (!to.listed) return;
   gather(to.frontier, few_);
   list_search_.narrow(low, high, few_, to.list);
@@ -48,21 +40,21 @@ void CandidateSearch<D>::find(std::uint32_t region, const Narrowed<D>& from,
     if (from.list.size() == 1) return ranks.push_back(from.list.rank.front());
     list_search_.begin(from.list, origin_, reach_);
     for_parts(corners_, [&] { list_search_.search(root_.part); });
-    return list_search_.take_marked(ranks);
+    return list_search_.append_marked(ranks);
   }
   tree_.set_origin(origin_);
   interior_.set(corners_, mesh_);
   found_.clear();
   for_parts(corners_, [&] { search(from.frontier); });
-  // Parts share candidates, and a node may be settled from several parts.
+  // Parts share candidates, and several parts may accept a node.
   std::sort(found_.begin(), found_.end(), [](RankRange a, RankRange b) { return a.begin < b.begin; });
   std::uint32_t next = 0;
   for (const RankRange range : found_)
     for (next = std::max(next, range.begin); next < range.end; ++next) ranks.push_back(next);
 }
 
-/// Calls body() for each part of the region, in root_.part. Polygons of many corners are halved by chords,
-/// without a test, until they fit a Part.
+/// Calls body() with root_.part set to each part of the region. Polygons with too many corners for a Part are
+/// halved by chords, without a test.
 template <int D>
 template <class Body>
 void CandidateSearch<D>::for_parts(std::span<const Point<D>> corners, const Body& body) {
@@ -81,12 +73,12 @@ void CandidateSearch<D>::for_parts(std::span<const Point<D>> corners, const Body
   for_parts(rest, body);
 }
 
-/// The seeds in question below a frontier.
+/// Sets `list` to the undecided seeds below a frontier.
 template <int D>
 void CandidateSearch<D>::gather(const Frontier& frontier, SeedList<D>& list) {
   gathered_.clear();
   for (const Entry e : frontier)
-    if (!e.settled) gathered_.push_back(ranks(tree_.tree(), e));
+    if (!e.accepted) gathered_.push_back(ranks(tree_.tree(), e));
   std::sort(gathered_.begin(), gathered_.end(), [](RankRange a, RankRange b) { return a.begin < b.begin; });
   list.clear();
   for (const RankRange range : gathered_)
@@ -110,42 +102,44 @@ void CandidateSearch<D>::set_region(std::uint32_t region) {
 
 template <int D>
 void CandidateSearch<D>::search(const Frontier& from) {
-  refine(root_, from, Testers{}, enough_for_part, true);
-  steps_left_ = 256 + root_.open / 2;
+  refine(root_, from, Testers{}, min_entries_of_part);
+  steps_left_ = 256 + root_.undecided / 2;
   visit(root_, 0, 0);
 }
 
-/// Decides a refined part, or splits it. `failures` counts the splits in a row above it whose halves both
-/// kept nearly all seeds: then more seeds meet in a point than splitting can tell apart.
+/// Decides a refined part, or splits it. `failures` counts the splits in a row above it whose halves kept
+/// nearly all seeds, as where more cells meet in a point than splitting can separate.
 template <int D>
 void CandidateSearch<D>::visit(Step& step, std::size_t depth, int failures) {
-  if (step.open == 0) return;
-  if (step.open <= (failures < 2 ? few_seeds : few_after_failures) || depth == most_splits ||
+  if (step.undecided == 0) return;
+  if (step.undecided <= (failures < 2 ? few_seeds : few_after_failures) || depth == most_splits ||
       failures == most_failures || steps_left_ < 2)
     return finish(step);
   steps_left_ -= 2;
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
   std::tie(halves.first.part, halves.second.part) = split(step.part);
-  // Where splitting did not help, the nodes may be too coarse for the spread of their weights.
-  const std::size_t enough = enough_for_part << failures;
-  refine(halves.first, step.frontier, step.testers, enough, true);
-  refine(halves.second, step.frontier, step.testers, enough, true);
-  const bool paid = halves.first.open + halves.second.open < step.open + step.open / 5 * 4;
-  visit(halves.first, depth + 1, paid ? 0 : failures + 1);
-  visit(halves.second, depth + 1, paid ? 0 : failures + 1);
+  // Where splitting does not help, nodes may be too coarse for the spread of their weights.
+  const std::size_t min_entries = min_entries_of_part << failures;
+  refine(halves.first, step.frontier, step.testers, min_entries);
+  refine(halves.second, step.frontier, step.testers, min_entries);
+  const bool helped =
+      halves.first.undecided + halves.second.undecided < step.undecided + step.undecided / 5 * 4;
+  visit(halves.first, depth + 1, helped ? 0 : failures + 1);
+  visit(halves.second, depth + 1, helped ? 0 : failures + 1);
 }
 
-/// Fills the frontier of `step` with what is left of `from` for its part. `known` are seeds worth trying.
+/// Sets the frontier of `step` to the entries of `from` that its part does not exclude. The seeds of `known`
+/// are tried as testers.
 template <int D>
-void CandidateSearch<D>::refine(Step& step, const Frontier& from, const Testers& known, std::size_t enough,
-                                bool settle) {
-  step.bounds = PowerBounds(reach_, radius<D>(step.part, step.part.centroid()));
+void CandidateSearch<D>::refine(Step& step, const Frontier& from, const Testers& known,
+                                std::size_t min_entries) {
+  step.bounds = PowerBounds(reach_, step.part.radius());
   step.frontier.clear();
-  step.open = 0;
+  step.undecided = 0;
   choose_testers(step, from, known);
-  for (const Entry e : from) take(step, e, settle, &step == &root_);
-  expand(step, enough, settle);
+  for (const Entry e : from) keep_unless_excluded(step, e, &step == &root_);
+  expand(step, min_entries);
 }
 
 template <int D>
@@ -168,66 +162,67 @@ void CandidateSearch<D>::choose_testers(Step& step, const Frontier& from, const 
   for (std::size_t v = 0; v < step.part.corners; ++v) choose_at(step.part.corner[v]);
 }
 
-/// Keeps `entry` unless it is excluded; a `fresh` node inside the region is settled at once: a seed in the
-/// region nearly always meets it, and there are no more of them than seeds.
+/// Adds `entry` to the frontier unless it is excluded. Accepts a new node that lies inside the region without
+/// further tests: a seed in the region nearly always meets it, and each seed lies in one region.
 template <int D>
-void CandidateSearch<D>::take(Step& step, Entry entry, bool settle, bool fresh) {
+void CandidateSearch<D>::keep_unless_excluded(Step& step, Entry entry, bool is_new) {
   if (excluded(step.testers, tree_.lower(entry, step.part, step.bounds), step.part.corners)) return;
-  if (settle && fresh && !entry.settled && !entry.is_seed()) {
+  if (is_new && !entry.accepted && !entry.is_seed()) {
     const auto box = tree_.box(entry);
     if (interior_.contains(box.low, box.high)) {
-      entry.settled = true;
-      emit(ranks(tree_.tree(), entry));
+      entry.accepted = true;
+      found_.push_back(ranks(tree_.tree(), entry));
     }
   }
   step.frontier.push_back(entry);
-  if (!entry.settled) {
+  if (!entry.accepted) {
     const RankRange range = ranks(tree_.tree(), entry);
-    step.open += range.end - range.begin;
+    step.undecided += range.end - range.begin;
   }
 }
 
-/// Replaces open nodes by their children, the largest first, until there are `enough` entries or seeds only.
+/// Replaces undecided nodes by their children, the largest first, until there are `min_entries` entries or
+/// all undecided ones are seeds.
 template <int D>
-void CandidateSearch<D>::expand(Step& step, std::size_t enough, bool settle) {
-  while (step.frontier.size() < enough) {
+void CandidateSearch<D>::expand(Step& step, std::size_t min_entries) {
+  while (step.frontier.size() < min_entries) {
     int level = -1;
     for (const Entry e : step.frontier)
-      if (!e.settled) level = std::max<int>(level, e.level);
+      if (!e.accepted) level = std::max<int>(level, e.level);
     if (level < 0) return;
     expanding_.swap(step.frontier);
     step.frontier.clear();
     for (const Entry e : expanding_) {
-      if (e.settled || e.level != level) {
+      if (e.accepted || e.level != level) {
         step.frontier.push_back(e);
         continue;
       }
       const RankRange range = ranks(tree_.tree(), e);
-      step.open -= range.end - range.begin;
-      for_children(tree_.tree(), e, [&](Entry child) { take(step, child, settle, true); });
+      step.undecided -= range.end - range.begin;
+      for_children(tree_.tree(), e, [&](Entry child) { keep_unless_excluded(step, child, true); });
     }
   }
 }
 
-/// Emits the seeds that the testers leave, and of few ones those that no other excludes.
+/// Appends the undecided seeds to found_; if they are few, only those that no other seed excludes.
 template <int D>
 void CandidateSearch<D>::finish(Step& step) {
-  if (step.open <= few_after_failures) {
+  if (step.undecided <= few_after_failures) {
     gather(step.frontier, few_);
     testers_.clear();
     for (const Tester& t : step.testers) testers_.push_back(t.upper);
     list_search_.begin(few_, origin_, reach_);
     list_search_.search(step.part, testers_);
     ranks_.clear();
-    list_search_.take_marked(ranks_);
-    for (const std::uint32_t rank : ranks_) emit({rank, rank + 1});
+    list_search_.append_marked(ranks_);
+    for (const std::uint32_t rank : ranks_) found_.push_back({rank, rank + 1});
     return;
   }
-  const auto open_node = [](Entry e) { return !e.settled && !e.is_seed(); };
-  while (std::any_of(step.frontier.begin(), step.frontier.end(), open_node))
-    expand(step, step.frontier.size() + 1, true);
+  const auto undecided_node = [](Entry e) { return !e.accepted && !e.is_seed(); };
+  while (std::any_of(step.frontier.begin(), step.frontier.end(), undecided_node))
+    expand(step, step.frontier.size() + 1);
   for (const Entry e : step.frontier)
-    if (!e.settled) emit(ranks(tree_.tree(), e));
+    if (!e.accepted) found_.push_back(ranks(tree_.tree(), e));
 }
 
 template class CandidateSearch<2>;

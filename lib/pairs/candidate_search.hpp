@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/pairs/exclusion.hpp"
-#include "lib/pairs/frontier.hpp"
 #include "lib/pairs/list_search.hpp"
 #include "lib/pairs/local_tree.hpp"
 #include "lib/pairs/node_search.hpp"
@@ -16,7 +15,7 @@
 
 namespace powercell::pairs {
 
-/// The seeds that can meet a box: below the entries of a frontier or, once they are few, in a list.
+/// The seeds that can meet a box: those below a frontier or, once they are few, those of a list.
 template <int D>
 struct Narrowed {
   Frontier frontier;
@@ -24,7 +23,7 @@ struct Narrowed {
   bool listed = false;
 };
 
-/// One worker's search with its scratch memory; not thread-safe.
+/// The search of one thread, with its scratch memory.
 template <int D>
 class CandidateSearch {
  public:
@@ -35,11 +34,10 @@ class CandidateSearch {
         tree_(seeds, tree, reference),
         node_search_(tree_) {}
 
-  /// From the seeds in `from`, those that can meet the box [low, high], in a form fine enough to begin a
-  /// search with.
+  /// Sets `to` to the seeds of `from` that can meet the box [low, high], fine enough to start a search from.
   void narrow(const Point<D>& low, const Point<D>& high, const Narrowed<D>& from, Narrowed<D>& to);
 
-  /// Appends to `ranks` the candidates of `region`, ascending, among the seeds in `from`.
+  /// Appends the candidates of `region` among the seeds of `from` to `ranks`, ascending.
   void find(std::uint32_t region, const Narrowed<D>& from, std::vector<std::uint32_t>& ranks);
 
  private:
@@ -48,7 +46,7 @@ class CandidateSearch {
     PowerBounds bounds;
     Testers testers;
     Frontier frontier;
-    std::uint64_t open = 0;  // seeds below entries that are not settled
+    std::uint64_t undecided = 0;  // seeds below entries that are not yet accepted
   };
   struct Halves {
     Step first, second;
@@ -60,20 +58,19 @@ class CandidateSearch {
   void search(const Frontier& from);
   void gather(const Frontier& frontier, SeedList<D>& list);
   void visit(Step& step, std::size_t depth, int failures);
-  void refine(Step& step, const Frontier& from, const Testers& known, std::size_t enough, bool settle);
+  void refine(Step& step, const Frontier& from, const Testers& known, std::size_t min_entries);
   void choose_testers(Step& step, const Frontier& from, const Testers& known);
-  void take(Step& step, Entry entry, bool settle, bool fresh);
-  void expand(Step& step, std::size_t enough, bool settle);
+  void keep_unless_excluded(Step& step, Entry entry, bool is_new);
+  void expand(Step& step, std::size_t min_entries);
   void finish(Step& step);
-  void emit(RankRange range) { found_.push_back(range); }
 
   const RegionMesh& mesh_;
   const SeedSet& seeds_;
   const double reference_;
   LocalTree<D> tree_;
   NodeSearch<D> node_search_;
-  std::vector<Point<D>> corners_;   // of the region, relative to its first
-  const double* origin_ = nullptr;  // its first corner
+  std::vector<Point<D>> corners_;   // of the region, relative to the first
+  const double* origin_ = nullptr;  // the first corner
   double reach_ = 0;                // largest distance of a corner from the first
   RegionInterior<D> interior_;
   std::uint64_t steps_left_ = 0;

@@ -1,5 +1,5 @@
 /// \file
-/// The vertices of one cell, for vector units. Internal.
+/// The vertices and bounding box of one cell. Internal.
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,17 @@
 #include <limits>
 #include <vector>
 
-#include "lib/neighbors/cell_walls.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
 #include "lib/pairs/wall_loops.hpp"
 
 namespace powercell::pairs {
 
-/// Relative to the seed. Memory is kept from cell to cell.
+/// Coordinates are relative to the seed. The memory is reused from cell to cell.
 struct CellHull {
   int dimension = 0;
-  std::vector<double> vertex;  ///< coordinate after coordinate; the last vertex fills up the lanes
-  std::array<double, 3> low,
-      high;          ///< the box of the cell, errors included; without vertices all of the space
-  double error = 0;  ///< no vertex is farther from the true one
+  std::vector<double> vertex;       ///< all x, all y, all z; each padded to whole lanes with the last vertex
+  std::array<double, 3> low, high;  ///< contains the true cell; the whole space if vertices are not known
+  double error = 0;                 ///< bound for the distance of a vertex from the true one
 
   void set(const CellWalls& cells, std::uint32_t rank) {
     constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -9,34 +9,35 @@
 #include <powercell/error.hpp>
 
 #include "lib/base/threads.hpp"
+#include "lib/base/vectors.hpp"
 
 namespace powercell::pairs {
 namespace {
 
 constexpr std::size_t fan = RegionGroups::fan;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Of the terms of a scalar product with coordinates relative to the seed.
+/// Rounding of a scalar product with coordinates relative to the seed, relative to its terms.
 constexpr double rounding = 0x1p-48;
 
-loops::Wall wall_of(const SeedSet& seeds, std::uint32_t i, std::uint32_t j) {
+loops::Bisector bisector_of(const SeedSet& seeds, std::uint32_t i, std::uint32_t j) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
-  loops::Wall wall{};
+  loops::Bisector bisector{};
   double q2 = 0;
   for (std::size_t k = 0; k < d; ++k) {
-    wall.q[k] = seeds.positions[j * d + k] - seeds.positions[i * d + k];
-    q2 += wall.q[k] * wall.q[k];
+    bisector.q[k] = seeds.positions[j * d + k] - seeds.positions[i * d + k];
+    q2 += bisector.q[k] * bisector.q[k];
   }
   const double dw = seeds.weights[i] - seeds.weights[j];
-  wall.level = q2 + dw;
-  wall.terms = q2 + std::abs(dw);
-  return wall;
+  bisector.offset = q2 + dw;
+  bisector.magnitude = q2 + std::abs(dw);
+  return bisector;
 }
 
 }  // namespace
 
-void CellSearch::set_walls(std::uint32_t rank) {
-  walls_.clear();
-  for (const std::uint32_t j : cells_.of(rank)) walls_.push_back(wall_of(seeds_, rank, j));
+void CellSearch::set_bisectors(std::uint32_t rank) {
+  bisectors_.clear();
+  for (const std::uint32_t j : cells_.of(rank)) bisectors_.push_back(bisector_of(seeds_, rank, j));
 }
 
 void CellSearch::find(std::uint32_t rank, const CellHull& hull, std::vector<std::uint32_t>& regions) {
@@ -45,9 +46,9 @@ void CellSearch::find(std::uint32_t rank, const CellHull& hull, std::vector<std:
   const std::size_t begin = regions.size();
   found_ = &regions;
   seed_ = &seeds_.positions[std::size_t{rank} * static_cast<std::size_t>(seeds_.dimension)];
-  set_walls(rank);
+  set_bisectors(rank);
   hull_ = &hull;
-  visit(groups_.level.size() - 1, 0, 0, walls_.size());
+  visit(groups_.level.size() - 1, 0, 0, bisectors_.size());
   std::sort(regions.begin() + static_cast<std::ptrdiff_t>(begin), regions.end());
 }
 
@@ -57,7 +58,7 @@ void CellSearch::add_all(std::size_t level, std::size_t group) {
     found_->push_back(groups_.order[k]);
 }
 
-bool CellSearch::parted_along(const double* direction, std::uint32_t region) const {
+bool CellSearch::separated_along(const double* direction, std::uint32_t region) const {
   const auto d = static_cast<std::size_t>(seeds_.dimension);
   double farthest = -infinite, terms = 0, size = 0;
   for (std::uint32_t slot = mesh_.region_offset[region]; slot < mesh_.region_offset[region + 1]; ++slot) {
@@ -73,7 +74,7 @@ bool CellSearch::parted_along(const double* direction, std::uint32_t region) con
   }
   for (std::size_t k = 0; k < d; ++k) size += std::abs(direction[k]);
   const double nearest = hull_->least_along(direction);
-  // Rounding in the sums over the vertices of the cell is far below the error of those.
+  // The rounding of the scalar products with the cell's vertices is far below the error of the vertices.
   return nearest - farthest > size * hull_->error + rounding * terms;
 }
 
@@ -87,21 +88,15 @@ bool CellSearch::beyond_a_facet(std::uint32_t region) const {
     for (std::uint32_t k = 0; k < corners; ++k) {
       const double *a = corner(k), *b = corner(k + 1 == corners ? 0 : k + 1);
       const double outward[2] = {b[1] - a[1], a[0] - b[0]};
-      if (parted_along(outward, region)) return true;
+      if (separated_along(outward, region)) return true;
     }
   }
   if (mesh_.shape != RegionShape::tetrahedron) return false;
-  constexpr std::uint32_t facet_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  for (const auto& facet : facet_corner) {
-    const double *a = corner(facet[0]), *b = corner(facet[1]), *c = corner(facet[2]);
-    double s[3], t[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      s[k] = b[k] - a[k];
-      t[k] = c[k] - a[k];
-    }
-    const double outward[3] = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2],
-                               s[0] * t[1] - s[1] * t[0]};
-    if (parted_along(outward, region)) return true;
+  for (const auto& facet : tetrahedron_facet) {
+    const double* a = corner(facet[0]);
+    const auto outward =
+        cross(difference<double>(corner(facet[1]), a), difference<double>(corner(facet[2]), a));
+    if (separated_along(outward.data(), region)) return true;
   }
   return false;
 }
@@ -114,9 +109,9 @@ void CellSearch::visit_regions(std::size_t group, std::size_t members, std::size
   Lanes gap, beyond;
   blocks_.find_gaps(0, group, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
-  reach_.resize(std::max(reach_.size(), (last - first) * fan));
-  loops::test_corners(&walls_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner], corners,
-                      seed_, beyond, reach_.data());
+  greatest_.resize(std::max(greatest_.size(), (last - first) * fan));
+  loops::test_corners(&bisectors_[first], last - first, seeds_.dimension, box, &blocks_.corner[corner],
+                      corners, seed_, beyond, greatest_.data());
   for (std::size_t lane = 0; lane < members; ++lane) {
     const std::uint32_t region = groups_.order[group * fan + lane];
     if (gap[lane] > 0 || beyond[lane] > 0) continue;
@@ -134,24 +129,24 @@ void CellSearch::visit(std::size_t level, std::size_t group, std::size_t first, 
   const Lanes* const box = blocks_.boxes(level - 1, group);
   blocks_.find_gaps(level - 1, group, seed_, hull_->low.data(), hull_->high.data(), gap);
   if (std::all_of(gap.begin(), gap.end(), [](double g) { return g > 0; })) return;
-  reach_.resize(std::max(reach_.size(), count * fan));
-  loops::test_boxes(&walls_[first], count, seeds_.dimension, box, seed_, beyond, reach_.data());
-  // Each member has its walls behind all others before it goes down, as reach_ is used again there.
+  greatest_.resize(std::max(greatest_.size(), count * fan));
+  loops::test_boxes(&bisectors_[first], count, seeds_.dimension, box, seed_, beyond, greatest_.data());
+  // The bisectors of all members are appended before the descent, which overwrites greatest_.
   std::array<std::size_t, fan + 1> end;
-  end[0] = walls_.size();
+  end[0] = bisectors_.size();
   for (std::size_t lane = 0; lane < members; ++lane) {
     beyond[lane] = std::max(beyond[lane], gap[lane]);
     if (!(beyond[lane] > 0))
-      for (std::size_t w = 0; w < count; ++w)
-        if (!(reach_[w * fan + lane] < 0)) {
-          const loops::Wall wall = walls_[first + w];
-          walls_.push_back(wall);
+      for (std::size_t j = 0; j < count; ++j)
+        if (!(greatest_[j * fan + lane] < 0)) {
+          const loops::Bisector bisector = bisectors_[first + j];
+          bisectors_.push_back(bisector);
         }
-    end[lane + 1] = walls_.size();
+    end[lane + 1] = bisectors_.size();
   }
   for (std::size_t lane = 0; lane < members; ++lane)
     if (!(beyond[lane] > 0)) visit(level - 1, group * fan + lane, end[lane], end[lane + 1]);
-  walls_.resize(end[0]);
+  bisectors_.resize(end[0]);
 }
 
 namespace {
@@ -167,7 +162,7 @@ struct Task {
 
 class Worker {
  public:
-  explicit Worker(const CellsSearch& search)
+  explicit Worker(const CellSearchInput& search)
       : s_(search), cells_(search.mesh, search.groups, search.blocks, search.seeds, search.walls) {
     if (search.boundary != nullptr) planes_.emplace(*search.boundary);
   }
@@ -182,7 +177,7 @@ class Worker {
   }
 
  private:
-  /// Whether the cell has one pair, with the region around the domain.
+  /// Returns true if the cell has a single pair, with the container.
   bool find_planes(std::uint32_t rank, Task& task) {
     if (!planes_ || std::binary_search(s_.ranks.by_region.begin(), s_.ranks.by_region.end(), rank))
       return false;
@@ -193,21 +188,21 @@ class Worker {
     return true;
   }
 
-  const CellsSearch& s_;
+  const CellSearchInput& s_;
   CellSearch cells_;
   std::optional<PlaneSearch> planes_;
   CellHull hull_;
 };
 
-/// Row `row` of rows that end at these places.
+/// Row `row` of consecutive rows with these ends.
 template <class Values>
 auto row_of(const Values& values, const std::vector<std::uint64_t>& end, std::size_t row) {
   const std::uint64_t begin = row == 0 ? 0 : end[row - 1];
   return std::span(values).subspan(begin, end[row] - begin);
 }
 
-/// Pairs of all ranks in order: of those searched for what was found, of the others one with the last region.
-Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
+/// The pairs of all ranks in order: those found, and one with the container for each rank not searched.
+Pairs gather(const CellSearchInput& search, const std::vector<Task>& tasks) {
   const auto around = static_cast<std::uint32_t>(search.mesh.region_count());
   const std::vector<std::uint32_t>& ranks = search.ranks.ranks;
   std::uint64_t total = search.seeds.size() - ranks.size();
@@ -215,12 +210,12 @@ Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
   Pairs pairs;
   pairs.offset.reserve(search.seeds.size() + 1);
   pairs.region.reserve(total);
-  const auto whole_up_to = [&](std::size_t rank) {
+  const auto fill_up_to = [&](std::size_t rank) {
     for (; pairs.offset.size() < rank; pairs.region.push_back(around))
       pairs.offset.push_back(pairs.region.size());
   };
   for (std::size_t at = 0; at < ranks.size(); ++at) {
-    whole_up_to(ranks[at]);
+    fill_up_to(ranks[at]);
     pairs.offset.push_back(pairs.region.size());
     const Task& task = tasks[at / task_size];
     const auto regions = row_of(task.regions, task.end, at % task_size);
@@ -231,14 +226,14 @@ Pairs gather(const CellsSearch& search, const std::vector<Task>& tasks) {
     pairs.planes.plane.insert(pairs.planes.plane.end(), planes.begin(), planes.end());
     pairs.planes.end.push_back(pairs.planes.plane.size());
   }
-  whole_up_to(search.seeds.size());
+  fill_up_to(search.seeds.size());
   pairs.offset.push_back(pairs.region.size());
   return pairs;
 }
 
 }  // namespace
 
-Pairs search_cells(const CellsSearch& search) {
+Pairs search_cells(const CellSearchInput& search) {
   const std::span<const std::uint32_t> ranks = search.ranks.ranks;
   std::vector<Task> tasks((ranks.size() + task_size - 1) / task_size);
   std::deque<Worker> workers;
@@ -249,10 +244,10 @@ Pairs search_cells(const CellsSearch& search) {
     workers[static_cast<std::size_t>(w)].run(ranks.subspan(first, std::min(task_size, ranks.size() - first)),
                                              tasks[t]);
     const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
-    // Only the calling thread, which is worker 0, calls back.
+    // The callback runs on the calling thread only, which is worker 0.
     if (w == 0 && search.progress && !search.progress(share))
       throw Error(ErrorCode::interrupted,
-                  "stopped by the progress callback while seeking which cells meet which regions");
+                  "stopped by the progress callback while finding the regions that cells meet");
   });
   return gather(search, tasks);
 }

@@ -1,5 +1,5 @@
 /// \file
-/// The regions that a cell can meet, by the neighbours that bound it. Internal.
+/// The regions that a cell can meet, found from its walls. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 #include "lib/pairs/boundary_planes.hpp"
 #include "lib/pairs/cell_hull.hpp"
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "lib/pairs/wall_loops.hpp"
 #include "lib/regions/region_blocks.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell::pairs {
 
-/// One worker's search with its scratch memory; not thread-safe. Goes down the groups of regions with the
-/// walls that come near them. A region is left out if it is beyond a wall (mathematics, 11), or all vertices
-/// of the cell are beyond one of its facets; what no wall comes near is inside the cell.
+/// The search of one thread, with its scratch memory. Descends the groups of regions with the bisectors that
+/// meet their boxes; a group that no bisector meets lies inside the cell. A region is left out if it lies
+/// beyond a bisector (11), or if one of its facets separates it from all vertices of the cell (12b).
 class CellSearch {
  public:
   /// Keeps references.
@@ -26,18 +26,19 @@ class CellSearch {
              const SeedSet& seeds, const CellWalls& cells)
       : mesh_(mesh), groups_(groups), blocks_(blocks), seeds_(seeds), cells_(cells) {}
 
-  /// Appends the regions that the cell of `rank` can meet, ascending. \param hull  of this cell
+  /// Appends the regions that the cell of `rank` can meet, ascending.
+  /// \param hull  of this cell
   void find(std::uint32_t rank, const CellHull& hull, std::vector<std::uint32_t>& regions);
 
  private:
-  void set_walls(std::uint32_t rank);
-  /// What the group has, cut by the walls [first, last) of walls_.
+  void set_bisectors(std::uint32_t rank);
+  /// Appends the regions of a group that the bisectors [first, last) of bisectors_ do not exclude.
   void visit(std::size_t level, std::size_t group, std::size_t first, std::size_t last);
   void visit_regions(std::size_t group, std::size_t members, std::size_t first, std::size_t last);
   void add_all(std::size_t level, std::size_t group);
   bool beyond_a_facet(std::uint32_t region) const;
-  /// Whether the region lies on the side of this direction where no vertex of the cell is.
-  bool parted_along(const double* direction, std::uint32_t region) const;
+  /// Whether all vertices of the cell lie farther along the direction than the region.
+  bool separated_along(const double* direction, std::uint32_t region) const;
 
   const RegionMesh& mesh_;
   const RegionGroups& groups_;
@@ -45,18 +46,18 @@ class CellSearch {
   const SeedSet& seeds_;
   const CellWalls& cells_;
   const double* seed_ = nullptr;
-  std::vector<loops::Wall> walls_;  // those of the cell, then those of each group on the way down
+  std::vector<loops::Bisector> bisectors_;  // those of the cell, then those of each group on the way down
   const CellHull* hull_ = nullptr;
-  std::vector<double> reach_;
+  std::vector<double> greatest_;
   std::vector<std::uint32_t>* found_ = nullptr;
 };
 
-/// What a search is about; references to what outlives it.
-struct CellsSearch {
+/// Everything must outlive the search.
+struct CellSearchInput {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const RegionBlocks& blocks;
-  const BoundaryPlanes* boundary;  ///< if cells may be cut by planes
+  const BoundaryPlanes* boundary;  ///< null if cells must not be cut by planes
   const SeedSet& seeds;
   const BoundaryRanks& ranks;
   const CellWalls& walls;
@@ -64,7 +65,7 @@ struct CellsSearch {
   const std::function<bool(double)>& progress;
 };
 
-/// PairFinder::of_cells
-Pairs search_cells(const CellsSearch& search);
+/// As PairFinder::by_cells.
+Pairs search_cells(const CellSearchInput& search);
 
 }  // namespace powercell::pairs

@@ -32,8 +32,8 @@ template <int D>
   }
 }
 
-/// Ascending with x, for x that is not NaN: integers have a least one without an order of comparing, so that
-/// compilers find it eight at a time.
+/// Ascending with x, for x that is not NaN. The minimum of integers does not depend on the order of
+/// comparisons, so compilers vectorise it.
 [[gnu::always_inline]] inline std::int64_t ordered_bits(double x) {
   const auto bits = std::bit_cast<std::int64_t>(x);
   return bits ^ (bits >> 63 & std::numeric_limits<std::int64_t>::max());
@@ -62,7 +62,7 @@ template <int D>
   for (int k = 0; k <= D; ++k) x[k] = column[k];
   double t2 = 0, reach2 = 0;
   for (int k = 0; k < D; ++k) t2 += t[k] * t[k], reach2 += size[k] * size[k];
-  // The last term stands for the absolute error of subnormal squares.
+  // The last term bounds the absolute error of subnormal squares.
   const double fixed = t2 + std::fabs(t[D]) + reach2 + std::numeric_limits<double>::min() / unit_roundoff;
   for (std::size_t s = 0; s < count; ++s) {
     double s2 = 0, most = 0;
@@ -71,7 +71,7 @@ template <int D>
       s2 += at * at;
       most += (along > 0 ? along : 0.0) * size[k];
     }
-    // Every term, and every error of a coordinate times what it is multiplied by, is below a few roundings of
+    // Every term, and the error of a coordinate times its factor, is below a few roundings of
     // |s|^2 + |t|^2 + |size|^2 and the weights.
     const double error = 64 * unit_roundoff * (s2 + std::fabs(x[D][s]) + fixed);
     const double value = ((s2 - x[D][s]) - (t2 - t[D])) - 2 * most - error;

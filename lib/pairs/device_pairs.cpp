@@ -12,35 +12,37 @@ void upload(cl::RawBuffer& buffer, const std::vector<std::byte>& bytes) {
 
 }  // namespace
 
-DevicePairs::RegionTree::RegionTree(const Scene& scene, const std::vector<std::string>& defines)
-    : count(static_cast<std::uint32_t>(scene.mesh().region_count())),
-      region(scene.context()),
-      low(scene.context()),
-      high(scene.context()),
-      nodes(scene.context(), defines),
-      owner(scene.context()),
-      node_owner(scene.context()),
-      find_owners(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_owners"),
-      find_pairs(scene.context(), scene.context()->program("pairs/region_pairs.cl", defines), "find_pairs") {
-  const RegionGroups groups(scene.mesh(), 1);
+DevicePairs::RegionTree::RegionTree(const DomainBuffers& domain, const std::vector<std::string>& defines)
+    : count(static_cast<std::uint32_t>(domain.mesh().region_count())),
+      region(domain.context()),
+      low(domain.context()),
+      high(domain.context()),
+      nodes(domain.context(), defines),
+      owner(domain.context()),
+      node_owner(domain.context()),
+      find_owners(domain.context(), domain.context()->program("pairs/region_pairs.cl", defines),
+                  "find_owners"),
+      find_pairs(domain.context(), domain.context()->program("pairs/region_pairs.cl", defines),
+                 "find_pairs") {
+  const RegionGroups groups(domain.mesh(), 1);
   region.upload(groups.order);
-  upload(low, scene.frame().pack(scene.mesh().dimension, groups.level[0].low, {}));
-  upload(high, scene.frame().pack(scene.mesh().dimension, groups.level[0].high, {}));
+  upload(low, domain.frame().pack(domain.mesh().dimension, groups.level[0].low, {}));
+  upload(high, domain.frame().pack(domain.mesh().dimension, groups.level[0].high, {}));
   nodes.enqueue(low.handle(), high.handle(), count);
   owner.resize(count);
   node_owner.resize(nodes.node_count());
 }
 
-DevicePairs::DevicePairs(const Scene& scene, const std::vector<std::string>& defines)
-    : seed(scene.context()),
-      region(scene.context()),
-      offset(scene.context()),
-      scene_(scene),
-      scan_(scene.context(), ExclusiveScan::Type::uint64) {
-  if (scene.mesh().region_count() == 1)
-    pair_all_.emplace(scene.context(), scene.context()->program("pairs/one_region.cl", {}), "pair_all");
+DevicePairs::DevicePairs(const DomainBuffers& domain, const std::vector<std::string>& defines)
+    : seed(domain.context()),
+      region(domain.context()),
+      offset(domain.context()),
+      domain_(domain),
+      scan_(domain.context(), ExclusiveScan::Type::uint64) {
+  if (domain.mesh().region_count() == 1)
+    pair_all_.emplace(domain.context(), domain.context()->program("pairs/one_region.cl", {}), "pair_all");
   else
-    regions_.emplace(scene, defines);
+    regions_.emplace(domain, defines);
 }
 
 void DevicePairs::reserve(std::uint32_t pairs) {
@@ -68,8 +70,8 @@ void DevicePairs::find(const DeviceSeeds& seeds, const DeviceTree& tree, std::ui
   r.find_pairs
       .args(n, cl_int{write}, seeds.state, seeds.points, tree.node_low, tree.node_high, tree.level_offset,
             cl_int{tree.levels()}, r.count, r.region, r.low, r.high, r.nodes.node_low, r.nodes.node_high,
-            r.nodes.level_offset, cl_int{r.nodes.levels()}, r.owner, r.node_owner, scene_.corners,
-            scene_.region_offset, scene_.region_vertex, cl_ulong{capacity}, offset, seed, region)
+            r.nodes.level_offset, cl_int{r.nodes.levels()}, r.owner, r.node_owner, domain_.corners,
+            domain_.region_offset, domain_.region_vertex, cl_ulong{capacity}, offset, seed, region)
       .submit(std::size_t{n} + 1);
 }
 
@@ -77,10 +79,10 @@ std::uint32_t DevicePairs::read_number(std::uint32_t n) const {
   std::uint64_t number = 0;
   offset.download(std::span(&number, 1), n);
   if (number > most_pairs)
-    throw Error(ErrorCode::out_of_device_memory,
-                std::to_string(number) +
-                    " pairs of a seed and a region that may meet are more than a diagram in "
-                    "device memory can hold; use Diagram, which takes them in chunks");
+    throw Error(
+        ErrorCode::out_of_device_memory,
+        "the seeds and regions make " + std::to_string(number) +
+            " pairs, more than a diagram in device memory can hold; use Diagram, which works in chunks");
   return static_cast<std::uint32_t>(number);
 }
 

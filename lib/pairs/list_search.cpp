@@ -9,15 +9,15 @@
 namespace powercell::pairs {
 namespace {
 
-// Of at most this many seeds all are tried against all; of more, the part is split.
+// Up to this many seeds are all tested against all. With more, the part is split.
 constexpr std::size_t few_seeds = 32;
-// All against all is also the last resort where splitting does not help, up to this many.
+// Up to this many are tested against all where splitting does not help.
 constexpr std::size_t most_seeds = 128;
-// Splits in all; of long lists, which come from splits that failed on the tree, there may be clusters far
-// below the size of the part.
+// Maximum depth of splits. Long lists come from the tree where splits failed, and may hold clusters far
+// smaller than the part.
 constexpr std::size_t most_depth = 12, most_depth_of_long = 64;
 constexpr std::size_t long_list = 2048;
-// Splits in a row that may fail to thin out the seeds before splitting is given up.
+// Splitting ends after so many splits in a row that exclude few seeds.
 constexpr int most_failures = 3;
 
 template <int D>
@@ -27,7 +27,7 @@ std::array<const double*, D + 1> pointers(const SeedColumns<D>& columns) {
   return to;
 }
 
-/// `place` becomes those of 0 .. count-1 that have no excess.
+/// Sets `place` to those of 0 .. count-1 with no positive excess.
 void without_excess(std::size_t count, const std::vector<double>& excess, std::vector<std::uint32_t>& place) {
   place.resize(count);
   std::size_t kept = 0;
@@ -36,14 +36,6 @@ void without_excess(std::size_t count, const std::vector<double>& excess, std::v
     kept += excess[s] > 0 ? 0 : 1;
   }
   place.resize(kept);
-}
-
-template <int D>
-double radius(const Part<D>& part, const Point<D>& centroid) {
-  double most = 0;
-  for (std::size_t v = 0; v < part.corners; ++v)
-    most = std::max(most, squared_distance<D>(part.corner[v], centroid));
-  return std::sqrt(most);
 }
 
 }  // namespace
@@ -68,7 +60,7 @@ void ListSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Seed
     loops::raise_box_excess(list.size(), D, column.data(), low.data(), size.data(), tester.data(),
                             excess_.data());
   };
-  // The owner of the middle excludes what is far away, so that the others need not look at it.
+  // The owner of the middle excludes seeds far away, which shortens the lists for the other owners.
   excess_.assign(from.size(), 0.0);
   test_by_owner(from);
   without_excess(from.size(), excess_, kept_);
@@ -82,7 +74,7 @@ void ListSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Seed
   to.pick(near_, kept_);
 }
 
-/// The place of the seed of least power distance.
+/// The place of the seed of least power distance at x.
 template <int D>
 std::size_t ListSearch<D>::owner_of(const Point<D>& x, const Source& from) {
   power_.resize(from.count);
@@ -99,38 +91,38 @@ void ListSearch<D>::begin(const SeedList<D>& seeds, const double* origin, double
 }
 
 template <int D>
-typename ListSearch<D>::Source ListSearch<D>::source_of(const Level& level) {
+typename ListSearch<D>::Source ListSearch<D>::source_of(const Subset& subset) {
   static constexpr std::array<double, D> zero{};
-  return {level.count(), pointers<D>(level.local), zero.data(), &level};
+  return {subset.count(), pointers<D>(subset.local), zero.data(), &subset};
 }
 
 template <int D>
 void ListSearch<D>::search(const Part<D>& part, std::span<const CornerValues> known) {
   if (seeds_->size() == 0) return;
-  bounds_ = PowerBounds(reach_, radius<D>(part, part.centroid()));
+  bounds_ = PowerBounds(reach_, part.radius());
   root_.part = part;
   narrow_to(all_, known, root_);
   visit(root_, 0, 0);
 }
 
 template <int D>
-void ListSearch<D>::take_marked(std::vector<std::uint32_t>& ranks) const {
+void ListSearch<D>::append_marked(std::vector<std::uint32_t>& ranks) const {
   for (std::size_t s = 0; s < marked_.size(); ++s)
     if (marked_[s] != 0) ranks.push_back(seeds_->rank[s]);
 }
 
 template <int D>
-void ListSearch<D>::visit(Level& level, std::size_t depth, int failures) {
+void ListSearch<D>::visit(Subset& subset, std::size_t depth, int failures) {
   const std::size_t most = seeds_->size() > long_list ? most_depth_of_long : most_depth;
-  if (level.count() <= few_seeds || depth == most || failures == most_failures) return finish(level);
+  if (subset.count() <= few_seeds || depth == most || failures == most_failures) return finish(subset);
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
-  std::tie(halves.first.part, halves.second.part) = split(level.part);
-  narrow_to(source_of(level), {}, halves.first);
-  narrow_to(source_of(level), {}, halves.second);
-  const bool paid = halves.first.count() + halves.second.count() < level.count() + level.count() / 5 * 4;
-  visit(halves.first, depth + 1, paid ? 0 : failures + 1);
-  visit(halves.second, depth + 1, paid ? 0 : failures + 1);
+  std::tie(halves.first.part, halves.second.part) = split(subset.part);
+  narrow_to(source_of(subset), {}, halves.first);
+  narrow_to(source_of(subset), {}, halves.second);
+  const bool helped = halves.first.count() + halves.second.count() < subset.count() + subset.count() / 5 * 4;
+  visit(halves.first, depth + 1, helped ? 0 : failures + 1);
+  visit(halves.second, depth + 1, helped ? 0 : failures + 1);
 }
 
 template <int D>
@@ -150,7 +142,7 @@ void ListSearch<D>::add_tester(const Source& from, const Part<D>& part, std::siz
 
 /// Excludes by the seed of least power at the centroid and, if that leaves many, at the corners.
 template <int D>
-void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> known, Level& half) {
+void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> known, Subset& half) {
   find_bounds(from, half.part);
   excess_.assign(from.count, 0.0);
   tester_.assign(1, static_cast<std::uint32_t>(owner_of(half.part.centroid(), from)));
@@ -167,18 +159,18 @@ void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> 
     }
     without_excess(from.count, excess_, kept_);
   }
-  keep(from, half);
+  keep_unexcluded(from, half);
 }
 
-/// Sets lower_ for the corners of the part, to what the source has where it has the corner.
+/// Sets lower_ for the corners of the part, reusing the columns of corners that the source has.
 template <int D>
 void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
-  const std::size_t known = from.level != nullptr ? from.level->part.corners : 0;
+  const std::size_t known = from.subset != nullptr ? from.subset->part.corners : 0;
   for (std::size_t v = 0; v < part.corners; ++v) {
     std::size_t at = 0;
-    while (at < known && from.level->part.corner[at] != part.corner[v]) ++at;
+    while (at < known && from.subset->part.corner[at] != part.corner[v]) ++at;
     if (at < known) {
-      lower_[v] = from.level->lower[at].data();
+      lower_[v] = from.subset->lower[at].data();
       continue;
     }
     fresh_[v].resize(from.count);
@@ -188,13 +180,13 @@ void ListSearch<D>::find_bounds(const Source& from, const Part<D>& part) {
   }
 }
 
-/// Fills `half` with those at kept_.
+/// Sets the seeds of `half` to those at the places kept_.
 template <int D>
-void ListSearch<D>::keep(const Source& from, Level& half) {
+void ListSearch<D>::keep_unexcluded(const Source& from, Subset& half) {
   const std::size_t kept = kept_.size();
   half.index.resize(kept);
   for (std::size_t s = 0; s < kept; ++s)
-    half.index[s] = from.level != nullptr ? from.level->index[kept_[s]] : kept_[s];
+    half.index[s] = from.subset != nullptr ? from.subset->index[kept_[s]] : kept_[s];
   const auto pick = [&](const double* values, double origin, std::vector<double>& to) {
     to.resize(kept);
     for (std::size_t s = 0; s < kept; ++s) to[s] = values[kept_[s]] - origin;
@@ -204,17 +196,18 @@ void ListSearch<D>::keep(const Source& from, Level& half) {
   for (std::size_t v = 0; v < half.part.corners; ++v) pick(lower_[v], 0, half.lower[v]);
 }
 
-/// Marks what no other seed excludes. What an excluded seed excludes, the one that excludes it does as well.
+/// Marks the seeds that no other excludes. Excluded seeds need no test as testers: the seed that excludes one
+/// also excludes all that it would exclude.
 template <int D>
-void ListSearch<D>::finish(Level& level) {
-  const std::size_t count = level.count();
-  for (std::size_t v = 0; v < level.part.corners; ++v) lower_[v] = level.lower[v].data();
+void ListSearch<D>::finish(Subset& subset) {
+  const std::size_t count = subset.count();
+  for (std::size_t v = 0; v < subset.part.corners; ++v) lower_[v] = subset.lower[v].data();
   excess_.assign(count, 0.0);
   if (count <= most_seeds)
     for (std::size_t s = 0; s < count; ++s)
-      if (!(excess_[s] > 0)) add_tester(source_of(level), level.part, s);
+      if (!(excess_[s] > 0)) add_tester(source_of(subset), subset.part, s);
   for (std::size_t s = 0; s < count; ++s)
-    if (!(excess_[s] > 0)) marked_[level.index[s]] = 1;
+    if (!(excess_[s] > 0)) marked_[subset.index[s]] = 1;
 }
 
 template class ListSearch<2>;

@@ -1,21 +1,65 @@
 /// \file
-/// The packed tree seen from an origin near a region: distances, power bounds, seed of least power. Internal.
+/// The packed tree relative to an origin near a region: distances, bounds, nearest seed in power distance.
+/// Internal.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "lib/pairs/exclusion.hpp"
-#include "lib/pairs/frontier.hpp"
-#include "lib/seeds/seed_set.hpp"
+#include "lib/seeds/packed_tree.hpp"
 
 namespace powercell::pairs {
 
-/// Coordinates are relative to `origin`, so that a domain far from zero does not cancel; weights are
-/// relative to `reference`, so that a constant added to all of them does not either.
+/// A seed (level -1, index = rank) or node `index` of a level of the packed tree.
+struct Entry {
+  std::uint32_t index;
+  std::int8_t level;
+  bool accepted;  ///< all its seeds are candidates already; it stays because they may exclude others
+
+  bool is_seed() const { return level < 0; }
+};
+
+/// Disjoint entries that contain all seeds not yet excluded.
+using Frontier = std::vector<Entry>;
+
+/// Ranks [begin, end).
+struct RankRange {
+  std::uint32_t begin, end;
+};
+
+inline Frontier root_frontier(const PackedTree& tree) {
+  return {{0, static_cast<std::int8_t>(tree.levels() - 1), false}};
+}
+
+/// The seeds below an entry.
+inline RankRange ranks(const PackedTree& tree, Entry e) {
+  if (e.is_seed()) return {e.index, e.index + 1};
+  const std::uint64_t width = std::uint64_t{PackedTree::fan} << (3 * e.level);  // fan^(level + 1)
+  const std::uint64_t begin = e.index * width;
+  return {static_cast<std::uint32_t>(begin),
+          static_cast<std::uint32_t>(std::min<std::uint64_t>(begin + width, tree.seeds))};
+}
+static_assert(PackedTree::fan == 8, "ranks() counts in powers of 8");
+
+/// Calls body(child) for the children of a node. \pre not e.is_seed()
+template <class Body>
+void for_children(const PackedTree& tree, Entry e, const Body& body) {
+  const std::size_t below = e.level == 0 ? tree.seeds
+                                         : tree.level_offset[static_cast<std::size_t>(e.level)] -
+                                               tree.level_offset[static_cast<std::size_t>(e.level) - 1];
+  const std::size_t first = std::size_t{e.index} * PackedTree::fan;
+  const std::size_t last = std::min(first + PackedTree::fan, below);
+  for (std::size_t k = first; k < last; ++k)
+    body(Entry{static_cast<std::uint32_t>(k), static_cast<std::int8_t>(e.level - 1), false});
+}
+
+/// Coordinates are relative to `origin` and weights to `reference`, so that neither a domain far from zero
+/// nor a constant added to all weights causes cancellation.
 template <int D>
 class LocalTree {
  public:
@@ -33,7 +77,7 @@ class LocalTree {
 
   struct Box {
     Point<D> low, high;
-    double weight;  // the largest below
+    double weight;  // the largest of its seeds
   };
   Box box(Entry e) const {
     const double *low, *high;
@@ -63,7 +107,7 @@ class LocalTree {
     return sum;
   }
 
-  /// Lower bounds, at the corners of `part`, of the power distance to every seed below `e`.
+  /// Lower bounds of the power distances of all seeds below `e` at the corners of `part`.
   CornerValues lower(Entry e, const Part<D>& part, const PowerBounds& bounds) const {
     const Box b = box(e);
     CornerValues values;
@@ -84,8 +128,8 @@ class LocalTree {
     return squared_distance_to(b, x) - b.weight;
   }
 
-  /// The seed of least power at `x` below the frontier if it is less than `least`, else `least`.
-  /// Exact ties may go either way: any seed of small power will do as a tester.
+  /// The seed below the frontier of least power distance at `x` if that is less than `least`, else `least`.
+  /// Ties may go either way: testers need not be nearest.
   Least least_power(const Point<D>& x, const Frontier& frontier, Least least) {
     queue_.clear();
     for (const Entry e : frontier) {
@@ -96,7 +140,7 @@ class LocalTree {
       else
         queue_.push_back({bound, e});
     }
-    // Most of the queue is never looked at, so the least is taken out as needed instead of sorting.
+    // Most of the queue is never read, so the least is extracted as needed instead of sorting.
     while (!queue_.empty()) {
       const auto next = std::min_element(queue_.begin(), queue_.end());
       const Bounded node = *next;

@@ -8,14 +8,14 @@ namespace powercell::pairs {
 
 template <int D>
 std::uint64_t NodeSearch<D>::narrow(const Point<D>& low, const Point<D>& high, const Frontier& from,
-                                    std::size_t enough, std::uint64_t few, Frontier& to) {
+                                    std::size_t min_nodes, std::uint64_t max_seeds, Frontier& to) {
   tree_.set_origin(low.data());
   Point<D> size;
   for (std::size_t k = 0; k < D; ++k) size[k] = high[k] - low[k];
   choose_testers(size, from);
   to = from;
   keep_unexcluded(size, to);
-  while (to.size() < enough && !to.empty() && to.front().level > 0 && seeds_below(to) > few) {
+  while (to.size() < min_nodes && !to.empty() && to.front().level > 0 && seeds_below(to) > max_seeds) {
     Frontier children;
     for (const Entry e : to) for_children(tree_.tree(), e, [&](Entry child) { children.push_back(child); });
     to.swap(children);
@@ -34,7 +34,7 @@ std::uint64_t NodeSearch<D>::seeds_below(const Frontier& nodes) const {
   return count;
 }
 
-/// The seeds of least power in the middle and at the corners of the box.
+/// Sets the testers to the owners of the middle and the corners of the box.
 template <int D>
 void NodeSearch<D>::choose_testers(const Point<D>& size, const Frontier& from) {
   tester_.clear();

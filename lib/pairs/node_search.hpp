@@ -1,27 +1,27 @@
 /// \file
-/// Which nodes of the packed tree can hold seeds that meet a box. Internal.
+/// The nodes of the packed tree that can hold seeds meeting a box. Internal.
 #pragma once
 
 #include <vector>
 
-#include "lib/pairs/frontier.hpp"
 #include "lib/pairs/local_tree.hpp"
 #include "lib/pairs/part.hpp"
 
 namespace powercell::pairs {
 
-/// One worker's search with its scratch memory; not thread-safe.
+/// The search of one thread, with its scratch memory.
 template <int D>
 class NodeSearch {
  public:
-  /// Keeps a reference to the tree, whose origin it moves.
+  /// Keeps a reference to the tree, and changes its origin.
   explicit NodeSearch(LocalTree<D>& tree) : tree_(tree) {}
 
-  /// From the seeds below `from`, nodes of one level, to the nodes of one level that hold all that can meet
-  /// the box [low, high]: of so low a level that they are `enough` or hold at most `few` seeds.
-  /// \return the number of seeds below them
-  std::uint64_t narrow(const Point<D>& low, const Point<D>& high, const Frontier& from, std::size_t enough,
-                       std::uint64_t few, Frontier& to);
+  /// Sets `to` to the nodes of one level below `from` that hold all seeds that can meet the box [low, high]:
+  /// the highest level with at least `min_nodes` such nodes or at most `max_seeds` seeds below them.
+  /// \param from  nodes of one level
+  /// \return the number of seeds below `to`
+  std::uint64_t narrow(const Point<D>& low, const Point<D>& high, const Frontier& from, std::size_t min_nodes,
+                       std::uint64_t max_seeds, Frontier& to);
 
  private:
   void choose_testers(const Point<D>& size, const Frontier& from);

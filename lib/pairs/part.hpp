@@ -1,5 +1,5 @@
 /// \file
-/// Convex parts of a region, split only to find candidates. Internal.
+/// Convex parts that a region is split into during the search for candidates. Internal.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,12 @@ double squared_distance(const Point<D>& a, const Point<D>& b) {
 inline constexpr std::size_t most_corners = 8;
 
 enum class PartShape : unsigned char {
-  polygon,      ///< corners around it
+  polygon,      ///< corners in order around it
   tetrahedron,  ///< any orientation
-  box,          ///< corner v has the high coordinate on axis k where bit k of v is set
+  box,          ///< bit k of v is set if corner v has the high coordinate on axis k
 };
 
-/// The hull of at most `most_corners` corners, relative to an origin that the owner knows.
+/// The convex hull of at most `most_corners` corners, relative to an origin that the caller knows.
 template <int D>
 struct Part {
   std::array<Point<D>, most_corners> corner;
@@ -42,6 +42,13 @@ struct Part {
     for (double& x : sum) x /= static_cast<double>(corners);
     return sum;
   }
+  /// The largest distance of a corner from the centroid.
+  double radius() const {
+    const Point<D> middle = centroid();
+    double most = 0;
+    for (std::size_t v = 0; v < corners; ++v) most = std::max(most, squared_distance<D>(corner[v], middle));
+    return std::sqrt(most);
+  }
 };
 
 namespace detail {
@@ -53,7 +60,7 @@ Point<D> middle(const Point<D>& a, const Point<D>& b) {
   return m;
 }
 
-/// Cuts a polygon of four or more corners by a chord: new corners, and with them rounding, are avoided.
+/// Cuts a polygon of four or more corners by a chord, which makes no new corners and so no rounding.
 template <int D>
 std::pair<Part<D>, Part<D>> split_by_chord(const Part<D>& part) {
   std::size_t from = 0;
@@ -68,7 +75,7 @@ std::pair<Part<D>, Part<D>> split_by_chord(const Part<D>& part) {
   return {a, b};
 }
 
-/// Cuts a triangle or tetrahedron in the middle of its longest edge, which also mends long thin ones.
+/// Cuts a triangle or tetrahedron in the middle of its longest edge, which also shortens long thin ones.
 template <int D>
 std::pair<Part<D>, Part<D>> split_longest_edge(const Part<D>& part) {
   std::size_t a = 0, b = 1;
@@ -102,8 +109,8 @@ std::pair<Part<D>, Part<D>> split_box(const Part<D>& part) {
 
 }  // namespace detail
 
-/// Two parts whose union is `part`, but for the rounding of new corners: at most one unit roundoff of the
-/// largest coordinate for each split.
+/// Two parts whose union is `part` up to the rounding of new corners: at most one unit roundoff of the
+/// largest coordinate per split.
 template <int D>
 std::pair<Part<D>, Part<D>> split(const Part<D>& part) {
   if (part.shape == PartShape::box) return detail::split_box(part);

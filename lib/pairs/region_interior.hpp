@@ -6,13 +6,14 @@
 #include <limits>
 #include <vector>
 
+#include "lib/base/vectors.hpp"
 #include "lib/domain/region_mesh.hpp"
 #include "lib/pairs/part.hpp"
 
 namespace powercell::pairs {
 
-/// The inside of one region, relative to its first corner. Answers only decide which seeds are taken as
-/// candidates without a test, so they need no exactness.
+/// The interior of one region, relative to its first corner. It only decides which seeds become candidates
+/// without a test, so it need not be exact.
 template <int D>
 class RegionInterior {
  public:
@@ -37,7 +38,7 @@ class RegionInterior {
     if (shape_ == RegionShape::box) return true;
     if (!ready_) make_half_spaces();
     return std::all_of(half_spaces_.begin(), half_spaces_.end(), [&](const HalfSpace& h) {
-      double value = h.offset;  // at the corner of the box that lies deepest against the normal
+      double value = h.offset;  // at the corner of the box farthest along the outward normal
       for (std::size_t k = 0; k < D; ++k) value += std::min(h.normal[k] * low[k], h.normal[k] * high[k]);
       return value >= 0;
     });
@@ -49,7 +50,7 @@ class RegionInterior {
     double offset;
   };
 
-  // Made when first asked for: most regions of a fine mesh never hold a node.
+  // Made on first use: most regions of a fine mesh never contain a node.
   void make_half_spaces() {
     ready_ = true;
     half_spaces_.clear();
@@ -65,12 +66,8 @@ class RegionInterior {
         const Point<D>& a = c[(k + 1) % 4];
         const Point<D>& b = c[(k + 2) % 4];
         const Point<D>& e = c[(k + 3) % 4];
-        const Point<D> s = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-        const Point<D> t = {e[0] - a[0], e[1] - a[1], e[2] - a[2]};
-        Point<D> normal = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
-        double side = 0;  // of the corner opposite the face
-        for (std::size_t i = 0; i < 3; ++i) side += normal[i] * (c[k][i] - a[i]);
-        if (side < 0)
+        Point<D> normal = cross(b - a, e - a);
+        if (dot(normal, c[k] - a) < 0)  // the corner opposite the face
           for (double& x : normal) x = -x;
         add(normal, a);
       }

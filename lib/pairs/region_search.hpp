@@ -1,20 +1,18 @@
 /// \file
-/// The candidates of all regions, in parallel. Internal.
+/// Finds the candidates of all regions, in parallel. Internal.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "lib/pairs/enumerate.hpp"
-#include "lib/pairs/transpose.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "lib/regions/region_groups.hpp"
 
 namespace powercell::pairs {
 
-/// What a search is about; references to what outlives it.
-struct RegionSearch {
+/// Everything must outlive the search.
+struct RegionSearchInput {
   const RegionMesh& mesh;
   const RegionGroups& groups;
   const SeedSet& seeds;
@@ -23,19 +21,13 @@ struct RegionSearch {
   const std::function<bool(double)>& progress;
 };
 
-/// A flag for each seed, set by several threads.
-class SeedMarks {
- public:
-  explicit SeedMarks(std::size_t seeds) : mark_(seeds) {}
-  void set(std::uint32_t rank) { mark_[rank].store(true, std::memory_order_relaxed); }
-  bool operator[](std::uint32_t rank) const { return mark_[rank].load(std::memory_order_relaxed); }
-  std::size_t size() const { return mark_.size(); }
-
- private:
-  std::vector<std::atomic<bool>> mark_;
+/// A view of the candidate ranks of one region, ascending.
+struct RankList {
+  const std::uint32_t* first = nullptr;
+  std::uint32_t count = 0;
 };
 
-/// The candidates found; lists point into memory of the struct.
+/// The candidates found. The lists point into `tasks`.
 struct RegionLists {
   struct Task {
     std::vector<std::uint32_t> ranks;  ///< region after region in the order of the groups
@@ -45,9 +37,7 @@ struct RegionLists {
   std::vector<RankList> list;  ///< by region
 };
 
-/// The candidates of every region. With `wanted`, regions of which no seed is wanted may get none: then their
-/// seeds are marked in `other`, and so is each seed of a list that is not wanted.
-RegionLists search_regions(const RegionSearch& search, const SeedMarks* wanted = nullptr,
-                           SeedMarks* other = nullptr);
+/// \throw Error interrupted
+RegionLists search_regions(const RegionSearchInput& search);
 
 }  // namespace powercell::pairs

@@ -8,22 +8,23 @@
 namespace powercell::pairs::loops {
 namespace {
 
-/// Of the absolute terms: coordinates relative to the seed, products and sums together round less than 16
+/// Relative to the absolute terms: coordinates relative to the seed, products and sums round less than 16
 /// times.
 constexpr double rounding = 0x1p-48;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Where the terms are larger nothing is excluded.
+/// With larger terms nothing is excluded.
 constexpr double largest = std::numeric_limits<double>::max();
 /// For the absolute errors of subnormal terms.
 constexpr double tiny = std::numeric_limits<double>::min();
 
 using lanes::load, lanes::store, lanes::Vector;
 
-/// What eight boxes are to a wall: the error of 2 q.y - level at any of their points, or infinity.
+/// A bound for the error of 2 q.y - offset at all points of eight boxes, or infinity.
 template <int D>
-[[gnu::always_inline]] inline void find_error(const Wall& wall, const Vector (&extent)[D], Vector& error) {
-  error = Vector{} + wall.terms;
-  for (int k = 0; k < D; ++k) error += std::fabs(wall.q[k]) * extent[k];
+[[gnu::always_inline]] inline void find_error(const Bisector& bisector, const Vector (&extent)[D],
+                                              Vector& error) {
+  error = Vector{} + bisector.magnitude;
+  for (int k = 0; k < D; ++k) error += std::fabs(bisector.q[k]) * extent[k];
   error = error <= largest ? rounding * error + tiny : Vector{} + infinite;
 }
 
@@ -40,19 +41,19 @@ template <int D>
   }
 }
 
-/// Enters one wall: 2 q.y - level is within [least, greatest] in each lane, but for its error.
-[[gnu::always_inline]] inline void enter(const Vector& least, const Vector& greatest, const Vector& error,
-                                         Vector& most, double* reach) {
+/// Records one bisector: 2 q.y - offset is within [least, most] in each lane, up to its error.
+[[gnu::always_inline]] inline void record(const Vector& least, const Vector& most, const Vector& error,
+                                          Vector& beyond, double* greatest) {
   const Vector none = Vector{} - infinite;
   const Vector value = error <= largest ? least - error : none;
-  most = value > most ? value : most;
-  store(error <= largest ? greatest + error : -none, reach);
+  beyond = value > beyond ? value : beyond;
+  store(error <= largest ? most + error : -none, greatest);
 }
 
 template <int D>
-[[gnu::always_inline]] inline void boxes_in(const Wall* wall, std::size_t walls, const Lanes* box,
-                                            const double* seed, Lanes& beyond, double* reach) {
-  Vector low[D], high[D], extent[D], most = Vector{} - infinite;
+[[gnu::always_inline]] inline void boxes_in(const Bisector* bisector, std::size_t bisectors, const Lanes* box,
+                                            const double* seed, Lanes& beyond, double* greatest) {
+  Vector low[D], high[D], extent[D], farthest = Vector{} - infinite;
   find_extent<D>(box, seed, extent);
   for (int k = 0; k < D; ++k) {
     load(&box[k], low[k]);
@@ -60,29 +61,29 @@ template <int D>
     low[k] = 2 * (low[k] - seed[k]);
     high[k] = 2 * (high[k] - seed[k]);
   }
-  for (std::size_t w = 0; w < walls; ++w) {
-    const Wall& by = wall[w];
-    Vector least = Vector{} - by.level, greatest = least, error;
+  for (std::size_t j = 0; j < bisectors; ++j) {
+    const Bisector& by = bisector[j];
+    Vector least = Vector{} - by.offset, most = least, error;
     for (int k = 0; k < D; ++k) {
       const Vector a = by.q[k] * low[k], b = by.q[k] * high[k];
       least += a < b ? a : b;
-      greatest += a < b ? b : a;
+      most += a < b ? b : a;
     }
     find_error<D>(by, extent, error);
-    enter(least, greatest, error, most, reach + w * lane_count);
+    record(least, most, error, farthest, greatest + j * lane_count);
   }
-  store(most, &beyond);
+  store(farthest, &beyond);
 }
 
 template <int D>
-[[gnu::always_inline]] inline void corners_in(const Wall* wall, std::size_t walls, const Lanes* box,
-                                              const Lanes* corner, std::size_t corners, const double* seed,
-                                              Lanes& beyond, double* reach) {
-  Vector extent[D], most = Vector{} - infinite;
+[[gnu::always_inline]] inline void corners_in(const Bisector* bisector, std::size_t bisectors,
+                                              const Lanes* box, const Lanes* corner, std::size_t corners,
+                                              const double* seed, Lanes& beyond, double* greatest) {
+  Vector extent[D], farthest = Vector{} - infinite;
   find_extent<D>(box, seed, extent);
-  for (std::size_t w = 0; w < walls; ++w) {
-    const Wall& by = wall[w];
-    Vector least = Vector{} + infinite, greatest = -least, error;
+  for (std::size_t j = 0; j < bisectors; ++j) {
+    const Bisector& by = bisector[j];
+    Vector least = Vector{} + infinite, most = -least, error;
     for (std::size_t c = 0; c < corners; ++c) {
       Vector side{}, x;
       for (int k = 0; k < D; ++k) {
@@ -90,14 +91,14 @@ template <int D>
         side += by.q[k] * (x - seed[k]);
       }
       least = side < least ? side : least;
-      greatest = side > greatest ? side : greatest;
+      most = side > most ? side : most;
     }
     find_error<D>(by, extent, error);
-    least = 2 * least - by.level;
-    greatest = 2 * greatest - by.level;
-    enter(least, greatest, error, most, reach + w * lane_count);
+    least = 2 * least - by.offset;
+    most = 2 * most - by.offset;
+    record(least, most, error, farthest, greatest + j * lane_count);
   }
-  store(most, &beyond);
+  store(farthest, &beyond);
 }
 
 template <int D>
@@ -119,21 +120,22 @@ template <int D>
 
 }  // namespace
 
-POWERCELL_VECTOR_COPIES void test_boxes(const Wall* wall, std::size_t walls, int dimension, const Lanes* box,
-                                        const double* seed, Lanes& beyond, double* reach) {
+POWERCELL_VECTOR_COPIES void test_boxes(const Bisector* bisector, std::size_t bisectors, int dimension,
+                                        const Lanes* box, const double* seed, Lanes& beyond,
+                                        double* greatest) {
   if (dimension == 2)
-    boxes_in<2>(wall, walls, box, seed, beyond, reach);
+    boxes_in<2>(bisector, bisectors, box, seed, beyond, greatest);
   else
-    boxes_in<3>(wall, walls, box, seed, beyond, reach);
+    boxes_in<3>(bisector, bisectors, box, seed, beyond, greatest);
 }
 
-POWERCELL_VECTOR_COPIES void test_corners(const Wall* wall, std::size_t walls, int dimension,
+POWERCELL_VECTOR_COPIES void test_corners(const Bisector* bisector, std::size_t bisectors, int dimension,
                                           const Lanes* box, const Lanes* corner, std::size_t corners,
-                                          const double* seed, Lanes& beyond, double* reach) {
+                                          const double* seed, Lanes& beyond, double* greatest) {
   if (dimension == 2)
-    corners_in<2>(wall, walls, box, corner, corners, seed, beyond, reach);
+    corners_in<2>(bisector, bisectors, box, corner, corners, seed, beyond, greatest);
   else
-    corners_in<3>(wall, walls, box, corner, corners, seed, beyond, reach);
+    corners_in<3>(bisector, bisectors, box, corner, corners, seed, beyond, greatest);
 }
 
 POWERCELL_VECTOR_COPIES double least_along(const double* direction, int dimension, const double* vertex,

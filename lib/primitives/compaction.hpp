@@ -15,8 +15,8 @@ class Compaction {
   explicit Compaction(const std::shared_ptr<cl::Context>& context);
 
   /// \param values   count uints
-  /// \param indices  written: the k with values[k] == wanted, ascending; room for `count` uints
-  /// \param found    written: one uint, how many there are
+  /// \param indices  output: the k with values[k] == wanted, ascending; room for `count` uints
+  /// \param found    output: one uint, the number of these
   /// \throw Error out_of_device_memory, opencl
   void enqueue(cl_mem values, std::uint32_t count, std::uint32_t wanted, cl_mem indices, cl_mem found,
                std::size_t local = 0);

@@ -7,8 +7,8 @@
 namespace powercell {
 namespace {
 
-// A tile costs 2^digit_bits counters. On a CPU some tiles for each core are enough; a GPU needs many
-// work-items in flight, and pays for them with more passes of smaller digits.
+// A tile (of at least so many pairs) needs 2^digit_bits counters. On a CPU a few tiles per core suffice. A
+// GPU needs many work-items in flight, so it sorts by smaller digits in more passes.
 constexpr std::uint32_t smallest_tile_cpu = 1024, smallest_tile_gpu = 32;
 constexpr std::uint32_t tiles_per_core_cpu = 8, tiles_per_core_gpu = 256;
 
@@ -47,7 +47,7 @@ void RadixSort::enqueue(cl_mem keys, cl_mem values, std::uint32_t count, unsigne
   values_.reserve(std::size_t{count} * sizeof(cl_uint));
   counts_.reserve(std::size_t{counters} * sizeof(cl_uint));
 
-  // An even number of passes ends where it began. A digit beyond the keys is 0 for all: it moves nothing.
+  // An even number of passes ends in the caller's buffers. A digit above the keys is 0 and moves nothing.
   unsigned passes = (bits + shape_.digit_bits - 1) / shape_.digit_bits;
   passes += passes % 2;
   cl_mem from_keys = keys, from_values = values, to_keys = keys_.handle(), to_values = values_.handle();

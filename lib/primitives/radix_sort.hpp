@@ -1,5 +1,5 @@
 /// \file
-/// Sorting on the device. Internal.
+/// Radix sort on the device. Internal.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace powercell {
 /// A stable radix sort of (64-bit key, 32-bit value) pairs. Enqueues without waiting.
 class RadixSort {
  public:
-  /// How the work is cut up; results do not depend on it.
+  /// How the work is divided; results do not depend on it. 0 chooses by the device.
   struct Shape {
-    unsigned digit_bits = 0;  ///< 4 or 8; 0 chooses by the device
-    std::uint32_t tiles = 0;  ///< most work-items of a pass; 0 chooses by the device
-    std::size_t local = 0;    ///< size of a work-group; 0 chooses
+    unsigned digit_bits = 0;  ///< 4 or 8
+    std::uint32_t tiles = 0;  ///< largest number of work-items of a pass
+    std::size_t local = 0;    ///< size of a work-group
   };
   /// Builds the kernels. \throw Error build_failed, opencl
   explicit RadixSort(const std::shared_ptr<cl::Context>& context) : RadixSort(context, Shape{}) {}
@@ -23,7 +23,7 @@ class RadixSort {
 
   /// Sorts the first `count` pairs by ascending key; equal keys keep their order.
   /// \param keys    ulong  \param values  uint
-  /// \param bits    all keys are below 2^bits; fewer bits take fewer passes
+  /// \param bits    all keys must be below 2^bits; fewer bits need fewer passes
   /// \throw Error out_of_device_memory, opencl
   void enqueue(cl_mem keys, cl_mem values, std::uint32_t count, unsigned bits = 64);
 

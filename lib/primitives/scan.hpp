@@ -8,7 +8,7 @@
 
 namespace powercell {
 
-/// Enqueues without waiting. Owns its scratch memory: one scan at a time in flight per queue order.
+/// Enqueues without waiting. Owns its scratch memory, so all its scans must be in one in-order queue.
 class ExclusiveScan {
  public:
   enum class Type { uint32, uint64 };
@@ -16,8 +16,8 @@ class ExclusiveScan {
   ExclusiveScan(const std::shared_ptr<cl::Context>& context, Type type);
 
   /// Replaces each of the first `count` values by the sum of those before it, modulo 2^32 or 2^64.
-  /// With a last value of 0 the last sum is the total.
-  /// \param local size of a work-group; 0 chooses. The result does not depend on it.
+  /// If the last value is 0, the last sum is the total.
+  /// \param local size of a work-group; 0 chooses by the device. The result does not depend on it.
   /// \throw Error out_of_device_memory, opencl
   void enqueue(cl_mem values, std::uint32_t count, std::size_t local = 0);
 
@@ -27,7 +27,7 @@ class ExclusiveScan {
 
   std::size_t value_bytes_;
   cl::Kernel sum_, scan_;
-  cl::RawBuffer sums_;  // level after level
+  cl::RawBuffer sums_;  // of the tiles, level by level
 };
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// Eight doubles at a time, as vectors of the compiler: it does not find them by itself in short loops.
+/// Eight doubles as one vector of the compiler, which does not vectorise such short loops by itself.
 /// Internal.
 #pragma once
 
@@ -11,12 +11,12 @@ namespace powercell {
 
 constexpr std::size_t lane_count = 8;
 
-/// One coordinate of eight things.
+/// One coordinate of eight boxes or points.
 using Lanes = std::array<double, lane_count>;
 
 namespace lanes {
 
-typedef double Vector __attribute__((vector_size(lane_count * sizeof(double))));
+using Vector [[gnu::vector_size(lane_count * sizeof(double))]] = double;
 
 [[gnu::always_inline]] inline void load(const void* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);

@@ -9,7 +9,7 @@
 namespace powercell {
 namespace {
 
-/// Regions worth a task of their own.
+/// The least number of regions for which a parallel task pays.
 constexpr std::size_t least_shared = 4096;
 
 std::vector<double> centroids_of(const RegionMesh& mesh, int threads) {
@@ -28,7 +28,7 @@ std::vector<double> centroids_of(const RegionMesh& mesh, int threads) {
 }
 
 struct Range {
-  std::size_t first, last, width;  // in groups of this width
+  std::size_t first, last, width;  // [first, last), to be divided into groups of `width` regions
 };
 
 class Halving {
@@ -37,7 +37,7 @@ class Halving {
           std::vector<std::uint32_t>& order)
       : x_(centroids), d_(d), fan_(fan), order_(order) {}
 
-  /// Halves the range and its halves, as long as they are larger than `least`; these are added to `rest`.
+  /// Halves the range recursively down to at most `least` regions; appends those ranges to `rest`.
   void run(Range range, std::size_t least, std::vector<Range>& rest) {
     if (range.last - range.first <= least) return rest.push_back(range);
     while (range.last - range.first <= range.width) range.width /= fan_;
@@ -73,9 +73,9 @@ class Halving {
   std::vector<std::uint32_t>& order_;
 };
 
-/// Region numbers so that each `fan`^l consecutive ones, counted from the first, are near each other: ranges
-/// are halved across their longest axis, at multiples of the largest group that is smaller than they are.
-/// Does not depend on `threads`.
+/// The regions in an order in which each `fan`^l consecutive ones, counted from the first, lie close
+/// together. Ranges are halved across their longest axis, at a multiple of the largest group smaller than the
+/// range. Does not depend on `threads`.
 std::vector<std::uint32_t> compact_order(const RegionMesh& mesh, std::size_t fan, int threads) {
   const std::size_t count = mesh.region_count();
   std::vector<std::uint32_t> order(count);

@@ -1,5 +1,5 @@
 /// \file
-/// Regions in a compact order, and boxes of groups of consecutive ones. Internal.
+/// A tree over the regions: a compact order, and bounding boxes of consecutive groups. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace powercell {
 
-/// Group g of level l holds the regions order[g 8^l .. (g+1) 8^l): what is near one of them is near all.
+/// Group g of level l holds the regions order[g 8^l .. (g+1) 8^l), which lie close together.
 struct RegionGroups {
   static constexpr std::size_t fan = 8;
   /// The boxes of one level, rows of dimension coordinates.
@@ -17,7 +17,7 @@ struct RegionGroups {
     std::vector<double> low, high;
   };
   std::vector<std::uint32_t> order;
-  std::vector<Boxes> level;  ///< level 0 are the regions; the last level is one group
+  std::vector<Boxes> level;  ///< level 0: the regions; last level: a single group
 
   RegionGroups(const RegionMesh& mesh, int threads);
 };

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/base/vectors.hpp"
+
 namespace powercell {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Vector3<double>;
 
-/// Of the terms of a determinant: more than their rounding, also that of coordinates taken relative to a
+/// Relative to the terms of a determinant. Bounds their rounding, and that of coordinates relative to a
 /// corner.
 constexpr double rounding = 1e-14;
 
@@ -22,15 +24,14 @@ double size(const Vector& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }
 
-/// Positive inside, for the facet from a to b of a polygon, or a, b, c counter-clockwise from outside; 0
-/// within rounding.
+/// Positive if x is on the inner side of the edge a b of a polygon, or of the facet a b c of a tetrahedron,
+/// counter-clockwise from outside; 0 within rounding.
 double height(const Vector& ab, const Vector& ax) {
   const double value = ab[0] * ax[1] - ab[1] * ax[0];
   return std::abs(value) > rounding * size(ab) * size(ax) ? value : 0;
 }
 double height(const Vector& ab, const Vector& ac, const Vector& ax) {
-  const double value = -(ax[0] * (ab[1] * ac[2] - ab[2] * ac[1]) + ax[1] * (ab[2] * ac[0] - ab[0] * ac[2]) +
-                         ax[2] * (ab[0] * ac[1] - ab[1] * ac[0]));
+  const double value = -dot(ax, cross(ab, ac));
   return std::abs(value) > rounding * size(ab) * size(ac) * size(ax) ? value : 0;
 }
 
@@ -42,13 +43,13 @@ RegionLocator::Side RegionLocator::side_of(std::uint32_t region, const Vector& x
   const auto corner = [&](std::uint32_t k) {
     return &mesh_.vertices[std::size_t{mesh_.region_vertex[first + k]} * d];
   };
-  constexpr std::uint32_t facet_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   Side side = Side::inside;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const double* a = d == 2 ? corner(k) : corner(facet_corner[k][0]);
-    const double* b = d == 2 ? corner(k + 1 == count ? 0 : k + 1) : corner(facet_corner[k][1]);
+    const double* a = d == 2 ? corner(k) : corner(tetrahedron_facet[k][0]);
+    const double* b = d == 2 ? corner(k + 1 == count ? 0 : k + 1) : corner(tetrahedron_facet[k][1]);
     const Vector ab = difference(b, a, d), ax = difference(x.data(), a, d);
-    const double h = d == 2 ? height(ab, ax) : height(ab, difference(corner(facet_corner[k][2]), a, d), ax);
+    const double h =
+        d == 2 ? height(ab, ax) : height(ab, difference(corner(tetrahedron_facet[k][2]), a, d), ax);
     if (h < 0) return Side::outside;
     if (!(h > 0)) side = Side::unclear;
   }
@@ -66,10 +67,10 @@ bool RegionLocator::count_below(std::size_t level, std::size_t group, const Vect
   constexpr Vector here{};
   Lanes gap;
   blocks_.find_gaps(level - 1, group, x.data(), here.data(), here.data(), gap);
-  bool doubt = false;
+  bool unclear_inside = false;
   for (std::size_t lane = 0; lane < members; ++lane)
-    if (!(gap[lane] > 0)) doubt |= count_below(level - 1, first + lane, x, found);
-  return doubt;
+    if (!(gap[lane] > 0)) unclear_inside |= count_below(level - 1, first + lane, x, found);
+  return unclear_inside;
 }
 
 int RegionLocator::regions_at(const Vector& x) const {

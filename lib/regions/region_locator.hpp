@@ -1,5 +1,5 @@
 /// \file
-/// How many regions a point lies in. Internal.
+/// Point location among the regions. Internal.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ class RegionLocator {
       : mesh_(mesh), groups_(groups), blocks_(blocks) {}
 
   static constexpr int unclear = -1;
-  /// The number of regions that hold x (two coordinates in the plane) in their interior, or `unclear` where
-  /// x is within rounding of the border of one.
+  /// The number of regions whose interior contains x (two coordinates in the plane), or `unclear` if x is
+  /// within rounding of the border of a region.
   int regions_at(const std::array<double, 3>& x) const;
 
  private:
   enum class Side { inside, outside, unclear };
   Side side_of(std::uint32_t region, const std::array<double, 3>& x) const;
-  /// Adds what is at x below a group; true where x is within rounding of a border.
+  /// Adds to `found` the regions of a group that contain x. Returns true if x is within rounding of a border.
   bool count_below(std::size_t level, std::size_t group, const std::array<double, 3>& x, int& found) const;
 
   const RegionMesh& mesh_;

@@ -35,10 +35,10 @@ const char* name(ErrorCode code) noexcept {
     case ErrorCode::internal:
       return "internal";
   }
-  return "unknown";  // a value cast from outside the enumeration
+  return "unknown";  // a value that is not in the enumeration
 }
 
-// Out of line, so that the type's identity lives in one library and catches work across its border.
+// Defined here, so that the typeinfo is in one library only and the exception can be caught across libraries.
 Error::~Error() = default;
 
 }  // namespace powercell

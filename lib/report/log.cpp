@@ -10,15 +10,15 @@
 namespace powercell {
 namespace {
 
-constexpr int nothing = -1;
+constexpr int no_level = -1;  // below every LogLevel: nothing is logged
 
 int level_of_environment() {
   const char* set = std::getenv("POWERCELL_LOG");
-  const std::string_view wish = set ? set : "";
-  if (wish.empty()) return nothing;
-  if (wish == "detail") return static_cast<int>(LogLevel::detail);
-  if (wish != "info")
-    std::fputs("powercell: POWERCELL_LOG is neither info nor detail; taken for info\n", stderr);
+  const std::string_view level = set ? set : "";
+  if (level.empty()) return no_level;
+  if (level == "detail") return static_cast<int>(LogLevel::detail);
+  if (level != "info")
+    std::fputs("powercell: POWERCELL_LOG is neither 'info' nor 'detail'; using 'info'\n", stderr);
   return static_cast<int>(LogLevel::info);
 }
 
@@ -30,10 +30,10 @@ struct Log {
   std::mutex mutex;
   LogSink sink = to_standard_error;
   const int unset_level = level_of_environment();
-  std::atomic<int> most = unset_level;
+  std::atomic<int> most = unset_level;  // lines of levels up to it are written
 };
 
-/// Never destroyed: objects that outlive main may still write.
+/// Never destroyed, since objects that outlive main may still write.
 Log& the_log() {
   static Log& log = *new Log;
   return log;
@@ -58,7 +58,7 @@ void write_line(LogLevel level, const std::string& line) noexcept {
     const std::lock_guard lock(log.mutex);
     log.sink(level, line);
   } catch (...) {
-    // as promised: a log that fails must not change what is computed
+    // A failure of the sink must not affect the computation.
   }
 }
 

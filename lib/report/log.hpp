@@ -1,5 +1,5 @@
 /// \file
-/// Writing to the log (powercell/log.hpp).
+/// Writing to the log (powercell/log.hpp). Internal.
 #pragma once
 
 #include <concepts>
@@ -11,7 +11,7 @@ namespace powercell {
 bool is_logged(LogLevel level) noexcept;
 void write_line(LogLevel level, const std::string& line) noexcept;
 
-/// Hands on the line that `make` returns; it is made only if somebody listens.
+/// Writes the line that `make` returns; calls `make` only if lines of this level are logged.
 void write_log(LogLevel level, const std::invocable auto& make) {
   if (is_logged(level)) write_line(level, make());
 }

@@ -1,114 +1,34 @@
 #include "lib/scene/scene.hpp"
 
-#include <algorithm>
-
 namespace powercell {
-
 namespace {
 
-/// Corner 0 of a right-handed corner (axes x, y, z) has the neighbours x, z, y counter-clockwise seen
-/// from outside; `facet[k]` is the facet that does not contain the neighbour along axis k.
-void set_corner(region_shape_t& shape, int vertex, const int (&along)[3], const int (&facet)[3], bool flip) {
-  const int order[3] = {0, flip ? 1 : 2, flip ? 2 : 1};
-  for (int k = 0; k < 3; ++k) {
-    const int missing = 3 - order[k] - order[(k + 1) % 3];  // the axis off the face between the two
-    shape.next[k][vertex] = along[order[k]];
-    shape.face[k][vertex] = facet[missing];
-  }
-}
-
-}  // namespace
-
-region_shape_t region_shape(RegionShape kind) {
-  region_shape_t shape{};
-  if (kind == RegionShape::tetrahedron) {
-    shape.vertices = shape.faces = 4;
-    // Even permutations of (0, 1, 2, 3) keep the orientation: each vertex sees the others as vertex 0 does.
-    const int order[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
-    for (const auto& o : order) set_corner(shape, o[0], {o[1], o[2], o[3]}, {o[1], o[2], o[3]}, false);
-  } else if (kind == RegionShape::box) {
-    shape.vertices = 8;
-    shape.faces = 6;
-    for (int v = 0; v < 8; ++v) {
-      const int x = v & 1, y = v >> 1 & 1, z = v >> 2 & 1;
-      set_corner(shape, v, {v ^ 1, v ^ 2, v ^ 4}, {x, 2 + y, 4 + z}, (x + y + z) % 2 == 1);
-    }
-  }
-  return shape;
-}
-
-namespace {
-
-/// The corner of triangle `region` that is at neither end of edge `slot` of triangle `beside`, by position,
-/// since meshes may repeat vertices.
-std::int32_t corner_off_edge(const RegionMesh& mesh, std::uint32_t region, std::uint32_t beside,
-                             std::uint32_t slot) {
-  const auto same = [&](std::uint32_t a, std::uint32_t b) {
-    return std::equal(&mesh.vertices[a * 3], &mesh.vertices[a * 3] + 3, &mesh.vertices[b * 3]);
-  };
-  const std::uint32_t* ends = &mesh.region_vertex[mesh.region_offset[beside]];
-  const std::uint32_t from = ends[slot], to = ends[(slot + 1) % 3];
-  for (std::uint32_t k = mesh.region_offset[region]; k < mesh.region_offset[region + 1]; ++k) {
-    const std::uint32_t corner = mesh.region_vertex[k];
-    if (!same(corner, from) && !same(corner, to)) return static_cast<std::int32_t>(corner);
-  }
-  return BEHIND_NOTHING;  // the same edge twice: a flat triangle, which domains leave out
-}
-
-}  // namespace
-
-std::vector<std::int32_t> regions_behind(const RegionMesh& mesh) {
-  std::vector<std::int32_t> behind(mesh.facet.size(), BEHIND_NOTHING);
-  for (std::uint32_t region = 0; region < mesh.region_count(); ++region)
-    for (std::uint32_t f = mesh.facet_offset[region]; f < mesh.facet_offset[region + 1]; ++f) {
-      if (mesh.facet[f].kind != Border::Kind::interior) continue;
-      behind[f] = mesh.kind == DomainKind::surface
-                      ? corner_off_edge(mesh, mesh.facet[f].index, region, f - mesh.facet_offset[region])
-                      : 0;
-    }
-  return behind;
-}
-
-Scene::Scene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32)
-    : corners(context),
-      points(context),
-      node_low(context),
-      node_high(context),
-      region_offset(context),
-      region_vertex(context),
-      level_offset(context),
-      behind(context),
-      shape(context),
-      context_(context),
-      mesh_(mesh),
-      frame_(Frame::of(mesh, float32)) {
-  upload(corners, mesh.dimension, mesh.vertices, {}, 1);
-  region_offset.upload(mesh.region_offset);
-  region_vertex.upload(mesh.region_vertex);
-  behind.upload(regions_behind(mesh));
-  const region_shape_t start = region_shape(mesh.shape);
-  shape.upload({&start, 1});
-}
-
-void Scene::upload(cl::RawBuffer& buffer, int dimension, std::span<const double> positions,
-                   std::span<const double> weights, int threads) const {
+void upload_points(cl::RawBuffer& buffer, const Frame& frame, int dimension,
+                   std::span<const double> positions, std::span<const double> weights, int threads) {
   const std::size_t bytes =
       dimension == 0 ? 0 : positions.size() / static_cast<std::size_t>(dimension) * Frame::point_bytes;
   buffer.reserve(bytes);
-  buffer.fill(bytes, [&](std::byte* to) { frame_.pack_to(to, dimension, positions, weights, threads); });
+  buffer.fill(bytes, [&](std::byte* to) { frame.pack_to(to, dimension, positions, weights, threads); });
 }
 
-void Scene::set_seeds(const SeedSet& seeds, const PackedTree& tree, int threads) {
-  set_weights(seeds, tree, threads);
-  upload(node_high, tree.dimension, tree.high, {}, threads);
+}  // namespace
+
+void SeedBuffers::upload(const Frame& frame, const SeedSet& seeds, const PackedTree& tree, int threads) {
+  upload_weights(frame, seeds, tree, threads);
+  upload_points(node_high, frame, tree.dimension, tree.high, {}, threads);
   level_offset.upload(tree.level_offset);
 }
 
-void Scene::set_weights(const SeedSet& seeds, const PackedTree& tree, int threads) {
-  seeds_ = &seeds;
-  tree_ = &tree;
-  upload(points, seeds.dimension, seeds.positions, seeds.weights, threads);
-  upload(node_low, tree.dimension, tree.low, tree.weight, threads);
+void SeedBuffers::upload_weights(const Frame& frame, const SeedSet& seeds, const PackedTree& tree,
+                                 int threads) {
+  upload_points(points, frame, seeds.dimension, seeds.positions, seeds.weights, threads);
+  upload_points(node_low, frame, tree.dimension, tree.low, tree.weight, threads);
+}
+
+OwnScene::OwnScene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32,
+                   const SeedSet& seeds, const PackedTree& tree)
+    : domain(context, mesh, float32), buffers(context), scene{domain, buffers, seeds, tree} {
+  buffers.upload(domain.frame(), seeds, tree, 1);
 }
 
 }  // namespace powercell

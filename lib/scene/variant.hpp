@@ -1,5 +1,5 @@
 /// \file
-/// The kernel variants: the one place that names the kernels' defines and capacities.
+/// Variants of the kernels: the only place that names their defines and capacities.
 #pragma once
 
 #include <string>
@@ -7,13 +7,14 @@
 
 namespace powercell {
 
-/// Capacities of one rung of the ladder; a piece that does not fit goes to the next, at last to the host.
+/// The largest cell that fits a kernel's private memory. A piece that does not fit is clipped again with the
+/// next larger capacity, and finally on the host.
 struct Capacity {
   int vertices;
   int faces;
 };
 
-/// What distinguishes compiled programs.
+/// The options that a kernel program is compiled with.
 struct Variant {
   int dimension = 0;
   int cell_dimension = 0;
@@ -24,12 +25,12 @@ struct Variant {
   std::vector<std::string> defines() const;
 };
 
-/// The rungs for a cell dimension, small to large.
+/// The capacities for a cell dimension, smallest first.
 /// 2D: white noise has 6 edges and seldom 14; a convex piece starts with up to 24.
 /// 3D: white noise has 15.5 faces and 27 vertices, in 10^6 cells at most about 40 and 76.
 const std::vector<Capacity>& capacities(int cell_dimension);
 
-/// All programs the library can ask for with a precision, for tests that compile each.
+/// All variants of one precision, for tests that compile each.
 std::vector<Variant> all_variants(bool float32);
 
 }  // namespace powercell

@@ -8,6 +8,8 @@
 namespace powercell {
 namespace {
 
+// The bounding box is reduced in tiles of at least 64 seeds; one work-item reduces the boxes of all tiles, so
+// there are at most 1024.
 constexpr std::uint32_t most_box_tiles = 1024, smallest_box_tile = 64;
 
 }  // namespace
@@ -59,7 +61,7 @@ void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::u
       .submit(count);
   find_box(count);
   number_.args(count, order).submit(count);
-  // The least significant key first; each sort is stable.
+  // From the least significant key to the most; each sort is stable.
   if (weights) sort_by(KEY_WEIGHT, count, float32_ ? 32 : 64);
   sort_by(KEY_HASH, count, 32);
   sort_by(KEY_FINE, count, 63);

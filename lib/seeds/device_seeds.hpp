@@ -8,17 +8,18 @@
 
 namespace powercell {
 
-/// Seeds by rank, as SeedSet is on the host: along a Hilbert curve, equal positions side by side. Seeds that
-/// take no part keep a rank, since only the device knows how many there are; their weight is so low that
-/// no cell feels them (kernels/base/point.cl). Enqueues without waiting.
+/// Seeds by rank, like SeedSet on the host: along a Hilbert curve, equal positions side by side. Invalid
+/// seeds and duplicates keep a rank, since the host does not know how many there are; their weight is so low
+/// that they affect no cell (kernels/base/point.cl). Enqueues without waiting.
 class DeviceSeeds {
  public:
-  /// Builds the kernels. \param defines  of Variant for the precision and dimension
+  /// Builds the kernels. \param defines  Variant::defines() for the precision and dimension
   DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
               bool float32);
 
   /// \param frame      FRAME_SIZE reals (kernels/layout.h)
-  /// \param positions  count x d reals  \param weights  count reals, or null  \param count  at least 1
+  /// \param positions  count x d reals  \param count  at least 1
+  /// \param weights    count reals, or null for zeros
   void enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count);
 
   cl::RawBuffer points;             ///< seed_t by rank

@@ -9,7 +9,7 @@
 namespace powercell {
 namespace {
 
-/// Nodes of each level, the leaves first.
+/// Number of nodes of each level, from the leaves to the root.
 std::vector<std::uint32_t> level_sizes(std::uint32_t seeds) {
   std::vector<std::uint32_t> sizes;
   std::uint32_t count = seeds;
@@ -37,7 +37,7 @@ void DeviceTree::enqueue(cl_mem low, cl_mem high, std::uint32_t count) {
   level_offset.resize(sizes.size() + 1);
   levels_ = static_cast<int>(sizes.size());
 
-  // Written by a kernel: a copy from here would have to wait for the queue, or outlive this call.
+  // Written by a kernel: a copy from host memory would have to wait for the queue or outlive this call.
   lay_out_.args(count, level_offset).submit(1);
   std::uint32_t from = 0, to = 0, children = count;
   for (std::size_t level = 0; level < sizes.size(); ++level) {

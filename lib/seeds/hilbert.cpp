@@ -13,16 +13,15 @@
 namespace powercell {
 namespace {
 
-// A run of equal keys up to this length fits a leaf of the packed tree: its inner order hardly matters.
-constexpr std::size_t short_run = 8;
-constexpr std::size_t share_count = 65536;  // below, threads cost more than they save
+constexpr std::size_t short_run = 8;  // points of a leaf of the packed tree: their order hardly matters
+constexpr std::size_t least_shared = 65536;  // points; fewer are faster on one thread
 
 template <int D>
 struct Bounds {
   std::array<double, D> low, high;
 };
 
-/// Maps a bounding box to grid cells. One scale for all axes, the longest side's, keeps cells cubic.
+/// Maps a bounding box to grid cells. All axes have the scale of the longest side, so cells are cubic.
 template <int D>
 struct Grid {
   std::array<double, D> low{};
@@ -41,7 +40,7 @@ struct Grid {
     constexpr double cells = static_cast<double>(std::uint32_t{1} << hilbert_bits<D>);
     std::array<std::uint32_t, D> cell;
     for (std::size_t k = 0; k < D; ++k) {
-      // Divided, not multiplied by a reciprocal that overflows for a side below the smallest normal number.
+      // Divide: the reciprocal of a side below the smallest normal number overflows.
       const double t = (point[k] * unit - low[k]) / side * cells;
       cell[k] = static_cast<std::uint32_t>(std::min(t, cells - 1));
     }
@@ -74,7 +73,7 @@ class Orderer {
 
   template <class Body>
   void for_ranges(std::size_t count, const Body& body) {
-    parallel_for(count < share_count ? 1 : threads_, count, body);
+    parallel_for(threads_for(count, threads_, least_shared), count, body);
   }
 
   Bounds<D> bounds(std::size_t first, std::size_t last) {
@@ -100,10 +99,10 @@ class Orderer {
     return all;
   }
 
-  /// Orders the records [first, last), which come by ascending index. Each run of equal keys is ordered
-  /// again by the grid of its own box. The points at the two ends of the longest side get different
-  /// keys, so runs get shorter until they are short or of one position; and since the side shrinks by
-  /// 2^hilbert_bits each time, the exponent range of double limits the depth to about a hundred.
+  /// Orders the records [first, last), which are in ascending order of index. Each run of equal keys is
+  /// ordered again by the grid of its own bounding box. The points at the two ends of the longest side have
+  /// different keys, so runs shrink until they are short or at one position. The side shrinks by
+  /// 2^hilbert_bits each time, so the exponent range of double limits the depth to about a hundred.
   void sort_run(std::size_t first, std::size_t last) {
     if (last - first <= short_run) return sort_short(first, last);
     const Grid<D> grid(bounds(first, last));

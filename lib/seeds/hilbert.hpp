@@ -9,9 +9,9 @@
 namespace powercell {
 
 /// Indices of the finite `points` (n x dimension, row-major) along a Hilbert curve through their bounding
-/// cube. Where many points share a grid cell, the curve is refined in their own bounding cube, so that
-/// clusters far below the grid's resolution are in good order too. Equal positions are consecutive, by
-/// ascending index; the order does not depend on `threads`.
+/// cube. Points that share a grid cell are ordered along a curve through their own bounding cube, so clusters
+/// far below the grid's resolution are in good order too. Equal positions are consecutive, by ascending
+/// index. The order does not depend on `threads`.
 std::vector<std::uint32_t> hilbert_order(std::span<const double> points, int dimension, int threads);
 
 }  // namespace powercell

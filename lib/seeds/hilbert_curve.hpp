@@ -7,9 +7,9 @@
 
 namespace powercell {
 
-/// The curve is walked by a table: in state s the curve enters the cell's 2^D children in an order that is a
-/// mirrored and rotated Gray code. A state is the pair (corner where the curve enters, axis along which it
-/// leaves), as in Hamilton and Rau-Chaplin, "Compact Hilbert indices" (2008), section 2.
+/// Transitions of the curve: in each state it visits the 2^D children of a cell in a mirrored and rotated
+/// Gray code. A state is the pair (corner where the curve enters, axis along which it leaves), as in Hamilton
+/// and Rau-Chaplin, "Compact Hilbert indices" (2008), section 2.
 template <int D>
 struct HilbertTable {
   static constexpr unsigned children = 1u << D;
@@ -53,18 +53,19 @@ struct HilbertTable {
   }
 };
 
-/// Bits along each axis, so that a key fills at most 63 bits.
+/// Bits along each axis; a key has at most 63.
 template <int D>
 inline constexpr int hilbert_bits = D == 2 ? 31 : 21;
 
-/// The same walk by several levels at a time: each step waits for the state that the one before looked up.
+/// The same transitions, several levels at a time: a lookup waits for the state of the one before, so fewer
+/// lookups mean less latency.
 template <int D>
 struct HilbertLevels {
   static constexpr int levels = D == 2 ? 3 : 2;
   static constexpr unsigned paths = 1u << (D * levels);
-  /// By state and path, the children of the levels one after the other.
+  /// By state and path, which is the child of each level, from the top down.
   std::array<std::array<typename HilbertTable<D>::Step, paths>, HilbertTable<D>::states> step{};
-  /// Bits of one coordinate moved D apart.
+  /// The bits of one coordinate, spaced D apart.
   std::array<std::uint8_t, 1u << levels> spread{};
 
   constexpr HilbertLevels() {
@@ -90,12 +91,12 @@ inline constexpr HilbertTable<D> hilbert_table{};
 template <int D>
 inline constexpr HilbertLevels<D> hilbert_levels{};
 
-/// Place along the curve of the grid cell `cell`, each coordinate below 2^hilbert_bits<D>.
+/// Position along the curve of a grid cell with coordinates below 2^hilbert_bits<D>.
 template <int D>
 constexpr std::uint64_t hilbert_key(const std::array<std::uint32_t, D>& cell) {
   constexpr int levels = HilbertLevels<D>::levels;
   static_assert(hilbert_bits<D> % levels == 1);
-  // The children below bit `low`, `width` bits of each coordinate.
+  // The path of `width` levels: bits [low, low + width) of each coordinate.
   const auto path = [&cell](int low, int width) {
     unsigned bits = 0;
     for (int k = 0; k < D; ++k)

@@ -7,20 +7,20 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 8192;  // nodes; below, threads cost more than they save
+constexpr std::size_t least_shared = 8192;  // nodes; fewer are faster on one thread
 
 std::size_t level_size(const PackedTree& tree, std::size_t level) {
   return tree.level_offset[level + 1] - tree.level_offset[level];
 }
 
-/// Calls body(node, first, last) for each node of `level` with its children [first, last): ranks for the
-/// leaves, else node numbers.
+/// Calls body(node, first, last) for each node of `level`, whose children are [first, last): ranks if it is a
+/// leaf, else node numbers.
 template <class Body>
 void for_nodes(const PackedTree& tree, std::size_t level, int threads, const Body& body) {
   const std::size_t count = level_size(tree, level);
   const std::size_t below = level == 0 ? tree.seeds : level_size(tree, level - 1);
   const std::size_t base = level == 0 ? 0 : tree.level_offset[level - 1];
-  parallel_for(count < share_count ? 1 : threads, count, [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads_for(count, threads, least_shared), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t first = k * PackedTree::fan;
       const std::size_t last = std::min(first + PackedTree::fan, below);

@@ -1,5 +1,5 @@
 /// \file
-/// The seeds as the stages use them: validated, without duplicates, in Hilbert order.
+/// The seeds as the stages use them: checked, without duplicates, in Hilbert order.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,25 @@
 
 namespace powercell {
 
-/// Unique seeds in Hilbert order. Everything between validation and the results works on `rank`s, the
-/// positions in this order; `input[rank]` leads back to the caller's index.
+/// Unique seeds in Hilbert order. Every stage between the checks and the results works on ranks, the indices
+/// in this order; `input[rank]` is the caller's index.
 struct SeedSet {
   int dimension = 0;
-  std::size_t input_count = 0;           ///< seeds as given
+  std::size_t input_count = 0;           ///< seeds as given, duplicates included
   std::vector<double> positions;         ///< m x d, row-major, by rank
   std::vector<double> weights;           ///< m, by rank
   std::vector<std::uint32_t> input;      ///< m: index of the seed as given
-  std::vector<std::uint32_t> duplicate;  ///< input indices left out, ascending
+  std::vector<std::uint32_t> duplicate;  ///< input indices of the seeds left out, ascending
   std::size_t size() const { return input.size(); }
 };
 
-/// Validates, drops duplicates (equal positions: the largest weight stays, then the lowest index) and
-/// orders the rest along a Hilbert curve (63-bit keys, ties by position and index, so that the order does not
-/// depend on the number of threads). -0.0 and 0.0 are the same position.
-/// \throw Error invalid_argument (sizes), invalid_seed (NaN or infinity, which seed and value)
+/// Checks the seeds, drops duplicates and orders the rest along a Hilbert curve. Of the seeds at one position
+/// (-0.0 equals 0.0) the one of largest weight stays, of those the one of lowest index. Keys have 63 bits;
+/// equal keys are ordered by position, then index, so the order does not depend on the number of threads.
+/// \throw Error invalid_argument (dimension, sizes), invalid_seed (the first seed with a NaN or infinity)
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads);
+
+/// \throw Error invalid_seed (the first seed whose weight is NaN or infinite)
+void check_weights(std::span<const double> weights, int threads);
 
 }  // namespace powercell

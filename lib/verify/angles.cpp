@@ -15,7 +15,6 @@ Corners corners_of(const RegionMesh& mesh, std::size_t r) {
 }
 
 std::vector<Corners> facets_of(const RegionMesh& mesh, const Corners& corner) {
-  static constexpr int tetrahedron[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
   static constexpr int box[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5},
                                     {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
   std::vector<Corners> facets;
@@ -23,7 +22,7 @@ std::vector<Corners> facets_of(const RegionMesh& mesh, const Corners& corner) {
     for (std::size_t k = 0; k < corner.size(); ++k)
       facets.push_back({corner[k], corner[(k + 1) % corner.size()]});
   } else if (mesh.shape == RegionShape::tetrahedron) {
-    for (const auto& [a, b, c] : tetrahedron) facets.push_back({corner[a], corner[b], corner[c]});
+    for (const auto& [a, b, c] : tetrahedron_facet) facets.push_back({corner[a], corner[b], corner[c]});
   } else {
     for (const auto& [a, b, c, d] : box) facets.push_back({corner[a], corner[b], corner[c], corner[d]});
   }

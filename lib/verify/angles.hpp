@@ -1,5 +1,5 @@
 /// \file
-/// Regions of the domain by their corners, and the angles at which planes meet them. Internal.
+/// Corners and facets of the domain's regions, and angles between directions and planes. Internal.
 #pragma once
 
 #include <vector>
@@ -12,13 +12,15 @@ using Corners = std::vector<Vector>;
 
 Corners corners_of(const RegionMesh& mesh, std::size_t region);
 
-/// The facets of a region with these corners: edges of polygons and triangles, faces of tetrahedra and boxes.
+/// The facets of the region with these corners: edges of polygons and triangles, faces of tetrahedra and
+/// boxes.
 std::vector<Corners> facets_of(const RegionMesh& mesh, const Corners& corner);
 
-/// Of the plane of three corners or more, of any length.
+/// Normal, of any length, of the plane of three or more corners.
 Vector normal_of(const Corners& corner);
 
-/// Sines of the angles of two directions, and of a direction and a plane; vectors are of any lengths.
+/// Sines of the angle between two directions and of that between a direction and a plane, for vectors of any
+/// length.
 long double sine_between(const Vector& a, const Vector& b);
 long double sine_to_plane(const Vector& direction, const Vector& normal);
 

@@ -10,18 +10,18 @@
 namespace powercell {
 namespace {
 
-/// The least sine of an angle of a triangle of seeds: that between the two longer sides.
+/// Sine of the smallest angle of a triangle of seeds, which lies between its two longer sides.
 long double least_sine(const Vector& a, const Vector& b, const Vector& c) {
   std::array<long double, 3> side{norm(b - a), norm(c - b), norm(a - c)};
   std::ranges::sort(side);
   return norm(cross(b - a, c - a)) / (side[1] * side[2]);
 }
 
-/// How far rounding may move the ends of the wall of two seeds, to first order: the sum over the planes that
-/// it may end at, each by the rounding of both over the sine of their angle.
+/// How far rounding may move the ends of the wall of two seeds, to first order: for each plane at which it
+/// may end, the rounding of both planes over the sine of their angle.
 class Ends {
  public:
-  Ends(const Adjacency& adjacency, const RegionMesh& mesh, const Rounding& rounding)
+  Ends(const Adjacency& adjacency, const RegionMesh* mesh, const Rounding& rounding)
       : mesh_(mesh),
         rounding_(rounding),
         i_(adjacency.asymmetric[0]),
@@ -34,15 +34,15 @@ class Ends {
   long double sum() {
     if (!is_surface())
       for (const std::uint32_t k : common_) add(shift(k), sine(k));
-    for (std::size_t r = 0; r < mesh_.region_count(); ++r)
-      if (const Corners corners = corners_of(mesh_, r); is_met(corners, j_)) add_region(corners);
+    for (std::size_t r = 0; mesh_ != nullptr && r < mesh_->region_count(); ++r)
+      if (const Corners corners = corners_of(*mesh_, r); is_met(corners, j_)) add_region(corners);
     return sum_;
   }
 
  private:
-  bool is_surface() const { return mesh_.kind == DomainKind::surface; }
+  bool is_surface() const { return mesh_ != nullptr && mesh_->kind == DomainKind::surface; }
 
-  /// The bisector of i and k has some of the points on either side, or to rounding on it.
+  /// Whether the bisector of i and k has points on both sides, or on it up to rounding.
   bool is_met(const Corners& points, std::uint32_t k) const {
     const double slack = rounding_.wall_shift(i_, k);
     bool before = false, behind = false;
@@ -54,20 +54,20 @@ class Ends {
     return before && behind;
   }
 
-  /// Of the bisectors of both seeds with a third, at which their sides of the wall end.
+  /// Rounding of the bisectors of both seeds with a third, at which the two sides of the wall end.
   double shift(std::uint32_t k) const { return rounding_.wall_shift(i_, k) + rounding_.wall_shift(j_, k); }
   long double sine(std::uint32_t k) const {
     return least_sine(rounding_.position(i_), rounding_.position(j_), rounding_.position(k));
   }
 
   void add_region(const Corners& corners) {
-    for (const Corners& facet : facets_of(mesh_, corners))
+    for (const Corners& facet : facets_of(*mesh_, corners))
       if (is_met(facet, j_))
-        add(rounding_.shift(i_) + rounding_.shift(j_), mesh_.cell_dimension == 2
+        add(rounding_.shift(i_) + rounding_.shift(j_), mesh_->cell_dimension == 2
                                                            ? sine_to_plane(facet[1] - facet[0], normal_)
                                                            : sine_between(normal_of(facet), normal_));
     if (!is_surface()) return;
-    // Bisectors meet in a line, and the triangle in a point of it.
+    // Two bisectors meet in a line, which meets the triangle in a point.
     for (const std::uint32_t k : common_) {
       const Vector line = cross(normal_, rounding_.position(k) - rounding_.position(i_));
       if (is_met(corners, k)) add(shift(k), sine(k) * sine_to_plane(line, normal_of(corners)));
@@ -76,29 +76,29 @@ class Ends {
 
   void add(double moved, long double sine) { sum_ += (moved_ + moved) / sine; }
 
-  const RegionMesh& mesh_;
+  const RegionMesh* mesh_;
   const Rounding& rounding_;
   std::uint32_t i_, j_;
   Vector normal_;
   double moved_;
-  std::vector<std::uint32_t> common_;  // seeds that are neighbours of both
+  std::vector<std::uint32_t> common_;  // neighbours of both seeds
   long double sum_ = 0;
 };
 
 }  // namespace
 
-double allowed_asymmetry(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding) {
+double allowed_asymmetry(const Adjacency& adjacency, const RegionMesh* mesh, const Rounding& rounding) {
   constexpr double right_angles = 128;
   const double largest =
       adjacency.wall.empty() ? 0 : *std::max_element(adjacency.wall.begin(), adjacency.wall.end());
-  const double rim = rim_of(largest, domain), rounded = rounding.unit() * rounding.diagonal() * rim;
+  const double rim = rounding.extent().rim_of(largest), rounded = rounding.unit() * rounding.diagonal() * rim;
   const auto within = [&](double allowed) {
     return std::max(right_angles * rounded, std::min(largest / 2, allowed));
   };
   const auto n = static_cast<double>(adjacency.offset.size() - 1);
   const double usual = within(rounded * (1000 + n));
   if (adjacency.asymmetry <= usual || adjacency.asymmetric[0] == adjacency.asymmetric[1]) return usual;
-  const auto ends = static_cast<double>(Ends(adjacency, domain.mesh(), rounding).sum());
+  const auto ends = static_cast<double>(Ends(adjacency, mesh, rounding).sum());
   return std::max(usual, within(rim * ends));
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// How far the two sides of a wall may be apart. Internal.
+/// Tolerance for the difference between the two sides of a wall. Internal.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace powercell {
 
-/// What Adjacency::asymmetry may be. The ends of a wall are where its plane meets others, and move by the
-/// planes' rounding over the sine of the angle between them. Of many random angles the least is about one
-/// over their number; the angles of the wall concerned are looked at where more is wanted. However small they
-/// are, no large wall may lack a side; where planes meet at right angles, one of a few tens of roundings may.
-/// \param adjacency  with rows in order and from both sides
-double allowed_asymmetry(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding);
+/// The allowed Adjacency::asymmetry (docs/mathematics.md, (18a)). A wall ends where its plane meets others,
+/// so its ends move by the planes' rounding over the sine of the angle between them. The smallest of n random
+/// angles is about 1/n, which sets the usual tolerance; where the asymmetry exceeds it, the angles of that
+/// wall are computed. However small they are, no large wall may lack a side; where planes meet at right
+/// angles, a wall of a few tens of roundings may. \param adjacency  with ascending rows that list each wall
+/// from both sides \param mesh  of the domain, null where it is not known
+double allowed_asymmetry(const Adjacency& adjacency, const RegionMesh* mesh, const Rounding& rounding);
 
-/// What is said where it is more.
+/// The message where it is exceeded.
 std::string text_of_asymmetry(const Adjacency& adjacency);
 
 }  // namespace powercell

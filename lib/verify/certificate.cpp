@@ -18,9 +18,9 @@ namespace powercell {
 namespace {
 
 constexpr double partition_double = 1e-12, partition_float = 1e-6;
-/// Of the largest wall. The sides of a wall are measured in the coordinates of two seeds.
+/// In units of the largest wall. Each side of a wall is measured in coordinates relative to its own seed.
 constexpr double asymmetry_double = 1e-9, asymmetry_float = 1e-3;
-/// Roundings that add up in a place seen from a seed, and in a power distance.
+/// Roundings that add up in a position relative to a seed, and in a power distance.
 constexpr double place_roundings = 64, power_roundings = 16;
 constexpr std::size_t points = 8;
 
@@ -32,8 +32,8 @@ double unit_of(const Certified& r) {
   return r.float32 ? 0x1p-24 : 0x1p-53;
 }
 
-/// How far outside of the domain's box seeds with cells are, along an axis: what these seeds see moves by the
-/// rounding of that distance.
+/// The greatest distance, along an axis, of a seed with a cell from the domain's box. Coordinates relative to
+/// such a seed have the rounding of that distance.
 double farthest_outside(const Certified& r) {
   const auto d = static_cast<std::size_t>(r.seeds.dimension);
   const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
@@ -46,13 +46,13 @@ double farthest_outside(const Certified& r) {
   return farthest;
 }
 
-/// The seeds in the caller's order, as tolerances want them that are seldom asked for.
+/// The seeds in the caller's order, for tolerances that are seldom needed.
 class Callers {
  public:
   explicit Callers(const Certified& r)
       : positions_(r.seeds.input_count * static_cast<std::size_t>(r.seeds.dimension)),
         weights_(r.seeds.input_count),
-        rounding_(r.domain, view(r), r.float32 ? Precision::float32 : Precision::float64) {}
+        rounding_(extent_of(r.domain), view(r), r.float32 ? Precision::float32 : Precision::float64) {}
 
   const Rounding& rounding() const { return rounding_; }
 
@@ -75,7 +75,7 @@ void require_partition(const Certified& r, double outside) {
   const double error = r.measures.mass.empty() ? 0 : r.measures.relative_error();
   const double usual = r.float32 ? partition_float : partition_double;
   if (error <= usual) return;
-  const double reach = std::sqrt(3.0) * (extent_of(r.domain) + outside);
+  const double reach = std::sqrt(3.0) * (extent_of(r.domain).longest() + outside);
   double tolerance = partition_tolerance(r.domain.mesh(), usual, reach);
   if (error > tolerance && r.domain.kind() == DomainKind::surface && r.geometry)
     tolerance += static_cast<double>(slanted_area(r.geometry(), r.domain.mesh(), Callers(r).rounding())) /
@@ -85,13 +85,14 @@ void require_partition(const Certified& r, double outside) {
          digits(r.measures.domain_measure));
 }
 
-/// The first seed whose figures no cell of the domain can have.
+/// Refuses masses, second moments and centroids that no cell of the domain can have; names the first such
+/// seed.
 void require_numbers(const Certified& r, double outside) {
   const auto d = static_cast<std::size_t>(r.measures.dimension);
   const std::array<double, 3> low = r.domain.low(), high = r.domain.high();
   double reach = 0;
   for (std::size_t k = 0; k < d; ++k) reach = std::max({reach, std::abs(low[k]), std::abs(high[k])});
-  const double slack = extent_of(r.domain) * (r.float32 ? 1e-4 : 1e-8) + reach * 1e-14 +
+  const double slack = extent_of(r.domain).longest() * (r.float32 ? 1e-4 : 1e-8) + reach * 1e-14 +
                        place_roundings * unit_of(r) * outside;
   const std::size_t wrong = first_of(r.measures.mass.size(), r.threads, [&](std::size_t i) {
     if (!(r.measures.mass[i] >= 0) || !(r.measures.second_moment[i] >= 0)) return true;
@@ -111,16 +112,17 @@ void require_numbers(const Certified& r, double outside) {
 void require_symmetry(const Certified& r, double outside) {
   if (r.adjacency == nullptr || r.adjacency->wall.empty()) return;
   const double largest = *std::max_element(r.adjacency->wall.begin(), r.adjacency->wall.end());
-  const double rounding =
-      place_roundings * unit_of(r) * (extent_of(r.domain) + outside) * rim_of(largest, r.domain);
+  const double rounding = place_roundings * unit_of(r) * (extent_of(r.domain).longest() + outside) *
+                          extent_of(r.domain).rim_of(largest);
   if (r.adjacency->asymmetry <= largest * (r.float32 ? asymmetry_float : asymmetry_double) + rounding) return;
-  if (r.adjacency->asymmetry <= allowed_asymmetry(*r.adjacency, r.domain, Callers(r).rounding())) return;
+  if (r.adjacency->asymmetry <= allowed_asymmetry(*r.adjacency, &r.domain.mesh(), Callers(r).rounding()))
+    return;
   refuse(text_of_asymmetry(*r.adjacency));
 }
 
 struct Power {
   double value;  // |x-p|^2 - w
-  double terms;  // |x-p|^2 + |w|, of which it has the rounding
+  double terms;  // |x-p|^2 + |w|, which determines the rounding of the value
 };
 
 template <std::size_t d>
@@ -133,7 +135,7 @@ Power power(const SeedSet& seeds, std::size_t i, const std::array<double, 3>& x)
   return {square - seeds.weights[i], square + std::abs(seeds.weights[i])};
 }
 
-/// The rank of least power distance from x: the least first, in lanes, then whose it is.
+/// The rank of least power distance from x. The least value is found first, in vector lanes, then its rank.
 template <std::size_t d>
 std::size_t owner_of(const SeedSet& seeds, const std::array<double, 3>& x) {
   constexpr std::size_t lanes = 8;
@@ -151,7 +153,8 @@ std::size_t owner_of(const SeedSet& seeds, const std::array<double, 3>& x) {
   return i;
 }
 
-/// The rank of a seed with a cell whose power distance from x is the least to rounding, or else of any other.
+/// The rank of a seed with a cell whose power distance from x is the least up to rounding; if there is none,
+/// the rank of least power distance.
 template <std::size_t d>
 std::size_t owner_with_cell(const Certified& r, const std::array<double, 3>& x) {
   const auto has_cell = [&](std::size_t rank) {

@@ -1,5 +1,5 @@
 /// \file
-/// The laws that are cheap enough to be checked on every result (Options::certify). Internal.
+/// The laws that are cheap enough to check on every result (Options::certify). Internal.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,21 @@
 
 namespace powercell {
 
-/// What a certificate looks at; owned by the caller.
+/// The results to certify; owned by the caller.
 struct Certified {
   const Domain& domain;
   const SeedSet& seeds;
   const Measures& measures;
-  const Adjacency* adjacency;  ///< or none
+  const Adjacency* adjacency;  ///< may be null
   bool float32;
   int threads;
-  std::function<const Cells&()> geometry = {};  ///< computes it; asked for where a law needs it, or none
+  std::function<const Cells&()> geometry = {};  ///< computes the cells where a law needs them; may be empty
 };
 
-/// Partition of the measure; measures that are numbers and not negative, and centroids in the domain's box;
-/// walls that both sides measure alike; random points whose seed of least power, found by trying all, is not
-/// said to be hidden. \throw Error internal with the law and the seeds concerned
+/// Checks that the measures sum to the domain's, are numbers and not negative, that centroids lie in the
+/// domain's box, that both sides of a wall have the same measure, and that the seed of least power distance
+/// at some random points, found by trying all seeds, is not hidden. \throw Error internal with the law and
+/// the seeds concerned
 void require_certificate(const Certified& result);
 
 }  // namespace powercell

@@ -8,27 +8,28 @@
 
 namespace powercell {
 
-/// Keeps the finding that is worst in proportion to what was allowed for it.
+/// Keeps the finding that is worst relative to its tolerance.
 class Worst {
  public:
-  /// \param tell makes the text that says where; called only when this finding is the worst so far and is
-  /// more than allowed
-  template <class Tell>
-  void see(double value, double allowed, const Tell& tell) {
-    // Not-a-number is a fault too, hence the negated comparisons.
+  /// \param describe  gives the text that names the place; called only if this finding is the worst so far
+  /// and
+  ///   exceeds its tolerance
+  template <class Describe>
+  void see(double value, double allowed, const Describe& describe) {
+    // NaN is a fault too, hence the negated comparisons.
     const double ratio = value == 0 ? 0 : allowed > 0 ? value / allowed : infinite;
     if (ratio <= ratio_) return;
     ratio_ = ratio > ratio_ ? ratio : infinite;
     value_ = value;
     allowed_ = allowed;
-    if (!(value <= allowed)) detail_ = tell();
+    if (!(value <= allowed)) detail_ = describe();
   }
 
   void see(const Worst& other) {
     if (other.ratio_ > ratio_) *this = other;
   }
 
-  /// \param usual what is allowed where nothing was found to measure
+  /// \param usual  the tolerance to report if nothing was measured
   LawCheck result(std::string law, double usual) const {
     const bool any = ratio_ > 0;
     return {std::move(law), !(ratio_ > 1), value_, any ? allowed_ : usual, detail_};

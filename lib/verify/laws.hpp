@@ -12,19 +12,30 @@
 
 namespace powercell {
 
-/// Every statement of SeedStatus: ok exactly with a positive measure and a piece, hidden and duplicate with
-/// neither; at each position one seed that is not a duplicate, of the largest weight, then the lowest index.
+/// The measures sum to the domain's. \param mesh  of the domain, null where it is not known
+LawCheck check_partition(const Measures& measures, const Cells& cells, const RegionMesh* mesh,
+                         const Rounding& rounding);
+
+/// A seed is ok exactly if it has a positive measure and a piece; hidden and duplicate seeds have neither. At
+/// each position one seed is not a duplicate: that of the largest weight, then of the lowest index.
 LawCheck check_statuses(const Measures& measures, const Cells& cells, const SeedsView& seeds);
 
-/// Rows ascending and equal from both sides, and little asymmetry before the sides were averaged.
-LawCheck check_walls(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding);
+/// Rows ascend, both sides of a wall are equal, and they differed little before they were averaged.
+/// \param mesh  as in check_partition
+LawCheck check_walls(const Adjacency& adjacency, const RegionMesh* mesh, const Rounding& rounding);
+
+/// The pieces of each cell sum to its measure, and their centroid is its centroid. Pieces need not be convex.
+std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells, const Rounding& rounding);
+
+/// The vertices of walls lie where two power distances are equal.
+LawCheck check_bisectors(const Cells& cells, const Rounding& rounding);
+
+/// No other seed has a smaller power distance at a vertex of a cell; all seeds are tried at random vertices.
+LawCheck check_vertices(const Cells& cells, const Rounding& rounding, const VerifyOptions& options);
 
 /// Each sample lies in a piece of the seed of least power, found by trying all seeds.
 LawCheck check_owners(const std::vector<Sample>& samples, const RegionMesh& mesh, const Cells& cells,
                       const Rounding& rounding);
-
-/// The pieces of each cell sum to its measure, and their centroid is its centroid.
-std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells, const Rounding& rounding);
 
 /// The neighbours of seed i.
 inline std::span<const std::uint32_t> row_of(const Adjacency& adjacency, std::size_t i) {
@@ -39,5 +50,9 @@ inline Vector cell_vertex(const Cells& cells, std::uint64_t v) {
 }
 /// Corner k of face f: of a polyhedron's loop, or of the edge k of a polygon.
 std::vector<Vector> face_corners(const Cells& cells, std::size_t piece, std::uint64_t face);
+/// Twice the area vector of a flat polygon.
+Vector twice_area(const std::vector<Vector>& corners);
+/// Length of an edge, area of a face.
+long double face_measure(const std::vector<Vector>& corners);
 
 }  // namespace powercell

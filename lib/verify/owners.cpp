@@ -8,7 +8,7 @@
 namespace powercell {
 namespace {
 
-/// How far a point lies outside a piece, and how much of that rounding explains.
+/// How far a point lies outside a piece, and how far rounding may put it there.
 struct Outside {
   double distance = 0, allowed = 1;
   double ratio() const { return distance / allowed; }
@@ -25,9 +25,9 @@ Vector plane_normal(const RegionMesh& mesh, std::uint32_t region) {
 }
 
 struct Face {
-  Vector normal{};  // outward, unit; 0 for a face of no extent
+  Vector normal{};  // outward, unit; zero for a face without extent
   Vector middle{};
-  double slant = 0;  // by how much its direction turns, at most, if its corners move by one
+  double slant = 0;  // how much its direction turns, at most, per unit by which its corners move
 };
 
 Face face_of(const std::vector<Vector>& corners, const Vector& plane) {
@@ -39,8 +39,7 @@ Face face_of(const std::vector<Vector>& corners, const Vector& plane) {
   if (corners.size() == 2) {
     face.normal = cross(corners[1] - corners[0], plane);
   } else {
-    for (std::size_t k = 2; k < corners.size(); ++k)
-      face.normal = face.normal + cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
+    face.normal = twice_area(corners);
   }
   const long double size = norm(face.normal);  // its length, or twice its area
   if (!(size > 0)) return {};
@@ -54,7 +53,8 @@ class Owners {
   Owners(const RegionMesh& mesh, const Cells& cells, const Rounding& rounding)
       : mesh_(mesh), cells_(cells), rounding_(rounding), count_(cells.cell_count()) {}
 
-  /// By trying all of them. At one place the heavier, also where its weight is lost beside the distance.
+  /// Tries all seeds. Of two at one position the heavier wins, also where its weight is lost in rounding
+  /// beside the distance.
   std::size_t least_power(const Vector& x) const {
     std::size_t best = 0;
     long double least = 0;
@@ -71,7 +71,7 @@ class Owners {
     return best;
   }
 
-  /// How far a sample lies outside the cell of seed i.
+  /// The distance of a sample outside the cell of seed i.
   Outside outside_cell(const Sample& sample, std::size_t i) const {
     Outside best{1e300, 1};
     bool in_region = false;
@@ -80,13 +80,13 @@ class Owners {
       in_region = true;
       best = nearer(best, outside_piece(sample.point, i, p));
     }
-    // Too flat a piece is not kept: then the point is next to one in the region beside.
+    // Pieces that are too flat are not kept; the point then lies next to a piece in a neighbouring region.
     for (std::uint64_t p = cells_.cell_offset[i]; !in_region && p < cells_.cell_offset[i + 1]; ++p)
       best = nearer(best, outside_piece(sample.point, i, p));
     return best;
   }
 
-  /// The best answer of all seeds whose bisector with the owner is as near as rounding.
+  /// The best result over all seeds whose bisector with the owner passes within rounding of the point.
   Outside outside_ties(const Sample& sample, std::size_t owner, Outside best) const {
     const Vector p = rounding_.position(owner);
     for (std::size_t j = 0; j < count_; ++j) {
@@ -120,7 +120,7 @@ class Owners {
   std::size_t count_;
 };
 
-std::string tell(const Sample& sample, std::size_t owner, const Outside& outside, int dimension) {
+std::string describe(const Sample& sample, std::size_t owner, const Outside& outside, int dimension) {
   std::string point = digits(static_cast<double>(sample.point[0]));
   for (std::size_t k = 1; k < static_cast<std::size_t>(dimension); ++k)
     point += ", " + digits(static_cast<double>(sample.point[k]));
@@ -143,7 +143,7 @@ LawCheck check_owners(const std::vector<Sample>& samples, const RegionMesh& mesh
       Outside outside = owners.outside_cell(samples[s], owner);
       if (outside.ratio() > 1) outside = owners.outside_ties(samples[s], owner, outside);
       worst[s].see(outside.distance, outside.allowed,
-                   [&] { return tell(samples[s], owner, outside, cells.dimension); });
+                   [&] { return describe(samples[s], owner, outside, cells.dimension); });
     }
   });
   Worst all;

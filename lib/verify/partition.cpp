@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "lib/base/text.hpp"
 #include "lib/domain/measure.hpp"
 #include "lib/verify/angles.hpp"
+#include "lib/verify/laws.hpp"
 
 namespace powercell {
 namespace {
 
-/// Reach times gradient over measure of a cube seen from its corner.
+/// Reach times gradient over measure, for a cube and a seed in its corner.
 constexpr double usual_ratio = 6;
 
-/// Gradients by all corners, added up over the regions.
+/// Gradients of the measure with respect to all corners, summed over the regions.
 class Gradients {
  public:
   explicit Gradients(const RegionMesh& mesh)
@@ -48,7 +50,7 @@ class Gradients {
     }
   }
 
-  /// Half the edge between the neighbours, turned outwards in the plane.
+  /// Half the segment between the neighbouring corners, rotated outwards in the plane.
   void add_polygon(const std::uint32_t* corner, std::size_t count) {
     Vector normal{};
     for (std::size_t k = 2; k < count; ++k) {
@@ -64,16 +66,15 @@ class Gradients {
     }
   }
 
-  /// A third of the area vector of the facet opposite, turned towards the corner.
+  /// A third of the area vector of the opposite facet, directed towards the corner.
   void add_tetrahedron(const std::uint32_t* corner) {
-    constexpr std::array<std::array<int, 3>, 4> opposite{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto [a, b, c] = opposite[k];
-      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[b]), edge(corner[a], corner[c])));
+      const auto& [a, b, c] = tetrahedron_facet[k];
+      add(corner[k], 1 / 6.0L, cross(edge(corner[a], corner[c]), edge(corner[a], corner[b])));
     }
   }
 
-  /// A corner takes a quarter of each of its three facets along.
+  /// A quarter of the area vectors of its three facets.
   void add_box(const std::uint32_t* corner) {
     const Vector x = edge(corner[0], corner[1]), y = edge(corner[0], corner[2]),
                  z = edge(corner[0], corner[4]);
@@ -87,7 +88,35 @@ class Gradients {
   std::vector<Vector> sums_;
 };
 
-/// The same of one piece, at most its triangle for each of its walls.
+/// Masses are sums over cells whose shared faces move alike, so the error of the total does not grow with
+/// their number.
+constexpr double partition_double = 1e-12, partition_float = 1e-5;
+
+/// The greatest distance from a seed with a cell to the domain.
+double greatest_reach(const Measures& measures, const Rounding& rounding) {
+  double reach = 0;
+  for (std::size_t i = 0; i < measures.mass.size(); ++i)
+    if (measures.status[i] == SeedStatus::ok) reach = std::max(reach, rounding.reach(i));
+  return reach;
+}
+
+/// The domain's boundary by the cells: the length of each edge, or the area of each face, times the distance
+/// from its seed to its farthest corner.
+long double boundary_times_reach(const Cells& cells, const Rounding& rounding) {
+  long double sum = 0;
+  for (std::size_t i = 0; i < cells.cell_count(); ++i)
+    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
+      for (std::uint64_t f = cells.face_offset[p]; f < cells.face_offset[p + 1]; ++f) {
+        if (cells.border[f].kind != Border::Kind::boundary) continue;
+        const std::vector<Vector> corners = face_corners(cells, p, f);
+        long double reach = 0;
+        for (const Vector& corner : corners) reach = std::max(reach, norm(corner - rounding.position(i)));
+        sum += face_measure(corners) * reach;
+      }
+  return sum;
+}
+
+/// The tolerance for one piece; for each of its walls at most the area of its triangle.
 long double slanted_area(const Cells& cells, std::size_t seed, std::uint64_t piece, const Corners& triangle,
                          const Rounding& rounding) {
   const Vector normal = normal_of(triangle);
@@ -122,6 +151,27 @@ long double slanted_area(const Cells& cells, const RegionMesh& mesh, const Round
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
       sum += slanted_area(cells, i, p, corners_of(mesh, cells.region[p]), rounding);
   return sum;
+}
+
+LawCheck check_partition(const Measures& measures, const Cells& cells, const RegionMesh* mesh,
+                         const Rounding& rounding) {
+  const double usual = rounding.unit() == 0x1p-24 ? partition_float : partition_double;
+  const double error = measures.mass.empty() ? 0 : measures.relative_error();  // no seeds have no cells
+  double tolerance = usual;
+  if (mesh != nullptr) {
+    tolerance = partition_tolerance(*mesh, usual, greatest_reach(measures, rounding));
+    if (error > tolerance)
+      tolerance += static_cast<double>(slanted_area(cells, *mesh, rounding)) / measures.domain_measure;
+  } else if (error > tolerance) {
+    tolerance += 2 * rounding.unit() * static_cast<double>(boundary_times_reach(cells, rounding)) /
+                 measures.domain_measure;
+  }
+  LawCheck check{
+      "partition: the measures sum to the domain's (relative)", error <= tolerance, error, tolerance, {}};
+  if (!check.passed)
+    check.detail = "the cells sum to " + digits(measures.total()) + ", the domain has " +
+                   digits(measures.domain_measure);
+  return check;
 }
 
 }  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// How far the sum of measures may be from the domain's. Internal.
+/// Tolerance for the difference between the sum of the measures and the domain's. Internal.
 #pragma once
 
 #include "lib/domain/region_mesh.hpp"
@@ -7,19 +7,19 @@
 
 namespace powercell {
 
-/// What the domain's measure changes by, to first order, where every corner moves by 1: the sum of the
-/// lengths of its gradients by the corners. It is about the boundary of a polygon or volume, and what a
-/// surface bends.
+/// The change of the domain's measure, to first order, if every corner moves by 1: the sum of the lengths of
+/// the measure's gradients with respect to the corners. For a polygon or volume it is about the measure of
+/// the boundary; for a surface it grows with its curvature.
 long double measure_gradient(const RegionMesh& mesh);
 
 /// Allowed relative difference (docs/mathematics.md, (17a)).
-/// \param usual  what is allowed where domains are about as wide as long and seeds within them
+/// \param usual  for domains about as wide as long with the seeds inside
 /// \param reach  the farthest corner of the domain from a seed with a cell
 double partition_tolerance(const RegionMesh& mesh, double usual, double reach);
 
-/// What the cells of a surface may measure too much or too little together, beside that, where a bisector is
-/// all but parallel to a triangle that it cuts: either side has its own place of the cut, off by rounding
-/// over the sine of the angle. 0 for polygons and volumes, which lie in the space of their seeds.
+/// Additional tolerance (17b) for surfaces on which a bisector is nearly parallel to a triangle that it cuts:
+/// each side computes the cut on its own, off by rounding over the sine of the angle. 0 for polygons and
+/// volumes.
 long double slanted_area(const Cells& cells, const RegionMesh& mesh, const Rounding& rounding);
 
 }  // namespace powercell

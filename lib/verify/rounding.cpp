@@ -6,32 +6,32 @@
 namespace powercell {
 namespace {
 
-/// Roundings that add up in a plane: the dot products of a cut and the interpolation of its vertices.
+/// Roundings that add up in a plane, from the dot products of a cut and the interpolation of its vertices.
 constexpr double roundings = 64;
 
 }  // namespace
 
-double extent_of(const Domain& domain) {
-  const std::array<double, 3> low = domain.low(), high = domain.high();
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low[k]);
-  return extent;
+double Extent::longest() const {
+  double edge = 0;
+  for (std::size_t k = 0; k < 3; ++k) edge = std::max(edge, high[k] - low[k]);
+  return edge;
 }
 
-double rim_of(double wall, const Domain& domain) {
-  if (domain.cell_dimension() == 2) return 2;
-  const double extent = extent_of(domain), slimness = extent * extent * extent / domain.measure();
-  return 4 * std::min(extent, std::sqrt(wall * slimness));
+double Extent::rim_of(double wall) const {
+  if (cell_dimension == 2) return 2;
+  const double edge = longest(), slimness = edge * edge * edge / measure;
+  return 4 * std::min(edge, std::sqrt(wall * slimness));
 }
 
-Rounding::Rounding(const Domain& domain, const SeedsView& seeds, Precision precision)
-    : seeds_(seeds),
-      low_(domain.low()),
-      high_(domain.high()),
-      unit_(precision == Precision::float32 ? 0x1p-24 : 0x1p-53) {
+Extent extent_of(const Domain& domain) {
+  return {domain.cell_dimension(), domain.low(), domain.high(), domain.measure()};
+}
+
+Rounding::Rounding(const Extent& extent, const SeedsView& seeds, Precision precision)
+    : extent_(extent), seeds_(seeds), unit_(precision == Precision::float32 ? 0x1p-24 : 0x1p-53) {
   for (std::size_t k = 0; k < 3; ++k) {
-    diagonal_ = std::hypot(diagonal_, high_[k] - low_[k]);
-    coordinate_ = std::max({coordinate_, std::abs(low_[k]), std::abs(high_[k])});
+    diagonal_ = std::hypot(diagonal_, extent.high[k] - extent.low[k]);
+    coordinate_ = std::max({coordinate_, std::abs(extent.low[k]), std::abs(extent.high[k])});
   }
   coordinate_ *= 4 * 0x1p-53;
 }
@@ -50,8 +50,8 @@ double Rounding::reach(std::size_t i) const {
   const Vector p = position(i);
   double sum = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(seeds_.dimension); ++k)
-    sum =
-        std::hypot(sum, static_cast<double>(std::max(std::fabs(p[k] - low_[k]), std::fabs(p[k] - high_[k]))));
+    sum = std::hypot(sum, static_cast<double>(
+                              std::max(std::fabs(p[k] - extent_.low[k]), std::fabs(p[k] - extent_.high[k]))));
   return sum;
 }
 

@@ -7,7 +7,7 @@
 namespace powercell {
 namespace {
 
-/// Seeds in groups of equal positions, each group by weight (largest first), then index.
+/// Seeds grouped by position; within a group by descending weight, then by index.
 std::vector<std::uint32_t> by_position(const SeedsView& seeds) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   std::vector<std::uint32_t> order(seeds.size());

@@ -3,33 +3,9 @@
 
 #include "lib/base/text.hpp"
 #include "lib/verify/laws.hpp"
-#include "lib/verify/partition.hpp"
 
 namespace powercell {
 namespace {
-
-/// Masses are sums over cells whose shared faces move alike, so the error of the total does not grow with
-/// their number.
-constexpr double partition_double = 1e-12, partition_float = 1e-5;
-
-LawCheck check_partition(const Measures& measures, const Cells& cells, const RegionMesh& mesh,
-                         const Rounding& rounding, Precision precision) {
-  double reach = 0;
-  for (std::size_t i = 0; i < measures.mass.size(); ++i)
-    if (measures.status[i] == SeedStatus::ok) reach = std::max(reach, rounding.reach(i));
-  const double usual = precision == Precision::float32 ? partition_float : partition_double;
-  double tolerance = partition_tolerance(mesh, usual, reach);
-  const bool covered = !measures.mass.empty();  // no seeds have no cells
-  const double error = covered ? measures.relative_error() : 0;
-  if (error > tolerance)
-    tolerance += static_cast<double>(slanted_area(cells, mesh, rounding)) / measures.domain_measure;
-  LawCheck check{
-      "partition: the measures sum to the domain's (relative)", error <= tolerance, error, tolerance, {}};
-  if (!check.passed)
-    check.detail = "the cells sum to " + digits(measures.total()) + ", the domain has " +
-                   digits(measures.domain_measure);
-  return check;
-}
 
 void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
   const bool same = seeds.dimension == diagram.domain().dimension() && seeds.size() == diagram.size();
@@ -54,15 +30,15 @@ void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
 std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const VerifyOptions& options) {
   check_same_seeds(diagram, seeds);
   const Domain& domain = diagram.domain();
-  const Rounding rounding(domain, seeds, diagram.precision());
+  const Rounding rounding(extent_of(domain), seeds, diagram.precision());
   const Cells& cells = diagram.cells();
   const Measures& measures = diagram.measures();
 
-  std::vector<LawCheck> checks;
-  checks.push_back(check_partition(measures, cells, domain.mesh(), rounding, diagram.precision()));
-  checks.push_back(check_statuses(measures, cells, seeds));
-  checks.push_back(check_walls(diagram.adjacency(), domain, rounding));
+  std::vector<LawCheck> checks{check_partition(measures, cells, &domain.mesh(), rounding),
+                               check_statuses(measures, cells, seeds),
+                               check_walls(diagram.adjacency(), &domain.mesh(), rounding)};
   for (LawCheck& check : check_pieces(measures, cells, rounding)) checks.push_back(std::move(check));
+  checks.push_back(check_bisectors(cells, rounding));
   const std::size_t samples = seeds.size() > 0 ? options.samples : 0;
   checks.push_back(check_owners(random_points(domain.mesh(), samples, options.random_seed), domain.mesh(),
                                 cells, rounding));

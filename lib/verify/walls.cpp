@@ -6,7 +6,7 @@
 namespace powercell {
 namespace {
 
-/// What is wrong with row i, or nothing.
+/// The fault of row i; empty if it has none.
 std::string fault_of(const Adjacency& adjacency, std::size_t i) {
   const auto row = row_of(adjacency, i);
   for (auto j = row.begin(); j != row.end(); ++j) {
@@ -23,7 +23,7 @@ std::string fault_of(const Adjacency& adjacency, std::size_t i) {
   return {};
 }
 
-/// What is wrong with the rows, or nothing.
+/// The fault of the first row that has one; empty if there is none.
 std::string fault_of(const Adjacency& adjacency) {
   for (std::size_t i = 0; i + 1 < adjacency.offset.size(); ++i)
     if (std::string fault = fault_of(adjacency, i); !fault.empty()) return fault;
@@ -32,11 +32,11 @@ std::string fault_of(const Adjacency& adjacency) {
 
 }  // namespace
 
-LawCheck check_walls(const Adjacency& adjacency, const Domain& domain, const Rounding& rounding) {
+LawCheck check_walls(const Adjacency& adjacency, const RegionMesh* mesh, const Rounding& rounding) {
   LawCheck check{"symmetry: each wall is the same from both sides", false, adjacency.asymmetry, 0, {}};
   check.detail = fault_of(adjacency);
   if (!check.detail.empty()) return check;
-  check.tolerance = allowed_asymmetry(adjacency, domain, rounding);
+  check.tolerance = allowed_asymmetry(adjacency, mesh, rounding);
   check.passed = adjacency.asymmetry <= check.tolerance;
   if (!check.passed) check.detail = text_of_asymmetry(adjacency);
   return check;

@@ -21,7 +21,7 @@ class Comma : public std::numpunct<char> {
 
 }  // namespace
 
-TEST_CASE("numbers in messages read back as they were") {
+TEST_CASE("digits of a number read back as the same number") {
   std::mt19937_64 random(1);
   for (int k = 0; k < 10000; ++k) {
     const double value = std::ldexp(static_cast<double>(random()), static_cast<int>(random() % 2000) - 1070);
@@ -35,13 +35,13 @@ TEST_CASE("numbers in messages read back as they were") {
   CHECK(digits(std::numeric_limits<double>::infinity()) == "inf");
 }
 
-TEST_CASE("measured numbers have the digits asked for") {
+TEST_CASE("digits of a measured number are as many as requested") {
   CHECK(digits(0.0123456, 3) == "0.0123");
   CHECK(digits(1234567, 2) == "1.2e+06");
   CHECK(digits(2, 6) == "2");
 }
 
-TEST_CASE("numbers in messages are the same in every locale") {
+TEST_CASE("digits are the same in every locale") {
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
   const std::string shortest = digits(1234567.5), some = digits(1234567.5, 10);
   std::locale::global(before);

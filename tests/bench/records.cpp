@@ -62,7 +62,7 @@ bool says(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("what is written is read back") {
+TEST_CASE("a written record is read back") {
   const EarlierRecord read = read_text(as_json(made_record()).dump());
   CHECK(read.revision == "0a1b2c3");
   CHECK(read.date == "2026-01-02T03:04:05Z");
@@ -88,14 +88,15 @@ TEST_CASE("rows are found by device, domain, precision and seeds") {
   REQUIRE(read.find(name, "0:0", "cube", "float", 2000) != nullptr);
   CHECK(read.find(name, "0:0", "cube", "float", 2000)->rate == 20000);
   CHECK(read.find(name, "0:0", "cube", "float", 0)->n == 1000);
-  CHECK(read.find(name, "1:0", "cube", "double", 1000)->rate == 5000);   // the second of two alike
-  CHECK(read.find(name, "2:0", "cube", "double", 1000)->rate == 10000);  // moved: any of them
+  CHECK(read.find(name, "1:0", "cube", "double", 1000)->rate ==
+        5000);  // the second of two devices of the same name
+  CHECK(read.find(name, "2:0", "cube", "double", 1000)->rate == 10000);  // another place: any of them
   CHECK(read.find(name, "0:0", "cube", "float", 5000) == nullptr);
   CHECK(read.find(name, "0:0", "square", "float", 1000) == nullptr);
   CHECK(read.find("another", "0:0", "cube", "float", 1000) == nullptr);
 }
 
-TEST_CASE("ratios are rates now over rates then") {
+TEST_CASE("ratios are new rates over earlier rates") {
   const EarlierRecord read = read_text(as_json(made_record()).dump());
   BenchRecord later = made_record();
   later.rows[0].measures.seconds = {0.05};  // twice as fast
@@ -113,7 +114,7 @@ TEST_CASE("ratios are rates now over rates then") {
   CHECK(text.find("1 row is not in that file") != std::string::npos);
 }
 
-TEST_CASE("what is no record is refused, with what is wrong") {
+TEST_CASE("files that are not records are refused with the fault") {
   CHECK(refusal([](json&) {}) == "");
   CHECK(says(refusal([](json& j) { j = json::array(); }), "'format' is not"));
   CHECK(says(refusal([](json& j) { j.erase("format"); }), "'format' is not"));

@@ -1,4 +1,4 @@
-// Rows of the benchmark: their sizes, their checks, and what becomes of a run that fails.
+// Rows of the benchmark: sizes, checks and failures.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ Measures two_halves() {
 
 }  // namespace
 
-TEST_CASE("numbers of seeds are few") {
+TEST_CASE("numbers of seeds are of a small set") {
   CHECK(round_seeds(-1) == 1000);
   CHECK(round_seeds(0) == 1000);
   CHECK(round_seeds(1999) == 1000);
@@ -60,7 +60,7 @@ TEST_CASE("runs that differ in a bit are a fault") {
   CHECK(fault_of(other, Precision::float64, &right).find("two runs") == 0);
 }
 
-TEST_CASE("a row of the number of seeds that was asked for") {
+TEST_CASE("a row with a given number of seeds") {
   const io::LoadedDomain domain = io::read_domain("square");
   WorkCounts counts;
   const BenchRow row = time_row(small_task(domain), counts);
@@ -77,7 +77,7 @@ TEST_CASE("a row of the number of seeds that was asked for") {
   CHECK(counts.count({"square", 1000}) == 1);
 }
 
-TEST_CASE("a row whose number of seeds is found by time") {
+TEST_CASE("a row whose number of seeds is chosen by time") {
   const io::LoadedDomain domain = io::read_domain("square");
   BenchTask task = small_task(domain);
   task.n = 0;
@@ -90,7 +90,7 @@ TEST_CASE("a row whose number of seeds is found by time") {
   CHECK(row.measures.best() < 20 * task.longest);
 }
 
-TEST_CASE("what fails is told in the row, and the record fails with it") {
+TEST_CASE("a row reports its failure, and the record fails with it") {
   const io::LoadedDomain domain = io::read_domain("square");
   WorkCounts counts;
   BenchTask task = small_task(domain);
@@ -104,7 +104,7 @@ TEST_CASE("what fails is told in the row, and the record fails with it") {
   CHECK(BenchRecord{}.failure() == "");
 }
 
-TEST_CASE("an interruption is no failure of a row") {
+TEST_CASE("an interruption is not a failure of a row") {
   const io::LoadedDomain domain = io::read_domain("square");
   WorkCounts counts;
   BenchTask task = small_task(domain);

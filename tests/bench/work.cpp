@@ -1,4 +1,4 @@
-// The work counted for a cell, where it is known: grids, and the white cells of docs/performance.md.
+// The work counted for a cell in known cases: grids, and the white cells of docs/performance.md.
 #include "apps/bench/work.hpp"
 
 #include <doctest/doctest.h>
@@ -18,8 +18,7 @@ const Device& device() {
   return *chosen;
 }
 
-// Exact where per_axis is a power of two, so that no rounding makes slivers; and where ties are not broken,
-// nothing does.
+// Exact if per_axis is a power of two, so that rounding creates no slivers, and if ties are not broken.
 std::vector<double> grid(int per_axis, int dimension) {
   std::vector<double> positions;
   const int count = dimension == 3 ? per_axis * per_axis * per_axis : per_axis * per_axis;
@@ -48,7 +47,7 @@ TEST_CASE("a grid of boxes") {
   CHECK(work.pieces == 1);
   CHECK(work.corners == 8);
   CHECK(work.triangles == 12);
-  // Twice the half diagonal of a box is sqrt(3) of its edges; at the boundary less of that ball is inside.
+  // The diagonal of a box is sqrt(3) of its edges; at the boundary less of the ball of that radius is inside.
   const double ball = 4 * std::numbers::pi / 3 * std::pow(3.0, 1.5);
   CHECK(work.near < ball);
   CHECK(work.near > 0.6 * ball);
@@ -67,7 +66,7 @@ TEST_CASE("a grid of squares") {
   CHECK(work.operations() == doctest::Approx(work.near * (7 + 4 * 4) + 4 * 11 + 2 * 20));
 }
 
-TEST_CASE("white cells, as docs/performance.md states them") {
+TEST_CASE("white cells as in docs/performance.md") {
   const Domain cube = io::read_domain("cube").domain;
   const Work work = work_of(cube, io::random_seeds({10000, 0, 0, 1}, cube).positions);
   CHECK(work.operations() > 8e3);
@@ -80,7 +79,7 @@ TEST_CASE("a part of a domain has its share of the measure and of the regions") 
     CAPTURE(spec);
     const io::LoadedDomain whole = io::read_domain(spec);
     for (const double share : {0.5, 0.1}) {
-      // No more than the last element beyond it.
+      // Exceeded by no more than the last element.
       CHECK(measure_of_parts(whole, share) >= share);
       CHECK(measure_of_parts(whole, share) < share + 0.01);
       CHECK(static_cast<double>(part_of(whole, share).region_count()) ==
@@ -93,8 +92,8 @@ TEST_CASE("a part of a domain has its share of the measure and of the regions") 
   CHECK(part_of(io::read_domain("disk"), 0.1).measure() == io::read_domain("disk").domain.measure());
 }
 
-TEST_CASE("pieces of a part are those of the whole") {
-  // The same density and the same tetrahedra: what is counted for a cell must not depend on the share.
+TEST_CASE("pieces of a part are like those of the whole") {
+  // With the same density and the same tetrahedra the counted work must not depend on the share.
   const io::LoadedDomain whole = io::read_domain("ball:8");
   const Domain part = part_of(whole, 0.25);
   const Work of_whole = work_of(whole.domain, io::random_seeds({4000, 0, 0, 1}, whole.domain).positions);

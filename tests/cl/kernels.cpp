@@ -76,10 +76,6 @@ TEST_CASE("what goes wrong with a kernel names the kernel") {
   CHECK(contains(unknown, "CL_INVALID_KERNEL_NAME"));
 
   cl::Kernel kernel(context, program(), "mark");
-  const std::string no_arguments = message_of([&] { kernel.launch(10); });
-  CHECK(contains(no_arguments, "mark"));
-  CHECK(contains(no_arguments, "CL_INVALID_KERNEL_ARGS"));
-
   cl::Buffer<cl_uint> out(context);
   out.resize(1);
   const std::string wrong_size = message_of([&] { kernel.args(out, cl_ulong{1}); });
@@ -87,6 +83,32 @@ TEST_CASE("what goes wrong with a kernel names the kernel") {
   const std::string too_large =
       message_of([&] { kernel.args(out, cl_uint{1}).launch(1, 2 * context->info().max_work_group_size); });
   CHECK(contains(too_large, "mark"));
+}
+
+TEST_CASE("arguments are appended in order, and a launch with too few or too many is refused") {
+  auto context = test_device().context();
+  cl::Buffer<cl_uint> out(context);
+  out.upload(std::vector<cl_uint>{0});
+  cl::Kernel kernel(context, program(), "mark");
+  const auto refused = [&](auto&& launch, const char* set) {
+    const auto error = error_of(launch);
+    REQUIRE(error);
+    CHECK(error->code() == ErrorCode::internal);
+    CHECK(contains(error->what(), "kernel mark has 2 arguments"));
+    CHECK(contains(error->what(), set));
+  };
+  refused([&] { kernel.launch(1); }, "0 are set");
+  refused([&] { kernel.args(out).submit(1); }, "1 are set");
+  kernel.more_args(cl_uint{1}).launch(1);
+  CHECK(out.download()[0] == 1);
+  kernel.launch(1);  // with the same arguments
+  CHECK(out.download()[0] == 2);
+  refused([&] { kernel.args(out).launch(1); }, "1 are set");  // although OpenCL still holds the second one
+  kernel.args(out, cl_uint{1});
+  const auto beyond = error_of([&] { kernel.more_args(cl_uint{1}); });
+  REQUIRE(beyond);
+  CHECK(contains(beyond->what(), "CL_INVALID_ARG_INDEX"));
+  CHECK(contains(beyond->what(), "argument 2 of the kernel mark"));
 }
 
 TEST_CASE("a moved kernel keeps its arguments") {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tool from outside: every subcommand, every way to fail, and what it leaves on the disk.
+"""The tool as a program: subcommands, errors and files.
 
 usage: test_cli.py PATH_OF_POWERCELL [unittest options]
 """
@@ -7,12 +7,11 @@ usage: test_cli.py PATH_OF_POWERCELL [unittest options]
 import json
 import os
 import re
-import signal
 import subprocess
 import time
 import unittest
 
-from tool import DATA, SHAPES, TOOL, ToolTest
+from tool import DATA, SHAPES, TOOL, ToolTest, interrupt
 
 
 class Usage(ToolTest):
@@ -53,7 +52,7 @@ class Devices(ToolTest):
             report = self.report("diagram", "--domain", "square", "--seeds", "random:10", "--device", selector)
             self.assertEqual(report["device"], device["name"])
 
-    def test_unknown_device_lists_those_there_are(self):
+    def test_unknown_device_lists_the_known_ones(self):
         name = self.report("devices")["devices"][0]["name"]
         arguments = ("diagram", "--domain", "square", "--seeds", "random:10")
         self.bad(1, re.escape(name), *arguments, "--device", "no such device")
@@ -82,8 +81,8 @@ class Diagram(ToolTest):
         self.assertGreater(report["hidden"], 0)
         self.assertEqual(report["domain_measure"], 1)
 
-    def test_parts_of_the_time_are_parts_of_it_where_kernels_are_compiled(self):
-        for domain in ("sphere:8", "torus:6"):  # the second finds some of its kernels compiled
+    def test_phases_add_up_to_the_total_with_and_without_compilation(self):
+        for domain in ("sphere:8", "torus:6"):  # some kernels of the second are compiled already
             with self.subTest(domain=domain):
                 seconds = self.report("diagram", "--domain", domain, "--seeds", "random:50",
                                       env={"POCL_CACHE_DIR": str(self.folder)})["seconds"]
@@ -95,7 +94,7 @@ class Diagram(ToolTest):
         out = self.good("diagram", "--domain", "cube", "--seeds", "random:50").stdout
         self.assertRegex(out.splitlines()[-1], r"^50 cells, 0 hidden, 0 duplicate; sum of measures / domain = 1 [+-] ")
 
-    def test_quiet_says_nothing(self):
+    def test_quiet_prints_nothing(self):
         done = self.good("diagram", "--domain", "square", "--seeds", "random:50", "-o", "a.svg", "--quiet")
         self.assertEqual(done.stdout + done.stderr, "")
         self.assertTrue((self.folder / "a.svg").exists())
@@ -120,7 +119,7 @@ class Diagram(ToolTest):
             self.assertEqual(tree[0], flann[0])
             self.assertAlmostEqual(tree[1], flann[1], delta=1e-12)
 
-    def test_the_same_bits_every_time(self):
+    def test_results_have_the_same_bits_every_time(self):
         tables = []
         for threads in (1, 2):
             self.good("diagram", "--domain", DATA / "italy.geojson", "--seeds", "random:500", "--table", "t.csv",
@@ -157,7 +156,7 @@ class Diagram(ToolTest):
         for row in rows:
             self.assertEqual(int(row["neighbors"]), sum(1 for i, _ in walls if i == int(row["seed"])))
 
-    def test_columns_of_seeds_are_told(self):
+    def test_columns_of_seeds_are_reported(self):
         self.write("s.csv", "w,lon,lat\n0.01,0.2,0.3\n0,0.6,0.8\n")
         self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--table", "t.csv")
         self.assertEqual([(row["x"], row["y"], row["weight"]) for row in self.rows("t.csv")],
@@ -176,9 +175,9 @@ class Diagram(ToolTest):
 
 
 class Names(ToolTest):
-    """Files whose names are not those one would choose."""
+    """Unusual file names."""
 
-    def test_names_that_are_no_utf8_are_replaced_in_json(self):
+    def test_names_that_are_not_utf8_are_replaced_in_json(self):
         name = os.fsdecode(b"\xff.svg")
         report = self.report("diagram", "--domain", "square", "--seeds", "random:9", "-o", name)
         self.assertEqual(report["files"], ["\ufffd.svg"])
@@ -198,13 +197,13 @@ class Names(ToolTest):
 
 
 class WrongUsage(ToolTest):
-    """What no file can make right exits with 2."""
+    """Wrong arguments exit with 2."""
 
-    def test_words_that_are_no_commands(self):
-        self.bad(2, "there is no command 'diagramm'", "diagramm")
-        self.bad(2, "there is no option '--domain'", "--domain", "square")
+    def test_unknown_commands(self):
+        self.bad(2, "unknown command 'diagramm'", "diagramm")
+        self.bad(2, "unknown option '--domain'", "--domain", "square")
 
-    def test_numbers_out_of_range_are_told_in_few_digits(self):
+    def test_numbers_out_of_range_are_reported_in_few_digits(self):
         treemap = ("treemap", "t.csv", "-o", "t.svg")
         for says, arguments in ((r"--tolerance: 0 is not above 0 ", (*treemap, "--tolerance", "0")),
                                 (r"--size: 1e9 is not from 64 to 20000 ", (*treemap, "--size", "1e9")),
@@ -217,10 +216,10 @@ class WrongUsage(ToolTest):
 
     def test_options_that_need_others(self):
         self.bad(2, "dot-contrast requires --image", "sample", "--dot-contrast", "0.5")
-        self.bad(2, "not both", "verify", "a.json", "--seeds", "random:9")
+        self.bad(2, "either a saved diagram or", "verify", "a.json", "--seeds", "random:9")
 
-    def test_kinds_that_a_domain_is_not(self):
-        self.bad(1, "domain square is a polygon, not a surface as is asked for", "remesh", "square",
+    def test_wrong_kinds_of_domains(self):
+        self.bad(1, "domain square is a polygon, but --kind is surface", "remesh", "square",
                  "--count", "9", "-o", "m.off")
 
 
@@ -228,7 +227,7 @@ class DiagramErrors(ToolTest):
     def diagram(self, *arguments):
         return ("diagram", "--domain", "square", "--seeds", "random:20", *arguments)
 
-    def test_what_cannot_be_read(self):
+    def test_unreadable_files(self):
         self.bad(1, "no-such.off", "diagram", "--domain", "no-such.off", "--seeds", "random:20")
         self.bad(1, "no-such.csv", "diagram", "--domain", "square", "--seeds", "no-such.csv")
         self.write("d.xyz", "1 2 3\n")
@@ -248,7 +247,7 @@ class DiagramErrors(ToolTest):
         self.write("bow.wkt", "POLYGON((0 0, 1 1, 1 0, 0 1, 0 0))")
         self.bad(1, "bow", "diagram", "--domain", "bow.wkt", "--seeds", "random:5")
 
-    def test_each_refusal_names_the_place(self):
+    def test_each_error_names_the_place(self):
         for text, says in (("0 0 0\n0 inf 0\n", r"s:2: seed 1 .*'inf' is not a finite number"),
                            ("0 0 0\n0 0\n", r"s:2: seed 1 .*2 columns"), ("0 0 1e999\n", "s:1: .*too large"),
                            ("1e300 0 0\n0 0 0\n", "seed 0: coordinate x is 1e.300"), ("9\n0 0\n", "9 seeds are announced"),
@@ -270,13 +269,13 @@ class DiagramErrors(ToolTest):
         self.bad(2, r"a\.xyz: unknown extension.*--help", *self.diagram("-o", "a.xyz", "-o", "a.svg"))
         self.bad(1, "svg", "diagram", "--domain", "cube", "--seeds", "random:20", "-o", "a.svg")
 
-    def test_what_cannot_be_written(self):
+    def test_unwritable_files(self):
         self.bad(1, "missing", *self.diagram("-o", "missing/a.svg"))
         self.bad(1, "missing", *self.diagram("--table", "missing/t.csv"))
         if os.path.exists("/dev/full"):
             self.bad(1, "/dev/full", *self.diagram("--table", "/dev/full"))
 
-    def test_what_cannot_be_written_is_told_before_the_work(self):
+    def test_unwritable_files_are_reported_before_the_computation(self):
         (self.folder / "folder").mkdir()
         late = ("--domain", "square", "--seeds", "no-such.csv")
         for command, option in (("diagram", "--table"), ("diagram", "--walls"), ("transport", "--table"),
@@ -287,10 +286,10 @@ class DiagramErrors(ToolTest):
                 self.bad(1, r"nodir/t\.svg: cannot create it", command, *start, option, "nodir/t.svg")
                 self.bad(1, r"folder: cannot open it", command, *start, option, "folder")
                 name = "t.off" if command == "remesh" else "t.svg"
-                self.bad(2, rf"\./{name} and {name} are one file.*'powercell {command} --help'", command, *start,
+                self.bad(2, rf"\./{name} and {name} are the same file.*'powercell {command} --help'", command, *start,
                          option, name, "-o", "./" + name)
         self.bad(1, r"nodir/t\.svg: cannot create it", "treemap", "no-such.csv", "-o", "nodir/t.svg")
-        self.bad(2, "one file", "treemap", "no-such.csv", "-o", "t.svg", "-o", "t.svg")
+        self.bad(2, "the same file", "treemap", "no-such.csv", "-o", "t.svg", "-o", "t.svg")
         self.good(*self.diagram("--table", "/dev/null", "--walls", "/dev/null"))
 
     def test_a_pipe_is_written_once(self):
@@ -314,14 +313,12 @@ class DiagramErrors(ToolTest):
         self.assertIn("standard output", done.stderr)
 
     def test_interrupt_leaves_nothing(self):
-        # While kernels are built, while seeds are made, and while cells are clipped. What the driver's compiler says when
-        # it is disturbed comes before.
+        # While kernels are built, seeds are made and cells are clipped. The driver's compiler may print messages before.
         for wait in (0.1, 0.2, 0.3, 0.4, 1.5):
             process = subprocess.Popen([TOOL, "diagram", "--domain", "cube", "--seeds", "random:3000000", "-o",
                                         "a.vtu", "--table", "t.csv"], cwd=self.folder, stderr=subprocess.PIPE,
                                        stdout=subprocess.PIPE, text=True)
-            time.sleep(wait)
-            process.send_signal(signal.SIGINT)
+            interrupt(process, wait)
             out, error = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 130, error)
             self.assertTrue(error.endswith("powercell: error: interrupted\n"), error)
@@ -343,7 +340,7 @@ class Demo(ToolTest):
             self.assertIn(f"{stem}.png", (folder / "index.html").read_text())
         self.assertIn("index.html", out)
         self.assertEqual(out.count("sum of measures / domain = 1"), 3)
-        # The command it prints works as it stands.
+        # The printed command works.
         command = re.search(r"powercell (diagram .*)", out).group(1).split()
         self.good(*command)
 
@@ -352,7 +349,7 @@ class Demo(ToolTest):
         self.assertEqual(len(report["shapes"]), 3)
         self.assertTrue((self.folder / report["open"]).exists())
 
-    def test_a_folder_that_cannot_be_made(self):
+    def test_a_folder_that_cannot_be_created(self):
         self.write("taken", "")
         self.bad(1, "taken", "demo", "-o", "taken")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""powercell remesh from outside.
+"""powercell remesh as a program.
 
 usage: test_remesh.py PATH_OF_POWERCELL [unittest options]
 """
@@ -27,7 +27,7 @@ class Remesh(ToolTest):
         first = (self.folder / "a.off").read_text().split()
         self.assertEqual(first[1:3], ["700", "1408"])
 
-    def test_vertices_at_one_place_count_as_one(self):
+    def test_vertices_at_the_same_position_are_merged(self):
         corners = [[k & 1, k >> 1 & 1, k >> 2 & 1] for k in range(8)]
         faces = [0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]
         points = [" ".join(map(str, corners[k])) for face in faces for k in face]
@@ -43,7 +43,7 @@ class Remesh(ToolTest):
         self.assertEqual((report["mesh"]["vertices"], report["mesh"]["triangles"]), (200, 400))
         self.bad(2, "--method", "remesh", "torus:12", "--count", 50, "--method", "other")
 
-    def test_stl_that_single_precision_would_ruin(self):
+    def test_stl_beyond_single_precision(self):
         for name, scale, shift in ("far", 1, 1e7), ("large", 1e39, 0), ("small", 1e-46, 0), ("good", 1e3, 1e5):
             corners = [[scale * (k == i) * s + shift * (k == 0) for k in range(3)] for i in range(3) for s in (1, -1)]
             faces = "024", "214", "134", "304", "205", "125", "315", "035"
@@ -53,11 +53,11 @@ class Remesh(ToolTest):
             if name == "good":
                 self.report(*arguments, "good.stl")
                 continue
-            self.bad(1, "STL holds single precision", *arguments, name + ".stl")
+            self.bad(1, "STL has single precision", *arguments, name + ".stl")
             self.assertFalse((self.folder / (name + ".stl")).exists())
             self.report(*arguments, name + ".ply")
 
-    def test_what_cannot_be_remeshed(self):
+    def test_surfaces_that_cannot_be_remeshed(self):
         pages = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n"
         self.write("pages.off", pages)
         self.bad(1, r"pages\.off: .*edge between vertices 0 and 1 belongs to 3", "remesh", "pages.off", "--count", 50,

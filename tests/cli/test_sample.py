@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""powercell sample from outside.
+"""powercell sample as a program.
 
 usage: test_sample.py PATH_OF_POWERCELL [unittest options]
 """
@@ -32,7 +32,7 @@ class Sample(ToolTest):
         for row in rows:
             self.assertAlmostEqual(float(row["mass"]) * 200, 1, delta=1e-6)
             self.assertTrue(0 <= float(row["x"]) <= 1 and 0 <= float(row["y"]) <= 1)
-        # The spectrum again, from the points of the file: the first run is half of the mean.
+        # Recomputes the spectrum from the points of the file; the first run is half of the mean.
         self.assertEqual((self.folder / "p.svg").read_text().count("<circle"), 200)
 
     def test_table_is_a_diagram_of_equal_masses(self):
@@ -45,7 +45,7 @@ class Sample(ToolTest):
             self.assertAlmostEqual(area * 50 / sum(areas), 1, delta=1e-6)
         self.assertIn("<path", (self.folder / "c.svg").read_text())
 
-    def test_dots_hold_the_ink_of_the_image(self):
+    def test_dots_have_the_ink_of_the_image(self):
         for bits, white in ((8, 255), (16, 65535)):
             # Black below, white above, and a gray of the file in between.
             self.image("i.png", [[white] * 30] * 10 + [[white // 2] * 30] * 10 + [[0] * 30] * 10, bits)
@@ -88,13 +88,13 @@ class Sample(ToolTest):
                 (1, "polygon", ["--image", "ink.png", "--domain", "sphere"]),
                 (1, "formula", ["--density", "1 +"]),
                 (1, "x = ", ["--density", "x - 0.5"]),
-                (2, "exclude", ["--density", "x", "--image", "ink.png"]),
+                (2, "cannot be combined", ["--density", "x", "--image", "ink.png"]),
                 (1, "constant", ["--density", "1+x", "--periodic"]),
                 (1, "box", ["--domain", "disk", "--periodic"]),
                 (1, "--cells", ["--periodic", "--cells", "cells.json"]),
                 (1, "1,5", ["--density", "1,5+x"]),
                 (2, "extension", ["-o", "points.jpg"]),
-                (1, "flat", ["--domain", "cube", "-o", "points.png"]),
+                (1, "need a polygon domain", ["--domain", "cube", "-o", "points.png"]),
                 (1, "--paper", ["--paper", "2", "--domain", "disk"]),
                 (2, "paper", ["--paper", "4"]),
                 (2, "mode", ["--mode", "pink"]),
@@ -108,13 +108,13 @@ class Sample(ToolTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("distances", done.stdout)
 
-    def test_spectra_of_many_points_are_asked_for(self):
+    def test_spectra_of_many_points_only_on_request(self):
         for more, told in [([], False), (["--analysis", "a.json"], True)]:
             done = run("sample", "-n", "5000", "--periodic", "--iterations", "1", *more, cwd=self.folder)
             self.assertRegex(done.stderr, "the hexatic order is .*, not 0.610")
             self.assertEqual("low-frequency" in done.stdout, told)
 
-    def test_not_converged_is_said_and_the_best_kept(self):
+    def test_not_converged_is_reported_and_the_best_kept(self):
         done = run("sample", "-n", "100", "--mode", "quantise", "--movement", "1e-9", "--iterations", "2",
                    "-o", "p.csv", cwd=self.folder)
         self.assertEqual(done.returncode, 1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""powercell transport from outside.
+"""powercell transport as a program.
 
 usage: test_transport.py PATH_OF_POWERCELL [unittest options]
 """
@@ -42,7 +42,7 @@ class Transport(ToolTest):
         for i in range(20):
             self.assertAlmostEqual(mass[i] / mass[0], 1 + i, delta=1e-4)
 
-    def test_masses_of_names_as_spreadsheets_write_them(self):
+    def test_tables_as_spreadsheets_write_them(self):
         self.write("s.csv", 'City Name,lon,lat\nNew York,0.2,0.2\n"Rome, ""old""",0.7,0.7\n,,\n')
         self.write("m.csv", 'City Name,mass\nNew York,1\n"Rome, ""old""",3\n,\n')
         done = self.good(*self.square, "s.csv", "--masses", "m.csv", "--rescale", "--table", "t.csv")
@@ -59,7 +59,7 @@ class Transport(ToolTest):
         self.assertAlmostEqual(report["total_mass"], 2 * report["domain_measure"], delta=1e-9)
 
     def test_density_of_an_image(self):
-        # Luminance of gray 128 in linear light: the right half has the ink that this leaves.
+        # Luminance of gray 128 in linear light; the ink of the right half is the rest to 1.
         light = ((128 / 255 + 0.055) / 1.055) ** 2.4
         self.image("i.png", [[0] * 16 + [128] * 16] * 8)
         for more, left, right in ((["--image", "i.png"], 1, 1 - light), (["--image", "i.png", "--bright"], 0, light)):
@@ -71,7 +71,7 @@ class Transport(ToolTest):
                     self.assertAlmostEqual(float(row["mass"]) * 60 / report["total_mass"], 1, delta=2e-6)
                 moment = sum(float(row["mass"]) * float(row["cx"]) for row in rows)
                 self.assertAlmostEqual(moment, left / 8 + right * 3 / 8, delta=1e-4)
-        self.bad(2, "exclude", *self.square, "random:9", "--image", "i.png", "--density", "x")
+        self.bad(2, "cannot be combined", *self.square, "random:9", "--image", "i.png", "--density", "x")
         self.bad(2, "--bright needs", *self.square, "random:9", "--bright")
         self.bad(1, "polygon", "transport", "--domain", "cube", "--seeds", "random:9", "--image", "i.png")
         self.bad(1, "blank", *self.square, "random:9", "--image", self.image("white.png", [[255] * 4] * 4))
@@ -81,7 +81,7 @@ class Transport(ToolTest):
         self.assertAlmostEqual(report["total_mass"], 5 - 4 * 0.37 * 0.8, delta=1e-6)
         self.assertLess(report["quadrature_error"], 1e-6)
 
-    def test_what_integrals_of_a_kink_leave_is_told(self):
+    def test_the_error_of_integrals_over_a_kink_is_reported(self):
         arguments = (*self.square, "random:10", "--density", "abs(x-0.37)+0.1", "--max-steps", "20", "--tolerance", "1e-11")
         done = run(*arguments, "--json", cwd=self.folder)
         self.assertEqual(done.returncode, 1)
@@ -94,7 +94,7 @@ class Transport(ToolTest):
         self.assertLess(report["quadrature_error"], 1e-5)
         self.assertEqual(self.report(*self.square, "random:10", "--density", "1+x*y")["quadrature_error"], 0)
 
-    def test_duplicates_are_merged_and_said(self):
+    def test_duplicates_are_merged_and_reported(self):
         self.write("s.csv", "x,y\n0.2,0.2\n0.7,0.7\n0.2,0.2\n")
         done = self.good(*self.square, "s.csv", "--table", "t.csv")
         self.assertIn("1 seed merged", done.stdout)

@@ -1,4 +1,4 @@
-"""What the tests of the tool share: running it in a folder of its own, and what a refusal looks like.
+"""Helpers for the tests of the tool: running it in a temporary folder, and checking its errors.
 
 A script that imports this has the path of the tool as its first argument.
 """
@@ -7,10 +7,13 @@ import csv
 import json
 import os
 import pathlib
+import re
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -25,8 +28,19 @@ def run(*arguments, cwd=None, env=None, timeout=300):
                           env={**os.environ, **(env or {})})
 
 
+def interrupt(process, seconds):
+    """Sends SIGINT that many seconds after the tool has set its handler, which takes a while on a busy machine."""
+    status = pathlib.Path(f"/proc/{process.pid}/status")
+    while process.poll() is None:
+        if int(re.search(r"^SigCgt:\s*(\w+)", status.read_text(), re.M)[1], 16) >> (signal.SIGINT - 1) & 1:
+            break
+        time.sleep(0.01)
+    time.sleep(seconds)
+    process.send_signal(signal.SIGINT)
+
+
 def png(rows, bits=8):
-    """A gray picture; the numbers are those of the file."""
+    """A gray picture with these numbers in the file."""
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
@@ -51,7 +65,7 @@ class ToolTest(unittest.TestCase):
         return json.loads(self.good(*arguments, "--json", **options).stdout)
 
     def bad(self, code, pattern, *arguments, **options):
-        """Fails with `code` and says `pattern`; one line that a terminal can show, and no file left."""
+        """Fails with `code` and one printable line that matches `pattern`, and leaves no file."""
         before = sorted(self.folder.rglob("*"))
         done = run(*arguments, cwd=self.folder, **options)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)

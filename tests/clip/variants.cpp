@@ -11,30 +11,29 @@ using namespace powercell::test;
 
 namespace {
 
-std::size_t rung_of(const Variant& variant) {
-  const auto& rungs = capacities(variant.cell_dimension);
-  for (std::size_t r = 0; r < rungs.size(); ++r)
-    if (rungs[r].vertices == variant.capacity.vertices) return r;
-  return rungs.size();
+std::size_t capacity_of(const Variant& variant) {
+  const auto& all = capacities(variant.cell_dimension);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].vertices == variant.capacity.vertices) return k;
+  return all.size();
 }
 
-/// A source that hides all seeds but the first from the kernel, as a broken driver might.
+/// Hides all seeds but the first from the kernel, as a broken driver might.
 class BlindCandidates : public TreeCandidates {
  public:
   explicit BlindCandidates(const Scene& scene)
       : TreeCandidates(scene),
-        tree_{scene.points.handle(),
-              scene.node_low.handle(),
-              scene.node_high.handle(),
-              scene.level_offset.handle(),
+        tree_{scene.buffers.points.handle(),
+              scene.buffers.node_low.handle(),
+              scene.buffers.node_high.handle(),
+              scene.buffers.level_offset.handle(),
               1,
               1,
               1},
-        blocks_(scene.context(),
-                {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}, 0}) {
+        blocks_(scene.context(), without_cells(scene)) {
     blocks_.enqueue(tree_);
   }
-  void set_arguments(cl::Kernel& kernel, unsigned first) override {
+  void set_arguments(cl::Kernel& kernel, unsigned first) const override {
     blocks_.set_arguments(kernel, first, tree_);
   }
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
@@ -67,13 +66,13 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
         CAPTURE(variant.capacity.vertices);
         CAPTURE(variant.outputs);
         CAPTURE(float32);
-        REQUIRE_NOTHROW(golden_test(context, *source, variant, rung_of(variant)));
+        REQUIRE_NOTHROW(golden_test(context, *source, variant, capacity_of(variant)));
       }
     }
   }
 }
 
-TEST_CASE("a device that computes the golden diagram wrongly is refused by name") {
+TEST_CASE("a device that computes the golden diagram wrongly is refused, and named") {
   const auto context = test_context();
   const RandomScene scene(context, 2, 20, 0.5, true);
   Variant variant = all_variants(true).front();

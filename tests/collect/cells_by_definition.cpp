@@ -6,41 +6,7 @@
 namespace powercell::test {
 namespace {
 
-Vec corner(const RegionMesh& mesh, std::size_t region, std::size_t k) {
-  const double* x = &mesh.vertices[mesh.region_vertex[mesh.region_offset[region] + k] *
-                                   static_cast<std::size_t>(mesh.dimension)];
-  return {x[0], x[1], mesh.dimension == 3 ? x[2] : 0.0};
-}
-
-template <class Piece>
-Piece whole_region(const RegionMesh& mesh, std::size_t region);
-
-template <>
-Polygon whole_region(const RegionMesh& mesh, std::size_t region) {
-  Polygon polygon;
-  for (std::size_t k = 0; k < mesh.region_offset[region + 1] - mesh.region_offset[region]; ++k) {
-    polygon.vertices.push_back(corner(mesh, region, k));
-    polygon.border.push_back(mesh.facet[mesh.facet_offset[region] + k]);
-  }
-  return polygon;
-}
-
-template <>
-Polyhedron whole_region(const RegionMesh& mesh, std::size_t region) {
-  static const std::vector<std::vector<std::uint32_t>> tetrahedron = {
-      {1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  static const std::vector<std::vector<std::uint32_t>> box = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                                              {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  const auto& rings = mesh.shape == RegionShape::box ? box : tetrahedron;
-  Polyhedron polyhedron;
-  for (std::size_t k = 0; k < mesh.region_offset[region + 1] - mesh.region_offset[region]; ++k)
-    polyhedron.vertices.push_back(corner(mesh, region, k));
-  for (std::size_t f = 0; f < rings.size(); ++f)
-    polyhedron.faces.push_back({rings[f], mesh.facet[mesh.facet_offset[region] + f]});
-  return polyhedron;
-}
-
-/// The bisector's half-space in the domain's coordinates; the oracle's is relative to seed i.
+/// The half-space of a bisector in the domain's coordinates; bisector() is relative to seed i.
 HalfSpace placed_bisector(const SeedsView& seeds, std::size_t i, std::size_t j) {
   HalfSpace half_space = bisector(seeds, i, j);
   const double* p = &seeds.positions[i * static_cast<std::size_t>(seeds.dimension)];
@@ -64,7 +30,11 @@ template <class Piece>
 void append_cell(Cells& cells, const RegionMesh& mesh, const SeedsView& seeds, std::uint32_t i, double noise,
                  Random& random) {
   for (std::uint32_t r = 0; r < mesh.region_count(); ++r) {
-    Piece piece = whole_region<Piece>(mesh, r);
+    Piece piece;
+    if constexpr (std::is_same_v<Piece, Polygon>)
+      piece = region_polygon(mesh, r);
+    else
+      piece = region_polyhedron(mesh, r);
     for (std::uint32_t j = 0; j < seeds.size() && !piece.empty(); ++j)
       if (j != i) piece = clip(piece, placed_bisector(seeds, i, j), {Border::Kind::wall, j});
     if (!(moments(piece).measure > 1e-15L)) continue;

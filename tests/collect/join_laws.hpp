@@ -1,12 +1,12 @@
 /// \file
-/// Laws of joined cells, whatever the domain.
+/// Laws of joined cells on all domains.
 #pragma once
 
 #include <powercell/diagram.hpp>
 
 namespace powercell::test {
 
-/// What belongs to cell i of joined cells.
+/// A view of cell i of joined cells.
 struct JoinedCell {
   JoinedCell(const JoinedCells& cells, std::size_t i) : cells(cells), i(i) {}
   std::size_t vertex_count() const { return cells.vertex_offset[i + 1] - cells.vertex_offset[i]; }
@@ -26,11 +26,11 @@ struct JoinedCell {
 /// The measure of the pieces of cell i.
 double pieces_measure(const Cells& cells, std::size_t i);
 
-/// Checks: each cell has the measure of its pieces to within `tolerance`, every vertex is used, every index
-/// is in range, no loop repeats a vertex, and in volumes each edge is met once from either side.
+/// Checks that each cell has the measure of its pieces to within `tolerance`, every vertex is used, every
+/// index is in range, no loop repeats a vertex, and in volumes each edge occurs once in each direction.
 void check_join_laws(const Domain& domain, const Cells& cells, const JoinedCells& joined, double tolerance);
 
-/// How many edges (polygon, surface) or faces (volume) still name an interior region.
+/// The number of edges (polygon, surface) or faces (volume) that still have an interior border.
 std::size_t interior_count(const JoinedCells& joined);
 
 }  // namespace powercell::test

@@ -74,7 +74,7 @@ TEST_CASE("a cell over two regions is one ring without the edge between them") {
   }
 }
 
-TEST_CASE("a wall that the regions split is one edge again") {
+TEST_CASE("a wall split by regions becomes one edge") {
   const std::vector<double> positions = {0.2, 0.4, 0.8, 0.4};  // the wall x = 1/2 crosses the diagonal
   const SeedsView two{2, positions, {}};
   const Domain domain = square_of_two_triangles();
@@ -103,7 +103,7 @@ TEST_CASE("a cell around a hole has an outer ring and a clockwise one") {
 }
 
 TEST_CASE("a cell in two parts has two outer rings") {
-  // The middle seed's cell is the strip .4 < x < .6, which the hole parts.
+  // The middle seed's cell is the strip .4 < x < .6, which the hole divides.
   const std::vector<double> positions = {0.3, 0.5, 0.5, 0.5, 0.7, 0.5};
   const SeedsView three{2, positions, {}};
   const Cells cells = cells_by_definition(frame(), three);
@@ -117,8 +117,8 @@ TEST_CASE("a cell in two parts has two outer rings") {
   }
 }
 
-TEST_CASE("parts and holes that touch in a vertex stay apart") {
-  // Six triangles around the middle vertex, opposite two left out: two touching parts, two gaps.
+TEST_CASE("parts and holes that touch in a vertex stay separate") {
+  // Of six triangles around the middle vertex two opposite ones are missing: two touching parts, two gaps.
   const Domain bow =
       regions({0, 0, 1, 0, 1, 1, 0, 1, .5, .5, 0, .5, 1, .5}, {{0, 4, 5}, {5, 4, 3}, {1, 6, 4}, {6, 2, 4}});
   const std::vector<double> positions = {0.5, 0.5};
@@ -133,7 +133,7 @@ TEST_CASE("parts and holes that touch in a vertex stay apart") {
 }
 
 TEST_CASE("a hole that touches the outer ring is a ring of its own") {
-  // The triangle (1, 7, 6) is left out of a square; it meets the square's rim in the vertex 1 only.
+  // The triangle (1, 7, 6) is missing in a square; it meets the square's rim in vertex 1 only.
   const Domain domain =
       regions({0, 0, .5, 0, 1, 0, 1, 1, 0, 1, .5, .8, .7, .5, .3, .5},
               {{0, 1, 7}, {0, 7, 4}, {7, 5, 4}, {7, 6, 5}, {5, 3, 4}, {6, 3, 5}, {2, 3, 6}, {1, 2, 6}});

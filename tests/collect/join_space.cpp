@@ -120,7 +120,7 @@ TEST_CASE("cells that split a closed surface weld to a surface without gaps") {
     const JoinedCells joined = join(sphere, cells);
     check_join_laws(sphere, cells, joined, 1e-14 + 50 * noise);
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      // Every interior edge is met from both sides, every wall and boundary edge from one.
+      // Every interior edge occurs in both directions, every wall and boundary edge in one.
       const JoinedCell cell(joined, i);
       std::map<std::pair<std::uint32_t, std::uint32_t>, Border> edges;
       for (std::size_t f = 0; f < cell.face_count(); ++f)

@@ -4,7 +4,7 @@
 
 using namespace powercell;
 
-TEST_CASE("the total keeps what plain addition rounds away") {
+TEST_CASE("the total is summed with compensation") {
   Measures measures;
   measures.mass.assign(10, 1e-17);
   measures.mass.push_back(1);

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "kernels/layout.h"
-#include "lib/collect/sort_row.hpp"
 
 using namespace powercell;
 
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double negligible = 0.25, unit = 3;
 
-/// Pieces with walls made up at random: several to a cell, walls that both cells have, or one alone.
+/// Random pieces: several per cell, with two-sided and one-sided walls.
 struct Pieces {
   std::vector<std::uint32_t> pair_seed;
   std::vector<std::vector<std::pair<std::int32_t, double>>> faces;  // by pair
@@ -48,7 +47,7 @@ Pieces random_pieces(std::uint32_t ranks, unsigned seed) {
     for (std::size_t piece = 0; piece < pieces; ++piece) {
       p.pair_seed.push_back(i);
       auto& faces = p.faces.emplace_back();
-      faces.emplace_back(~std::int32_t{2}, 7.0);  // the outside
+      faces.emplace_back(~std::int32_t{2}, 7.0);  // a face at the boundary
       for (std::size_t k = piece; k < walls[i].size(); k += pieces) faces.push_back(walls[i][k]);
       if (piece > 0 && !walls[i].empty()) faces.push_back(walls[i].front());  // one wall in many pieces
     }
@@ -62,7 +61,7 @@ bool repeats_a_seed(const std::vector<std::pair<std::int32_t, double>>& faces) {
   return std::any_of(times.begin(), times.end(), [](const auto& time) { return time.second > 1; });
 }
 
-/// Rows that have a seed twice are in a batch of their own, which says so.
+/// Rows that repeat a seed are in a batch of their own, marked `repeats`.
 PieceSet piece_set(const Pieces& p, std::size_t begin, std::size_t end) {
   PieceSet set;
   set.add_batch().face_offset = {0};
@@ -92,7 +91,7 @@ Adjacency collected(const Pieces& p, std::size_t chunk, int threads) {
   return walls.finish(p.seeds, p.status, unit, negligible);
 }
 
-/// The same by the definition, with maps.
+/// The adjacency by its definition, with maps.
 Adjacency by_definition(const Pieces& p) {
   std::vector<std::map<std::uint32_t, double>> walls(p.seeds.size()), result(p.seeds.size());
   for (std::size_t k = 0; k < p.pair_seed.size(); ++k)
@@ -130,12 +129,12 @@ Adjacency by_definition(const Pieces& p) {
 
 }  // namespace
 
-TEST_CASE("walls are collected as defined, whatever the chunks and threads") {
+TEST_CASE("walls are collected as defined, for any chunks and threads") {
   for (const std::uint32_t ranks : {1U, 5U, 300U, 9000U}) {
     CAPTURE(ranks);
     const Pieces p = random_pieces(ranks, ranks);
     const Adjacency expected = by_definition(p);
-    if (ranks > 5) CHECK(expected.asymmetry > unit);  // some walls are one-sided, and kept
+    if (ranks > 5) CHECK(expected.asymmetry > unit);  // some one-sided walls are kept
     for (const std::size_t chunk : {std::size_t{1}, std::size_t{7}, std::size_t{3000}, std::size_t{1} << 20})
       for (const int threads : {1, 2, 5}) {
         if (chunk < 3000 && ranks > 300) continue;
@@ -151,7 +150,7 @@ TEST_CASE("walls are collected as defined, whatever the chunks and threads") {
   }
 }
 
-TEST_CASE("rows of any length are sorted, and equal keys stay in their order") {
+TEST_CASE("rows of any length are sorted, and equal keys keep their order") {
   std::mt19937 generator(3);
   for (std::size_t count = 0; count < 150; ++count)
     for (const std::uint32_t most : {0x7fffffffU, 20U}) {

@@ -1,4 +1,4 @@
-// The order of the seeds permutes the results and changes no bit of them.
+// Permuting the seeds permutes the results and changes no bit of them.
 #include <doctest/doctest.h>
 
 #include "tests/support/domains.hpp"
@@ -24,7 +24,7 @@ Results results(const Setup& setup, const Domain& domain, const SeedArray& seeds
   return results_of(diagram);
 }
 
-/// Of the seeds at the place of seed k the one that stays: the heaviest, else the first.
+/// The seed that is kept at the position of seed k: the heaviest, else the first.
 std::size_t heaviest_at(const SeedArray& seeds, std::size_t k) {
   std::size_t stays = k;
   for (std::size_t j = 0; j < seeds.size(); ++j) {
@@ -37,7 +37,7 @@ std::size_t heaviest_at(const SeedArray& seeds, std::size_t k) {
   return stays;
 }
 
-/// Computes `seeds` in the order given and in one or two others.
+/// Compares the results for `seeds` to those for two other orders.
 void check_orders(const NamedDomain& named, const SeedArray& seeds, Random& random,
                   const std::vector<Setup>& setups, bool with_dual = true) {
   Permutation backwards;
@@ -57,7 +57,7 @@ void check_orders(const NamedDomain& named, const SeedArray& seeds, Random& rand
 
 }  // namespace
 
-TEST_CASE("the order of the seeds permutes measures, adjacency, cells and dual, bit for bit") {
+TEST_CASE("permuted seeds give permuted measures, adjacency, cells and dual, bit for bit") {
   INFO(replay_hint());
   for (const NamedDomain& named : kinds())
     for (const Distribution distribution : {Distribution::white, Distribution::cluster}) {
@@ -68,7 +68,7 @@ TEST_CASE("the order of the seeds permutes measures, adjacency, cells and dual, 
     }
 }
 
-TEST_CASE("grids in another order, where every decision is a tie") {
+TEST_CASE("permuted grids, where every decision is a tie") {
   INFO(replay_hint());
   for (const NamedDomain& named : kinds()) {
     Random random(test_seed());
@@ -77,8 +77,8 @@ TEST_CASE("grids in another order, where every decision is a tie") {
       INFO("turned by " << angle);
       SeedArray seeds = grid(d == 2 ? 9 : 5, d, Box{named.domain.low(), named.domain.high()});
       rotate(seeds, angle, {0.5, 0.5, 0.5});
-      // On a surface three cells may meet in several points, around which they follow each other in opposite
-      // ways; which of them orients their one simplex is a matter of the order of the seeds.
+      // On a surface three cells may meet in several points, in different orders around them. Which of these
+      // orients their simplex depends on the order of the seeds.
       check_orders(named, seeds, random, main_setups(), d == named.domain.cell_dimension());
     }
     check_orders(named, cospherical(40, d, Box{named.domain.low(), named.domain.high()}), random,
@@ -86,7 +86,7 @@ TEST_CASE("grids in another order, where every decision is a tie") {
   }
 }
 
-TEST_CASE("seeds far below the grid of the curve, in another order") {
+TEST_CASE("permuted seeds closer together than the grid of the curve") {
   INFO(replay_hint());
   for (const NamedDomain& named : kinds()) {
     Random random(test_seed());
@@ -96,12 +96,12 @@ TEST_CASE("seeds far below the grid of the curve, in another order") {
   }
 }
 
-TEST_CASE("of duplicates the heaviest stays in any order, else the first of that order") {
+TEST_CASE("of duplicates the heaviest is kept in any order, else the first of that order") {
   INFO(replay_hint());
   for (const NamedDomain& named : kinds()) {
     Random random(test_seed());
     SeedArray seeds = seeds_for(named.domain, Distribution::white, WeightRange::W1, 120, random);
-    for (std::size_t i = 0; i < 60; ++i) {  // ten seeds for each of the six places
+    for (std::size_t i = 0; i < 60; ++i) {  // ten seeds at each of six positions
       for (int k = 0; k < seeds.dimension; ++k) seeds.coordinate(i, k) = seeds.coordinate(60 + i % 6, k);
       if (i % 6 < 3) seeds.weights[i] = seeds.weights[60 + i % 6];  // of equal weights
     }
@@ -117,7 +117,7 @@ TEST_CASE("of duplicates the heaviest stays in any order, else the first of that
         CHECK((second.status[k] == SeedStatus::duplicate) == (stays != k));
         if (stays != k) continue;
         ++stayed;
-        const std::size_t i = heaviest_at(seeds, from[k]);  // the same place and weight, perhaps another seed
+        const std::size_t i = heaviest_at(seeds, from[k]);  // same position and weight, maybe another seed
         CHECK(first.status[i] == second.status[k]);
         CHECK(first.mass[i] == second.mass[k]);
         CHECK(first.second_moment[i] == second.second_moment[k]);

@@ -1,5 +1,4 @@
-// The same device gives the same bits however the work is cut: chunks, threads, work-groups, launches, and
-// the threads of the driver.
+// A device gives the same bits for any chunks, threads, work-groups, launches and threads of the driver.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -20,21 +19,12 @@ using namespace powercell::test;
 
 namespace {
 
-struct Case {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-
-std::vector<Case> cases(std::size_t n) {
-  std::vector<Case> list;
-  for (const NamedDomain& named : {NamedDomain{"islands", Domain::polygon(islands())},
-                                   {"torus", surface_of(torus(12, 7))},
-                                   {"ball", volume_of(ball_tetrahedra(0))},
-                                   {"cube", unit_box(3)}}) {
-    Random random(test_seed());
-    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
-  }
-  return list;
+std::vector<SeededDomain> cases(std::size_t n) {
+  return with_seeds({{"islands", Domain::polygon(islands())},
+                     {"torus", surface_of(torus(12, 7))},
+                     {"ball", volume_of(ball_tetrahedra(0))},
+                     {"cube", unit_box(3)}},
+                    n);
 }
 
 Results results(const Device& device, const Domain& domain, const SeedArray& seeds, const Options& options) {
@@ -43,7 +33,7 @@ Results results(const Device& device, const Domain& domain, const SeedArray& see
   return results_of(diagram);
 }
 
-/// Measures and statuses from device memory, as they lie there.
+/// Measures and statuses of a DeviceDiagram, as stored in device memory.
 template <class Real>
 std::vector<Real> device_results(const Setup& setup, const Domain& domain, const SeedArray& seeds,
                                  std::uint64_t launch_pairs) {
@@ -69,7 +59,7 @@ bool same(const std::vector<Real>& a, const std::vector<Real>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Real)) == 0;
 }
 
-/// Calls body(values of a real type) for the precision of the setup.
+/// Calls body with a float or a double, by the precision of the setup.
 template <class Body>
 void in_precision(const Setup& setup, const Body& body) {
   setup.options.precision == Precision::float32 ? body(float{}) : body(double{});
@@ -79,14 +69,14 @@ bool has_tree(const Setup& setup) {
   return setup.options.neighbors == Neighbors::tree;
 }
 
-/// All bits of a number of small diagrams, for a process with other settings to compare with.
+/// Writes the results of some small diagrams, for comparison to those of a process with other settings.
 void write_results(const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
   const auto put = [&](const auto& values) {
     file.write(reinterpret_cast<const char*>(values.data()),
                static_cast<std::streamsize>(values.size() * sizeof(values[0])));
   };
-  for (const Case& c : cases(300))
+  for (const SeededDomain& c : cases(300))
     for (const Setup& setup : main_setups()) {
       const Results r = results(setup.device, c.domain.domain, c.seeds, setup.options);
       put(r.measures.mass), put(r.measures.centroid), put(r.measures.second_moment), put(r.measures.status);
@@ -104,8 +94,8 @@ constexpr const char* results_file = "POWERCELL_TEST_RESULTS";
 
 }  // namespace
 
-TEST_CASE("chunks and threads of the host change no bit") {
-  for (const Case& c : cases(300))
+TEST_CASE("chunks and host threads change no bit") {
+  for (const SeededDomain& c : cases(300))
     for (const Setup& setup : all_setups()) {
       INFO(c.domain.name << ", " << setup.name);
       const Results expected = results(setup.device, c.domain.domain, c.seeds, setup.options);
@@ -123,7 +113,7 @@ TEST_CASE("chunks and threads of the host change no bit") {
 }
 
 TEST_CASE("chunks of one pair change no bit") {
-  const Case cube = cases(60).back();
+  const SeededDomain cube = cases(60).back();
   for (const Setup& setup : all_setups()) {
     INFO(setup.name);
     Options options = setup.options;
@@ -133,8 +123,8 @@ TEST_CASE("chunks of one pair change no bit") {
   }
 }
 
-/// Runs with groups of `items` work-items, which the driver may have to compile anew.
-void check_groups(const Case& c, const Setup& setup, std::initializer_list<std::size_t> sizes) {
+/// Compares runs with work-groups of these sizes, for which the driver may have to compile again.
+void check_groups(const SeededDomain& c, const Setup& setup, std::initializer_list<std::size_t> sizes) {
   const shim::Scope scope;
   INFO(c.domain.name << ", " << setup.name);
   const auto run = [&] {
@@ -161,13 +151,13 @@ TEST_CASE("the size of work-groups changes no bit") {
 }
 
 TEST_CASE("campaign: the size of work-groups changes no bit" * doctest::skip()) {
-  for (const Case& c : cases(200))
+  for (const SeededDomain& c : cases(200))
     for (const Setup& setup : all_setups())
       if (has_tree(setup)) check_groups(c, setup, {1, 8, 24, 128});
 }
 
-TEST_CASE("device memory to device memory: launches and the order of the seeds change no bit") {
-  for (const Case& c : cases(300))
+TEST_CASE("DeviceDiagram: launches and the order of the seeds change no bit") {
+  for (const SeededDomain& c : cases(300))
     for (const Setup& setup : all_setups()) {
       if (!has_tree(setup)) continue;
       INFO(c.domain.name << ", " << setup.name);
@@ -196,8 +186,8 @@ TEST_CASE("child: write results" * doctest::skip()) {
   write_results(path);
 }
 
-TEST_CASE("another process, with other threads of the driver, gives the same bits") {
-  // PoCL takes the number of its threads from the environment; other drivers run the same twice.
+TEST_CASE("another process, with another number of driver threads, gives the same bits") {
+  // PoCL reads the number of its threads from the environment; other drivers run the same again.
   namespace fs = std::filesystem;
   const fs::path here = fs::temp_directory_path() / ("powercell-bits-" + std::to_string(getpid()));
   write_results(here);

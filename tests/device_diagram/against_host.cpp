@@ -17,12 +17,12 @@ std::vector<Precision> precisions(const Caller& caller) {
   return {Precision::float32};
 }
 
-/// Of the mean mass and of the domain's size; the same cells in another order of cuts.
+/// Relative to the mean mass and to the domain's size: the cells are cut in another order.
 double tolerance(Precision precision) {
   return precision == Precision::float64 ? 1e-11 : 2e-4;
 }
 
-/// Every number against the pipeline of Diagram on the same seeds.
+/// Compares all results to those of Diagram for the same seeds.
 void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray& exact) {
   const Precision precision = diagram.precision();
   SeedArray seeds = exact;
@@ -43,7 +43,7 @@ void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray&
       CHECK(std::isnan(found.mass[i]));
       continue;
     }
-    // A cell thinner than rounding may be seen or not.
+    // A cell thinner than rounding may be found or not.
     const bool tiny = expected.mass[i] < mass_tolerance;
     wrong_status += !tiny && static_cast<int>(found.status[i]) != static_cast<int>(expected.status[i]);
     wrong_mass += !(std::abs(found.mass[i] - expected.mass[i]) <= mass_tolerance);
@@ -60,7 +60,7 @@ void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray&
   CHECK(wrong_mass == 0);
   CHECK(wrong_centroid == 0);
   CHECK(wrong_moment == 0);
-  // Only single precision may leave cells to the host, and few.
+  // Only in single precision cells may be unfinished, and few.
   CHECK(unfinished <= (precision == Precision::float64 ? 0 : seeds.size() / 1000));
   if (unfinished == 0)
     CHECK(std::abs(found.total() - diagram.domain().measure()) <=

@@ -44,7 +44,7 @@ bool same(const Output& a, const Output& b) {
          a.status == b.status;
 }
 
-/// Enqueues behind a gate that only this thread opens: a call that waited would never come back.
+/// Enqueues with an event that only this thread completes: a call that waited would not return.
 void check_gate(cl_command_queue_properties properties, const Domain& domain, std::uint32_t pair_capacity) {
   Caller caller(properties);
   Random random(test_seed());
@@ -60,7 +60,7 @@ void check_gate(cl_command_queue_properties properties, const Domain& domain, st
   job.enqueue(diagram, 1, &gate, &done);
   REQUIRE(done != nullptr);
   CHECK(execution_status(done) > CL_COMPLETE);
-  // The next call grows and reuses the scratch memory of the first, which has not begun.
+  // The next call grows and reuses the scratch memory of the first one, which has not started.
   const SeedArray others = random_seeds(Distribution::white, WeightRange::W0, 5000, d, random);
   const Job next(caller, diagram.precision(), others.view());
   next.enqueue(diagram);
@@ -77,7 +77,7 @@ void check_gate(cl_command_queue_properties properties, const Domain& domain, st
 
 }  // namespace
 
-TEST_CASE("a call returns before its wait list is complete, and its work comes after") {
+TEST_CASE("a call returns before its wait list is complete, and its work runs after that") {
   for (const cl_command_queue_properties properties :
        {cl_command_queue_properties{0}, cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE}}) {
     check_gate(properties, unit_box(2), 0);
@@ -134,7 +134,7 @@ TEST_CASE("of seeds at one position the heaviest stays, then the first") {
   for (const int dimension : {2, 3}) {
     DeviceDiagram diagram(caller.device(), unit_box(dimension));
     SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 700, dimension, random);
-    // Every second seed again, with other weights and with the same; -0 is 0.
+    // Repeats every second seed, with other weights and with the same one; -0 is 0.
     for (int k = 0; k < dimension; ++k) seeds.coordinate(0, k) = 0.0;
     const std::size_t unique = seeds.size();
     for (std::size_t i = 0; i < unique; i += 2) {
@@ -163,8 +163,8 @@ TEST_CASE("of seeds at one position the heaviest stays, then the first") {
   }
 }
 
-TEST_CASE("a leaf of the tree that begins with duplicates does not disturb its other seeds") {
-  // Ten seeds at one place come first on the curve: the leaf of the others begins with two that take no part.
+TEST_CASE("a leaf of the tree that begins with duplicates does not affect its other seeds") {
+  // Ten seeds at one position are first on the curve, so the leaf of the others begins with two duplicates.
   Caller caller;
   for (const int d : {2, 3}) {
     INFO(d << "D");
@@ -182,7 +182,7 @@ TEST_CASE("a leaf of the tree that begins with duplicates does not disturb its o
   }
 }
 
-TEST_CASE("seeds that are not finite are reported and leave the others as they are") {
+TEST_CASE("seeds that are not finite are reported and do not change the others") {
   Caller caller;
   Random random(test_seed());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
@@ -193,9 +193,9 @@ TEST_CASE("seeds that are not finite are reported and leave the others as they a
     SeedArray bad = good;
     std::vector<std::pair<double, double>> values = {{nan, 0},   {inf, 0},   {-inf, 0},
                                                      {0.5, nan}, {0.5, inf}, {1e37, 0}};
-    if (diagram.precision() == Precision::float64) values.push_back({1e300, 0});
+    if (diagram.precision() == Precision::float64) values.emplace_back(1e300, 0);
     const double too_far = diagram.precision() == Precision::float64 ? 1e200 : 1e37;
-    values.push_back({too_far, 0});
+    values.emplace_back(too_far, 0);
     std::size_t invalid = 0;
     for (const auto& [x, w] : values) {
       const bool far_but_fine = x == 1e37 && diagram.precision() == Precision::float64;
@@ -223,10 +223,10 @@ TEST_CASE("seeds that are not finite are reported and leave the others as they a
   }
 }
 
-TEST_CASE("a cell of many faces goes to the larger variant") {
+TEST_CASE("a cell of many faces is clipped with the larger capacity") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
-  // 100 seeds on a circle around one: its cell has 100 edges, more than the 32 of the small variant.
+  // 100 seeds on a circle around one: its cell has 100 edges, more than the smaller capacity of 32.
   SeedArray seeds = cospherical(100, 2);
   seeds.push({0.5, 0.5}, 0);
   const Output output = run(caller, diagram, seeds.view());
@@ -238,7 +238,7 @@ TEST_CASE("a cell of many faces goes to the larger variant") {
   CHECK(std::abs(output.mass[100] - expected.mass[100]) <= 1e-5 * expected.mass[100]);
 }
 
-TEST_CASE("a cell that fits no variant is unfinished, not partial") {
+TEST_CASE("a cell that fits no capacity is unfinished, not partial") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
   SeedArray seeds = cospherical(1000, 2);
@@ -251,7 +251,7 @@ TEST_CASE("a cell that fits no variant is unfinished, not partial") {
   CHECK(output.count(DeviceSeedStatus::ok) == 1000);
 }
 
-TEST_CASE("pairs that find no room leave their seeds unfinished, and the others as they are") {
+TEST_CASE("pairs beyond the capacity leave their seeds unfinished, and the others unchanged") {
   Caller caller;
   Random random(test_seed());
   const Domain domain = Domain::polygon(square_with_holes());
@@ -271,12 +271,12 @@ TEST_CASE("pairs that find no room leave their seeds unfinished, and the others 
                  ? !std::isnan(some.mass[i])
                  : some.mass[i] != all.mass[i] || some.status[i] != all.status[i];
   CHECK(wrong == 0);
-  // Enough room again: nothing is left over from the call before.
+  // With enough capacity again, nothing remains of the call before.
   diagram.set_pair_capacity(100000);
   CHECK(same(run(caller, diagram, seeds.view()), all));
 }
 
-TEST_CASE("few pairs are found that meet in nothing") {
+TEST_CASE("few superfluous pairs are found") {
   Caller caller;
   Random random(test_seed());
   const TetrahedralMesh mesh = ball(6);
@@ -285,19 +285,19 @@ TEST_CASE("few pairs are found that meet in nothing") {
     const SeedArray seeds = seeds_for(domain, Distribution::white, WeightRange::W1, n, random);
     Diagram host(caller.device(), domain);
     host.set_seeds(seeds.view());
-    host.cells();  // measures alone take cells inside the domain as wholes
-    // The host splits regions to test them; here they are tested as they are.
+    host.cells();  // the plan for measures does not cut cells inside the domain by region
+    // The host splits regions for its tests, the device does not.
     DeviceDiagram diagram(caller.device(), domain);
     diagram.set_pair_capacity(static_cast<std::uint32_t>(host.timings().pair_count * 3 / 2));
     CHECK(run(caller, diagram, seeds.view()).count(DeviceSeedStatus::unfinished) == 0);
   }
 }
 
-TEST_CASE("facets that lie in a bisector, after cells that left other planes in private memory") {
+TEST_CASE("facets in a bisector, after cells that left other planes in private memory") {
   Caller caller;
   const Ring outer{{-1, -1}, {2, -1}, {2, 2}, {-1, 2}}, hole{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
   const Domain domain = Domain::polygon(std::vector<PolygonPart>{{outer, {hole}}});
-  const SeedArray mirrored{2, {-3.5, 0.5, 0.5, -3.5}, {0, 0}};  // of one another in the diagonal
+  const SeedArray mirrored{2, {-3.5, 0.5, 0.5, -3.5}, {0, 0}};  // mirror images in the diagonal
   Random random(test_seed());
   for (const Precision precision : caller.fp64() ? std::vector{Precision::float64, Precision::float32}
                                                  : std::vector{Precision::float32}) {
@@ -325,7 +325,7 @@ TEST_CASE("results do not depend on the size of launches") {
   CHECK(same(run(caller, whole, seeds.view()), run(caller, chunked, seeds.view())));
 }
 
-TEST_CASE("buffers that cannot be right are refused by name") {
+TEST_CASE("invalid buffers are refused, and named") {
   Caller caller, stranger;
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const std::size_t real = diagram.precision() == Precision::float64 ? 8 : 4;

@@ -9,7 +9,7 @@
 namespace powercell::test {
 namespace {
 
-/// As `precision` in memory, at least one byte.
+/// The values in a precision, as at least one byte.
 std::vector<std::byte> packed(std::span<const double> values, Precision precision) {
   std::vector<float> narrow(values.begin(), values.end());
   const auto bytes =
@@ -19,7 +19,7 @@ std::vector<std::byte> packed(std::span<const double> values, Precision precisio
   return result;
 }
 
-/// The device that the environment chooses; kept to the end of the process.
+/// The device chosen by the environment; lives until the process ends.
 const Device& chosen_device() {
   static auto* device = new Device(Device::choose());
   return *device;

@@ -1,5 +1,5 @@
 /// \file
-/// A program with OpenCL objects of its own, as a caller of the library would have them.
+/// OpenCL objects of a caller of the library.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ class Caller {
   bool fp64() const { return fp64_; }
   cl_context context() const { return context_; }
   cl_command_queue queue() const { return queue_; }
-  /// On this queue; made once.
+  /// The device of this queue; made once.
   const Device& device();
 
  private:
@@ -45,7 +45,7 @@ class Memory {
   cl_mem memory_ = nullptr;
 };
 
-/// What came back, in double.
+/// The results, in double.
 struct Output {
   std::vector<double> mass, centroid, second_moment;
   std::vector<DeviceSeedStatus> status;
@@ -56,7 +56,7 @@ struct Output {
 /// Seeds and results of one call in device memory.
 class Job {
  public:
-  /// \param seeds rounded to the precision
+  /// \param seeds  rounded to the precision
   Job(const Caller& caller, Precision precision, const SeedsView& seeds, bool weighted = true);
   void enqueue(DeviceDiagram& diagram, cl_uint wait_count = 0, const cl_event* wait_list = nullptr,
                cl_event* done = nullptr) const;
@@ -73,7 +73,7 @@ class Job {
 
 Output run(Caller& caller, DeviceDiagram& diagram, const SeedsView& seeds, bool weighted = true);
 
-/// The values as the precision has them.
+/// The values rounded to a precision.
 std::vector<double> rounded(std::span<const double> values, Precision precision);
 
 }  // namespace powercell::test

@@ -1,5 +1,5 @@
-// Cells that nothing proves, where decisions are left to rounding: what the cuts have left of them stands,
-// and measures as much.
+// Cells without a proof, with decisions left to rounding: they keep the shape that the cuts left, and its
+// measure.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ double rounding(Precision precision) {
   return precision == Precision::float64 ? 1e-12 : 1e-5;
 }
 
-/// With decisions left to rounding.
+/// Options with decisions left to rounding.
 Options left_to_rounding(Precision precision) {
   Options options;
   options.precision = precision;
@@ -29,13 +29,14 @@ Options left_to_rounding(Precision precision) {
   return options;
 }
 
-/// Those that the device has.
+/// The precisions of the device.
 std::vector<Precision> precisions(const Caller& caller) {
   if (!caller.fp64()) return {Precision::float32};
   return {Precision::float64, Precision::float32};
 }
 
-/// The octahedron of radius 1: edges in the coordinate planes, that bisectors of seeds in the middle pass by.
+/// The octahedron of radius 1, with edges in the coordinate planes, close to the bisectors of seeds in the
+/// middle.
 Mesh octahedron(bool solid) {
   Mesh mesh{{1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0}, {}};
   if (!solid) mesh.vertices.resize(18);
@@ -49,8 +50,8 @@ Mesh octahedron(bool solid) {
   return mesh;
 }
 
-/// Some within `size` of the middle, several in one plane, and one near the corner above: its bisectors with
-/// those of a plane meet beside an edge.
+/// Seeds within `size` of the middle, several in one plane, and one near the upper corner, whose bisectors
+/// with seeds of one plane meet close to an edge.
 SeedArray seeds_in_the_middle(double size, Random& random) {
   SeedArray seeds;
   const std::size_t n = 3 + random.index(8);
@@ -104,7 +105,8 @@ void check_all(Caller& caller, const Domain& domain, Precision precision, Random
     }
 }
 
-/// Within `size` of the domain, all of one power distance to its middle: their bisectors pass through it.
+/// Seeds within `size` of the domain with equal power distances to its middle, so that all bisectors pass
+/// through it.
 SeedArray seeds_about_a_point(double size, Random& random) {
   SeedArray seeds;
   for (int i = 0; i < 12; ++i) {
@@ -117,10 +119,10 @@ SeedArray seeds_about_a_point(double size, Random& random) {
 
 }  // namespace
 
-// Bisectors that meet at angles of 1e-6 to 1e-12: of a few seeds in the middle of the domain with one at its
-// border. Where two of them meet is open by rounding over the angle, and so it may be whether that is within
-// a region. The proof had moved vertices there before it failed.
-TEST_CASE("bisectors all but parallel") {
+// A few seeds in the middle of the domain and one at its boundary have bisectors that meet at angles of 1e-6
+// to 1e-12. Their intersection is known to rounding over the angle, possibly not even whether it lies in a
+// region. The proof moved vertices there before it failed.
+TEST_CASE("nearly parallel bisectors") {
   INFO(replay_hint());
   Caller caller;
   Random random(test_seed());
@@ -130,8 +132,8 @@ TEST_CASE("bisectors all but parallel") {
   }
 }
 
-// The plane of a facet that becomes a wall by a bisector in it is the bisector's from then on: it had been
-// read from memory that was never written, and cells came out as a part of themselves.
+// A facet that becomes a wall, because a bisector contains it, takes the bisector's plane. That plane was
+// once read from memory never written, and cells lost a part.
 TEST_CASE("bisectors in facets") {
   Caller caller;
   Random random(1);
@@ -158,10 +160,9 @@ TEST_CASE("bisectors in facets") {
   }
 }
 
-// Where more bisectors meet in a point than may, a bisector touches several faces of a cell that rounding has
-// left, and all of them become walls with one seed. They are one wall of the adjacency: taken for several,
-// the place of a cell among the neighbours of the other was found beyond their end, and memory was written
-// that was not theirs.
+// Where many bisectors meet in a point, a bisector may touch several faces of a cell left to rounding, and
+// all of them become walls with one seed. They are one wall of the adjacency: counted as several, they once
+// made the matching of walls write beyond a row.
 TEST_CASE("bisectors through one point") {
   INFO(replay_hint());
   Caller caller;

@@ -20,7 +20,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Seeds ordered on the device in double, in a frame that is the caller's.
+/// Seeds ordered on the device in double, in the caller's coordinates.
 struct Ordered {
   std::vector<std::uint32_t> order, state;
   std::vector<std::array<double, 4>> points;
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> curve_keys(const Ordered& ordered) {
 
 }  // namespace
 
-TEST_CASE("seeds come along the Hilbert curve of the host, none lost") {
+TEST_CASE("seeds follow the Hilbert curve of the host, and none is lost") {
   for (const int dimension : {2, 3}) {
     Fixture fixture(dimension);
     if (!fixture.caller.fp64()) return;
@@ -101,7 +101,7 @@ TEST_CASE("seeds come along the Hilbert curve of the host, none lost") {
   }
 }
 
-TEST_CASE("a cluster far below the grid's resolution is in order too") {
+TEST_CASE("a cluster far below the grid's resolution is ordered too") {
   Fixture fixture(2);
   if (!fixture.caller.fp64()) return;
   SeedArray seeds{2, {}, {}};
@@ -117,7 +117,7 @@ TEST_CASE("a cluster far below the grid's resolution is in order too") {
   CHECK(length < 150 * 1e-10);
 }
 
-TEST_CASE("tree nodes hold their seeds and no more") {
+TEST_CASE("tree nodes are the bounding boxes of their seeds") {
   Fixture fixture(3);
   if (!fixture.caller.fp64()) return;
   Random random(test_seed());

@@ -1,4 +1,4 @@
-// What a device reaches at best: rates that are possible at all, and wrong results that are found out.
+// The measured rates of devices are plausible, and wrong results of their kernels are detected.
 #include <doctest/doctest.h>
 
 #include <powercell/device_rates.hpp>
@@ -19,7 +19,7 @@ TEST_CASE("the rates of every device are positive, and of the same order in a se
       CAPTURE(info.name);
       const DeviceRates first = measure_device_rates(device, precision),
                         second = measure_device_rates(device, precision);
-      // No device that runs OpenCL is below these, and none known beyond.
+      // No device that runs OpenCL is slower, and no known device faster.
       CHECK(first.copied_bytes > 1e7);
       CHECK(first.copied_bytes < 1e14);
       CHECK(first.operations > 1e7);
@@ -32,7 +32,7 @@ TEST_CASE("the rates of every device are positive, and of the same order in a se
   }
 }
 
-TEST_CASE_TEMPLATE("wrong sums of the chains are found out", T, float, double) {
+TEST_CASE_TEMPLATE("wrong sums of the chains are detected", T, float, double) {
   const std::vector<T> start = chain_starts<T>(3000);
   for (const std::uint32_t rounds : {1u, 256u, most_chain_rounds}) {
     std::vector<T> sums;
@@ -48,11 +48,11 @@ TEST_CASE_TEMPLATE("wrong sums of the chains are found out", T, float, double) {
   }
 }
 
-TEST_CASE_TEMPLATE("a wrong copy is found out", T, float, double) {
+TEST_CASE_TEMPLATE("wrong elements of a copy are detected", T, float, double) {
   std::vector<T> part;
   for (std::size_t i = 8000; i < 9000; ++i) part.push_back(static_cast<T>(i % 8191));
   CHECK(copy_fault(part, 8000) == "");
   CHECK(copy_fault(part, 8001) != "");
   part[700] = 0;
-  CHECK(copy_fault(part, 8000).find("number 8700") == 0);
+  CHECK(copy_fault(part, 8000).find("element 8700") == 0);
 }

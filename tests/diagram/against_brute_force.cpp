@@ -13,7 +13,7 @@ void check_domains(const std::vector<NamedDomain>& domains, std::size_t n) {
   for (const NamedDomain& named : domains)
     for (const Distribution distribution : {Distribution::white, Distribution::blue, Distribution::cluster})
       for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
-        // A stream for each case, so that one case replays alone with the same seeds.
+        // Each case has random numbers of its own, so that it can be replayed alone.
         Random random(test_seed() * 1000003 + static_cast<std::uint64_t>(distribution) * 8 +
                       static_cast<std::uint64_t>(range));
         INFO(named.name << ", " << name(distribution) << ' ' << name(range));

@@ -1,4 +1,4 @@
-// A few thousand seeds in a box against CGAL and voro++: more than brute force can do.
+// A few thousand seeds in a box against CGAL and voro++, too many for brute force.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 using namespace powercell;
 using namespace powercell::test;
 
-TEST_CASE("cells in a box are those of CGAL and voro++") {
+TEST_CASE("diagrams of boxes agree with CGAL and voro++") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const int d : {2, 3})

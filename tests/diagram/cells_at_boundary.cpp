@@ -1,5 +1,5 @@
-// Cells at the boundary of tetrahedral meshes: cut by planes of it where the domain is convex around them, by
-// the tetrahedra elsewhere.
+// Cells at the boundary of tetrahedral meshes, which are cut by planes of the boundary where the domain is
+// convex around them, and by tetrahedra elsewhere.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// The elements of a mesh whose centroid is kept.
+/// The elements of a mesh for whose centroids `keep` is true.
 Mesh part_of(Mesh mesh, const std::function<bool(const Point&)>& keep) {
   std::vector<std::uint32_t> elements;
   for (std::size_t e = 0; e < mesh.elements.size(); e += 4) {
@@ -38,7 +38,7 @@ void add(Mesh& to, const Mesh& from, const Point& by) {
   for (const std::uint32_t v : from.elements) to.elements.push_back(first + v);
 }
 
-/// The most pairs of a cell and a region that a diagram in double precision clips, or 0 if no setup has that.
+/// The largest number of pairs that a diagram in double precision clips; 0 if no setup has double precision.
 std::uint64_t pairs_of(const Domain& domain, const SeedArray& seeds) {
   std::uint64_t most = 0;
   for (const Setup& setup : main_setups()) {
@@ -58,18 +58,18 @@ SeedArray white(std::size_t n, Random& random) {
 
 }  // namespace
 
-TEST_CASE("cells at the boundary: convex domains, where no cell needs the tetrahedra") {
+TEST_CASE("cells at the boundary: in convex domains no cell needs the tetrahedra") {
   INFO(replay_hint());
   Random random(test_seed());
   const SeedArray seeds = white(120, random);
   const Domain cube = volume_of(cube_tetrahedra(3, 0.2, random));
   check_everywhere(cube, seeds, Position::general);
   CHECK(pairs_of(cube, seeds) < 2 * seeds.size());
-  // Twelve hundred planes, of which a cell meets up to some dozens.
+  // Twelve hundred planes; a cell meets up to a few dozen of them.
   check_everywhere(volume_of(ball_tetrahedra(2)), white(60, random), Position::general);
 }
 
-TEST_CASE("cells at the boundary: where it is not convex") {
+TEST_CASE("cells at the boundary: domains that are not convex") {
   INFO(replay_hint());
   Random random(test_seed());
   const Mesh cube = cube_tetrahedra(4, 0, random);
@@ -79,7 +79,7 @@ TEST_CASE("cells at the boundary: where it is not convex") {
   const Mesh hollow = part_of(cube, [](const Point& x) {
     return std::max({std::abs(x[0] - .5), std::abs(x[1] - .5), std::abs(x[2] - .5)}) > .25;
   });
-  // Two slabs with a gap in which no seed is, and two sheets of a folded one.
+  // Two slabs with a gap between them.
   const Mesh slabs = part_of(cube, [](const Point& x) { return x[0] < 0.25 || x[0] > 0.5; });
   for (const Mesh& mesh : {corner_off, hollow, slabs}) {
     const SeedArray seeds = white(60, random);
@@ -91,7 +91,7 @@ TEST_CASE("cells at the boundary: where it is not convex") {
 TEST_CASE("cells at the boundary: blocks that touch without sharing vertices") {
   INFO(replay_hint());
   Random random(test_seed());
-  // The faces between them are boundary on both sides, in one plane, with their triangles across each other.
+  // The faces between the blocks are boundary on both sides, coplanar, with triangles that cross each other.
   Mesh blocks = part_of(cube_tetrahedra(4, 0, random), [](const Point& x) { return x[0] < 0.5; });
   Mesh other = part_of(cube_tetrahedra(6, 0, random), [](const Point& x) { return x[0] > 0.5; });
   add(blocks, other, {0, 0, 0});
@@ -101,9 +101,8 @@ TEST_CASE("cells at the boundary: blocks that touch without sharing vertices") {
   check_everywhere(domain, seeds, Position::general);
 }
 
-TEST_CASE("cells at the boundary: facets in planes of the seeds' walls") {
-  // A grid of seeds whose walls lie in the faces of the cube, and beyond: nothing is left to cut, to
-  // rounding.
+TEST_CASE("cells at the boundary: facets in bisectors of the seeds") {
+  // The walls of a grid of seeds lie in the faces of the cube and outside.
   Random random(1);
   const Domain cube = volume_of(cube_tetrahedra(3, 0, random));
   SeedArray seeds;

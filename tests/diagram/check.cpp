@@ -13,9 +13,8 @@ void expect_none(const Differences& differences) {
   CHECK_MESSAGE(differences.empty(), summary(differences));
 }
 
-/// In float a corner nearer to a wall or to the domain's boundary than rounding reaches may fall on either
-/// side.
-std::size_t doubtful_corners(Precision precision, const ReferenceDiagram& reference) {
+/// In float a corner within rounding of a wall or of the domain's boundary may lie on either side.
+std::size_t uncertain_corners(Precision precision, const ReferenceDiagram& reference) {
   return precision == Precision::float32 ? 2 + reference.simplices.size() / 50 : 0;
 }
 
@@ -39,7 +38,7 @@ void check_diagram(const Setup& setup, const Domain& domain, const SeedArray& se
   expect_none(check_joined(join(domain, cells), domain, measures, tolerances));
   if (position == Position::general)
     expect_none(compare_dual(diagram.dual(), reference, seeds.view(), domain.kind(),
-                             doubtful_corners(diagram.precision(), reference)));
+                             uncertain_corners(diagram.precision(), reference)));
 }
 
 void check_everywhere(const Domain& domain, const SeedArray& seeds, Position position) {

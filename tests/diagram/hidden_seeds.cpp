@@ -1,6 +1,6 @@
-// Where many seeds are hidden, those known to be are set aside before anything is clipped
-// (lib/neighbors/hidden_seeds.hpp). Nobody must be able to tell from the diagram. The reference is cut by
-// CGAL's adjacency.
+// If many seeds are hidden, those proved hidden are set aside before clipping
+// (lib/neighbors/hidden_seeds.hpp), which must not change the results. The reference is cut by CGAL's
+// adjacency.
 #include <doctest/doctest.h>
 
 #include "tests/support/cgal.hpp"
@@ -11,7 +11,7 @@
 using namespace powercell;
 using namespace powercell::test;
 
-TEST_CASE("hidden seeds: setting them aside does not show in the diagram") {
+TEST_CASE("hidden seeds: setting them aside does not change the diagram") {
   INFO(replay_hint());
   Random shape(7);
   const std::vector<NamedDomain> domains = {{"square", unit_box(2)},
@@ -40,7 +40,7 @@ TEST_CASE("hidden seeds: setting them aside does not show in the diagram") {
         CHECK(diagram.positions() == seeds.positions);
       };
       check();
-      // Seeds set aside come back with other weights, and go again.
+      // Other weights make the seeds active again; then they are set aside again.
       diagram.set_weights(std::vector<double>(seeds.size(), 0.0));
       const Measures& equal = diagram.measures();
       CHECK(equal.relative_error() < 1e-5);

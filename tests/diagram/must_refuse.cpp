@@ -1,4 +1,4 @@
-// Bad input: an Error with the right code, and a message that names the culprit.
+// Bad input is refused with the right error code and a message that names the element.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -37,7 +37,7 @@ Diagram square_diagram() {
 
 }  // namespace
 
-TEST_CASE("NaN or infinity in seeds: which one") {
+TEST_CASE("NaN or infinity in seeds: the message names the seed") {
   for (const double bad : {not_a_number, infinity, -infinity}) {
     SeedArray seeds = grid(6, 2);
     seeds.coordinate(23, 1) = bad;
@@ -82,7 +82,7 @@ TEST_CASE("seeds of another dimension than the domain") {
   refusal(ErrorCode::invalid_argument, [&] { square_diagram().set_seeds({0, flat.positions, {}}); });
 }
 
-TEST_CASE("mesh indices out of range: which element") {
+TEST_CASE("mesh indices out of range: the message names the element") {
   Mesh surface = wavy_patch(3);
   surface.elements[3 * 5 + 1] = 999;
   std::string message = refusal(ErrorCode::invalid_domain, [&] { surface_of(surface); });
@@ -93,7 +93,7 @@ TEST_CASE("mesh indices out of range: which element") {
   CHECK_MESSAGE(mentions(message, "7"), message);
 }
 
-TEST_CASE("arrays of a mesh that are no whole number of elements or points") {
+TEST_CASE("arrays of a mesh with an incomplete element or vertex") {
   Mesh mesh = wavy_patch(3);
   mesh.elements.pop_back();
   CHECK_THROWS_AS(surface_of(mesh), Error);
@@ -121,7 +121,7 @@ TEST_CASE("NaN or infinity in a domain") {
   }
 }
 
-TEST_CASE("polygons that are none") {
+TEST_CASE("invalid polygons") {
   refusal(ErrorCode::invalid_domain, [] { Domain::polygon(Parts{{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}}}); });
   refusal(ErrorCode::invalid_domain, [] { Domain::polygon(Parts{{{{0, 0}, {1, 1}}, {}}}); });
   refusal(ErrorCode::invalid_domain, [] { Domain::polygon(Parts{{{{0, 0}, {1, 1}, {2, 2}}, {}}}); });
@@ -149,7 +149,7 @@ TEST_CASE("empty domains") {
   refusal(ErrorCode::invalid_domain, [&] { Domain::box(zero, four); });
 }
 
-TEST_CASE("a device that does not exist: the list of those that do") {
+TEST_CASE("a device that does not exist: the message lists the devices") {
   const std::string message = refusal(ErrorCode::device_not_found, [] { Device::choose("no such device"); });
   for (const DeviceInfo& info : devices()) CHECK_MESSAGE(mentions(message, info.name), message);
   refusal(ErrorCode::device_not_found, [] { Device::choose("97:0"); });
@@ -167,7 +167,7 @@ TEST_CASE("options out of range") {
 #ifdef POWERCELL_TEST_FLANN
   options = {};
   options.neighbors = Neighbors::flann;
-  options.lift_eta = 0.5;  // below the largest weight: the lift would need the root of a negative number
+  options.lift_eta = 0.5;  // below the largest weight, so that (5) has the root of a negative number
   SeedArray seeds = grid(5, 2);
   seeds.weights[7] = 1;
   refusal(ErrorCode::invalid_argument, [&] { measure(device, unit_box(2), seeds.view(), options); });

@@ -1,4 +1,4 @@
-// Unusual domains, sizes and places that must give a right diagram.
+// Unusual domains, sizes and positions that must give a correct diagram.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ void check_moved(double scale, double shift) {
   }
 }
 
-/// Sum and statuses only: too many seeds or regions for brute force.
+/// Checks the sum of measures only: there are too many seeds or regions for brute force.
 void check_partition(const Setup& setup, const Domain& domain, const SeedArray& seeds, double tolerance) {
   INFO(setup.name);
   Diagram diagram(setup.device, domain, setup.options);
@@ -93,7 +93,7 @@ TEST_CASE("a surface with slivers, flat triangles, duplicate and unused vertices
   INFO(replay_hint());
   Mesh mesh = wavy_patch(4);
   const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
-  // Vertices given twice, one used by nobody, a needle of 1e-9, a triangle of no area, a repeated corner.
+  // Duplicate vertices, an unused one, a needle of 1e-9, a triangle of area 0, a repeated corner.
   for (const std::size_t v : {0, 1}) {
     const double copy[3] = {mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2]};
     mesh.vertices.insert(mesh.vertices.end(), copy, copy + 3);
@@ -108,14 +108,14 @@ TEST_CASE("a surface with slivers, flat triangles, duplicate and unused vertices
   check_everywhere(domain, white_seeds(domain, 50), Position::degenerate);
 }
 
-TEST_CASE("tetrahedra that are slivers, flat, or inside out") {
+TEST_CASE("tetrahedra that are slivers, flat, or inverted") {
   INFO(replay_hint());
   for (const Setup& setup : all_setups()) {
-    // As thin as the precision can tell from flat.
+    // As thin as the precision can distinguish from flat.
     const double height = setup.options.precision == Precision::float32 ? 0.02 : 1e-9;
     Mesh mesh;
     mesh.vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1, 0.4, 0.3, -height, 0.3, 0.4, 0};
-    // A good one; a sliver on its other side, inside out; a flat one.
+    // A good one; an inverted sliver on its other side; a flat one.
     mesh.elements = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5};
     const Domain domain = volume_of(mesh);
     CHECK(domain.region_count() == 2);

@@ -1,4 +1,4 @@
-// Degenerate and hostile seeds that must give a right diagram.
+// Degenerate and hostile seeds that must give a correct diagram.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ SeedArray at_points(int dimension, std::vector<double> positions) {
   return seeds;
 }
 
-/// The unit square, a sphere, a ball and the unit cube: seeds of `make(dimension, box)` in each.
+/// Checks seeds of `make(dimension, box)` in the unit square, on a sphere, in a ball and in boxes.
 template <class Make>
 void on_every_kind(Make make, Position position = Position::degenerate) {
   INFO(replay_hint());
@@ -35,7 +35,7 @@ void on_every_kind(Make make, Position position = Position::degenerate) {
 
 }  // namespace
 
-TEST_CASE("no seeds: empty results, and the domain's measure is known") {
+TEST_CASE("no seeds: empty results and the domain's measure") {
   for (const Setup& setup : all_setups())
     for (const int d : {2, 3}) {
       Diagram diagram(setup.device, unit_box(d), setup.options);
@@ -54,7 +54,7 @@ TEST_CASE("one seed has the whole domain, wherever it is") {
         [&](int d, const Box&) { return at_points(d, std::vector<double>(static_cast<std::size_t>(d), x)); });
 }
 
-TEST_CASE("two seeds, and fewer seeds than neighbours are asked for") {
+TEST_CASE("two seeds, and fewer seeds than the initial number of neighbours") {
   for (const std::size_t n : {2, 3, 5, 13})
     on_every_kind(
         [&](int d, const Box& box) {
@@ -64,7 +64,7 @@ TEST_CASE("two seeds, and fewer seeds than neighbours are asked for") {
         Position::degenerate);
 }
 
-TEST_CASE("all seeds equal: the heaviest, else the first, has everything") {
+TEST_CASE("all seeds at one position: the heaviest, else the first, has the whole domain") {
   on_every_kind([](int d, const Box&) {
     SeedArray seeds = at_points(d, std::vector<double>(static_cast<std::size_t>(40 * d), 0.25));
     return seeds;
@@ -102,7 +102,7 @@ TEST_CASE("a grid whose walls lie in the facets between regions") {
   Random random(1);
   check_everywhere(volume_of(cube_tetrahedra(2, 0, random)), grid(4, 3), Position::degenerate);
   check_everywhere(surface_of(wavy_patch(4)), grid(4, 3), Position::degenerate);
-  // The walls x = 1/4 and x = 3/4 lie partly in the boundary of a U, where there is no wall.
+  // The bisectors x = 1/4 and x = 3/4 partly lie in the boundary of a U, where there is no wall.
   const Ring u{{0, 0}, {1, 0}, {1, 1}, {0.75, 1}, {0.75, 0.25}, {0.25, 0.25}, {0.25, 1}, {0, 1}};
   check_everywhere(Domain::polygon(Parts{{u, {}}}),
                    at_points(2, {0.125, 0.5, 0.375, 0.5, 0.625, 0.125, 0.875, 0.125, 0.125, 0.125}),
@@ -179,7 +179,7 @@ TEST_CASE("one weight a million times the others") {
     const double largest = *std::max_element(seeds.weights.begin(), seeds.weights.end());
     for (double& w : seeds.weights) w *= 1e-6 / largest;
     seeds.weights[5] = 1;
-    // Far enough for the heavy seed to leave something to the others.
+    // Far enough away that the heavy seed leaves a part of the domain to the others.
     for (int k = 0; k < d; ++k) seeds.coordinate(5, k) = box.low[0] - 0.3;
     return seeds;
   });
@@ -217,7 +217,7 @@ TEST_CASE("long thin cells") {
   for (const Setup& setup : all_setups())
     for (const int d : {2, 3}) {
       INFO(d << "D");
-      // As thin as the precision can tell apart: below that the cells are one.
+      // As thin as the precision can distinguish; thinner cells would coincide.
       const double squeeze = setup.options.precision == Precision::float32 ? 1e-2 : 1e-6;
       SeedArray seeds = grid(d == 2 ? 8 : 4, d);
       for (std::size_t i = 0; i < seeds.size(); ++i)

@@ -25,7 +25,7 @@ Device single_precision_device() {
 
 }  // namespace
 
-TEST_CASE("a device without double precision refuses it by name and computes in single") {
+TEST_CASE("a device without double precision refuses it, and computes in single precision") {
   const Device device = single_precision_device();
   Options options;
   options.precision = Precision::float64;

@@ -34,8 +34,8 @@ bool has(const std::string& text, const char* part) {
 
 }  // namespace
 
-// Squares that are not finite once kept the kernel's loop over near seeds from ending.
-TEST_CASE("seeds whose squares are not finite are refused, and far ones are not") {
+// With infinite squares, the kernel's loop over near seeds once did not end.
+TEST_CASE("seeds with infinite squares are refused, other far ones are not") {
   for (const Precision precision : {Precision::float64, Precision::float32}) {
     if (precision == Precision::float64 && !test_device().info().fp64) continue;
     Options options;
@@ -50,7 +50,7 @@ TEST_CASE("seeds whose squares are not finite are refused, and far ones are not"
     CHECK(has(refusal(diagram, {2, positions, heavy}), "seed 1: weight"));
     positions[4] = wide ? 1e160 : 1e19;
     CHECK(has(refusal(diagram, {2, positions, zero}), "seed 2: coordinate x"));
-    // The diagram keeps the seeds that it had.
+    // The diagram keeps its seeds.
     CHECK(diagram.size() == 3);
     CHECK(std::abs(diagram.measures().total() - 1) <= 1e-6);
     CHECK_THROWS_AS(diagram.set_weights(heavy), Error);

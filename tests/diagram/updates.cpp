@@ -1,4 +1,4 @@
-// What a diagram keeps between calls must not show in its results.
+// The state that a diagram keeps between calls must not affect its results.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -51,7 +51,7 @@ void for_each_domain_and_setup(Body body) {
 
 }  // namespace
 
-TEST_CASE("new weights give the diagram that fresh seeds give") {
+TEST_CASE("new weights give the same diagram as new seeds") {
   for_each_domain_and_setup([](const Domain& domain, const Setup& setup, SeedArray seeds, Random& random) {
     Diagram kept(setup.device, domain, setup.options);
     kept.set_seeds(seeds.view());
@@ -69,7 +69,7 @@ TEST_CASE("new weights give the diagram that fresh seeds give") {
   });
 }
 
-TEST_CASE("new weights decide anew which of two equal seeds is the duplicate") {
+TEST_CASE("new weights decide which of two seeds at one position is the duplicate") {
   for (const Setup& setup : all_setups()) {
     INFO(setup.name);
     SeedArray seeds{2, {0.2, 0.2, 0.7, 0.7, 0.7, 0.7}, {0, 0.1, 0}};
@@ -83,7 +83,7 @@ TEST_CASE("new weights decide anew which of two equal seeds is the duplicate") {
   }
 }
 
-TEST_CASE("the order in which results are asked for does not matter") {
+TEST_CASE("results do not depend on the order of calls") {
   for_each_domain_and_setup([](const Domain& domain, const Setup& setup, const SeedArray& seeds, Random&) {
     Diagram forwards(setup.device, domain, setup.options), backwards(setup.device, domain, setup.options);
     forwards.set_seeds(seeds.view());
@@ -95,7 +95,7 @@ TEST_CASE("the order in which results are asked for does not matter") {
   });
 }
 
-TEST_CASE("a one-off measure equals a diagram's") {
+TEST_CASE("measure() gives the measures of a diagram") {
   for_each_domain_and_setup([](const Domain& domain, const Setup& setup, const SeedArray& seeds, Random&) {
     Diagram diagram(setup.device, domain, setup.options);
     diagram.set_seeds(seeds.view());

@@ -5,26 +5,18 @@
 #include <set>
 #include <vector>
 
-#include "lib/domain/orient2d.hpp"
+#include "lib/base/vectors.hpp"
+#include "lib/domain/orientation.hpp"
 
 namespace powercell::test {
 namespace {
 
-using Point = std::array<long double, 3>;
+using Point = Vector3<long double>;
 
 Point vertex(const RegionMesh& mesh, std::uint32_t v) {
   Point p{};
   for (int k = 0; k < mesh.dimension; ++k) p[k] = mesh.vertices[std::size_t(mesh.dimension) * v + k];
   return p;
-}
-Point minus(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-long double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 std::vector<Point> region(const RegionMesh& mesh, std::size_t r) {
@@ -35,22 +27,16 @@ std::vector<Point> region(const RegionMesh& mesh, std::size_t r) {
   return points;
 }
 
-/// Signed where a sign has a meaning, so a wrong orientation shows in the sum.
+/// The measure of a region, with a sign except on surfaces, so that a wrong orientation shows in the sum.
 long double measure(const RegionMesh& mesh, const std::vector<Point>& p) {
-  if (mesh.shape == RegionShape::box)
-    return dot(minus(p[1], p[0]), cross(minus(p[2], p[0]), minus(p[4], p[0])));
-  if (mesh.shape == RegionShape::tetrahedron) {
-    return dot(minus(p[1], p[0]), cross(minus(p[2], p[0]), minus(p[3], p[0]))) / 6;
-  }
+  if (mesh.shape == RegionShape::box) return dot(p[1] - p[0], cross(p[2] - p[0], p[4] - p[0]));
+  if (mesh.shape == RegionShape::tetrahedron) return dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0])) / 6;
   Point sum{};
-  for (std::size_t k = 2; k < p.size(); ++k) {
-    const Point part = cross(minus(p[k - 1], p[0]), minus(p[k], p[0]));
-    for (int c = 0; c < 3; ++c) sum[c] += part[c];
-  }
-  return mesh.dimension == 2 ? sum[2] / 2 : std::sqrt(dot(sum, sum)) / 2;
+  for (std::size_t k = 2; k < p.size(); ++k) sum = sum + cross(p[k - 1] - p[0], p[k] - p[0]);
+  return mesh.dimension == 2 ? sum[2] / 2 : norm(sum) / 2;
 }
 
-/// Positions of the vertices of a facet, sorted: equal for the two sides of an interior facet.
+/// Positions of the vertices of a facet, sorted, so that they are the same from both sides.
 std::vector<Point> facet_points(const RegionMesh& mesh, std::size_t r, std::uint32_t facet) {
   std::vector<Point> points = region(mesh, r);
   std::vector<Point> of_facet;
@@ -75,7 +61,7 @@ std::size_t broken_borders(const RegionMesh& mesh) {
         broken += !numbers.insert(border.index).second || border.index >= mesh.boundary_count;
         continue;
       }
-      // The region behind has the same facet.
+      // The region behind must have the same facet.
       if (border.kind != Border::Kind::interior || border.index >= mesh.region_count() || border.index == r) {
         ++broken;
         continue;

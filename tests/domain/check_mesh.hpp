@@ -1,5 +1,5 @@
 /// \file
-/// The contract of RegionMesh, checked on a domain of any kind.
+/// Checks of the contract of RegionMesh, for a domain of any kind, and of refusals.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -11,11 +11,11 @@
 
 namespace powercell::test {
 
-/// Offsets, indices, borders there and back, boundary numbers used once each, bounding box, convexity
-/// or positive orientation of each region, and the measure as the sum over regions.
+/// Checks offsets, indices, borders from both sides, that each boundary number is used once, the bounding
+/// box, that each region is convex or positively oriented, and that the measure is the sum over regions.
 void check_mesh(const Domain& domain);
 
-/// What `build` says when it refuses with invalid_domain.
+/// The message of the Error invalid_domain that `build` throws; text in parentheses if it does not.
 template <class Build>
 std::string refusal(Build&& build) {
   try {
@@ -27,11 +27,11 @@ std::string refusal(Build&& build) {
   return "(accepted)";
 }
 
-/// The message has the words; the whole message is shown when it has not.
-#define CHECK_SAYS(message, words)                      \
+/// Checks that the message contains `words`; shows the whole message if it does not.
+#define CHECK_CONTAINS(message, words)                  \
   do {                                                  \
-    const std::string said = (message);                 \
-    CHECK_MESSAGE(said.find(words) != said.npos, said); \
+    const std::string text = (message);                 \
+    CHECK_MESSAGE(text.find(words) != text.npos, text); \
   } while (false)
 
 }  // namespace powercell::test

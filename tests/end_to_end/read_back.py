@@ -69,7 +69,7 @@ def domain_measure(path):
 
 
 def sum_faces(points, faces, volume):
-    """Total measure of polygons, or what they enclose."""
+    """Total measure of polygons, or of the volume that they enclose."""
     if not volume:
         return math.fsum(polygon_measure(points[f]) for f in faces)
     origin = points.mean(axis=0)
@@ -90,7 +90,7 @@ def vtk_faces(data):
         cell = data.GetCell(c)
         solid = cell.GetCellDimension() == 3
         for f in range(cell.GetNumberOfFaces() if solid else 1):
-            part = cell.GetFace(f) if solid else cell  # GetFace gives the same object each time
+            part = cell.GetFace(f) if solid else cell  # GetFace returns the same object each time
             faces.append([part.GetPointId(k) for k in range(part.GetNumberOfPoints())])
     return points, faces
 

@@ -1,5 +1,5 @@
 /// \file
-/// Whether simplices are a triangulation.
+/// Checks whether simplices form a triangulation.
 #pragma once
 
 #include <algorithm>
@@ -30,11 +30,10 @@ inline long double signed_measure(const Dual& dual, std::size_t s, const SeedArr
 
 struct Triangulated {
   long double measure = 0;  ///< of the union, if there are no faults
-  std::size_t faults =
-      0;  ///< simplices without a positive measure, facets in more than two or twice on one side
+  std::size_t faults = 0;   ///< facet_faults(), and simplices without a positive measure
 };
 
-/// Facets in more than two simplices, and those in two on one side of it.
+/// The number of facets in more than two simplices, or in two on the same side.
 inline std::size_t facet_faults(const Dual& dual) {
   struct Side {
     std::array<std::uint32_t, 3> facet{~0U, ~0U, ~0U};
@@ -67,7 +66,7 @@ inline std::size_t facet_faults(const Dual& dual) {
   return faults;
 }
 
-/// Whether no facet is in more than two simplices, and where in two, they lie on either side of it.
+/// Counts the faults of a triangulation and sums the measures of its simplices.
 inline Triangulated check_triangulation(const Dual& dual, const SeedArray& seeds) {
   Triangulated result{0, facet_faults(dual)};
   for (std::size_t s = 0; s < dual.size(); ++s) {

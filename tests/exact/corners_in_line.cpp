@@ -1,5 +1,5 @@
-// Pieces of a polygon have corners in line where other pieces have theirs: bisectors along such a line, a few
-// last places beside it, and turned by as little.
+// Pieces of a polygon have collinear corners where other pieces have corners. Bisectors lie on such a line, a
+// few units in the last place beside it, or are rotated by as little.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int teeth = 5;
 
-/// A bar with teeth above and below, all of them 1 wide; the lines where they stand are y = 0 and y = 1.
+/// A bar with teeth of width 1 above and below, on the lines y = 0 and y = 1.
 Domain comb(bool upright) {
   std::vector<std::array<double, 2>> ring{{0, 0}};
   const auto add = [&](double x, double y) { ring.push_back({x, y}); };
@@ -39,12 +39,12 @@ Domain comb(bool upright) {
 
 constexpr double bar = 2 * teeth + 1, all = bar + 2 * teeth;
 
-/// Last places of numbers about 1, some of them none.
+/// A few units in the last place of numbers about 1, often 0.
 double little(Random& random) {
   return 0x1p-53 * static_cast<double>(random.index(9)) - 0x1p-51 + (random.index(3) == 0 ? 0x1p-51 : 0.0);
 }
 
-/// Lines where teeth stand, and by how much the bisector is moved down.
+/// Lines with teeth, and the distance by which the bisector is moved down.
 std::vector<std::pair<double, double>> cases() {
   std::vector<std::pair<double, double>> list;
   for (const double line : {0.0, 1.0})
@@ -54,19 +54,19 @@ std::vector<std::pair<double, double>> cases() {
 
 }  // namespace
 
-TEST_CASE("a bisector in the line of many corners: exact masses, walls of the teeth or of the bar") {
+TEST_CASE("a bisector on a line of many corners: exact masses, walls of the teeth or of the bar") {
   for (const Setup& setup : all_setups()) {
     INFO(setup.name);
     const double tolerance = 16 * unit_roundoff(setup.options.precision);
     for (const bool upright : {true, false})
-      for (const auto& [line, moved] : cases())
+      for (const auto& place : cases())
         for (const bool swapped : {false, true}) {
+          const double line = place.first, moved = place.second;
           CAPTURE(upright);
           CAPTURE(line);
           CAPTURE(moved);
           CAPTURE(swapped);
-          // The bisector of a quarter below and above with weights 0 and w is at -w from the line: to the
-          // bit.
+          // The bisector of seeds 1/4 below and above the line with weights 0 and w is exactly at -w from it.
           SeedArray seeds{2, {}, {0, 0}};
           for (const double y : {line - 0.25, line + 0.25})
             seeds.positions.insert(seeds.positions.end(), {3.0, y});
@@ -86,7 +86,7 @@ TEST_CASE("a bisector in the line of many corners: exact masses, walls of the te
           CHECK(std::abs(mass[1 - low] - (all - below)) < tolerance * all);
           const Adjacency& walls = diagram.adjacency();
           REQUIRE(walls.neighbor == std::vector<std::uint32_t>{1, 0});
-          // In the line the wall ends where the teeth do; in the bar it goes through all of it.
+          // On the line the wall ends with the teeth; within the bar it crosses all of it.
           const double expected = line == 1 ? (moved > 0 ? bar : teeth) : (moved < 0 ? bar : teeth);
           CHECK(walls.wall[0] == doctest::Approx(expected).epsilon(tolerance));
           CHECK(walls.wall[1] == doctest::Approx(expected).epsilon(tolerance));
@@ -94,7 +94,7 @@ TEST_CASE("a bisector in the line of many corners: exact masses, walls of the te
   }
 }
 
-TEST_CASE("a grid whose cells end where the teeth do") {
+TEST_CASE("a grid whose cells end with the teeth") {
   for (const Setup& setup : all_setups()) {
     INFO(setup.name);
     const double tolerance = 16 * unit_roundoff(setup.options.precision);
@@ -131,7 +131,7 @@ TEST_CASE("a grid whose cells end where the teeth do") {
   }
 }
 
-TEST_CASE("bisectors turned and moved by last places about such lines") {
+TEST_CASE("bisectors rotated and moved by units in the last place about such lines") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const Setup& setup : all_setups()) {
@@ -141,7 +141,7 @@ TEST_CASE("bisectors turned and moved by last places about such lines") {
       Diagram diagram(setup.device, comb(upright), setup.options);
       for (int trial = 0; trial < 40; ++trial) {
         CAPTURE(trial);
-        // Pairs that mirror each other, but for last places, at y = 0 and y = 1.
+        // Pairs that are mirror images in y = 0 and y = 1, up to units in the last place.
         SeedArray seeds{2, {}, {}};
         const double x = random.uniform(0, bar), away = random.uniform(0.1, 0.4);
         for (const double y : {-away, away, 1 - away, 1 + away}) {

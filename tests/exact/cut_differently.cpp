@@ -1,5 +1,5 @@
-// A square or cube cut into pieces has the diagram of the whole: cells, hidden seeds and walls, where
-// bisectors run along the cuts, through their corners and along the boundary.
+// A square or cube cut into regions has the same diagram: cells, hidden seeds and walls. Bisectors run along
+// the cuts, through their corners and along the boundary.
 #include <doctest/doctest.h>
 
 #include "tests/exact/tied_seeds.hpp"
@@ -10,8 +10,9 @@ using namespace powercell::test;
 
 namespace {
 
-/// Seeds beside the plane of a sheet with the same diagram on it as `flat`: the square of the distance from
-/// the plane goes into the weight. \param axis  normal of the plane
+/// Seeds off the plane of a sheet with the same diagram on it as `flat`: the square of the distance from the
+/// plane is added to the weight.
+/// \param axis  normal of the plane
 SeedArray lifted_off(const SeedArray& flat, std::size_t axis, Random& random) {
   SeedArray seeds{3, {}, {}};
   for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -26,7 +27,7 @@ SeedArray lifted_off(const SeedArray& flat, std::size_t axis, Random& random) {
   return seeds;
 }
 
-/// The unit square at 0 across `axis`, in squares cut along one diagonal or the other.
+/// The unit square normal to `axis`, in squares cut along one diagonal or the other.
 Domain sheet(std::size_t per_side, std::size_t axis, Random& random) {
   std::vector<double> vertices;
   for (std::size_t j = 0; j <= per_side; ++j)
@@ -54,8 +55,8 @@ Domain block(int per_side, Random& random) {
   return volume_of(cube_tetrahedra(per_side, 0, random));
 }
 
-/// A square in parts that meet along edges, some of them at corners of others.
-Domain parted_square() {
+/// A square in parts that meet along edges; some corners lie within edges of other parts.
+Domain square_in_parts() {
   const auto rectangle = [](double x0, double y0, double x1, double y1) {
     return PolygonPart{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
   };
@@ -117,7 +118,7 @@ TEST_CASE("a square in parts has the diagram of the square") {
       const SeedArray seeds = tied_seeds(2 + random.index(20), 0.5, 2, trial % 2 == 1, random);
       const double tolerance = 1e3 * unit_roundoff(setup.options.precision);
       const Outcome whole = outcome_of(setup, unit_box(2), seeds.view());
-      const Outcome parts = outcome_of(setup, parted_square(), seeds.view());
+      const Outcome parts = outcome_of(setup, square_in_parts(), seeds.view());
       expect_same(whole, parts, tolerance);
       CHECK(whole.simplices == parts.simplices);
     }

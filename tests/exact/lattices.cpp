@@ -1,17 +1,16 @@
 // Seeds with ties everywhere: lattices plain, tilted, tiny, huge and far from the origin, and spheres. The
-// cells of a lattice are known, and its dual must be a triangulation all the same.
+// cells of a lattice are known, and its dual must be a triangulation.
 #include "tests/exact/lattices.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <powercell/diagram.hpp>
 #include <set>
 
 #include "tests/exact/check_triangulation.hpp"
+#include "tests/support/compare.hpp"
 #include "tests/support/generators.hpp"
 
 using namespace powercell;
@@ -25,22 +24,14 @@ Options options_for(Precision precision) {
   return options;
 }
 
-void check_symmetric(const Adjacency& a) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> wall;
-  for (std::uint32_t i = 0; i + 1 < a.offset.size(); ++i)
-    for (std::uint64_t k = a.offset[i]; k < a.offset[i + 1]; ++k) {
-      wall[{i, a.neighbor[k]}] = a.wall[k];
-      REQUIRE(a.wall[k] > 0);
-    }
-  for (const auto& [pair, measure] : wall) {
-    const auto back = wall.find({pair.second, pair.first});
-    REQUIRE(back != wall.end());
-    REQUIRE(back->second == measure);
-  }
+void check_walls(const Adjacency& adjacency) {
+  CHECK(std::ranges::all_of(adjacency.wall, [](double wall) { return wall > 0; }));
+  const Differences differences = check_symmetric(adjacency);
+  CHECK_MESSAGE(differences.empty(), summary(differences));
 }
 
 long double hull_measure(const Lattice& lattice, const Place& place) {
-  // The hull of a centred lattice is a box without what its missing last layer leaves out.
+  // The hull of a lattice of one seed per period; it lacks the last layer.
   const long double side =
       place.scale * static_cast<long double>(lattice.k - 1) / static_cast<long double>(lattice.k);
   return std::pow(side, static_cast<long double>(lattice.dimension));
@@ -48,7 +39,7 @@ long double hull_measure(const Lattice& lattice, const Place& place) {
 
 }  // namespace
 
-TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
+TEST_CASE("lattices in all placements: cells, neighbours and dual") {
   for (const Lattice& lattice : lattices())
     for (const Place& place : places)
       for (const Precision precision : {Precision::float64, Precision::float32}) {
@@ -57,14 +48,14 @@ TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
             lattice.name + " " + place.name + (precision == Precision::float32 ? " float" : " double");
         CAPTURE(label);
         const LatticeSeeds seeds = lattice_seeds(lattice, place);
-        Diagram diagram(Device::choose(), room_for(place, lattice.dimension), options_for(precision));
+        Diagram diagram(Device::choose(), box_around(place, lattice.dimension), options_for(precision));
         diagram.set_seeds(seeds.array.view());
         diagram.compute(true, true);
         const Measures& measures = diagram.measures();
         const double cell = std::pow(place.scale / static_cast<double>(lattice.k), lattice.dimension) /
                             static_cast<double>(lattice.basis.size());
         const bool single = precision == Precision::float32;
-        // Positions far from the origin or tilted are no exact lattice: rounding moves them.
+        // Far from the origin or tilted, rounding moves positions off the exact lattice.
         const double rounding =
             4e-16 * (1 + place.offset / place.scale) * static_cast<double>(lattice.k) * 30;
         const double tolerance = (single ? 1e-5 : 1e-12) + rounding;
@@ -72,11 +63,11 @@ TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
         CHECK(measures.relative_error() < (single ? 1e-6 : 1e-14));
         CHECK(measures.count(SeedStatus::ok) == seeds.array.size());
         const Adjacency& adjacency = diagram.adjacency();
-        check_symmetric(adjacency);
+        check_walls(adjacency);
         for (std::size_t i = 0; i < seeds.array.size(); ++i) {
           if (!seeds.inside[i]) continue;
           CHECK(measures.mass[i] / cell == doctest::Approx(1).epsilon(tolerance));
-          // Where positions are exact, so are neighbours.
+          // With exact positions, the neighbours are exact.
           if (place.angle == 0 && place.name != "tiny" && (lattice.k & (lattice.k - 1)) == 0)
             CHECK(adjacency.offset[i + 1] - adjacency.offset[i] == lattice.neighbors);
         }
@@ -89,12 +80,11 @@ TEST_CASE("lattices wherever they lie: cells, neighbours and dual") {
       }
 }
 
-TEST_CASE("a million ties: all seeds on a sphere about one more") {
+TEST_CASE("all seeds on a circle or sphere") {
   for (const int dimension : {2, 3})
     for (const Precision precision : {Precision::float64, Precision::float32}) {
       CAPTURE(dimension);
-      // Rational points of the unit sphere times 65536, exact after scaling: (a^2-b^2, 2ab)/(a^2+b^2) is not,
-      // so points (x, y, z) of integers with x^2 + y^2 + z^2 = r^2.
+      // The points are exact: integers (x, y, z) with x^2 + y^2 + z^2 = r^2.
       const long radius = dimension == 2 ? 5525 : 45;
       SeedArray seeds;
       seeds.dimension = dimension;
@@ -122,8 +112,9 @@ TEST_CASE("a million ties: all seeds on a sphere about one more") {
       diagram.set_seeds(seeds.view());
       diagram.compute(true, true);
       CHECK(diagram.measures().relative_error() < (precision == Precision::float32 ? 1e-6 : 1e-14));
-      check_symmetric(diagram.adjacency());
-      // All corners of the dual are the one centre: the hull of the seeds, triangulated.
+      check_walls(diagram.adjacency());
+      // All vertices of cells coincide in the centre, so the dual is a triangulation of the hull of the
+      // seeds.
       CHECK(check_triangulation(diagram.dual(), seeds).faults == 0);
       CHECK(diagram.dual().size() >= seeds.size() - static_cast<std::size_t>(dimension));
       std::set<std::uint32_t> used(diagram.dual().simplices.begin(), diagram.dual().simplices.end());
@@ -131,11 +122,11 @@ TEST_CASE("a million ties: all seeds on a sphere about one more") {
     }
 }
 
-TEST_CASE("fast decisions leave ties as they are, and count them") {
+TEST_CASE("fast decisions count ties but leave none to the host") {
   const LatticeSeeds seeds = lattice_seeds(lattices()[1], places[0]);
   Options options = options_for(Precision::automatic);
   options.decisions = Decisions::fast;
-  Diagram diagram(Device::choose(), room_for(places[0], 3), options);
+  Diagram diagram(Device::choose(), box_around(places[0], 3), options);
   diagram.set_seeds(seeds.array.view());
   diagram.measures();
   CHECK(diagram.timings().uncertain > 0);

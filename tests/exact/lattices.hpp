@@ -1,5 +1,5 @@
 /// \file
-/// Lattices in all places, for tests and campaigns of ties.
+/// Lattices, rotated, scaled and moved, for tests and campaigns of ties.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace powercell::test {
 
-/// Where a lattice lies: x -> scale * (rotation(x - 1/2) + 1/2) + offset.
+/// The placement of a lattice: x -> scale * (rotation(x - 1/2) + 1/2) + offset.
 struct Place {
   std::string name;
   double angle = 0, scale = 1, offset = 0;
@@ -65,8 +65,8 @@ inline LatticeSeeds lattice_seeds(const Lattice& lattice, const Place& place) {
   return seeds;
 }
 
-/// A box around all of it, with room for the corners of the dual.
-inline Domain room_for(const Place& place, int dimension) {
+/// A box that contains the lattice and the corners of its dual.
+inline Domain box_around(const Place& place, int dimension) {
   const std::vector<double> low(static_cast<std::size_t>(dimension), place.offset - 2 * place.scale),
       high(static_cast<std::size_t>(dimension), place.offset + 3 * place.scale);
   return Domain::box(low, high);

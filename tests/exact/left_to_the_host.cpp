@@ -1,5 +1,5 @@
-// How many cells of random seeds the device cannot prove: each costs the host as much as some five cost the
-// device. Right results do not tell when a proof gets weaker.
+// The number of cells of random seeds that the device cannot prove: each costs the host as much as about five
+// cost the device. Correct results do not show that a proof became weaker.
 #include <doctest/doctest.h>
 
 #include <powercell/diagram.hpp>
@@ -11,7 +11,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Of 10,000 white seeds in the unit box, the fraction left to the host.
+/// The fraction of 10,000 white seeds in the unit box whose cells are left to the host.
 double fraction_left(int dimension, WeightRange range, Precision precision) {
   const std::size_t n = 10000;
   Random random(17);
@@ -34,7 +34,7 @@ TEST_CASE("few cells of random seeds are left to the host") {
       CAPTURE(static_cast<int>(range));
       if (Device::choose().info().fp64) CHECK(fraction_left(dimension, range, Precision::float64) < 1e-3);
     }
-  // In the cube 2.5 % with the nearest seed held against each vertex, 4.7 % without.
+  // In the cube 2.5 % if the nearest seed is tested against each vertex, 4.7 % otherwise.
   CHECK(fraction_left(2, WeightRange::W0, Precision::float32) < 0.01);
   CHECK(fraction_left(3, WeightRange::W0, Precision::float32) < 0.035);
 }

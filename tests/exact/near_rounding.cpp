@@ -1,6 +1,5 @@
-// Seeds so near each other, so far off or so alike in weight that numbers on the device hardly tell them
-// apart. Nothing of that may pass for certain: both precisions and providers must give the masses that brute
-// force gives.
+// Seeds so close together, so far away or so similar in weight that numbers on the device hardly distinguish
+// them. None of that may count as certain: both precisions and providers must give the masses of brute force.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +22,7 @@ double ten_to_minus(std::size_t power) {
   return std::pow(10.0, -static_cast<double>(power));
 }
 
-/// n points of the box [-1, 1]^d, times `scale`, about `middle`.
+/// Adds n points of the box [-1, 1]^d, times `scale`, about `middle`.
 void add_seeds(SeedArray& seeds, std::size_t n, double scale, double middle, Random& random) {
   for (std::size_t i = 0; i < n; ++i) {
     for (int k = 0; k < seeds.dimension; ++k)
@@ -32,7 +31,7 @@ void add_seeds(SeedArray& seeds, std::size_t n, double scale, double middle, Ran
   }
 }
 
-/// Lattice points moved by a few of the last places of a double, in the box [0, 1]^d.
+/// Lattice points in the box [0, 1]^d, moved by a few of the last bits of a double.
 SeedArray last_places(int d, std::size_t n, Random& random) {
   SeedArray seeds{d, {}, {}};
   const std::size_t cells_a_side = 2 + random.index(7);
@@ -62,7 +61,7 @@ SeedArray nested_clusters(int d, std::size_t n, Random& random) {
   return seeds;
 }
 
-/// Seeds up to 1e4 times as far off as the domain is wide, with weights that bring their cells back.
+/// Seeds up to 1e4 widths away from the domain, with weights that bring their cells into it.
 SeedArray far_and_heavy(int d, std::size_t n, Random& random) {
   SeedArray seeds{d, {}, {}};
   while (seeds.size() < n) {
@@ -76,7 +75,7 @@ SeedArray far_and_heavy(int d, std::size_t n, Random& random) {
   return seeds;
 }
 
-/// A row of seeds, very close, whose cells are as long as the domain and as wide as they are close.
+/// A row of very close seeds, whose cells are as long as the domain and as wide as the seeds are close.
 SeedArray long_thin_cells(int d, std::size_t n, Random& random) {
   SeedArray seeds{d, {}, {}};
   const double step = ten_to_minus(random.index(14)), off = step * ten_to_minus(random.index(17));
@@ -90,7 +89,7 @@ SeedArray long_thin_cells(int d, std::size_t n, Random& random) {
   return seeds;
 }
 
-/// A small cluster with weights up to 1e7 that differ by as little as cells of its size need.
+/// A small cluster with weights up to 1e7, whose differences fit cells of its size.
 SeedArray heavy_and_alike(int d, std::size_t n, Random& random) {
   SeedArray seeds{d, {}, {}};
   const double weight = std::pow(10.0, static_cast<double>(random.index(8))),
@@ -115,10 +114,10 @@ const std::vector<Family> families = {{"last places", last_places, 1e-5},
                                       {"long thin cells", long_thin_cells, 1e-5},
                                       {"heavy and alike", heavy_and_alike, 1e-5}};
 
-/// Cells below this part of the domain have no measure in single precision.
+/// Cells smaller than this fraction of the domain underflow in single precision.
 constexpr double least_single = 1e-36;
 
-/// The masses of brute force, and the hidden seeds of the first way.
+/// Compares masses to brute force, and statuses to the first setup.
 void check_sets(const Domain& domain, const Family& family, std::size_t sets, std::size_t most,
                 Random& random) {
   std::vector<Diagram> ways;
@@ -158,12 +157,12 @@ void check_families(std::size_t sets, std::size_t most) {
 
 }  // namespace
 
-TEST_CASE("seeds the least number apart share the domain, whoever decides") {
+TEST_CASE("seeds the least number apart share the domain, with exact and fast decisions") {
   const double least = std::numeric_limits<double>::denorm_min();
   const std::vector<double> x{0, least, least, least, least, 0}, low(3, 0.0), high(3, 1e-6);
   const Domain domain = Domain::box(low, high);
   for (const Setup& setup : all_setups()) {
-    if (setup.options.precision == Precision::float32) continue;  // to two floats they are one
+    if (setup.options.precision == Precision::float32) continue;  // two floats do not distinguish them
     CAPTURE(setup.name);
     for (const Decisions decisions : {Decisions::exact, Decisions::fast}) {
       Options options = setup.options;
@@ -177,9 +176,9 @@ TEST_CASE("seeds the least number apart share the domain, whoever decides") {
   }
 }
 
-// Two floats tell the places of these seeds, 1e-11 apart, to 1e-14: the wall between two of them was known
-// well enough to decide by, but not to measure by.
-TEST_CASE("walls that two floats leave open by more than rounding are measured by the host") {
+// Two floats represent the positions of these seeds, 1e-11 apart, to 1e-14: the wall between two of them was
+// known well enough for decisions, but not for measures.
+TEST_CASE("walls with more error from two floats than from rounding are measured by the host") {
   const std::vector<double> x = {0.63053095742404264,  0.064861761861359446,  0.51013785655061905,
                                  1.0922322515434297,   0.50026422675418181,   0.54451124239816295,
                                  0.63053095741124265,  0.064861761726168393,  0.63053095742378118,

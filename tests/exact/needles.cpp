@@ -1,5 +1,5 @@
-// Cells far longer than thick: columns of a sheet of seeds in a large cube, tilted so that no edge is along
-// an axis. Their measure is known, and products of their coordinates have no digit of it.
+// Cells far longer than thick: columns of a plane lattice of seeds in a large cube, tilted so that no edge is
+// parallel to an axis. Their measure is known, and products of their coordinates have no correct digit of it.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -33,7 +33,7 @@ bool is_inner(std::size_t seed) {
   return std::abs(i) + 1 < kReach && std::abs(j) + 1 < kReach;
 }
 
-/// Columns end at z = -1 and z = 1: they have the length 7/3, and their middle is at z = 0.
+/// Columns extend from z = -1 to z = 1, so their length is 7/3 and their middle at z = 0.
 void check_columns(const Measures& measures, const std::vector<double>& seeds, double spacing, double error) {
   constexpr std::array<double, 3> up{2.0 / 6, 3.0 / 6, 1};
   for (std::size_t i = 0; i < measures.mass.size(); ++i) {
@@ -59,7 +59,8 @@ TEST_CASE("cells far longer than thick have the measure and centroid of their co
       const SeedsView seeds{3, x, {}};
       Diagram diagram(setup.device, domain, setup.options);
       diagram.set_seeds(seeds);
-      // A wall may move by rounding of the column's length; results of the host are in the device's digits.
+      // A wall may move by the rounding of the column's length. Results of the host have the device's
+      // precision.
       const double rounding = setup.options.precision == Precision::float32 ? 1e-6 : 0;
       check_columns(diagram.measures(), x, spacing, rounding + 32 * 0x1p-53 / spacing);
       for (const LawCheck& check : verify(diagram, seeds, {200, 1})) {

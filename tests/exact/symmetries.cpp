@@ -1,5 +1,5 @@
-// Turned, mirrored, in another order, without the seeds that have no cells: the diagram is the same, where
-// bisectors run through corners and along facets of the domain too.
+// Rotated, mirrored, reordered or without hidden seeds, the diagram is the same, also where bisectors run
+// through corners and along facets of the domain.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -13,8 +13,8 @@ using namespace powercell::test;
 
 namespace {
 
-/// The images under a symmetry of the cube about 0: axes in another order, some of them mirrored.
-SeedArray turned(const SeedArray& seeds, Random& random) {
+/// The images of seeds under a symmetry of the cube about 0: permuted axes, some of them mirrored.
+SeedArray rotated(const SeedArray& seeds, Random& random) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   const Permutation axis = random_permutation(d, random);
   std::array<double, 3> sign;
@@ -26,8 +26,8 @@ SeedArray turned(const SeedArray& seeds, Random& random) {
   return result;
 }
 
-/// The result for n seeds, of which seed from[k] is k here; the others have no cells. Without simplices:
-/// which ones there are where more cells meet depends on the order of the places.
+/// The outcome for n seeds, of which seed from[k] is seed k of `image`; the others have no cells. It has no
+/// simplices: where more cells meet in a point, they depend on the order of positions.
 Outcome brought_back(const Outcome& image, const Permutation& from, std::size_t n) {
   Outcome result;
   result.measures.status.assign(n, SeedStatus::hidden);
@@ -40,7 +40,7 @@ Outcome brought_back(const Outcome& image, const Permutation& from, std::size_t 
   return result;
 }
 
-/// With the six corners at distance 3/4 from 0: a surface, or in tetrahedra about 0.
+/// An octahedron with six corners at distance 3/4 from 0: a surface, or tetrahedra about 0.
 Domain octahedron(bool surface) {
   std::vector<double> vertices;
   for (std::size_t k = 0; k < 6; ++k)
@@ -76,16 +76,16 @@ std::vector<NamedDomain> symmetric_domains(Random& random) {
           {"octahedron", octahedron(true)}};
 }
 
-/// Whether the bisector holds a triangle of the octahedron, which goes to the seed that is first in order.
+/// Whether the bisector contains a triangle of the octahedron, which then belongs to the first seed in order.
 bool share_a_triangle(const SeedArray& seeds, std::size_t i, std::size_t j) {
   std::array<long double, 3> q;
-  long double level = static_cast<long double>(seeds.weights[i]) - seeds.weights[j];
+  long double offset = static_cast<long double>(seeds.weights[i]) - seeds.weights[j];
   for (std::size_t k = 0; k < 3; ++k) {
     const long double a = seeds.positions[3 * i + k], b = seeds.positions[3 * j + k];
     q[k] = std::fabs(b - a);
-    level += (b - a) * (b + a);
+    offset += (b - a) * (b + a);
   }
-  return q[0] == q[1] && q[1] == q[2] && std::fabs(level) == 1.5L * q[0];
+  return q[0] == q[1] && q[1] == q[2] && std::fabs(offset) == 1.5L * q[0];
 }
 
 SeedArray without_shared_triangles(const SeedArray& seeds) {
@@ -103,8 +103,8 @@ SeedArray without_shared_triangles(const SeedArray& seeds) {
   return kept;
 }
 
-/// On a surface without the walls: a cell may have a piece of no thickness between two others, or not have
-/// it, as the order of the places has it (docs/mathematics.md, "Walls in facets").
+/// Compares no walls on a surface: whether a cell has a piece of no thickness between two others there
+/// depends on the order of positions (docs/mathematics.md, "Walls in facets").
 void expect_same_on(const Domain& domain, const Outcome& one, const Outcome& other, double tolerance) {
   domain.kind() == DomainKind::surface ? expect_same_cells(one, other, tolerance)
                                        : expect_same(one, other, tolerance);
@@ -128,10 +128,10 @@ void for_tied_seeds(int trials, const Check& check) {
 
 }  // namespace
 
-TEST_CASE("turned, mirrored and in another order the diagram is the same") {
+TEST_CASE("rotated, mirrored and reordered, the diagram is the same") {
   for_tied_seeds(10, [](const Setup& setup, const Domain& domain, const SeedArray& seeds, Random& random) {
     const Permutation order = random_permutation(seeds.size(), random);
-    const SeedArray image = permuted(turned(seeds, random), order);
+    const SeedArray image = permuted(rotated(seeds, random), order);
     expect_same_on(domain, outcome_of(setup, domain, seeds.view()),
                    brought_back(outcome_of(setup, domain, image.view()), order, seeds.size()),
                    1e3 * unit_roundoff(setup.options.precision));

@@ -1,5 +1,5 @@
 /// \file
-/// Few seeds with many ties, and diagrams of them to be compared.
+/// Few seeds with many ties, and comparisons of their diagrams.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -17,9 +17,10 @@
 
 namespace powercell::test {
 
-/// At most n different places in eighths and weights in 64ths, so that powers are exact and ties are many.
-/// \param middle  of the places along each axis
-/// \param moved  whether half of the numbers is moved by a few last places
+/// At most n seeds with distinct positions in multiples of 1/8 and weights of 1/64, so that power distances
+/// are exact and ties frequent.
+/// \param middle  of the positions along each axis
+/// \param moved   whether half of the numbers are moved by a few units in the last place
 inline SeedArray tied_seeds(std::size_t n, double middle, int dimension, bool moved, Random& random) {
   SeedArray seeds{dimension, {}, {}};
   const auto little = [&] {
@@ -38,7 +39,7 @@ inline SeedArray tied_seeds(std::size_t n, double middle, int dimension, bool mo
   return seeds;
 }
 
-/// What does not depend on where the domain is cut, by seeds, to be compared to a tolerance.
+/// The results that do not depend on how the domain is cut into regions.
 struct Outcome {
   Measures measures;
   std::map<std::pair<std::size_t, std::size_t>, double> walls;
@@ -73,14 +74,16 @@ inline void expect_same_cells(const Outcome& one, const Outcome& other, double t
 
 inline void expect_same(const Outcome& one, const Outcome& other, double tolerance) {
   expect_same_cells(one, other, tolerance);
-  for (const auto& [a, b] : {std::pair{&one, &other}, {&other, &one}})
-    for (const auto& [seeds, wall] : a->walls) {
-      const auto found = b->walls.find(seeds);
-      CAPTURE(seeds.first);
-      CAPTURE(seeds.second);
+  for (const Outcome* a : {&one, &other}) {
+    const Outcome* b = a == &one ? &other : &one;
+    for (const auto& entry : a->walls) {
+      const auto found = b->walls.find(entry.first);
+      CAPTURE(entry.first.first);
+      CAPTURE(entry.first.second);
       CAPTURE((a == &one));
-      CHECK(std::abs(wall - (found == b->walls.end() ? 0 : found->second)) <= tolerance);
+      CHECK(std::abs(entry.second - (found == b->walls.end() ? 0 : found->second)) <= tolerance);
     }
+  }
 }
 
 }  // namespace powercell::test

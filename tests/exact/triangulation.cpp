@@ -1,5 +1,5 @@
-// The regular triangulation against CGAL's, simplex by simplex, and as a triangulation of the hull where
-// CGAL's ties are broken otherwise.
+// The regular triangulation against CGAL's, simplex by simplex. With ties, which CGAL breaks differently, it
+// must be a triangulation of the hull.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Of the bounding box, which is the hull of a grid.
+/// The measure of the bounding box, which is the hull of a grid.
 long double box_measure(const SeedArray& seeds) {
   long double measure = 1;
   for (int k = 0; k < seeds.dimension; ++k) {
@@ -73,7 +73,7 @@ TEST_CASE("a grid: the hull is covered once") {
 
 TEST_CASE("seeds whose cells are exactly flat are no vertices") {
   for (const int dimension : {2, 3}) {
-    // Of three in a row the middle one is lower by just so much that its two bisectors are one.
+    // The weight of the middle one of three in a row is such that its two bisectors coincide.
     SeedArray seeds = grid(dimension == 2 ? 8 : 5, dimension);
     const auto n = seeds.size();
     const double h = seeds.coordinate(1, 0) - seeds.coordinate(0, 0);
@@ -87,7 +87,7 @@ TEST_CASE("seeds whose cells are exactly flat are no vertices") {
 }
 
 TEST_CASE("coordinates hundreds of orders of magnitude below the extent are the same near and far") {
-  // All but -13 and the large ones vanish beside the far box of the host.
+  // All numbers but -13 and larger ones underflow in the host's far box.
   const SeedArray seeds{
       3,
       {-7.625,   4.5, 11.25, -8.5, -8.5, -8.5,   -8.5,    -8.5, 7.625,    -12.375, -12.5, -13,
@@ -109,10 +109,10 @@ TEST_CASE("seeds too far apart, or too small, are refused by their size") {
   };
   for (const double size : {1e-99, 1e75}) CHECK(triangulate(size) == 2);
   for (const double size : {1e-101, 1e90, 1e308})
-    CHECK_THROWS_WITH_AS(triangulate(size), doctest::Contains("a triangulation is made of those"), Error);
+    CHECK_THROWS_WITH_AS(triangulate(size), doctest::Contains("a triangulation needs coordinates"), Error);
 }
 
-TEST_CASE("seeds that do not span the space have no simplices; too few neither") {
+TEST_CASE("too few seeds, or seeds that do not span the space, have no simplices") {
   for (const int dimension : {2, 3}) {
     const Device device = Device::choose();
     CHECK(regular_triangulation(device, SeedsView{dimension, {}, {}}).size() == 0);

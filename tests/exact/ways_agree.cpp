@@ -1,6 +1,6 @@
-// Which seeds are hidden, which cells are neighbours and what simplices the dual has is the same in every
-// precision and from every provider: the numbers say it, not the way to it. No tolerance. Seeds here are near
-// each other by every power of ten, and their bisectors meet in corners, edges and facets of the domain.
+// Hidden seeds, neighbours and the simplices of the dual are the same in every precision and with every
+// provider, without tolerance. The distances of seeds cover all powers of ten, and their bisectors meet in
+// corners, edges and facets of the domain.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,13 +38,13 @@ double ten_to(double low, double high, Random& random) {
   return std::pow(10, random.uniform(low, high));
 }
 
-/// How the seeds of one set lie.
+/// How the seeds of a set are spread.
 struct Spread {
-  double farthest;      ///< in widths of the domain from its middle
-  double least_decade;  ///< seeds beside others are 10^this to 1 widths from them
+  double farthest;      ///< distance from the middle of the domain, in its widths
+  double least_decade;  ///< distances between seeds are 10^least_decade to 1 widths
 };
 
-/// Beside an earlier seed, along one axis now and then, or anywhere about the domain.
+/// Adds a position close to an earlier seed, sometimes along one axis, or anywhere about the domain.
 void add_position(SeedArray& seeds, const Domain& domain, const Spread& spread, Random& random) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   const std::size_t count = seeds.positions.size() / d;
@@ -62,7 +62,8 @@ void add_position(SeedArray& seeds, const Domain& domain, const Spread& spread, 
                               (axis >= d || axis == k ? scale * random.normal() : 0));
 }
 
-/// Weights with which the powers at `x` are equal, all but equal, or of the size of the domain.
+/// A weight that makes power distances at a point equal, nearly equal, or as different as the domain is
+/// large.
 double weight_for(double distance2, double width, int kind, Random& random) {
   switch (kind) {
     case 0:
@@ -98,7 +99,7 @@ SeedArray near_rounding(const Domain& domain, std::size_t most, Random& random) 
   return seeds;
 }
 
-/// The simplices by their seeds, in order.
+/// The simplices, each with ascending seeds, sorted.
 std::vector<std::vector<std::uint32_t>> simplices_of(const Dual& dual) {
   const auto corners = static_cast<std::size_t>(dual.corners);
   std::vector<std::vector<std::uint32_t>> simplices;
@@ -128,7 +129,7 @@ void check_ways_agree(const NamedDomain& named, std::size_t sets, std::size_t mo
   }
 }
 
-/// Of up to `most` seeds each.
+/// Checks sets of up to `most` seeds in all domains.
 void check_all(std::size_t sets, std::size_t most) {
   INFO(replay_hint());
   Random random(test_seed());
@@ -138,22 +139,22 @@ void check_all(std::size_t sets, std::size_t most) {
 
 }  // namespace
 
-TEST_CASE("every precision and provider tells the same neighbours, hidden seeds and dual") {
+TEST_CASE("every precision and provider gives the same neighbours, hidden seeds and dual") {
   check_all(60, 15);
   check_all(2, 600);
 }
 
-TEST_CASE("campaign: every precision and provider tells the same" * doctest::skip()) {
+TEST_CASE("campaign: every precision and provider gives the same" * doctest::skip()) {
   check_all(10000, 15);
 }
 
-TEST_CASE("campaign: every precision and provider tells the same of many seeds" * doctest::skip()) {
+TEST_CASE("campaign: every precision and provider gives the same for many seeds" * doctest::skip()) {
   check_all(100, 1000);
 }
 
-// In single precision the bisector of the pair of seeds that are 5e-14 apart cut off a corner that the wall
-// of another took away again, and how far it might have been off was not asked any more: a wall was missing.
-TEST_CASE("walls that went again are as uncertain as others") {
+// In single precision the bisector of two seeds 5e-14 apart cut off a corner, and another wall removed its
+// face again. The error of the removed face was not taken into account, and a wall was missing.
+TEST_CASE("faces that were removed again are as uncertain as others") {
   const NamedDomain sphere = surface_domains().front();
   const std::vector<double> x = {0.51040928060338131,  -0.96235325667550364, -0.69597476094296429,
                                  -0.87672881495340815, -0.11597619932951475, -0.67734816023935474,

@@ -1,5 +1,5 @@
-// Every OpenCL call of full runs fails once, and the device gets lost at each that needs it. Most jobs try a
-// few calls of each entry point here; all calls of all jobs, under more codes, are
+// Every OpenCL call of full runs fails once, and the device is lost at each call that needs it. Most jobs try
+// only a few calls of each entry point here; all calls of all jobs, with more error codes, are
 //   test_faults --no-skip -tc='campaign*'
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 std::vector<JobKind> jobs_on(const Setup& setup) {
   std::vector<JobKind> jobs;
-  for (const SmallCase& small : small_cases()) {
+  for (const SeededDomain& small : small_cases()) {
     jobs.push_back(diagram_job(setup, small.domain, small.seeds));
     if (setup.options.neighbors == Neighbors::tree)
       jobs.push_back(device_diagram_job(setup, small.domain, small.seeds));
@@ -22,7 +22,7 @@ std::vector<JobKind> jobs_on(const Setup& setup) {
   return jobs;
 }
 
-/// Whether an entry point is of opening devices and building programs, and not of every launch.
+/// Whether an entry point is used for opening devices and building programs, and not in every launch.
 bool of_opening(shim::Entry entry) {
   using shim::Entry;
   switch (entry) {
@@ -61,8 +61,8 @@ void report(const JobKind& job, cl_int code, const Tally& tally) {
 
 }  // namespace
 
-TEST_CASE("every call of a run fails once: an error, nothing lost, and the object works on") {
-  const SmallCase cube = small_cases()[3];
+TEST_CASE("every call of a run fails once: an error, no leak, and the object stays usable") {
+  const SeededDomain cube = small_cases()[3];
   const JobKind job = diagram_job(main_setups().front(), cube.domain, cube.seeds);
   report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries()));
 }
@@ -73,15 +73,15 @@ TEST_CASE("calls of every entry point fail in every kind of run") {
       report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
 }
 
-TEST_CASE("a fault where a cell has more faces than the kernels hold") {
-  const SmallCase many = many_faces(300);
+TEST_CASE("faults with a cell of more faces than the kernels' capacities") {
+  const SeededDomain many = many_faces(300);
   for (const Setup& setup : main_setups()) {
     const JobKind job = diagram_job(setup, many.domain, many.seeds);
     report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
   }
 }
 
-TEST_CASE("the device is lost: errors, nothing left, and once it is back all is well") {
+TEST_CASE("the device is lost: errors, no leak, and correct results when it is back") {
   for (const Setup& setup : main_setups())
     for (const JobKind& job : jobs_on(setup))
       report(job, CL_DEVICE_NOT_AVAILABLE, lose_device_everywhere(job, CL_DEVICE_NOT_AVAILABLE, 7));
@@ -92,10 +92,10 @@ TEST_CASE("opening a device fails at every call") {
   report(job, CL_OUT_OF_HOST_MEMORY, fail_every_call(job, CL_OUT_OF_HOST_MEMORY, all_entries()));
 }
 
-TEST_CASE("a program that does not build: every one of a run") {
-  // A program from the disk that does not build would be compiled instead.
+TEST_CASE("every program of a run fails to build") {
+  // A program from the disk cache that fails to build would be compiled instead.
   const Environment compiled("POWERCELL_CACHE", "never");
-  const SmallCase cube = small_cases()[3];
+  const SeededDomain cube = small_cases()[3];
   const JobKind job = device_job(main_setups().front(), cube.domain, cube.seeds);
   report(job, CL_BUILD_PROGRAM_FAILURE,
          fail_every_call(job, CL_BUILD_PROGRAM_FAILURE, {shim::Entry::clBuildProgram}));
@@ -114,11 +114,11 @@ TEST_CASE("campaign: the device is lost at every call" * doctest::skip()) {
       report(job, CL_OUT_OF_RESOURCES, lose_device_everywhere(job, CL_OUT_OF_RESOURCES));
 }
 
-// Each fault opens a device and compiles all programs, seconds. Of launches and buffers, which the first case
-// fails one and all, the device's self-test and the first diagrams are some hundreds more; they are left out.
+// Each fault opens a device and compiles all programs, which takes seconds. The hundreds of launches and
+// buffers of the device's self-test and the first diagrams are left out; the first test fails all such calls.
 TEST_CASE("campaign: every call fails that opens the device and builds its programs" * doctest::skip()) {
   const Environment compiled("POWERCELL_CACHE", "never");
-  const SmallCase polygon = small_cases().front();  // of all kinds of domain it needs the most programs
+  const SeededDomain polygon = small_cases().front();  // needs the most programs of all kinds of domain
   for (const Setup& setup : all_setups()) {
     if (setup.options.neighbors != Neighbors::tree) continue;
     const JobKind job = device_job(setup, polygon.domain, polygon.seeds);

@@ -27,9 +27,9 @@ struct Progress {
 
 }  // namespace
 
-TEST_CASE("stopped at every call of the callback, a diagram goes on to the same bits") {
+TEST_CASE("a diagram stopped at any call of the callback continues to the same bits") {
   for (const Setup& setup : main_setups())
-    for (const SmallCase& small : small_cases()) {
+    for (const SeededDomain& small : small_cases()) {
       INFO(small.domain.name << ", " << setup.name);
       Progress progress;
       Options options = setup.options;
@@ -61,7 +61,7 @@ TEST_CASE("stopped at every call of the callback, a diagram goes on to the same 
           }
           CHECK(stopped);
           progress = {};
-          CHECK(bit_differences(results_of(diagram), expected) == "");  // goes on
+          CHECK(bit_differences(results_of(diagram), expected) == "");  // continues
           CHECK(bit_differences(results(diagram), expected) == "");     // starts again
           CHECK(shim::alive() == before);
         }

@@ -93,7 +93,7 @@ class OpenJob : public Job {
   std::optional<Device> device_;
 };
 
-/// A buffer of the caller; its failures are errors like those of the library.
+/// A buffer of the caller; throws errors as the library does.
 class Memory {
  public:
   Memory(const Device& device, std::size_t bytes) : device_(device), bytes_(bytes) {
@@ -218,17 +218,14 @@ JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const 
           [=] { return std::make_unique<DeviceDiagramJob>(setup, domain, seeds); }};
 }
 
-std::vector<SmallCase> small_cases() {
-  std::vector<SmallCase> cases;
-  for (const NamedDomain& named : {NamedDomain{"letter U", Domain::polygon(letter_u())},
-                                   {"icosahedron", surface_of(icosphere(0))},
-                                   {"ball", volume_of(ball_tetrahedra(0))},
-                                   {"cube", unit_box(3)}}) {
-    Random random(test_seed());
-    cases.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, 12, random)});
-  }
-  // Strips, and seeds so near each other that the cells between them cannot be told to be inside: the
-  // computation starts again with those region by region.
+std::vector<SeededDomain> small_cases() {
+  std::vector<SeededDomain> cases = with_seeds({{"letter U", Domain::polygon(letter_u())},
+                                                {"icosahedron", surface_of(icosphere(0))},
+                                                {"ball", volume_of(ball_tetrahedra(0))},
+                                                {"cube", unit_box(3)}},
+                                               12);
+  // Strips, and seeds so close together that the cells between them cannot be classified: the computation is
+  // repeated with those clipped region by region.
   Parts strips;
   for (int k = 0; k < 7; ++k)
     strips.push_back({{{k / 7., 0}, {(k + 1) / 7., 0}, {(k + 1) / 7., 1}, {k / 7., 1}}, {}});
@@ -239,7 +236,7 @@ std::vector<SmallCase> small_cases() {
   return cases;
 }
 
-SmallCase many_faces(std::size_t faces) {
+SeededDomain many_faces(std::size_t faces) {
   SeedArray seeds = cospherical(faces, 2);
   seeds.push({0.5, 0.5}, 0.01);
   return {{std::to_string(faces) + " faces", unit_box(2)}, seeds};

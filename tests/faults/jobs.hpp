@@ -1,5 +1,5 @@
 /// \file
-/// Full runs of the library as lists of steps, each of which may fail and be taken again.
+/// Full runs of the library as lists of steps, each of which may fail and be repeated.
 #pragma once
 
 #include <functional>
@@ -14,39 +14,35 @@
 
 namespace powercell::test {
 
-/// Objects of the library under test, and what they gave. A step that throws is taken again in the same
-/// object.
+/// Objects of the library under test and their results. A step that throws is repeated in the same object.
 class Job {
  public:
   virtual ~Job() = default;
   virtual std::size_t steps() const = 0;
   virtual void step(std::size_t k) = 0;
-  /// Against the results of a run without faults; empty where they have the same bits.
+  /// Compares the results to those of a run without faults; empty if they have the same bits.
   virtual std::string differences(const Job& other) const = 0;
 };
 
-/// A kind of job that can be started any number of times.
+/// A kind of job, which can be started repeatedly.
 struct JobKind {
   std::string name;
   std::function<std::unique_ptr<Job>()> start;
 };
 
-/// A Diagram made, given seeds, asked for everything, given weights and asked again in another order.
+/// Makes a Diagram, sets seeds, computes everything, sets weights and computes everything in another order.
 JobKind diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
-/// A DeviceDiagram on the setup's device, computed twice into buffers of the caller.
+/// Computes a DeviceDiagram on the setup's device twice into buffers of the caller.
 JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
-/// Device::choose alone.
+/// Only Device::choose.
 JobKind open_job(const Setup& setup);
-/// Device::choose and a small diagram on that device: every program is built in the job.
+/// Device::choose and a small diagram on that device, so that every program is built in the job.
 JobKind device_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 
-/// A domain of each kind, few seeds: polygon, surface, volume and box, and cells too thin to be told inside.
-struct SmallCase {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-std::vector<SmallCase> small_cases();
-/// One cell of more faces than the first variant of the kernels holds, and of more than any does.
-SmallCase many_faces(std::size_t faces);
+/// Few seeds in a polygon, on a surface, in a volume, in a box, and in strips, with cells too thin to be
+/// classified as inside or outside.
+std::vector<SeededDomain> small_cases();
+/// A square with one cell of this many faces.
+SeededDomain many_faces(std::size_t faces);
 
 }  // namespace powercell::test

@@ -1,4 +1,4 @@
-// Device memory that does not suffice: smaller chunks with the same bits, then an error.
+// Too little device memory: smaller chunks with the same bits, then an error.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,25 +13,16 @@ namespace {
 
 constexpr std::size_t MiB = std::size_t{1} << 20;
 
-struct Case {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-
-/// Enough pairs for several chunks of the least size.
-std::vector<Case> cases() {
-  std::vector<Case> list;
-  for (const NamedDomain& named : {NamedDomain{"square", unit_box(2)},
-                                   {"cube", unit_box(3)},
-                                   {"torus", surface_of(torus(12, 7))},
-                                   {"ball", volume_of(ball_tetrahedra(0))}}) {
-    Random random(test_seed());
-    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, 4000, random)});
-  }
-  return list;
+/// Cases with enough pairs for several chunks of the smallest size.
+std::vector<SeededDomain> cases() {
+  return with_seeds({{"square", unit_box(2)},
+                     {"cube", unit_box(3)},
+                     {"torus", surface_of(torus(12, 7))},
+                     {"ball", volume_of(ball_tetrahedra(0))}},
+                    4000);
 }
 
-/// Adjacency, measures and geometry: what needs device memory.
+/// The results that need device memory.
 struct Output {
   Adjacency adjacency;
   Measures measures;
@@ -46,17 +37,18 @@ std::string differences(const Output& a, const Output& b) {
          bit_differences(a.cells, b.cells);
 }
 
-/// Each chunk brings its pairs to the device. (Launches tell less: small chunks are read without packing.)
+/// The number of uploads, which grows with that of chunks. (That of launches may not: small chunks are not
+/// packed.)
 std::uint64_t uploads() {
   return shim::calls()[static_cast<std::size_t>(shim::Entry::clEnqueueWriteBuffer)];
 }
 
 }  // namespace
 
-TEST_CASE("less and less device memory: smaller chunks with the same bits, then an error, then all is well") {
+TEST_CASE("decreasing device memory: smaller chunks with the same bits, then an error, then recovery") {
   const shim::Scope scope;
   const Setup& setup = main_setups().front();
-  for (const Case& c : cases()) {
+  for (const SeededDomain& c : cases()) {
     INFO(c.domain.name << ", " << setup.name);
     Output expected;
     std::uint64_t uploads_at_best = 0;
@@ -68,7 +60,7 @@ TEST_CASE("less and less device memory: smaller chunks with the same bits, then 
       expected = compute(plenty, c.seeds);
       uploads_at_best = uploads();
       peak = shim::peak_buffer_bytes();
-      // What it holds from then on is more than there is: it gives that back.
+      // The diagram now holds more than the limit; it must free that.
       shim::limit_memory(peak / 2);
       CHECK(differences(compute(plenty, c.seeds), expected) == "");
       shim::behave();
@@ -99,9 +91,9 @@ TEST_CASE("less and less device memory: smaller chunks with the same bits, then 
   }
 }
 
-TEST_CASE("a largest allocation far below the memory: smaller chunks with the same bits") {
+TEST_CASE("a largest allocation far smaller than the memory: smaller chunks with the same bits") {
   const shim::Scope scope;
-  for (const Case& c : cases()) {
+  for (const SeededDomain& c : cases()) {
     const Setup& setup = main_setups().front();
     INFO(c.domain.name << ", " << setup.name);
     Diagram plain(setup.device, c.domain.domain, setup.options);
@@ -110,7 +102,7 @@ TEST_CASE("a largest allocation far below the memory: smaller chunks with the sa
     compute(plain, c.seeds);
     const std::uint64_t uploads_at_best = uploads();
 
-    // Below what all pairs need, and above what the least chunk needs.
+    // Less than all pairs need, but enough for the smallest chunk.
     const std::size_t largest = (c.domain.domain.cell_dimension() == 3 ? 2 : 1) * MiB;
     shim::pretend(CL_DEVICE_MAX_MEM_ALLOC_SIZE, largest);
     const Device small = Device::choose(setup.device.info().selector());
@@ -124,7 +116,7 @@ TEST_CASE("a largest allocation far below the memory: smaller chunks with the sa
   }
 }
 
-TEST_CASE("cells that are clipped before their regions: smaller chunks with the same bits") {
+TEST_CASE("unrestricted cells: smaller chunks with the same bits") {
   const shim::Scope scope;
   const Setup& setup = main_setups().front();
   const Domain ball = volume_of(ball_tetrahedra(2));
@@ -143,19 +135,19 @@ TEST_CASE("cells that are clipped before their regions: smaller chunks with the 
   CHECK(bit_differences(measures_within(peak / 6 * 5), expected) == "");
 }
 
-TEST_CASE("a chunk repeated because its memory could not be given back counts once") {
+TEST_CASE("a chunk repeated after a failed unmap counts once") {
   const shim::Scope scope;
   Setup setup = main_setups().front();
   setup.options.chunk_pairs = 1500;
   setup.options.decisions = Decisions::fast;
   Random random(test_seed());
   const NamedDomain torus_surface{"torus", surface_of(torus(40, 20))};
-  const std::vector<Case> several_chunks = {
-      // Cells of many pieces, which go on from chunk to chunk.
+  const std::vector<SeededDomain> several_chunks = {
+      // Cells of many pieces, which extend over several chunks.
       {torus_surface, seeds_for(torus_surface.domain, Distribution::white, WeightRange::W0, 500, random)},
-      // Every cell is decided by rounding.
+      // Rounding decides every cell.
       {{"cube", unit_box(3)}, grid(16, 3)}};
-  for (const Case& c : several_chunks) {
+  for (const SeededDomain& c : several_chunks) {
     INFO(c.domain.name);
     const auto measured = [&] {
       Diagram diagram(setup.device, c.domain.domain, setup.options);
@@ -188,12 +180,12 @@ TEST_CASE("a chunk repeated because its memory could not be given back counts on
   }
 }
 
-TEST_CASE("an allocation that is too large even for the least chunk is refused by its size") {
+TEST_CASE("if the smallest chunk exceeds the largest allocation, the message names its size") {
   const shim::Scope scope;
   const Setup& setup = main_setups().front();
   shim::pretend(CL_DEVICE_MAX_MEM_ALLOC_SIZE, 64 << 10);
   const Device small = Device::choose(setup.device.info().selector());
-  const Case c = cases()[1];
+  const SeededDomain c = cases()[1];
   Diagram diagram(small, c.domain.domain, setup.options);
   try {
     compute(diagram, c.seeds);

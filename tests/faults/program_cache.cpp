@@ -1,4 +1,4 @@
-// The cache of compiled programs fails call by call: programs are compiled instead.
+// Every call for the disk cache of compiled programs fails once; programs are then compiled.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ std::filesystem::path new_folder() {
   return mkdtemp(pattern.data());
 }
 
-/// A cache of its own, used also where the driver has one, for the length of a scope.
+/// A disk cache for the length of a scope, used even if the driver has its own.
 class OwnCache {
  public:
   ~OwnCache() { std::filesystem::remove_all(folder_); }
@@ -40,7 +40,7 @@ std::string selected() {
   return all_setups().front().device.info().selector();
 }
 
-/// Opens the device with the nth call of `entry` failing; nothing may be left of it.
+/// Opens the device while the nth call of `entry` fails, and checks that nothing leaks.
 void open_with(const std::string& selector, Entry entry, std::uint64_t nth) {
   const shim::Alive before = shim::alive();
   shim::reset_calls();
@@ -53,7 +53,7 @@ void open_with(const std::string& selector, Entry entry, std::uint64_t nth) {
 
 }  // namespace
 
-TEST_CASE("a binary that the driver does not hand out is not kept") {
+TEST_CASE("a binary that the driver does not return is not cached") {
   const shim::Scope scope;
   const std::string selector = selected();
   for (std::uint64_t nth = 1; nth <= 4; ++nth) {
@@ -64,7 +64,7 @@ TEST_CASE("a binary that the driver does not hand out is not kept") {
   }
 }
 
-TEST_CASE("a binary that the driver does not take is compiled anew, and kept again") {
+TEST_CASE("a cached binary that the driver refuses is compiled and cached again") {
   const shim::Scope scope;
   const std::string selector = selected();
   for (const Entry entry : {Entry::clCreateProgramWithBinary, Entry::clBuildProgram}) {

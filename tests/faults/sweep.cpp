@@ -12,8 +12,8 @@ namespace {
 
 using shim::Entry;
 
-/// A fault that need not be an error: the release has taken place, the question had another answer, or
-/// smaller chunks were tried.
+/// Whether a fault need not cause an error: the object was released, the query has an alternative, or smaller
+/// chunks are tried.
 bool may_be_survived(Entry entry, cl_int code) {
   switch (entry) {
     case Entry::clReleaseCommandQueue:
@@ -34,8 +34,8 @@ bool may_be_survived(Entry entry, cl_int code) {
   }
 }
 
-/// Takes the steps; the first error ends the fault, and its step is taken again. The error, if there was one.
-std::optional<Error> take_steps(Job& job) {
+/// Runs all steps. After the first error it stops the fault and repeats the step. Returns the error, if any.
+std::optional<Error> run_steps(Job& job) {
   std::optional<Error> failure;
   for (std::size_t k = 0; k < job.steps(); ++k) {
     try {
@@ -64,19 +64,19 @@ void check_nothing_left(const shim::Alive& before, int wrong_before) {
   CHECK(shim::wrong_releases() == wrong_before);
 }
 
-/// A run without faults, with all programs built before where the device lives longer than the job.
+/// A run without faults, after another one that built the programs of a device that outlives the job.
 std::unique_ptr<Job> undisturbed(const JobKind& kind, shim::Calls& calls, std::uint64_t& device_calls) {
   shim::behave();
-  take_steps(*kind.start());
+  run_steps(*kind.start());
   auto job = kind.start();
   shim::reset_calls();
-  REQUIRE_FALSE(take_steps(*job));
+  REQUIRE_FALSE(run_steps(*job));
   calls = shim::calls();
   device_calls = shim::device_calls();
   return job;
 }
 
-/// Numbers to try of 1 to `count`: all, or `most` of them with the first and the last.
+/// The numbers of 1 to `count` to try: all, or `most` of them, including the first and the last.
 std::vector<std::uint64_t> numbers(std::uint64_t count, std::uint64_t most) {
   std::vector<std::uint64_t> list;
   const std::uint64_t tried = most == 0 ? count : std::min(most, count);
@@ -109,7 +109,7 @@ Tally fail_every_call(const JobKind& kind, cl_int code, const std::vector<Entry>
       {
         const auto job = kind.start();
         shim::fail(entry, nth, code);
-        const std::optional<Error> failure = take_steps(*job);
+        const std::optional<Error> failure = run_steps(*job);
         CHECK(shim::fired());
         shim::behave();
         ++tally.tried;
@@ -155,7 +155,7 @@ Tally lose_device_everywhere(const JobKind& kind, cl_int code, std::uint64_t mos
     check_nothing_left(before, wrong_before);  // while it is lost
     shim::behave();
     const auto again = kind.start();
-    CHECK_FALSE(take_steps(*again));
+    CHECK_FALSE(run_steps(*again));
     CHECK(again->differences(*reference) == "");
   }
   return tally;

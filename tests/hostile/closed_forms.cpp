@@ -1,5 +1,5 @@
-// Inputs that must work, against the closed form of seeds on a line: on a bar with the line as its axis the
-// cells are slices, whatever the domain is made of, and the slices follow from the powers on the line alone.
+// Inputs that must work, against the closed form for seeds on a line: in a bar around the line the cells are
+// slices, on every kind of domain, and follow from the power distances on the line.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Line {
   std::vector<double> x, w;
 };
 
-/// The bar [origin, origin + size]^d of every kind of domain; its axis goes through the middle along x.
+/// The bar [origin, origin + size]^d as one kind of domain; its axis is the middle line along x.
 struct Bar {
   const char* name;
   Domain domain;
@@ -36,11 +36,11 @@ std::vector<Bar> bars(double origin, double size) {
   Parts square = unit_square();
   for (auto& point : square[0].outer)
     for (double& x : point) x = placed(x, origin, size);
-  Mesh plate;  // in the plane z = 1/2, its second triangle turned over
+  Mesh plate;  // in the plane z = 1/2, with the second triangle inverted
   plate.vertices = {0, 0, 0.5, 1, 0, 0.5, 1, 1, 0.5, 0, 1, 0.5};
   plate.elements = {0, 1, 2, 0, 3, 2};
   Random random(7);
-  Mesh solid = cube_tetrahedra(2, 0.1, random);  // every other tetrahedron inside out
+  Mesh solid = cube_tetrahedra(2, 0.1, random);  // every other tetrahedron is inverted
   move(plate.vertices);
   move(solid.vertices);
   const std::vector<double> low(3, placed(0, origin, size)), high(3, placed(1, origin, size));
@@ -51,8 +51,8 @@ std::vector<Bar> bars(double origin, double size) {
           {"box3", Domain::box(low, high)}};
 }
 
-/// Fractions of [0, 1] in which each seed has the least power, by definition. Of seeds at one place the
-/// heaviest, then the first has all.
+/// The fraction of [0, 1] that each seed owns, by definition. Of seeds at one position the heaviest, then the
+/// first, owns all.
 std::vector<double> slices(const Line& line) {
   std::vector<double> mass;
   for (std::size_t i = 0; i < line.x.size(); ++i) {
@@ -76,7 +76,7 @@ std::vector<double> slices(const Line& line) {
   return mass;
 }
 
-/// How far rounding may move a wall, over all walls in the bar; in units of the bar.
+/// A bound for how far rounding moves the walls in the bar, in units of the bar.
 double wall_error(const Line& line, double unit) {
   double most = unit;
   for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -105,7 +105,7 @@ void check_line(const Setup& setup, const Bar& bar, const Line& line, double ori
   const Measures& measures = diagram.measures();
   const double unit = unit_roundoff(diagram.precision());
   const double tolerance = wall_error(line, unit) + 16 * 0x1p-53 * std::fabs(origin) / size;
-  REQUIRE(tolerance < 0.02);  // else nothing is tested
+  REQUIRE(tolerance < 0.02);  // otherwise the test would check nothing
   const std::vector<double> expected = slices(line);
   REQUIRE(measures.mass.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -115,7 +115,7 @@ void check_line(const Setup& setup, const Bar& bar, const Line& line, double ori
     if (expected[i] == 0) CHECK(measures.status[i] != SeedStatus::ok);
   }
   if (expected.empty()) CHECK(measures.total() == 0);
-  // One wall between two slices that lie side by side, right across the bar.
+  // Adjacent slices share one wall across the bar.
   const auto wide =
       std::count_if(expected.begin(), expected.end(), [&](double m) { return m > 4 * tolerance; });
   const auto slivers =
@@ -137,7 +137,7 @@ void check_everywhere(const Line& line) {
 
 }  // namespace
 
-TEST_CASE("no seed, one, two, and fewer than a search asks for") {
+TEST_CASE("no seed, one, two, and fewer than a search expects") {
   check_everywhere({{}, {}});
   check_everywhere({{0.25}, {0}});
   check_everywhere({{-3}, {-7}});
@@ -145,7 +145,7 @@ TEST_CASE("no seed, one, two, and fewer than a search asks for") {
   check_everywhere({{0.125, 0.375, 0.875}, {0.0625, 0, 0.125}});
 }
 
-TEST_CASE("all seeds equal, and equal but for their weights") {
+TEST_CASE("all seeds equal, or all at one position with different weights") {
   check_everywhere({std::vector<double>(30, 0.75), std::vector<double>(30, 0.5)});
   Line line{std::vector<double>(30, 0.25), {}};
   for (int i = 0; i < 30; ++i) line.w.push_back(i * 7 % 30);
@@ -163,9 +163,9 @@ TEST_CASE("weights that hide all but one, and one a million times the others") {
   }
   line.w[9] = 2;
   check_everywhere(line);
-  line.w[9] = 1e-6 * 1e6 / 64;  // reaches an eighth of the bar to either side
+  line.w[9] = 1e-6 * 1e6 / 64;  // its cell extends an eighth of the bar to either side
   check_everywhere(line);
-  line.x[9] = -2;  // from outside it takes a part
+  line.x[9] = -2;  // outside the bar, with a cell in it
   line.w[9] = 6;
   check_everywhere(line);
 }
@@ -185,9 +185,9 @@ TEST_CASE("a constant added to all weights") {
   }
 }
 
-// Seeds 4, 7, 10 and 13 have slices of no width: the bisectors of three seeds are one plane, and the wall
-// there belongs to the two others.
-TEST_CASE("slices of no width") {
+// Seeds 4, 7, 10 and 13 have slices of width 0: the bisectors of three seeds coincide, and the wall is
+// between the two others.
+TEST_CASE("slices of width 0") {
   Line line;
   for (int i = 0; i < 16; ++i) {
     line.x.push_back((i + 0.5) / 16);
@@ -215,7 +215,7 @@ TEST_CASE("seeds far outside, on one side and on both") {
   }
   for (const Bar& bar : bars(0, 1))
     for (const Setup& setup : all_setups()) {
-      if (setup.options.precision == Precision::float32) continue;  // rounding alone is a tenth of the bar
+      if (setup.options.precision == Precision::float32) continue;  // the rounding is a tenth of the bar
       check_line(setup, bar, {{-1e6, 1e6 + 1, 0.5}, {0, 0, -2.5e11}}, 0, 1);
     }
 }
@@ -233,7 +233,8 @@ TEST_CASE("seeds at the ends, on the faces and edges of the bar, and 0 beside -0
       seeds.weights.assign(seeds.size(), 0.0);
       Diagram diagram(setup.device, bar.domain, setup.options);
       diagram.set_seeds(seeds.view());
-      // Quarters of a plane, eighths of a solid; the plate lies between the corners below and above it.
+      // Quarters of a square, eighths of a cube; the plate lies in the walls between the corners below and
+      // above it.
       const bool plate = bar.domain.kind() == DomainKind::surface;
       if (plate) continue;
       for (const double mass : diagram.measures().mass)

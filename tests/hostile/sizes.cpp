@@ -1,5 +1,5 @@
-// Sizes near 2^31 and beyond: refused by name before an element is read, or no matter. The spans claim more
-// than there is, so that nothing needs the memory.
+// Sizes near 2^31 and beyond are refused before an element is read, or have no effect. The spans claim more
+// elements than exist, so that no memory is needed.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -32,7 +32,7 @@ bool mentions(const std::string& message, const std::string& part) {
   return message.find(part) != std::string::npos;
 }
 
-/// A span of `size` elements of which only the first few are there.
+/// A span of `size` elements of which only the first few exist.
 template <class T>
 std::span<const T> claimed(const std::vector<T>& some, std::size_t size) {
   return {some.data(), size};
@@ -57,7 +57,7 @@ TEST_CASE("more seeds than a diagram can hold") {
   }
 }
 
-TEST_CASE("weights and positions of sizes that differ by more than 32 bits can tell") {
+TEST_CASE("sizes of weights and positions that are equal only modulo 2^32") {
   const std::size_t four_more = (std::size_t{1} << 32) + 4;
   const std::string message = refusal([&] {
     square_diagram().set_seeds({2, std::span(kFew).first(8), claimed(kFew, four_more)});
@@ -66,10 +66,10 @@ TEST_CASE("weights and positions of sizes that differ by more than 32 bits can t
   Diagram diagram = square_diagram();
   diagram.set_seeds({2, std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}, {}});
   CHECK(mentions(refusal([&] { diagram.set_weights(claimed(kFew, four_more)); }), "weights for 4 seeds"));
-  CHECK(diagram.measures().relative_error() < 1e-5);  // and it goes on with what it has
+  CHECK(diagram.measures().relative_error() < 1e-5);  // it keeps its seeds
 }
 
-TEST_CASE("vertices, triangles, tetrahedra and parts beyond what indices can name") {
+TEST_CASE("more vertices, triangles, tetrahedra and parts than indices can address") {
   const std::size_t vertices = std::size_t{1} << 31;
   std::string message =
       refusal([&] { Domain::surface(claimed(kFew, 3 * vertices), std::span(kIndices).first(3)); });
@@ -85,7 +85,7 @@ TEST_CASE("vertices, triangles, tetrahedra and parts beyond what indices can nam
   CHECK_MESSAGE(mentions(message, "invalid_domain: a polygon can have at most 2^30 parts"), message);
 }
 
-TEST_CASE("a box of dimensions that there are not") {
+TEST_CASE("a box of dimension other than 2 and 3") {
   for (const std::size_t d : {std::size_t{0}, std::size_t{1}, std::size_t{4}, (std::size_t{1} << 32) + 2})
     CHECK(mentions(refusal([&] { Domain::box(claimed(kFew, d), claimed(kFew, d)); }), "invalid_domain"));
 }
@@ -115,7 +115,7 @@ TEST_CASE("options as large as their types") {
   CHECK(extreme.adjacency().wall == plain.adjacency().wall);
 }
 
-TEST_CASE("seeds for verify of another number than the diagram's") {
+TEST_CASE("verify with another number of seeds than the diagram's") {
   Diagram diagram = square_diagram();
   diagram.set_seeds({2, std::span(kFew).first(2), {}});
   const std::string message = refusal([&] {

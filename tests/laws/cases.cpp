@@ -41,7 +41,7 @@ std::vector<Case> cases(std::size_t n, WeightRange range, const Motion& motion) 
   Random shape(7), random(test_seed());
   const Mesh cube = cube_tetrahedra(2, 0.15, shape);
   std::vector<Case> list;
-  // Seeds are drawn on the domain at rest, so that every motion moves the same ones.
+  // Seeds are drawn before the motion, so that every motion moves the same ones.
   const auto add = [&](const char* name, const Domain& rest, const Domain& there) {
     SeedArray seeds = seeds_for(rest, Distribution::white, range, n, random);
     move(seeds, motion);

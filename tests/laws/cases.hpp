@@ -1,5 +1,5 @@
 /// \file
-/// A domain of each kind that can be moved and scaled with its seeds.
+/// Domains that can be moved and scaled with their seeds.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace powercell::test {
 
-/// x -> scale * rotation x + shift; in the plane a turn about the origin, in space two turns.
+/// x -> scale * rotation x + shift; see rotate() in generators.hpp.
 struct Motion {
   double scale = 1;
   double angle = 0;
@@ -24,11 +24,11 @@ struct Case {
   SeedArray seeds;
 };
 
-/// Polygon with holes, torus, tetrahedra: each moved, with n seeds moved alike (weights scaled by
-/// scale^2). The same for the same test seed but for the motion.
+/// Polygon with holes, torus, tetrahedra, moved with n seeds each (weights times scale^2). The seeds before
+/// the motion depend on the test seed only.
 std::vector<Case> cases(std::size_t n, WeightRange range, const Motion& motion = {});
 
-/// Allowed relative error of a sum over the domain.
+/// The allowed relative error of a sum over the domain.
 double partition_tolerance(Precision precision);
 
 }  // namespace powercell::test

@@ -1,4 +1,4 @@
-// The derivatives of the measures by the weights, from the walls and by finite differences.
+// Derivatives of the measures with respect to the weights: from the walls (15) and by finite differences.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ Vec point(const std::vector<double>& values, int d, std::size_t i) {
   return {x[0], x[1], d == 3 ? x[2] : 0.0};
 }
 
-/// dm_i/dw_j = -a_ij / (2 |p_i - p_j|) for j != i in the plane and in space.
+/// (15): dm_i/dw_j = -a_ij / (2 |p_i - p_j|) for j != i, in the plane and in space.
 std::map<std::pair<std::size_t, std::size_t>, double> from_walls(Diagram& diagram, const SeedArray& seeds) {
   std::map<std::pair<std::size_t, std::size_t>, double> derivative;
   const Adjacency& a = diagram.adjacency();
@@ -32,8 +32,8 @@ std::map<std::pair<std::size_t, std::size_t>, double> from_walls(Diagram& diagra
   return derivative;
 }
 
-/// The same on a surface, where a wall is in many triangles and moves in each at the speed that the
-/// part of p_j - p_i in the triangle's plane gives.
+/// The same on a surface, where a wall crosses many triangles, and moves in each at a speed that depends on
+/// the component of p_j - p_i in the triangle's plane.
 std::map<std::pair<std::size_t, std::size_t>, double> from_edges(Diagram& diagram, const SeedArray& seeds) {
   std::map<std::pair<std::size_t, std::size_t>, double> derivative;
   const RegionMesh& mesh = diagram.domain().mesh();
@@ -90,13 +90,13 @@ void check_derivatives(const Case& one, const Setup& setup) {
 
 }  // namespace
 
-TEST_CASE("derivatives of the measures by the weights follow from the walls") {
+TEST_CASE("derivatives of the measures with respect to the weights follow from the walls") {
   INFO(replay_hint());
   for (const WeightRange range : {WeightRange::W0, WeightRange::W1})
     for (const Case& one : cases(100, range))
       for (const Setup& setup : all_setups()) {
         if (setup.options.precision != Precision::float64)
-          continue;  // a difference quotient eats half the digits
+          continue;  // a difference quotient loses half of the digits
         INFO(one.name << ' ' << name(range) << ", " << setup.name);
         check_derivatives(one, setup);
       }

@@ -20,12 +20,12 @@ Diagram make(const Setup& setup, const Case& one) {
   return diagram;
 }
 
-/// Sizes of results are compared relative to the mean cell, whatever the unit.
+/// A tolerance relative to the mean cell.
 double loose(const Diagram& diagram) {
   return diagram.precision() == Precision::float32 ? 3e-3 : 1e-9;
 }
 
-/// Masses of `a` times `factor` are those of `b`, and the same seeds are hidden.
+/// Checks that the masses of `a` times `factor` are those of `b`, and the same seeds are hidden.
 void check_equal_masses(Diagram& a, Diagram& b, double factor) {
   const Measures &x = a.measures(), &y = b.measures();
   REQUIRE(x.mass.size() == y.mass.size());
@@ -126,7 +126,7 @@ TEST_CASE("weights w_i + 2 t.p_i move the diagram by -t") {
       for (std::size_t i = 0; i < one.seeds.size(); ++i)
         for (int k = 0; k < d; ++k) one.seeds.weights[i] += 2 * t[k] * one.seeds.coordinate(i, k);
       Diagram after = make(setup, one);
-      // Cells that touch the box in either diagram are cut differently; the others must only move.
+      // Cells that touch the box in either diagram are cut differently; all others only move.
       const auto touches = [&](Diagram& diagram, std::size_t i) {
         const Cells& c = diagram.cells();
         for (std::uint64_t p = c.cell_offset[i]; p < c.cell_offset[i + 1]; ++p)
@@ -141,7 +141,7 @@ TEST_CASE("weights w_i + 2 t.p_i move the diagram by -t") {
         if (touches(before, i) || touches(after, i)) continue;
         ++compared;
         CHECK(std::abs(after.measures().mass[i] - before.measures().mass[i]) <= loose(before) / 400);
-        if (before.measures().mass[i] < 0.1 / 400) continue;  // the centroid of a sliver is any point of it
+        if (before.measures().mass[i] < 0.1 / 400) continue;  // centroids of slivers are not accurate
         for (int k = 0; k < d; ++k) {
           const std::size_t at = i * static_cast<std::size_t>(d) + static_cast<std::size_t>(k);
           const double moved = after.measures().centroid[at] - before.measures().centroid[at];

@@ -1,5 +1,5 @@
-// Long use: many diagrams one after the other, many updates of one, many threads. Here in short; as long as
-// it is promised (docs/reliability.md, "Load") with
+// Long use: many diagrams in sequence, many updates of one, many threads. These are short runs; the full ones
+// (docs/reliability.md, "Load") are
 //   test_load --no-skip -tc='long*'
 #include <doctest/doctest.h>
 #include <malloc.h>
@@ -20,7 +20,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Resident memory of this process, bytes, with what the allocator keeps for later given back.
+/// Resident memory of this process in bytes, without the memory that the allocator keeps for reuse.
 std::size_t resident() {
   malloc_trim(0);
   std::size_t pages = 0, resident_pages = 0;
@@ -28,24 +28,15 @@ std::size_t resident() {
   return resident_pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-struct Case {
-  NamedDomain domain;
-  SeedArray seeds;
-};
-
-std::vector<Case> cases(std::size_t n, std::uint64_t seed) {
-  std::vector<Case> list;
-  for (const NamedDomain& named : {NamedDomain{"letter U", Domain::polygon(letter_u())},
-                                   {"torus", surface_of(torus(12, 7))},
-                                   {"ball", volume_of(ball_tetrahedra(0))},
-                                   {"cube", unit_box(3)}}) {
-    Random random(seed);
-    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
-  }
-  return list;
+std::vector<SeededDomain> cases(std::size_t n) {
+  return with_seeds({{"letter U", Domain::polygon(letter_u())},
+                     {"torus", surface_of(torus(12, 7))},
+                     {"ball", volume_of(ball_tetrahedra(0))},
+                     {"cube", unit_box(3)}},
+                    n);
 }
 
-Results fresh(const Setup& setup, const Case& c) {
+Results fresh(const Setup& setup, const SeededDomain& c) {
   Diagram diagram(setup.device, c.domain.domain, setup.options);
   diagram.set_seeds(c.seeds.view());
   return results_of(diagram);
@@ -53,15 +44,15 @@ Results fresh(const Setup& setup, const Case& c) {
 
 constexpr std::size_t MiB = std::size_t{1} << 20;
 
-/// Memory and objects at a time from which on they must not grow. A cell that needs a program no cell needed
-/// before has it built, once: then what is there counts from anew.
+/// Memory and objects at some time, after which they must not grow. If a cell is the first to need some
+/// program, it is built, and the baseline is taken again.
 class Baseline {
  public:
   void take() {
     objects_ = shim::alive();
     bytes_ = resident();
   }
-  void take_if_programs_came() {
+  void take_if_programs_were_built() {
     if (shim::alive().programs > objects_.programs) take();
   }
   void check(const std::string& what, std::size_t allowed) const {
@@ -77,12 +68,12 @@ class Baseline {
   std::size_t bytes_ = 0;
 };
 
-/// Makes and destroys `count` diagrams after `warm_up` others; memory must not grow by more than `allowed`.
+/// Makes and destroys `count` diagrams after `warm_up` others. Memory may grow by at most `allowed`.
 void many_diagrams(std::size_t warm_up, std::size_t count, std::size_t allowed) {
   const Setup& setup = main_setups().front();
-  const std::vector<Case> list = cases(100, test_seed());
+  const std::vector<SeededDomain> list = cases(100);
   std::vector<Results> expected;
-  for (const Case& c : list) expected.push_back(fresh(setup, c));
+  for (const SeededDomain& c : list) expected.push_back(fresh(setup, c));
   const auto make = [&](std::size_t k) {
     CHECK(bit_differences(fresh(setup, list[k % list.size()]), expected[k % list.size()]) == "");
   };
@@ -93,10 +84,10 @@ void many_diagrams(std::size_t warm_up, std::size_t count, std::size_t allowed) 
   baseline.check(std::to_string(count) + " diagrams", allowed);
 }
 
-/// Gives one diagram `count` sets of weights; now and then a fresh diagram must have the same bits.
+/// Sets `count` sets of weights in one diagram, and compares it to a new diagram at times.
 void many_updates(std::size_t warm_up, std::size_t count, std::size_t every, std::size_t allowed) {
   const Setup& setup = main_setups().front();
-  for (Case c : cases(60, test_seed())) {
+  for (SeededDomain c : cases(60)) {
     INFO(c.domain.name);
     Random random(test_seed());
     const double h = spacing(c.domain.domain.measure(), c.seeds.size(), c.domain.domain.cell_dimension());
@@ -113,7 +104,7 @@ void many_updates(std::size_t warm_up, std::size_t count, std::size_t every, std
       diagram.set_weights(c.seeds.weights);
       diagram.measures();
       if (k % 3 == 0) diagram.adjacency();
-      if (k > warm_up) baseline.take_if_programs_came();
+      if (k > warm_up) baseline.take_if_programs_were_built();
       if (k % every != 0) continue;
       CHECK(bit_differences(results_of(diagram), fresh(setup, c)) == "");
       ++compared;
@@ -124,16 +115,15 @@ void many_updates(std::size_t warm_up, std::size_t count, std::size_t every, std
   }
 }
 
-/// Threads that make, change and destroy diagrams of their own on one device, all at once.
+/// Runs threads that make and destroy diagrams of their own on one device.
 void many_threads(std::size_t threads, std::size_t rounds) {
   for (const Setup& setup : main_setups()) {
     INFO(setup.name);
-    const std::vector<Case> list = cases(80, test_seed());
+    const std::vector<SeededDomain> list = cases(80);
     std::vector<Results> expected;
-    for (const Case& c : list) expected.push_back(fresh(setup, c));
+    for (const SeededDomain& c : list) expected.push_back(fresh(setup, c));
     const shim::Alive objects = shim::alive();
-    // A device of its own, on which no program is built yet: they are built and tested by whoever comes
-    // first.
+    // A new device without programs: the first thread to need one builds and tests it.
     const Device device = Device::choose(setup.device.info().selector());
     std::atomic<std::size_t> wrong{0}, errors{0}, done{0};
     std::vector<std::thread> all;
@@ -164,11 +154,11 @@ void many_threads(std::size_t threads, std::size_t rounds) {
 
 }  // namespace
 
-TEST_CASE("diagrams made and destroyed leave no memory behind") {
+TEST_CASE("diagrams made and destroyed leak no memory") {
   many_diagrams(40, 80, 2 * MiB);
 }
 
-TEST_CASE("updates of the weights leave no memory behind and give what fresh diagrams give") {
+TEST_CASE("updates of the weights leak no memory and give the bits of new diagrams") {
   many_updates(60, 120, 45, 2 * MiB);
 }
 

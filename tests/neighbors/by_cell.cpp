@@ -3,9 +3,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/clip/cell_candidates.hpp"
 #include "lib/clip/clipper.hpp"
+#include "lib/clip/unrestricted_cells.hpp"
 #include "lib/domain/outline.hpp"
+#include "lib/neighbors/tree_candidates.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 
@@ -38,14 +39,14 @@ Pieces clip_all(const Scene& scene, Candidates& candidates, const std::vector<st
   return pieces;
 }
 
-/// All pairs with every region, so that many pieces are empty.
+/// Clips all pairs of seeds and regions both ways and compares the pieces, many of which are empty.
 void check_same_pieces(const Domain& domain, const SeedArray& input, bool float32) {
   const Device& device = main_setups().front().device;
   const SeedSet seeds = make_seed_set(input.view(), domain.dimension(), 1);
   const PackedTree tree = build_packed_tree(seeds, 1);
   const RegionMesh mesh = with_container(domain.mesh());
-  Scene scene(device.context(), mesh, float32);
-  scene.set_seeds(seeds, tree);
+  const OwnScene own(device.context(), mesh, float32, seeds, tree);
+  const Scene& scene = own.scene;
   std::vector<std::uint32_t> ranks(seeds.size()), pair_seed, pair_region;
   std::iota(ranks.begin(), ranks.end(), 0U);
   for (const std::uint32_t rank : ranks)
@@ -54,7 +55,9 @@ void check_same_pieces(const Domain& domain, const SeedArray& input, bool float3
       pair_region.push_back(region);
     }
   TreeCandidates by_tree(scene);
-  CellCandidates by_cell(scene, ranks);
+  TreeCandidates searched(scene);
+  const CellWalls walls = clip_unrestricted_cells(scene, searched, ranks);
+  CellCandidates by_cell(std::move(searched), walls, CellPlanes{});
   const Pieces a = clip_all(scene, by_tree, pair_seed, pair_region);
   const Pieces b = clip_all(scene, by_cell, pair_seed, pair_region);
   const double tolerance = (float32 ? 1e-5 : 1e-13) * domain.measure();
@@ -91,7 +94,7 @@ TEST_CASE("clip by cell: the pieces are those of the search in every region") {
     }
 }
 
-TEST_CASE("clip by cell: a cell of very many walls is searched for in each region") {
+TEST_CASE("clip by cell: a cell with hundreds of walls") {
   // One heavy seed in the middle of a ring of 300, whose cell has a wall with each.
   SeedArray seeds;
   seeds.dimension = 2;

@@ -1,5 +1,5 @@
-// Seeds known to be hidden before any cell is clipped: each of them must be, and most of the hidden ones must
-// be found.
+// The search for hidden seeds before clipping: all seeds found must be hidden, and most hidden seeds must be
+// found.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,12 +21,11 @@ struct Found {
 
 std::vector<std::uint8_t> find(const Domain& domain, const SeedSet& seeds, bool float32) {
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(main_setups().front().device.context(), domain.mesh(), float32);
-  scene.set_seeds(seeds, tree);
-  return hidden_seeds(scene);
+  return hidden_seeds(
+      OwnScene(main_setups().front().device.context(), domain.mesh(), float32, seeds, tree).scene);
 }
 
-/// Checks that what is found is hidden by definition; counts.
+/// Checks by brute force that the seeds found are hidden, and counts.
 Found check_found(const Domain& domain, const SeedArray& input, bool float32) {
   const SeedSet seeds = make_seed_set(input.view(), domain.dimension(), 1);
   const std::vector<std::uint8_t> hidden = find(domain, seeds, float32);
@@ -60,8 +59,8 @@ void for_each_precision(const Body& body) {
     }
 }
 
-/// Sets of seeds in positions and with weights that make ties likely, against diagrams of the same seeds,
-/// which are decided exactly and, of so few, made without setting any aside. Returns how many were found.
+/// Compares sets of seeds with likely ties to their exact diagrams, in which so few seeds are never set
+/// aside. Returns the number of hidden seeds found.
 std::size_t check_ties(int d, bool float32, std::size_t sets, Random& random) {
   Options options;
   options.precision = float32 ? Precision::float32 : Precision::float64;
@@ -94,7 +93,7 @@ std::size_t check_ties(int d, bool float32, std::size_t sets, Random& random) {
 
 }  // namespace
 
-TEST_CASE("hidden seeds: most are found among random weights, and no others") {
+TEST_CASE("hidden seeds: with random weights most are found") {
   for_each_precision([](int d, bool float32) {
     for (const Distribution distribution : {Distribution::white, Distribution::blue, Distribution::cluster})
       for (const WeightRange weights : {WeightRange::W1, WeightRange::W2}) {
@@ -107,7 +106,7 @@ TEST_CASE("hidden seeds: most are found among random weights, and no others") {
   });
 }
 
-TEST_CASE("hidden seeds: one that hides all others, and weights that grow from side to side") {
+TEST_CASE("hidden seeds: one seed hides all others; weights grow along an axis") {
   for_each_precision([](int d, bool float32) {
     Random random(test_seed());
     SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 300, d, random);
@@ -120,10 +119,10 @@ TEST_CASE("hidden seeds: one that hides all others, and weights that grow from s
   });
 }
 
-TEST_CASE("hidden seeds: a cell of one point, or none by the least, is left to exact decisions") {
+TEST_CASE("hidden seeds: cells that are a point, or nearly, are left to exact decisions") {
   for_each_precision([](int d, bool float32) {
-    // A seed in the middle of each square or cube of a lattice, of a weight that leaves it a corner of all
-    // others.
+    // A seed in the middle of each square or cube of a lattice, with a weight that reduces its cell to a
+    // point.
     const int side = 4;  // a power of two: positions and weights are exact
     SeedArray seeds = grid(side, d);
     const std::size_t corners = seeds.size();
@@ -144,7 +143,7 @@ TEST_CASE("hidden seeds: a cell of one point, or none by the least, is left to e
   });
 }
 
-TEST_CASE("hidden seeds: among ties, none that has a cell") {
+TEST_CASE("hidden seeds: no seed with a cell is found among ties") {
   for_each_precision([](int d, bool float32) {
     Random random(test_seed());
     CHECK(check_ties(d, float32, 40, random) > 30);
@@ -160,7 +159,7 @@ TEST_CASE("campaign: hidden seeds among ties" * doctest::skip()) {
   });
 }
 
-TEST_CASE("hidden seeds: numbers at the ends of their range") {
+TEST_CASE("hidden seeds: extreme positions and weights") {
   for_each_precision([](int d, bool float32) {
     Random random(test_seed());
     for (const double scale : {1e-9, 1.0, 1e9})

@@ -26,7 +26,7 @@ Result compute(const Domain& domain, const SeedArray& seeds, const Options& opti
   return {diagram.measures(), diagram.adjacency()};
 }
 
-/// Cells are cut in another order, so only rounding may tell two providers apart.
+/// The providers cut cells in different orders, so their results differ by rounding.
 void check_same(const Result& lists, const Result& tree, double domain_measure) {
   REQUIRE(lists.measures.status == tree.measures.status);
   REQUIRE(lists.adjacency.offset == tree.adjacency.offset);
@@ -35,7 +35,7 @@ void check_same(const Result& lists, const Result& tree, double domain_measure) 
     REQUIRE(std::abs(lists.measures.mass[i] - tree.measures.mass[i]) <= 1e-12 * domain_measure);
 }
 
-/// What figures 3, 4 and 6 of the paper vary.
+/// The options that figures 3, 4 and 6 of the paper vary.
 std::vector<Options> list_options(const SeedArray& seeds) {
   const double largest = *std::max_element(seeds.weights.begin(), seeds.weights.end());
   std::vector<Options> all;
@@ -79,7 +79,7 @@ TEST_CASE("lists: the cells do not depend on the lift, the twin or the first len
     }
 }
 
-TEST_CASE("lists: squares of lengths in the caller's unit may be beyond the range of doubles") {
+TEST_CASE("lists: squares of lengths in the caller's unit may overflow or underflow") {
   INFO(replay_hint());
   if (!main_setups().front().device.info().fp64) return;  // single precision refuses such seeds
   for (const double unit : {0x1p-330, 1.0, 0x1p330})
@@ -92,7 +92,7 @@ TEST_CASE("lists: squares of lengths in the caller's unit may be beyond the rang
       SeedArray seeds{2, {}, std::vector<double>(200)};
       for (int k = 0; k < 400; ++k) seeds.positions.push_back(unit * extent * random.uniform(-1, 1));
       Options options;
-      options.decisions = Decisions::fast;  // or cells with useless lists would be mended on the host
+      options.decisions = Decisions::fast;  // exact ones would repair cells with wrong lists on the host
       Diagram tree(main_setups().front().device, domain, options);
       options.neighbors = Neighbors::flann;
       options.initial_neighbors = 4;

@@ -9,7 +9,6 @@
 #include "kernels/layout.h"
 #include "lib/clip/clipper.hpp"
 #include "lib/neighbors/list_candidates.hpp"
-#include "lib/pairs/enumerate.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 
@@ -22,19 +21,18 @@ ListUse count_use(const Device& device, const Domain& domain, const SeedArray& a
                   const Options& options) {
   const SeedSet seeds = make_seed_set(array.view(), domain.dimension(), 1);
   const PackedTree tree = build_packed_tree(seeds, 1);
-  Scene scene(device.context(), domain.mesh(), false);
-  scene.set_seeds(seeds, tree);
-  ListCandidates lists(scene, options);
+  const OwnScene own(device.context(), domain.mesh(), false, seeds, tree);
+  ListCandidates lists(own.scene, options);
   lists.count_use();
   std::vector<std::uint32_t> ranks(seeds.size());
   std::iota(ranks.begin(), ranks.end(), 0U);
-  Clipper(scene, lists, OUTPUT_MOMENTS).clip(ranks, std::vector<std::uint32_t>(seeds.size(), 0));
+  Clipper(own.scene, lists, OUTPUT_MOMENTS).clip(ranks, std::vector<std::uint32_t>(seeds.size(), 0));
   return lists.use();
 }
 
-/// Neighbours nearer to the query than twice the radius of the finished cell (docs/mathematics.md (8)), from
+/// The number of neighbours within the security radius of the finished cells (docs/mathematics.md (8)), from
 /// the geometry of the cells and all pairs of seeds.
-std::uint64_t needed_by_the_rule(Diagram& diagram, const SeedArray& seeds, double eta, bool twins) {
+std::uint64_t within_security_radius(Diagram& diagram, const SeedArray& seeds, double eta, bool twins) {
   const Cells& cells = diagram.cells();
   const auto d = static_cast<std::size_t>(seeds.dimension);
   std::uint64_t needed = 0;
@@ -60,7 +58,7 @@ std::uint64_t needed_by_the_rule(Diagram& diagram, const SeedArray& seeds, doubl
 
 }  // namespace
 
-TEST_CASE("lists: what is counted is what the stopping rule asks for") {
+TEST_CASE("lists: the counts agree with the security radius") {
   INFO(replay_hint());
   const Device& device = main_setups().front().device;
   if (!device.info().fp64) return;
@@ -84,10 +82,10 @@ TEST_CASE("lists: what is counted is what the stopping rule asks for") {
         CAPTURE(twins);
         CAPTURE(factor);
         CHECK(use.pairs == seeds.size());
-        CHECK(use.tried == needed_by_the_rule(diagram, seeds, options.lift_eta, twins));
+        CHECK(use.tried == within_security_radius(diagram, seeds, options.lift_eta, twins));
         CHECK(use.cuts >= diagram.adjacency().neighbor.size());
         CHECK(use.cuts <= use.tried);
-        // Each pair that round r does not finish is asked again with twice as many.
+        // The next round queries each unfinished pair with a list twice as long.
         REQUIRE(use.pairs_per_round.size() == static_cast<std::size_t>(diagram.timings().rounds));
         std::uint64_t queries = 0, entries = 0, left = use.pairs;
         for (std::size_t round = 0; round < use.pairs_per_round.size(); ++round) {

@@ -1,4 +1,4 @@
-// Brute force, CGAL and voro++ have nothing in common but the definition of a power diagram.
+// Brute force, CGAL and voro++ share nothing but the definition of a power diagram.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ TEST_CASE("brute force finds the simplices of CGAL whose corners lie in the box"
   for (const int d : {2, 3})
     for_random_seeds(60, d, [&](const SeedArray& seeds) {
       const RegularTriangulation cgal = regular_triangulation(seeds.view());
-      // In a box that holds every corner the two sets are the same.
+      // In a box that contains every corner the two sets are equal.
       const Box wide{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}};
       const ReferenceDiagram all = brute_force(box_mesh(d, wide), seeds.view());
       std::set<std::array<std::uint32_t, 4>> expected;

@@ -1,4 +1,4 @@
-// Brute force against diagrams that can be worked out on paper.
+// Brute force against diagrams with closed forms.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ using namespace powercell::test;
 
 namespace {
 
-constexpr double tiny = 1e-17;  // long double: a few of its roundings at size one
+constexpr double tiny = 1e-17;  // a few roundings of long double, for numbers about 1
 
 bool near(Real a, Real b, double tolerance = tiny) {
   return std::abs(static_cast<double>(a - b)) <= tolerance;
@@ -95,7 +95,7 @@ TEST_CASE("brute force: hexagonal and body-centred lattices") {
   CHECK(hexagon_faces == 8);
 }
 
-TEST_CASE("brute force: of seeds at one place the heaviest has the cell, then the first") {
+TEST_CASE("brute force: of seeds at one position the heaviest has the cell, then the first") {
   for (const int d : {2, 3}) {
     SeedArray seeds;
     seeds.dimension = d;
@@ -124,7 +124,7 @@ TEST_CASE("brute force: no seeds, one seed") {
   CHECK(near(brute_force(box_mesh(2), one.view()).mass[0], 1));
 }
 
-TEST_CASE("brute force: cutting keeps the sum, and what is cut off fits what is kept") {
+TEST_CASE("brute force: measures sum to the domain's, and walls are symmetric") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const int d : {2, 3}) {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs a build into a folder of its own and builds consumers against that: by CMake and by pkg-config,
-# in C++ and in C, and each host program of examples/. Then runs them.
+# Installs a build into a temporary folder, builds consumers against it (by CMake and by pkg-config, in C++ and in C,
+# and each host program of examples/) and runs them.
 # usage: tests/packaging/run.sh BUILD_FOLDER
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
@@ -14,18 +14,19 @@ step "install"
 cmake --install "$build" --prefix "$prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
 libraries=$(find "$prefix" -name 'libpowercell_*.so' -o -name 'libpowercell_*.a')
 for name in powercell.pc powercell-core.pc libpowercell_core libpowercell_applications; do
-  [ -n "$(find "$prefix" -name "$name*")" ] || { echo "no $name was installed" >&2; exit 1; }
+  [ -n "$(find "$prefix" -name "$name*")" ] || { echo "$name was not installed" >&2; exit 1; }
 done
 
 step "hidden symbols"
-# Only powercell:: and pc_ may be exported; typeinfo and inline members of std types are the C++
-# run-time's way of being unique and weak.
+# Only powercell:: and pc_ may be exported, and the typeinfo and vtables of powercell's types. (Weak symbols, such as
+# inline members of std types, are not checked.)
 for library in $libraries; do
   case $library in *.a) continue ;; esac
   foreign=$(nm -D --defined-only "$library" | awk '$2 == "T" || $2 == "D" || $2 == "B" { print $3 }' |
     c++filt | grep -vE '^(powercell::|pc_|(vtable|typeinfo( name)?|VTT) for powercell::)' || true)
-  [ -z "$foreign" ] || { printf 'exported, but not ours:\n%s\n' "$foreign" >&2; exit 1; }
-  readelf -d "$library" | grep -q 'SONAME.*libpowercell_[a-z]*\.so\.[0-9]' || { echo "no SONAME" >&2; exit 1; }
+  [ -z "$foreign" ] || { printf '%s exports symbols of others:\n%s\n' "$library" "$foreign" >&2; exit 1; }
+  readelf -d "$library" | grep -q 'SONAME.*libpowercell_[a-z]*\.so\.[0-9]' ||
+    { echo "$library has no SONAME with a version" >&2; exit 1; }
 done
 
 step "the moved tree: find_package"
@@ -40,9 +41,9 @@ for program in host_cpp host_c own_queue; do
   step "run $program"
   "$work/examples/$program"
 done
-# Diagrams alone need neither the applications nor what those need.
+# A program that only makes diagrams must not link the applications or their dependencies.
 ! ldd "$work/examples/host_cpp" | grep -E 'powercell_applications|muparser' ||
-  { echo "a program that makes diagrams needs more than the core" >&2; exit 1; }
+  { echo "host_cpp links more than the core" >&2; exit 1; }
 
 step "pkg-config"
 flags="$(pkg-config --cflags --libs powercell)"
@@ -61,7 +62,7 @@ LD_LIBRARY_PATH=$libdir "$work/by_core" >/dev/null
 step "every public header compiles alone"
 for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | sort); do
   echo "#include <$header>" | ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ \
-    -I "$prefix/include" - || { echo "header $header does not stand alone" >&2; exit 1; }
+    -I "$prefix/include" - || { echo "header $header does not compile alone" >&2; exit 1; }
 done
 echo "#include <powercell.h>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
   -I "$prefix/include" -

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "tests/pairs/region_meshes.hpp"
 #include "tests/pairs/true_pairs.hpp"
 #include "tests/support/brute_force.hpp"
@@ -21,15 +21,18 @@ struct Enumerated {
   Pairs pairs;
 };
 
-Enumerated enumerate(const RegionMesh& mesh, std::size_t n, WeightRange range) {
-  Random random(test_seed());
-  const SeedArray seeds = random_seeds(Distribution::white, range, n, mesh.dimension, random);
+Enumerated enumerate(const RegionMesh& mesh, const SeedArray& seeds) {
   Enumerated all{make_seed_set(seeds.view(), mesh.dimension, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  all.pairs = PairFinder(mesh, 2).by_regions(all.seeds, build_packed_tree(all.seeds, 2));
   return all;
 }
 
-/// Random points of random regions: the seed of least power there must be a candidate of the region.
+Enumerated enumerate(const RegionMesh& mesh, std::size_t n, WeightRange range) {
+  Random random(test_seed());
+  return enumerate(mesh, random_seeds(Distribution::white, range, n, mesh.dimension, random));
+}
+
+/// Checks that the owners of random points of random regions are candidates of these regions.
 void check_owners(const RegionMesh& mesh, const Enumerated& all, int samples) {
   Random random(test_seed() + 1);
   const SeedsView view{all.seeds.dimension, all.seeds.positions, all.seeds.weights};
@@ -44,7 +47,7 @@ void check_owners(const RegionMesh& mesh, const Enumerated& all, int samples) {
       for (std::size_t k = 0; k < d; ++k)
         x[k] += share[c] / sum * mesh.vertices[mesh.region_vertex[mesh.region_offset[r] + c] * d + k];
     const auto [rank, gap] = owner(view, x);
-    if (gap < 1e-12L) continue;  // the rounding of x may have moved it out of the region
+    if (gap < 1e-12L) continue;  // x may lie outside the region by rounding
     const auto first = all.pairs.region.begin();
     CHECK(std::binary_search(first + static_cast<std::ptrdiff_t>(all.pairs.offset[rank]),
                              first + static_cast<std::ptrdiff_t>(all.pairs.offset[rank + 1]), r));
@@ -58,7 +61,7 @@ TEST_CASE("many seeds in two triangles: about one pair a seed") {
   const RegionMesh mesh = square_of_triangles(1);
   for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
     const Enumerated all = enumerate(mesh, 200000, range);
-    // Cells along the diagonal, about 1.3 sqrt(2) sqrt(n) of them, count twice; twice as many may.
+    // About 1.3 sqrt(2) sqrt(n) cells along the diagonal have two pairs; allow twice as many.
     CHECK(all.pairs.region.size() < 200000 + 4 * 448);
     check_owners(mesh, all, 200);
   }
@@ -75,7 +78,7 @@ TEST_CASE("ten seeds on many triangles: about one pair a triangle") {
   }
 }
 
-TEST_CASE("many seeds in space, a surface of twelve triangles: only the cells at the surface") {
+TEST_CASE("many seeds in space and a surface of twelve triangles: only cells at the surface have pairs") {
   INFO(replay_hint());
   const RegionMesh mesh = cube_surface(1);
   for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
@@ -87,7 +90,7 @@ TEST_CASE("many seeds in space, a surface of twelve triangles: only the cells at
   }
 }
 
-TEST_CASE("seeds and tetrahedra in like numbers") {
+TEST_CASE("as many seeds as tetrahedra") {
   INFO(replay_hint());
   Random random(test_seed());
   const RegionMesh mesh = volume_regions(cube_tetrahedra(12, 0.2, random));
@@ -95,7 +98,7 @@ TEST_CASE("seeds and tetrahedra in like numbers") {
     check_owners(mesh, enumerate(mesh, 10000, range), 500);
 }
 
-TEST_CASE("clusters far below the size of the regions that they straddle stay cheap") {
+TEST_CASE("clusters much smaller than the regions that they straddle make few pairs") {
   INFO(replay_hint());
   Random random(test_seed());
   // Half of the seeds within 1e-7 of the diagonal of the square, where its two triangles meet.
@@ -103,8 +106,7 @@ TEST_CASE("clusters far below the size of the regions that they straddle stay ch
   for (std::size_t i = 0; i < 10000; ++i)
     for (int k = 0; k < 2; ++k) seeds.coordinate(i, k) = 0.5 + 1e-7 * random.uniform(-1, 1);
   const RegionMesh mesh = square_of_triangles(1);
-  Enumerated all{make_seed_set(seeds.view(), 2, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  const Enumerated all = enumerate(mesh, seeds);
   CHECK(all.pairs.region.size() < 20000 + 7 * 142);
   check_owners(mesh, all, 300);
 }
@@ -112,7 +114,7 @@ TEST_CASE("clusters far below the size of the regions that they straddle stay ch
 TEST_CASE("seeds far outside whose weights bring their cells into the domain") {
   INFO(replay_hint());
   Random random(test_seed());
-  // The Voronoi cells of y: |x-y-t|^2 - 2 t.y is |x-y|^2 but for a term that all seeds share.
+  // These are the Voronoi cells of y: |x-y-t|^2 - 2 t.y is |x-y|^2 plus a term common to all seeds.
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 16000, 2, random);
   for (std::size_t i = 0; i < 16000; ++i) {
     seeds.weights[i] = 2 * 2 * seeds.coordinate(i, 0);
@@ -120,23 +122,21 @@ TEST_CASE("seeds far outside whose weights bring their cells into the domain") {
   }
   const RegionMesh mesh = square_of_triangles(1);
   const auto start = std::chrono::steady_clock::now();
-  Enumerated all{make_seed_set(seeds.view(), 2, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  const Enumerated all = enumerate(mesh, seeds);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  CHECK(seconds.count() < 30);  // pair by pair it took minutes
+  CHECK(seconds.count() < 30);  // a test of each pair takes minutes
   CHECK(all.pairs.region.size() < 16000 + 4 * 127);
   check_owners(mesh, all, 300);
 }
 
-TEST_CASE("weights over six decades: nodes of mixed weights are refined, not given up") {
+TEST_CASE("weights over six decades: nodes of mixed weights are refined") {
   INFO(replay_hint());
   Random random(test_seed());
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 50000, 3, random);
   const double h = spacing(1, seeds.size(), 3);
   for (double& w : seeds.weights) w = h * h * std::pow(10.0, random.uniform(-3, 3));
   const RegionMesh mesh = cube_surface(10);
-  Enumerated all{make_seed_set(seeds.view(), 3, 2), {}};
-  all.pairs = enumerate_pairs(mesh, all.seeds, build_packed_tree(all.seeds, 2), 2);
+  const Enumerated all = enumerate(mesh, seeds);
   // A few hundred heavy seeds share the 1200 triangles.
   CHECK(all.pairs.region.size() < 3 * mesh.region_count());
   check_owners(mesh, all, 300);
@@ -152,7 +152,8 @@ TEST_CASE("one region, no seeds, no regions") {
   CHECK(all.pairs.offset.back() == all.seeds.size());
 
   const SeedSet none = make_seed_set(SeedsView{2, {}, {}}, 2, 1);
-  const Pairs without_seeds = enumerate_pairs(square_of_triangles(2), none, build_packed_tree(none, 1), 1);
+  const Pairs without_seeds =
+      PairFinder(square_of_triangles(2), 1).by_regions(none, build_packed_tree(none, 1));
   CHECK(without_seeds.offset == std::vector<std::uint64_t>{0});
   CHECK(without_seeds.region.empty());
 
@@ -161,14 +162,14 @@ TEST_CASE("one region, no seeds, no regions") {
   CHECK(enumerate(empty, 5, WeightRange::W0).pairs.offset == std::vector<std::uint64_t>(6, 0));
 }
 
-TEST_CASE("progress is told, and stops the work when asked") {
+TEST_CASE("the progress callback is called, and can stop the search") {
   const RegionMesh mesh = square_of_triangles(40);
   Random random(1);
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 1000, 2, random);
   const SeedSet set = make_seed_set(seeds.view(), 2, 1);
   const PackedTree tree = build_packed_tree(set, 1);
   double last = 0;
-  enumerate_pairs(mesh, set, tree, 1, [&](double fraction) {
+  PairFinder(mesh, 1).by_regions(set, tree, [&](double fraction) {
     CHECK(fraction > last);
     last = fraction;
     return true;
@@ -177,8 +178,8 @@ TEST_CASE("progress is told, and stops the work when asked") {
   for (const int threads : {1, 3}) {
     int calls = 0;
     try {
-      enumerate_pairs(mesh, set, tree, threads, [&](double) { return ++calls < 2; });
-      // With more threads the caller may find fewer than two tasks to do.
+      PairFinder(mesh, threads).by_regions(set, tree, [&](double) { return ++calls < 2; });
+      // With more threads the calling thread may run fewer than two tasks.
       CHECK(threads > 1);
       CHECK(calls < 2);
     } catch (const Error& error) {
@@ -188,7 +189,7 @@ TEST_CASE("progress is told, and stops the work when asked") {
   }
 }
 
-TEST_CASE("the boundary is asked for progress too, and told none") {
+TEST_CASE("the search at the boundary calls the progress callback with 0") {
   const RegionMesh mesh = Domain::polygon(square_with_holes()).mesh();
   Random random(1);
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 1000, 2, random);

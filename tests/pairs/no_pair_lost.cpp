@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 #include "tests/pairs/region_meshes.hpp"
 #include "tests/pairs/true_pairs.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 struct NamedMesh {
   std::string name;
   RegionMesh mesh;
-  double most;  // candidates for each true pair on random seeds: the worst measured, and a tenth more
+  double most;  // candidates per true pair on random seeds: the largest measured, plus a tenth
 };
 
 std::vector<NamedMesh> meshes() {
@@ -48,8 +48,8 @@ void check_none_lost(const PairSet& found, const PairSet& expected) {
                 lost.empty() ? 0 : lost[0].first, ", rank ", lost.empty() ? 0 : lost[0].second);
 }
 
-/// With some of the other seeds for the walls of each cell, every `step`th: whatever they are, no true pair
-/// is missing.
+/// Searches by cells, with every `step`th other seed as a neighbour of each cell. No true pair may be
+/// missing, whatever the neighbours are.
 void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& expected, std::size_t step) {
   CellWalls walls;
   BoundaryRanks all;
@@ -62,16 +62,16 @@ void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& e
       if (j != i) walls.neighbor.push_back(j);
   }
   walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
-  const Pairs pairs = PairFinder(mesh, 1).of_cells(set, all, walls, false);
+  const Pairs pairs = PairFinder(mesh, 1).by_cells(set, all, walls, false);
   check_rows(pairs, set.size());
   check_none_lost(as_set(pairs), expected);
-  const Pairs again = PairFinder(mesh, 3).of_cells(set, all, walls, false);
+  const Pairs again = PairFinder(mesh, 3).by_cells(set, all, walls, false);
   CHECK(again.offset == pairs.offset);
   CHECK(again.region == pairs.region);
 
-  // Of others than those asked for the cells are whole.
+  // Ranks that are not searched have one pair, with the container.
   ranks.erase(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(ranks.size() / 2));
-  const Pairs half = PairFinder(mesh, 1).of_cells(set, all, walls, false);
+  const Pairs half = PairFinder(mesh, 1).by_cells(set, all, walls, false);
   check_rows(half, set.size());
   for (std::size_t i = 0; i < set.size() / 2; ++i) {
     REQUIRE(half.offset[i + 1] == half.offset[i] + 1);
@@ -80,12 +80,12 @@ void check_by_cells(const RegionMesh& mesh, const SeedSet& set, const PairSet& e
   CHECK(half.region.size() - set.size() / 2 == pairs.region.size() - pairs.offset[set.size() / 2]);
 }
 
-/// No true pair is missing; rows ascend; the result is the same for any number of threads.
-/// Returns candidates per true pair.
+/// Checks that no true pair is missing, rows ascend, and the result is the same for any number of threads.
+/// Returns the number of candidates per true pair.
 double check(const RegionMesh& mesh, const SeedArray& seeds) {
   const SeedSet set = make_seed_set(seeds.view(), mesh.dimension, 1);
   const PackedTree tree = build_packed_tree(set, 1);
-  const Pairs pairs = enumerate_pairs(mesh, set, tree, 1);
+  const Pairs pairs = PairFinder(mesh, 1).by_regions(set, tree);
   check_rows(pairs, set.size());
 
   const PairSet expected = true_pairs(mesh, set);
@@ -94,7 +94,7 @@ double check(const RegionMesh& mesh, const SeedArray& seeds) {
   REQUIRE(!expected.empty());
 
   for (const int threads : {2, 5}) {
-    const Pairs again = enumerate_pairs(mesh, set, tree, threads);
+    const Pairs again = PairFinder(mesh, threads).by_regions(set, tree);
     CHECK(again.offset == pairs.offset);
     CHECK(again.region == pairs.region);
   }
@@ -126,7 +126,7 @@ SeedArray all_outside(int dimension, Random& random) {
 
 }  // namespace
 
-TEST_CASE("no pair is lost and few are needless: random seeds and weights") {
+TEST_CASE("no pair is lost and few are superfluous: random seeds and weights") {
   INFO(replay_hint());
   for (const NamedMesh& m : meshes()) {
     Random random(test_seed());
@@ -170,7 +170,8 @@ TEST_CASE("no pair is lost: degenerate seeds") {
     }
 }
 
-TEST_CASE("no pair is lost, nor many gained, by scale, place and a constant in the weights") {
+TEST_CASE(
+    "no pair is lost and few are superfluous: scaled, moved, and with a constant added to the weights") {
   INFO(replay_hint());
   struct Change {
     double scale, by, weight;
@@ -188,7 +189,7 @@ TEST_CASE("no pair is lost, nor many gained, by scale, place and a constant in t
       RegionMesh mesh = m.mesh;
       transform(mesh, c.scale, c.by);
       const double ratio = check(mesh, seeds);
-      // Where squares overflow or vanish nothing can be told apart, and everything stays.
+      // Where squares overflow or underflow, nothing is excluded.
       if (c.scale > 1e-100 && c.scale < 1e100) CHECK(ratio < m.most);
     }
 }

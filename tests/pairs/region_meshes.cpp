@@ -27,7 +27,7 @@ Elements grouped(const std::vector<std::uint32_t>& flat, std::size_t corners) {
   return elements;
 }
 
-/// Two triangles for each cell of a grid of (n+1)^2 vertices numbered from `base`, rows of the first axis.
+/// Two triangles for each cell of a grid of (n+1)^2 vertices, numbered from `base` along the first axis.
 void add_grid(Elements& elements, std::uint32_t base, std::uint32_t n) {
   for (std::uint32_t j = 0; j < n; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {

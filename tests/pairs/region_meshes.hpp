@@ -1,5 +1,5 @@
 /// \file
-/// Regions made by hand, with what pair enumeration reads: corners, shapes and dimensions.
+/// Regions with the fields that the search for pairs reads: corners, shapes and dimensions.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace powercell::test {
 
-/// Corner counts may differ; `elements` are the corners of each region. Tetrahedra are turned positive.
+/// \param elements  the corners of each region; tetrahedra are oriented positively
 RegionMesh regions(RegionShape shape, int dimension, const std::vector<double>& vertices,
                    const std::vector<std::vector<std::uint32_t>>& elements);
 

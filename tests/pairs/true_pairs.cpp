@@ -38,10 +38,11 @@ Polyhedron polyhedron_of(const std::vector<Vec>& corners) {
   return p;
 }
 
-/// Cut by all others, those of least power in the region first, as they empty it soonest.
+/// Cuts `piece` by all others, those of least power first, since they empty it soonest. Returns whether a
+/// part is left.
 template <class Polytope>
 bool meets(Polytope piece, const SeedsView& view, std::uint32_t i, const std::vector<std::uint32_t>& others) {
-  // Cuts through a corner leave slivers of the rounding of long double, about 1e-19 of the length.
+  // Cuts through a corner leave slivers as thin as the rounding of long double, about 1e-19 of the length.
   const Real nothing = 1e-16L * moments(piece).measure;
   for (const std::uint32_t j : others) {
     if (j == i) continue;

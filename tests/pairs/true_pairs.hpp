@@ -1,11 +1,11 @@
 /// \file
-/// Pairs by definition, and checks of the enumeration against them.
+/// Pairs by definition, to check the search for pairs.
 #pragma once
 
 #include <set>
 #include <utility>
 
-#include "lib/pairs/enumerate.hpp"
+#include "lib/pairs/pair_finder.hpp"
 
 namespace powercell::test {
 

@@ -7,23 +7,23 @@
 using namespace powercell;
 using namespace powercell::test;
 
-TEST_CASE("the entries of a wanted value are listed in order") {
+TEST_CASE("the entries equal to the wanted value are listed in order") {
   Compaction compaction(test_context());
   for (const std::uint32_t count : counts)
-    for (const std::uint32_t most : {0u, 1u, 200u}) {
-      const auto values = random_values<std::uint32_t>(count, most);
+    for (const std::uint32_t wanted : {0u, 1u, 200u}) {
+      const auto values = random_values<std::uint32_t>(count, wanted);
       std::vector<std::uint32_t> expected;
       for (std::uint32_t k = 0; k < count; ++k)
-        if (values[k] == most) expected.push_back(k);
+        if (values[k] == wanted) expected.push_back(k);
       for (const std::size_t local : group_sizes) {
         CAPTURE(count);
-        CAPTURE(most);
+        CAPTURE(wanted);
         CAPTURE(local);
         cl::Buffer<std::uint32_t> input(test_context()), indices(test_context()), found(test_context());
         input.upload(values);
         indices.resize(count);
         found.resize(1);
-        compaction.enqueue(input.handle(), count, most, indices.handle(), found.handle(), local);
+        compaction.enqueue(input.handle(), count, wanted, indices.handle(), found.handle(), local);
         REQUIRE(found.download()[0] == expected.size());
         std::vector<std::uint32_t> listed(expected.size());
         indices.download(std::span(listed));

@@ -20,8 +20,8 @@ struct Sorted {
   bool operator==(const Sorted&) const = default;
 };
 
-/// Values are the places of the keys, so they show the stability too.
-std::vector<std::uint32_t> places(std::size_t count) {
+/// Values are the indices of the keys, so they also show whether the sort is stable.
+std::vector<std::uint32_t> indices(std::size_t count) {
   std::vector<std::uint32_t> values(count);
   std::iota(values.begin(), values.end(), 0u);
   return values;
@@ -31,24 +31,24 @@ Sorted sorted_by_device(RadixSort& sort, const Keys& keys, unsigned bits) {
   cl::Buffer<std::uint64_t> key_buffer(test_context());
   cl::Buffer<std::uint32_t> value_buffer(test_context());
   key_buffer.upload(keys);
-  value_buffer.upload(places(keys.size()));
+  value_buffer.upload(indices(keys.size()));
   sort.enqueue(key_buffer.handle(), value_buffer.handle(), static_cast<std::uint32_t>(keys.size()), bits);
   return {key_buffer.download(), value_buffer.download()};
 }
 
 Sorted sorted_by_host(const Keys& keys) {
-  Sorted result{{}, places(keys.size())};
+  Sorted result{{}, indices(keys.size())};
   std::stable_sort(result.values.begin(), result.values.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
   for (const std::uint32_t at : result.values) result.keys.push_back(keys[at]);
   return result;
 }
 
-void check(const char* what, RadixSort& sort, const Keys& keys, unsigned bits) {
-  CAPTURE(what);
+void check(const char* kind, RadixSort& sort, const Keys& keys, unsigned bits) {
+  CAPTURE(kind);
   CAPTURE(keys.size());
   CAPTURE(bits);
-  // Not one big comparison in CHECK: doctest would spell out a million keys.
+  // Compared outside of CHECK, or doctest would print a million keys.
   const bool equal = sorted_by_device(sort, keys, bits) == sorted_by_host(keys);
   CHECK(equal);
 }
@@ -69,13 +69,13 @@ TEST_CASE("pairs are sorted as by std::stable_sort") {
   }
 }
 
-TEST_CASE("keys of few bits are sorted in few passes") {
+TEST_CASE("keys of few bits are sorted") {
   RadixSort sort(test_context());
   for (const unsigned bits : {1u, 3u, 8u, 9u, 17u, 31u, 32u, 63u})
     check("random", sort, random_values<std::uint64_t>(5000, (std::uint64_t{1} << bits) - 1), bits);
 }
 
-TEST_CASE("the order does not depend on digits, tiles and work-groups") {
+TEST_CASE("the order does not depend on the size of digits, tiles and work-groups") {
   const Keys keys = random_values<std::uint64_t>(70001, 5000);
   const Sorted expected = sorted_by_host(keys);
   for (const unsigned digit_bits : {4u, 8u})

@@ -38,7 +38,7 @@ void check_all_counts(ExclusiveScan::Type type, T most) {
 
 TEST_CASE("prefix sums equal those of the standard library") {
   check_all_counts<std::uint32_t>(ExclusiveScan::Type::uint32, 4000);
-  // Sums beyond 32 bits.
+  // Sums need more than 32 bits.
   check_all_counts<std::uint64_t>(ExclusiveScan::Type::uint64, std::uint64_t{1} << 40);
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// What the tests of the primitives share.
+/// Device, sizes and random values for the tests of the primitives.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace powercell::test {
 
-/// The device that the environment chooses; kept to the end of the process.
+/// The context of the default device; never destroyed.
 inline std::shared_ptr<cl::Context> test_context() {
   static auto* device = new Device(Device::choose());
   return device->context();
 }
 
-/// Around the sizes of tiles and levels, and large ones.
+/// Lengths around the sizes of tiles and levels, and large ones.
 inline const std::vector<std::uint32_t> counts = {0,   1,   2,   127,  128,   129,   255,    256,
                                                   257, 511, 513, 4097, 16384, 16385, 100000, 1000003};
-/// Sizes of work-groups; 0 lets the device choose.
+/// Sizes of work-groups; 0 chooses by the device.
 inline const std::vector<std::size_t> group_sizes = {0, 1, 8, 64};
 
 template <class T>

@@ -1,4 +1,4 @@
-// Files that announce far more than they hold: refused by name, and before memory for it is asked for.
+// Files that announce far more than they contain are refused by name, before memory is allocated for it.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <zlib.h>
@@ -23,7 +23,7 @@ long most_memory_kib() {
 
 struct Claim {
   const char* extension;
-  std::string before, after;  // the count goes between
+  std::string before, after;  // around the count
 };
 
 template <class Number>
@@ -31,56 +31,56 @@ std::string bytes_of(Number value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n";
-const std::string kPly = "ply\nformat ascii 1.0\nelement vertex ";
-const std::string kProperties = "\nproperty float x\nproperty float y\nproperty float z\n";
-const std::string kVtk = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-const std::string kVtkPoints = kVtk + "POINTS 3 double\n" + kTriangle;
-const std::string kMsh2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
-const std::string kMsh4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n";
+const std::string triangle = "0 0 0\n1 0 0\n0 1 0\n";
+const std::string ply = "ply\nformat ascii 1.0\nelement vertex ";
+const std::string properties = "\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string vtk = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+const std::string vtk_points = vtk + "POINTS 3 double\n" + triangle;
+const std::string msh2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
+const std::string msh4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n";
 
-const Claim kText[] = {
-    {".off", "OFF\n", " 1 0\n" + kTriangle},
-    {".off", "OFF\n3 ", " 0\n" + kTriangle + "3 0 1 2\n"},
-    {".off", "OFF\n3 1 0\n" + kTriangle, " 0 1 2\n"},
-    {".ply", kPly, kProperties + "end_header\n" + kTriangle},
-    {".ply", kPly + "3" + kProperties + "element face ",
-     "\nproperty list uchar int vertex_indices\nend_header\n" + kTriangle + "3 0 1 2\n"},
+const Claim claims[] = {
+    {".off", "OFF\n", " 1 0\n" + triangle},
+    {".off", "OFF\n3 ", " 0\n" + triangle + "3 0 1 2\n"},
+    {".off", "OFF\n3 1 0\n" + triangle, " 0 1 2\n"},
+    {".ply", ply, properties + "end_header\n" + triangle},
+    {".ply", ply + "3" + properties + "element face ",
+     "\nproperty list uchar int vertex_indices\nend_header\n" + triangle + "3 0 1 2\n"},
     {".ply",
-     kPly + "3" + kProperties + "element face 1\nproperty list uint int vertex_indices\nend_header\n" +
-         kTriangle,
+     ply + "3" + properties + "element face 1\nproperty list uint int vertex_indices\nend_header\n" +
+         triangle,
      " 0 1 2\n"},
     {".mesh", "MeshVersionFormatted 2\nDimension 3\nVertices ", "\n0 0 0 0\n"},
     {".mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0 0\nTetrahedra ", "\n1 1 1 1 0\n"},
     {".mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0 0\nEdges ", "\n1 1 0\n"},
-    {".msh", kMsh2, "\n1 0 0 0\n$EndNodes\n"},
-    {".msh", kMsh2 + "1\n1 0 0 0\n$EndNodes\n$Elements\n", "\n1 4 2 0 1 1 1 1 1\n$EndElements\n"},
-    {".msh", kMsh4 + "1 ", " 1 1\n3 1 0 1\n1\n0 0 0\n$EndNodes\n"},
-    {".msh", kMsh4, " 1 1 1\n3 1 0 1\n1\n0 0 0\n$EndNodes\n"},
-    {".vtk", kVtk + "POINTS ", " double\n0 0 0\n"},
-    {".vtk", kVtkPoints + "CELLS ", " 4\n3 0 1 2\n"},
-    {".vtk", kVtkPoints + "CELLS 1 ", "\n3 0 1 2\n"},
-    {".vtk", kVtkPoints + "CELLS 1 4\n", " 0 1 2\n"},
-    {".vtk", kVtkPoints + "CELLS 1 4\n3 0 1 2\nCELL_TYPES ", "\n5\n"},
-    {".vtk", kVtkPoints + "FIELD f ", "\na 1 1 double\n0\n"},
-    {".vtk", kVtkPoints + "FIELD f 1\na ", " 4 double\n0\n"},
+    {".msh", msh2, "\n1 0 0 0\n$EndNodes\n"},
+    {".msh", msh2 + "1\n1 0 0 0\n$EndNodes\n$Elements\n", "\n1 4 2 0 1 1 1 1 1\n$EndElements\n"},
+    {".msh", msh4 + "1 ", " 1 1\n3 1 0 1\n1\n0 0 0\n$EndNodes\n"},
+    {".msh", msh4, " 1 1 1\n3 1 0 1\n1\n0 0 0\n$EndNodes\n"},
+    {".vtk", vtk + "POINTS ", " double\n0 0 0\n"},
+    {".vtk", vtk_points + "CELLS ", " 4\n3 0 1 2\n"},
+    {".vtk", vtk_points + "CELLS 1 ", "\n3 0 1 2\n"},
+    {".vtk", vtk_points + "CELLS 1 4\n", " 0 1 2\n"},
+    {".vtk", vtk_points + "CELLS 1 4\n3 0 1 2\nCELL_TYPES ", "\n5\n"},
+    {".vtk", vtk_points + "FIELD f ", "\na 1 1 double\n0\n"},
+    {".vtk", vtk_points + "FIELD f 1\na ", " 4 double\n0\n"},
     {".vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"",
      "\" NumberOfCells=\"1\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 "
      "0 0"
      "</DataArray></Points></Piece></UnstructuredGrid></VTKFile>"},
-    {".tet", "", " 1\n" + kTriangle + "0 0 1\n0 1 2 3\n"},
-    {".tet", "4 ", "\n" + kTriangle + "0 0 1\n0 1 2 3\n"},
+    {".tet", "", " 1\n" + triangle + "0 0 1\n0 1 2 3\n"},
+    {".tet", "4 ", "\n" + triangle + "0 0 1\n0 1 2 3\n"},
     {".txt", "", " 1\n0 0\n1 0\n0 1\n0 1 2\n"},
     {".txt", "3 ", "\n0 0\n1 0\n0 1\n0 1 2\n"},
 };
 
-const char* const kCounts[] = {"2147483648",
-                               "4294967296",
-                               "4294967299",
-                               "1099511627776",
-                               "9223372036854775807",
-                               "18446744073709551615",
-                               "99999999999999999999999"};
+const char* const counts[] = {"2147483648",
+                              "4294967296",
+                              "4294967299",
+                              "1099511627776",
+                              "9223372036854775807",
+                              "18446744073709551615",
+                              "99999999999999999999999"};
 
 void check_refused(const std::string& text, const std::string& extension) {
   CAPTURE(text);
@@ -90,16 +90,16 @@ void check_refused(const std::string& text, const std::string& extension) {
 
 }  // namespace
 
-TEST_CASE("text files that announce more than they hold") {
+TEST_CASE("text files that announce more than they contain") {
   const long before = most_memory_kib();
-  for (const Claim& claim : kText)
-    for (const char* count : kCounts) check_refused(claim.before + count + claim.after, claim.extension);
+  for (const Claim& claim : claims)
+    for (const char* count : counts) check_refused(claim.before + count + claim.after, claim.extension);
   CHECK(most_memory_kib() - before < 64 * 1024);
 }
 
-TEST_CASE("binary files that announce more than they hold") {
+TEST_CASE("binary files that announce more than they contain") {
   const long before = most_memory_kib();
-  const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 3" + kProperties +
+  const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 3" + properties +
                           "element face 1\nproperty list uint int vertex_indices\nend_header\n" +
                           std::string(36, '\0');
   for (const std::uint32_t count : {0x80000000u, 0xffffffffu, 1000u}) {
@@ -113,7 +113,7 @@ TEST_CASE("binary files that announce more than they hold") {
     msh +=
         bytes_of(3) + bytes_of(1) + bytes_of(0) + bytes_of(count) + std::string(64, '\0') + "\n$EndNodes\n";
     check_refused(msh, ".msh");
-    // Raw appended data whose header announces the bytes that follow.
+    // Raw appended data with a header that announces the number of bytes.
     check_refused(
         "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\"><UnstructuredGrid>"
@@ -123,7 +123,7 @@ TEST_CASE("binary files that announce more than they hold") {
         "<AppendedData encoding=\"raw\">_" +
             bytes_of(count) + std::string(24, '\0') + "</AppendedData></VTKFile>",
         ".vtu");
-    // Compressed: blocks, their size, the size of the last, the size of each compressed.
+    // Compressed: number of blocks, their size, the size of the last, the compressed size of each.
     check_refused(
         "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
         "compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid><Piece NumberOfPoints=\"1\" "
@@ -146,9 +146,9 @@ TEST_CASE("binary files that announce more than they hold") {
   CHECK(most_memory_kib() - before < 64 * 1024);
 }
 
-TEST_CASE("tables of seeds that announce more than they hold") {
+TEST_CASE("tables of seeds that announce more than they contain") {
   const long before = most_memory_kib();
-  for (const char* count : kCounts) {
+  for (const char* count : counts) {
     CAPTURE(count);
     CHECK(says(refusal([&] { parse_seeds_text(std::string(count) + "\n0 0\n1 1\n", 2, "f"); }),
                "invalid_file"));
@@ -163,7 +163,7 @@ TEST_CASE("tables of seeds that announce more than they hold") {
   CHECK(most_memory_kib() - before < 64 * 1024);
 }
 
-TEST_CASE("pictures of more pixels than deflate could have packed") {
+TEST_CASE("pictures with more pixels than deflate can pack into their size") {
   const auto big_endian = [](unsigned value) {
     return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16 & 255),
                        static_cast<char>(value >> 8 & 255), static_cast<char>(value & 255)};
@@ -183,7 +183,7 @@ TEST_CASE("pictures of more pixels than deflate could have packed") {
   CHECK(most_memory_kib() - before < 64 * 1024);
 }
 
-TEST_CASE("trees nested so deeply that the paths of their nodes fill the memory") {
+TEST_CASE("trees nested so deeply that the paths of their nodes would fill the memory") {
   const long before = most_memory_kib();
   std::string deep;
   for (int level = 0; level < 50000; ++level) deep += "{\"children\":[";

@@ -1,4 +1,4 @@
-// From the argument of --domain to the domain, and random seeds in it.
+// Domains from the argument of --domain, and random seeds in them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ TEST_CASE("built-in shapes") {
   CHECK(says(refusal([] { read_domain("disk:9x"); }), "the resolution is not a whole number"));
   CHECK(says(refusal([] { read_domain("square:4"); }), "square takes no resolution"));
   CHECK(says(refusal([] { read_domain("ball", DomainKind::surface); }),
-             "domain ball is a volume, not a surface"));
+             "domain ball is a volume, but --kind is surface"));
 }
 
 TEST_CASE("files become domains of the right kind and measure") {
@@ -59,7 +59,7 @@ TEST_CASE("files become domains of the right kind and measure") {
         doctest::Approx(0.5));
 }
 
-TEST_CASE("what the library refuses is said with the name of the file") {
+TEST_CASE("errors of the library name the file") {
   const TemporaryFolder folder;
   const std::string bow = folder.write("bow.wkt", "POLYGON ((0 0, 1 1, 1 0, 0 1, 0 0))");
   const std::string message = refusal([&] { read_domain(bow); });
@@ -67,7 +67,7 @@ TEST_CASE("what the library refuses is said with the name of the file") {
   CHECK(says(message, "bow.wkt: "));
 }
 
-TEST_CASE("random seeds are in the domain, uniform, and the same every time") {
+TEST_CASE("random seeds are in the domain, uniform and reproducible") {
   for (const char* spec : {"square", "disk:64", "cube", "ball:6", "sphere:12"}) {
     CAPTURE(spec);
     const Domain domain = read_domain(spec).domain;
@@ -80,7 +80,7 @@ TEST_CASE("random seeds are in the domain, uniform, and the same every time") {
       mean[k % d] += seeds.positions[k] / 20000;
       CHECK_UNARY(seeds.positions[k] >= domain.low()[k % d] && seeds.positions[k] <= domain.high()[k % d]);
     }
-    // All five are symmetric about the middle of their box; four standard deviations of a mean.
+    // All five are symmetric about the middle of their box. Tolerance: four standard deviations of a mean.
     for (std::size_t axis = 0; axis < d; ++axis) {
       const double width = domain.high()[axis] - domain.low()[axis];
       CHECK(std::abs(mean[axis] - (domain.low()[axis] + domain.high()[axis]) / 2) <
@@ -112,9 +112,9 @@ TEST_CASE("random seeds fill a tetrahedron evenly") {
   CHECK(std::abs(count[4] - 20000) < 4 * 100);
 }
 
-TEST_CASE("the generator keeps to its definition on every machine") {
+TEST_CASE("the generator is the same on every machine") {
   const SeedTable seeds = read_seeds("random:2:0:1:1", read_domain("square").domain);
-  // The 4th and the 8th number of the generator started with 1, from a separate implementation in Python
-  // (a seed takes four in the plane: piece, two for the place, weight).
+  // The 4th and the 8th number of the generator with seed 1, from a separate implementation in Python
+  // (a seed in the plane takes four: one for the piece, two for the position, one for the weight).
   CHECK(seeds.weights == std::vector<double>{0x1.90b871ef099a8p-2, 0x1.865537311ec7ap-2});
 }

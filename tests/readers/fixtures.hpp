@@ -22,7 +22,7 @@ inline std::string data_bytes(const std::string& name) {
   return read_file(data(name));
 }
 
-/// A folder of its own, removed with all in it.
+/// A new folder that is removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -43,7 +43,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// What `call` throws, as "code: message"; "nothing" where it does not throw.
+/// The error that `call` throws, as "code: message"; "nothing" if it does not throw.
 inline std::string refusal(const std::function<void()>& call) {
   try {
     call();

@@ -1,4 +1,4 @@
-// Meshes that Gmsh, meshio and VTK wrote: every format must give the same cube.
+// Meshes written by Gmsh, meshio and VTK: every format must give the same cube.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -31,7 +31,7 @@ double dot(const Vec& a, const Vec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Volume of the tetrahedra, or six times the signed volume inside the triangles over six.
+// Volume of the tetrahedra, or inside the triangles.
 double volume(const DomainArrays& mesh) {
   const std::size_t corners = mesh.kind == DomainKind::volume ? 4 : 3;
   double sum = 0;
@@ -60,34 +60,34 @@ DomainArrays load(const std::string& file, std::optional<DomainKind> kind = std:
   return parse_domain(data_bytes(file), lower_extension(file), kind, file);
 }
 
-const char* const kVolumes[] = {"cube.mesh",
-                                "cube_22_ascii.msh",
-                                "cube_22_binary.msh",
-                                "cube_41_ascii.msh",
-                                "cube_41_binary.msh",
-                                "cube_meshio_ascii.vtk",
-                                "cube_vtk_42_ascii.vtk",
-                                "cube_vtk_42_binary.vtk",
-                                "cube_vtk_51_ascii.vtk",
-                                "cube_vtk_51_binary.vtk",
-                                "cube_meshio_zlib.vtu",
-                                "cube_meshio_plain.vtu",
-                                "cube_vtk_ascii.vtu",
-                                "cube_vtk_base64.vtu",
-                                "cube_vtk_zlib.vtu",
-                                "cube_vtk_appended_raw.vtu",
-                                "cube_vtk_appended_base64.vtu",
-                                "cube_vtk_appended_raw_zlib.vtu",
-                                "cube_vtk_appended_base64_zlib.vtu"};
-const char* const kSurfaces[] = {"cube.off",        "cube.obj",       "cube_ascii.ply",
-                                 "cube_binary.ply", "cube_ascii.stl", "cube_binary.stl"};
+const char* const volume_files[] = {"cube.mesh",
+                                    "cube_22_ascii.msh",
+                                    "cube_22_binary.msh",
+                                    "cube_41_ascii.msh",
+                                    "cube_41_binary.msh",
+                                    "cube_meshio_ascii.vtk",
+                                    "cube_vtk_42_ascii.vtk",
+                                    "cube_vtk_42_binary.vtk",
+                                    "cube_vtk_51_ascii.vtk",
+                                    "cube_vtk_51_binary.vtk",
+                                    "cube_meshio_zlib.vtu",
+                                    "cube_meshio_plain.vtu",
+                                    "cube_vtk_ascii.vtu",
+                                    "cube_vtk_base64.vtu",
+                                    "cube_vtk_zlib.vtu",
+                                    "cube_vtk_appended_raw.vtu",
+                                    "cube_vtk_appended_base64.vtu",
+                                    "cube_vtk_appended_raw_zlib.vtu",
+                                    "cube_vtk_appended_base64_zlib.vtu"};
+const char* const surface_files[] = {"cube.off",        "cube.obj",       "cube_ascii.ply",
+                                     "cube_binary.ply", "cube_ascii.stl", "cube_binary.stl"};
 
 }  // namespace
 
 TEST_CASE("every volume format gives the same vertices and tetrahedra") {
   const DomainArrays reference = load("cube_22_ascii.msh");
   REQUIRE(reference.elements.size() > 4 * 20);
-  for (const char* file : kVolumes) {
+  for (const char* file : volume_files) {
     CAPTURE(file);
     const DomainArrays mesh = load(file);
     CHECK(mesh.kind == DomainKind::volume);
@@ -103,7 +103,7 @@ TEST_CASE("every volume format gives the same vertices and tetrahedra") {
 }
 
 TEST_CASE("every surface format gives the faces of the cube") {
-  for (const char* file : kSurfaces) {
+  for (const char* file : surface_files) {
     CAPTURE(file);
     const DomainArrays mesh = load(file);
     CHECK(mesh.kind == DomainKind::surface);
@@ -116,7 +116,7 @@ TEST_CASE("every surface format gives the faces of the cube") {
   }
 }
 
-TEST_CASE("corners of an STL file at one place become one vertex") {
+TEST_CASE("corners of an STL file at the same position become one vertex") {
   const DomainArrays mesh = load("cube_binary.stl");
   std::set<Vec> places;
   for (std::size_t v = 0; v < mesh.vertices.size() / 3; ++v) {
@@ -126,7 +126,7 @@ TEST_CASE("corners of an STL file at one place become one vertex") {
   CHECK(load("cube_ascii.stl").elements == mesh.elements);
 }
 
-TEST_CASE("ASCII STL begins in any way that a word does, binary STL with any") {
+TEST_CASE("ASCII STL may begin with blanks or a byte order mark, binary STL with any bytes") {
   const std::string ascii = data_bytes("cube_ascii.stl");
   const DomainArrays mesh = load("cube_ascii.stl");
   std::string upper = ascii;
@@ -143,7 +143,7 @@ TEST_CASE("ASCII STL begins in any way that a word does, binary STL with any") {
   }
 }
 
-TEST_CASE("the faces of a volume file make a surface when asked for") {
+TEST_CASE("the faces of a volume file make a surface on request") {
   for (const char* file : {"cube.mesh", "cube_22_binary.msh", "cube_41_binary.msh", "cube_vtk_51_binary.vtk",
                            "cube_vtk_appended_raw_zlib.vtu"}) {
     CAPTURE(file);
@@ -153,7 +153,7 @@ TEST_CASE("the faces of a volume file make a surface when asked for") {
   }
 }
 
-TEST_CASE("doubles come through unrounded, in the order of the file") {
+TEST_CASE("doubles are read exactly, in the order of the file") {
   const std::string text = "OFF\n3 1 0\n1000000000.1 0 0\n1000000000.3 0 1e-7\n0 1 0\n3 2 0 1\n";
   const DomainArrays mesh = parse_domain(text, ".off", std::nullopt, "t.off");
   CHECK(mesh.vertices[0] == 1000000000.1);
@@ -162,7 +162,7 @@ TEST_CASE("doubles come through unrounded, in the order of the file") {
   CHECK(mesh.elements == std::vector<std::uint32_t>{2, 0, 1});
 }
 
-TEST_CASE("OFF: counts, vertices and colours on lines in any way") {
+TEST_CASE("OFF: counts, vertices and colours in any arrangement of lines") {
   const std::string faces = "3 0 2 1\n3 0 1 3 255 0 0\n3 0 3 2\n3 1 2 3\n";
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
   const std::vector<double> corner{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -182,7 +182,7 @@ TEST_CASE("OFF: counts, vertices and colours on lines in any way") {
   }
 }
 
-TEST_CASE("what a mesh does not need is passed over, whatever it holds") {
+TEST_CASE("parts of a file that a mesh does not need are skipped, whatever they contain") {
   const auto elements = [](const std::string& text, const std::string& extension) {
     return parse_domain(text, extension, std::nullopt, "t" + extension).elements;
   };
@@ -240,7 +240,7 @@ TEST_CASE("CRLF, comments, a byte order mark, colours and negative indices are r
 }
 
 TEST_CASE("a concave face keeps its area, in any plane") {
-  // An arrow head: the fan of its first corner would leave the face.
+  // An arrow head: the fan of its first corner would not stay in the face.
   const std::string rows[] = {"0 0 0\n4 0 0\n2 1 0\n2 4 0\n", "0 0 0\n0 4 0\n0 2 1\n0 2 4\n",
                               "0 0 0\n0 0 4\n1 0 2\n4 0 2\n"};
   for (const std::string& points : rows) {

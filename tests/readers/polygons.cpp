@@ -47,7 +47,7 @@ TEST_CASE("GeoJSON: a polygon with a hole, a multipolygon, features") {
   CHECK(area(states) == doctest::Approx(2));
 }
 
-TEST_CASE("GeoJSON: refusals name the line or the place") {
+TEST_CASE("GeoJSON: errors name the line or the object") {
   const auto message = [](const std::string& text) {
     return refusal([&] { parse_geojson(text, "t.json"); });
   };
@@ -55,14 +55,14 @@ TEST_CASE("GeoJSON: refusals name the line or the place") {
              "invalid_file: t.json:4: is not JSON, or truncated"));
   CHECK(says(message(R"({"type":"Point","coordinates":[0,0]})"), "t.json: $ is a Point; only Polygon"));
   CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,"a"],[0,0]]]})"),
-             "$.coordinates[0][2] is no point"));
+             "$.coordinates[0][2] is not a point"));
   CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1]]]})"),
              "$.coordinates[0] is not closed"));
   CHECK(says(message(R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1e999],[0,0]]]})"),
              "invalid_file: t.json: is not JSON"));
   CHECK(says(message(R"({"type":"FeatureCollection","features":[]})"), "holds no polygon"));
   CHECK(says(message(R"({"type":"Polygon","coordinates":[]})"), "holds no polygon"));
-  CHECK(says(message("[1, 2]"), "is no GeoJSON object"));
+  CHECK(says(message("[1, 2]"), "is not a GeoJSON object"));
   const std::string bow = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,1],[1,0],[0,1],[0,0]]]}";
   CHECK(says(message("{\"type\":\"GeometryCollection\",\"geometries\":[" + bow + "," + bow + "]}"),
              "invalid_domain: t.json: polygon 0 (from 0): Self-intersection at (0.5, 0.5)"));
@@ -77,7 +77,7 @@ TEST_CASE("WKT: polygons, multipolygons, several geometries") {
         doctest::Approx(1));
 }
 
-TEST_CASE("WKT: empty geometries hide nothing") {
+TEST_CASE("WKT: geometries after empty ones are read") {
   const std::string one = "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", two = "POLYGON ((2 0, 4 0, 4 1, 2 1, 2 0))";
   const auto read = [](const std::string& text) { return area(parse_wkt(text, "t.wkt")); };
   CHECK(read(one + "\nPOLYGON EMPTY\n" + two) == doctest::Approx(3));
@@ -89,7 +89,7 @@ TEST_CASE("WKT: empty geometries hide nothing") {
   CHECK(read("MULTIPOLYGON (EMPTY, ((0 0, 1 0, 1 1, 0 1, 0 0)))\n" + two) == doctest::Approx(3));
 }
 
-TEST_CASE("WKT: a number of the reference system before a geometry is passed over") {
+TEST_CASE("WKT: the number of a reference system before a geometry is ignored") {
   const std::string one = "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", two = "POLYGON ((2 0, 4 0, 4 1, 2 1, 2 0))";
   CHECK(area(parse_wkt("SRID=4326;" + one + "\nsrid=4326; " + two, "t.wkt")) == doctest::Approx(3));
   const auto message = [](const std::string& text) { return refusal([&] { parse_wkt(text, "t.wkt"); }); };
@@ -99,7 +99,7 @@ TEST_CASE("WKT: a number of the reference system before a geometry is passed ove
   CHECK(says(message("SRID=;" + one), "t.wkt:1: SRID= needs a number and a ';'"));
 }
 
-TEST_CASE("WKT: refusals name the line") {
+TEST_CASE("WKT: errors name the line") {
   const auto message = [](const std::string& text) { return refusal([&] { parse_wkt(text, "t.wkt"); }); };
   CHECK(says(message("\n\nPOLYGON ((0 0, 1 0, 1 x, 0 0))"), "invalid_file: t.wkt:3: is not well-known text"));
   CHECK(says(message("POLYGON ((0 0, 1 0, 1 1"), "t.wkt:1: a geometry whose parentheses do not close"));
@@ -134,7 +134,7 @@ TEST_CASE("SVG: shapes, y upwards") {
             .size() == 1);
 }
 
-TEST_CASE("SVG: path commands, absolute and relative, close together") {
+TEST_CASE("SVG: path commands, absolute and relative, without blanks") {
   const double expected = 12;
   for (const char* d : {"M0 0 L4 0 L4 3 L0 3 Z", "m0,0 4,0 0,3-4,0z", "M0 0H4V3H0z", "m0 0h4v3h-4z",
                         "M0,0 4,0 4,3 0,3", "M0 0C1 0 2 0 4 0L4 3 0 3", "M.0.0L4,.0 4e0 3 0 30e-1z"}) {
@@ -153,7 +153,7 @@ TEST_CASE("SVG: path commands, absolute and relative, close together") {
 
 TEST_CASE("SVG: curves stay within the tolerance") {
   const auto parts = draw("<circle r='7'/>");
-  const double tolerance = kSvgTolerance * 7 * 2 * std::numbers::sqrt2;
+  const double tolerance = svg_tolerance * 7 * 2 * std::numbers::sqrt2;
   REQUIRE(parts.size() == 1);
   const Ring& ring = parts[0].outer;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -184,7 +184,7 @@ TEST_CASE("SVG: the two fill rules") {
   CHECK(area(draw("<path d='" + opposite + "'/>")) == doctest::Approx(12));
   CHECK(area(draw("<path fill-rule='evenodd' d='" + same + "'/>")) == doctest::Approx(12));
   CHECK(area(draw("<g style='fill-rule:evenodd'><path d='" + same + "'/></g>")) == doctest::Approx(12));
-  // A pentagram: the middle counts only by the nonzero rule.
+  // A pentagram: the middle is filled only by the nonzero rule.
   const std::string star = "points='0,-10 5.878,8.09 -9.511,-3.09 9.511,-3.09 -5.878,8.09'";
   CHECK(area(draw("<polygon " + star + "/>")) >
         area(draw("<polygon fill-rule='evenodd' " + star + "/>")) + 30);
@@ -236,7 +236,7 @@ TEST_CASE("SVG: only what is drawn counts") {
                   "width='2' height='1'/></g>")) == doctest::Approx(2));
 }
 
-TEST_CASE("SVG: what would change the area and is not read is refused") {
+TEST_CASE("SVG: unsupported features that would change the area are refused") {
   const auto message = [](const std::string& body) { return refusal([&] { draw("\n" + body); }); };
   const auto sheet = [&](const std::string& css) { return message("<style>" + css + "</style>"); };
   CHECK(says(message("<rect clip-path='url(#c)'/>"), "t.svg:3: <rect>: clip-path is not read"));
@@ -255,22 +255,22 @@ TEST_CASE("SVG: what would change the area and is not read is refused") {
   CHECK(says(sheet(".a"), "ends with '.a'"));
   CHECK(says(sheet(".a{.b{display:none}}"), "rules inside rules"));
   CHECK(says(refusal([] { parse_svg("<?xml-stylesheet href='a.css'?><svg/>", "t.svg"); }),
-             "t.svg:1: <xml-stylesheet>: a style sheet of its own"));
+             "t.svg:1: <xml-stylesheet>: external style sheets"));
 }
 
-TEST_CASE("SVG: refusals name the line and the element") {
+TEST_CASE("SVG: errors name the line and the element") {
   const auto message = [](const std::string& text) { return refusal([&] { parse_svg(text, "t.svg"); }); };
   CHECK(says(message("<svg>\n<path d='M0 0'>\n"), "t.svg:"));
   CHECK(says(message("<svg>\n<path d='M0 0'>\n"), "is not well-formed XML"));
   CHECK(
       says(message(svg("<path d='L0 0'/>")), "invalid_file: t.svg:2: <path>: path data do not begin with M"));
-  CHECK(says(message(svg("<path d='M0 0 L1'/>")), "t.svg:2: <path>: a number is due"));
-  CHECK(says(message(svg("<path d='M0 0 L1 nan'/>")), "a number is due"));
-  CHECK(says(message(svg("<path d='M0 0 X1 1'/>")), "is no command"));
+  CHECK(says(message(svg("<path d='M0 0 L1'/>")), "t.svg:2: <path>: a number is expected"));
+  CHECK(says(message(svg("<path d='M0 0 L1 nan'/>")), "a number is expected"));
+  CHECK(says(message(svg("<path d='M0 0 X1 1'/>")), "is not a command"));
   CHECK(says(message(svg("<path d='M0 0 A1 1 0 2 1 5 5'/>")), "a flag (0 or 1)"));
   CHECK(says(message(svg("<rect width='10mm' height='1'/>")), "width='10mm' is not a number of user units"));
-  CHECK(says(message(svg("<use href='#a'/>")), "put the shape itself in its place"));
-  CHECK(says(message(svg("<g transform='turn(3)'/>")), "'turn' with 1 numbers is no transform"));
+  CHECK(says(message(svg("<use href='#a'/>")), "replace it by the shape"));
+  CHECK(says(message(svg("<g transform='turn(3)'/>")), "'turn' with 1 numbers is not a transform"));
   CHECK(says(message(svg("")), "holds no path"));
   CHECK(says(message(svg("<path d='M0 0L1 1z'/>")), "have no area"));
   CHECK(says(message("<html/>"), "not <svg>"));

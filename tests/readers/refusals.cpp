@@ -1,4 +1,4 @@
-// Malformed meshes: each is refused with its place, none allocates by a bogus count.
+// Malformed meshes are refused with the place of the fault, and never allocate memory for a wrong count.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -17,27 +17,27 @@ std::string refused(const std::string& text, const std::string& extension,
   return refusal([&] { parse_domain(text, extension, kind, "f" + extension); });
 }
 
-const char* const kMeshes[] = {"cube.mesh",
-                               "cube_22_ascii.msh",
-                               "cube_22_binary.msh",
-                               "cube_41_ascii.msh",
-                               "cube_41_binary.msh",
-                               "cube_vtk_42_ascii.vtk",
-                               "cube_vtk_42_binary.vtk",
-                               "cube_vtk_51_ascii.vtk",
-                               "cube_vtk_51_binary.vtk",
-                               "cube_vtk_ascii.vtu",
-                               "cube_vtk_base64.vtu",
-                               "cube_vtk_zlib.vtu",
-                               "cube_vtk_appended_raw.vtu",
-                               "cube_vtk_appended_base64_zlib.vtu",
-                               "cube_vtk_appended_raw_zlib.vtu",
-                               "cube.off",
-                               "cube.obj",
-                               "cube_ascii.ply",
-                               "cube_binary.ply",
-                               "cube_ascii.stl",
-                               "cube_binary.stl"};
+const char* const meshes[] = {"cube.mesh",
+                              "cube_22_ascii.msh",
+                              "cube_22_binary.msh",
+                              "cube_41_ascii.msh",
+                              "cube_41_binary.msh",
+                              "cube_vtk_42_ascii.vtk",
+                              "cube_vtk_42_binary.vtk",
+                              "cube_vtk_51_ascii.vtk",
+                              "cube_vtk_51_binary.vtk",
+                              "cube_vtk_ascii.vtu",
+                              "cube_vtk_base64.vtu",
+                              "cube_vtk_zlib.vtu",
+                              "cube_vtk_appended_raw.vtu",
+                              "cube_vtk_appended_base64_zlib.vtu",
+                              "cube_vtk_appended_raw_zlib.vtu",
+                              "cube.off",
+                              "cube.obj",
+                              "cube_ascii.ply",
+                              "cube_binary.ply",
+                              "cube_ascii.stl",
+                              "cube_binary.stl"};
 
 }  // namespace
 
@@ -60,9 +60,10 @@ TEST_CASE("OFF") {
   CHECK(says(refused("OFF\n3 1\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", ".off"),
              "f.off:2: the number of edges is missing"));
   CHECK(says(refused("OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0 7\n3 0 1 2\n", ".off"),
-             "f.off:4: the line goes on behind the last of 3 vertices"));
-  CHECK(says(refused("COFF\n2 1 0\n0 0 0 9 9 9 1 0 0 9 9 9\n3 0 1 1\n", ".off"),
-             "f.off:2: not every vertex and face has a line of its own, and colours may be 3 or 4 numbers"));
+             "f.off:4: the line continues after the last of 3 vertices"));
+  CHECK(
+      says(refused("COFF\n2 1 0\n0 0 0 9 9 9 1 0 0 9 9 9\n3 0 1 1\n", ".off"),
+           "f.off:2: vertices and faces are not on lines of their own, and colours may have 3 or 4 numbers"));
   CHECK(says(refused("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", ".off"), "neither tetrahedra nor faces"));
 }
 
@@ -89,7 +90,7 @@ TEST_CASE("PLY and STL") {
   CHECK(says(
       refused("ply\nformat ascii 1.0\nelement vertex 99999999\nproperty float x\nend_header\n1\n", ".ply"),
       "99999999 vertex are announced"));
-  // Of an element without properties there may be none, and no more.
+  // An element without properties must have the count 0.
   const std::string corners = head.substr(0, head.find("element face"));
   CHECK(says(refused(corners + "element face 0\nend_header\n0 0 0\n1 0 0\n0 1 0\n", ".ply"),
              "neither tetrahedra nor faces"));
@@ -131,7 +132,7 @@ TEST_CASE("volume formats: indices, NaN, counts") {
   CHECK(says(refused("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 4 "
                      "0 1 1 1 7\n$EndElements\n",
                      ".msh"),
-             "f.msh:10: element 1 names node 7, which the file does not have"));
+             "f.msh:10: element 1 names node 7, which does not exist"));
   CHECK(says(refused("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", ".msh"),
              "f.msh:2: version 4 is not read; save as version 2.2 or 4.1"));
   CHECK(says(refused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_GRID\n", ".vtk"),
@@ -157,25 +158,25 @@ TEST_CASE("volume formats: indices, NaN, counts") {
       refused("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nFIELD f 1\na 1 1 variant\n1", ".vtk"),
       "'VARIANT' is not a type"));
   CHECK(says(refused("<VTKFile type='PolyData'/>", ".vtu"), "f.vtu:1: VTKFile of type 'PolyData'"));
-  CHECK(says(refused("x", ".foo"), "extension '.foo' is not known; a domain is .geojson"));
+  CHECK(says(refused("x", ".foo"), "unknown extension '.foo'; a domain is .geojson"));
   CHECK(says(refused("OFF\n", ".off", DomainKind::polygon), "f.off"));
   CHECK(says(refused("POLYGON ((0 0, 1 0, 0 1, 0 0))", ".wkt", DomainKind::volume),
-             "f.wkt: holds a polygon, not a volume"));
+             "f.wkt: holds a polygon, but --kind is volume"));
 }
 
-TEST_CASE("plain text whose rows may begin with their length or with a corner") {
+TEST_CASE("plain text whose rows begin with their length or with a corner") {
   const std::string square = "4 1\n0 0\n1 0\n1 1\n0 1\n",
                     body = "5 4\n0 0 0\n1 0 0\n0 1 0\n.2 .2 .2\n0 0 1\n",
                     rows = "3 0 1 2\n3 0 1 4\n3 0 2 4\n3 1 2 4\n";
   CHECK(says(
       refused(square + "3 0 1 2\n", ".txt"),
-      "f.txt:6: the first number of every row may be how many corners follow, but then point 3 (from 0) is "
-      "unused, or itself a corner; write the number"));
+      "f.txt:6: the first number of every row may be the number of corners, which leaves point 3 (from 0) "
+      "unused, or a corner itself; write the number"));
   CHECK(refused(square + "4 3 0 1 2\n", ".txt") == "nothing");
   CHECK(refused("3 1\n0 0\n1 0\n1 1\n3 0 1 2\n", ".txt") == "nothing");
   CHECK(refused("5 1\n0 0\n1 0\n1 1\n0 1\n7 7\n3 0 1 2\n", ".txt") == "nothing");  // point 4 is unused anyway
   CHECK(says(refused(body + rows, ".txt"),
-             "say --kind surface (numbers) or --kind volume (corners), or write"));
+             "use --kind surface (numbers) or --kind volume (corners), or write"));
   CHECK(parse_domain(body + rows, ".txt", DomainKind::volume, "f.txt").elements.size() == 16);
   CHECK(parse_domain(body + rows, ".txt", DomainKind::surface, "f.txt").elements.size() == 12);
   CHECK(refused(body + rows, ".tet") == "nothing");
@@ -188,8 +189,8 @@ TEST_CASE("files that are missing, empty or folders") {
   CHECK(says(refusal([&] { read_domain(folder.write("empty.off", "")); }), "empty.off: is empty"));
 }
 
-TEST_CASE("a file cut anywhere is refused or whole, never a crash") {
-  for (const char* file : kMeshes) {
+TEST_CASE("a file truncated anywhere is refused or complete, without a crash") {
+  for (const char* file : meshes) {
     CAPTURE(file);
     const std::string bytes = data_bytes(file);
     const DomainArrays whole = parse_domain(bytes, lower_extension(file), std::nullopt, file);
@@ -209,9 +210,9 @@ TEST_CASE("a file cut anywhere is refused or whole, never a crash") {
   }
 }
 
-TEST_CASE("bytes changed at random are refused or read, never a crash") {
+TEST_CASE("files with randomly changed bytes are refused or read, without a crash") {
   std::mt19937 random(7);
-  for (const char* file : kMeshes) {
+  for (const char* file : meshes) {
     const std::string bytes = data_bytes(file);
     for (int trial = 0; trial < 300; ++trial) {
       std::string changed = bytes;

@@ -13,10 +13,10 @@ using namespace powercell::io;
 using namespace powercell::io::test;
 
 namespace {
-const std::vector<double> kPositions{0.25, 0.5, 1, -2};
+const std::vector<double> positions{0.25, 0.5, 1, -2};
 }
 
-TEST_CASE("text and CSV in every spelling give the same seeds") {
+TEST_CASE("text and CSV in every notation give the same seeds") {
   for (const char* text :
        {"0.25 0.5 3\n1 -2 4\n", "0.25,0.5,3\n1,-2,4", "0.25; 0.5 ;3\r\n1;-2;4\r\n",
         "\t0.25\t0.5\t3\n\n1\t-2\t4\n\n", "# comment\n0.25 0.5 3 # one\n1 -2 +4\n", "2\n0.25 0.5 3\n1 -2 4\n",
@@ -31,12 +31,12 @@ TEST_CASE("text and CSV in every spelling give the same seeds") {
         "x,y,w,\n0.25,0.5,3,\n1,-2,4,\n", "0.25\t0.5\t3\t\n1\t-2\t4\t\n"}) {
     CAPTURE(text);
     const SeedTable seeds = parse_seeds_text(text, 2, "s.txt");
-    CHECK(seeds.positions == kPositions);
+    CHECK(seeds.positions == positions);
     CHECK(seeds.weights == std::vector<double>{3, 4});
   }
 }
 
-TEST_CASE("weights are 0 where no row has one") {
+TEST_CASE("weights are 0 if no row has one") {
   CHECK(parse_seeds_text("0.25 0.5\n1 -2\n", 2, "s.txt").weights == std::vector<double>{0, 0});
   CHECK(parse_seeds_text("1 2 3\n4 5 6\n", 3, "s.txt").weights == std::vector<double>{0, 0});
   CHECK(parse_seeds_text("1 2 3 4\n", 3, "s.txt").weights == std::vector<double>{4});
@@ -44,12 +44,12 @@ TEST_CASE("weights are 0 where no row has one") {
   CHECK(parse_seeds_text("x y\n", 2, "s.txt").count() == 0);
 }
 
-TEST_CASE("malformed tables are refused with line and seed") {
+TEST_CASE("errors in tables name line and seed") {
   const auto message = [](const std::string& text, int d = 2) {
     return refusal([&] { parse_seeds_text(text, d, "s.csv"); });
   };
   CHECK(says(message("1 2 3\n4 5\n"),
-             "invalid_file: s.csv:2: seed 1 (from 0) has 2 columns, the ones before have 3"));
+             "invalid_file: s.csv:2: seed 1 (from 0) has 2 columns, the rows before have 3"));
   CHECK(says(message("1 2\n4 5 6\n"), "s.csv:2: seed 1"));
   CHECK(says(message("1 2 3\n4 nan 5\n"),
              "invalid_seed: s.csv:2: seed 1 (from 0), column 2: 'nan' is not a finite number"));
@@ -67,7 +67,7 @@ TEST_CASE("malformed tables are refused with line and seed") {
   CHECK(parse_seeds_text("1 2 1e-400\n", 2, "s.csv").weights[0] == 0);
 }
 
-TEST_CASE("a table that may be misread is refused") {
+TEST_CASE("ambiguous tables are refused") {
   const auto message = [](const std::string& text, int d = 2) {
     return refusal([&] { parse_seeds_text(text, d, "s.csv"); });
   };
@@ -77,11 +77,11 @@ TEST_CASE("a table that may be misread is refused") {
     CHECK(says(message(std::string(header) + "\n1,2,3\n"), "invalid_file: s.csv:1: the header names "));
     CHECK(says(message(std::string(header) + "\n1,2,3\n"), "x, y, weight"));
   }
-  CHECK(says(message("x,x,y\n1,2,3\n"), "s.csv:1: the header names columns 'x' and 'x'"));
-  CHECK(says(message("lon,lat,easting\n1,2,3\n"), "names columns 'lon' and 'easting', which say the same"));
-  CHECK(says(message("x,y,w,weight\n1,2,3,3\n"), "names columns 'w' and 'weight'"));
-  CHECK(
-      says(message("x,y,Radius\n1,2,3\n"), "s.csv:1: the header has a column 'radius' and none of weights"));
+  CHECK(says(message("x,x,y\n1,2,3\n"), "s.csv:1: the header has columns 'x' and 'x'"));
+  CHECK(says(message("lon,lat,easting\n1,2,3\n"), "has columns 'lon' and 'easting', which mean the same"));
+  CHECK(says(message("x,y,w,weight\n1,2,3,3\n"), "has columns 'w' and 'weight'"));
+  CHECK(says(message("x,y,Radius\n1,2,3\n"),
+             "s.csv:1: the header has a column 'radius' and no column of weights"));
   CHECK(parse_seeds_text("x,y,r,w\n1,2,3,9\n", 2, "s.csv").weights == std::vector<double>{9});
   for (const char* text :
        {"0,5;1\n1,5;2\n", "0,5;1,5\n1,5;2,5\n", "x;y\n0,5;1\n", "0,5\t1\n", "\"0,5\",1\n"}) {
@@ -98,7 +98,7 @@ TEST_CASE("a table that may be misread is refused") {
   CHECK(says(message(std::string(20000, ',')), "more than 16384 columns"));
 }
 
-TEST_CASE("what a header's columns were taken for is told where it is in question") {
+TEST_CASE("the columns used are reported if the header leaves a doubt") {
   const auto note = [](const std::string& text) { return parse_seeds_text(text, 2, "s.csv").note; };
   CHECK(note("1 2 3\n") == "");
   CHECK(note("x,y,w\n1,2,3\n") == "");
@@ -154,7 +154,7 @@ TEST_CASE("a million seeds are read in about a second") {
   for (int k = 0; k < 1000000; ++k) text += "0.12345678901234567 0.98765432109876543 0.5 1e-3\n";
   const auto begin = std::chrono::steady_clock::now();
   CHECK(parse_seeds_text(text, 3, "s.txt").count() == 1000000);
-  // Ten times what it takes, so that a busy machine or a sanitizer does not fail it.
+  // Ten times the usual time, so that a busy machine or a sanitizer does not fail it.
   CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 10);
 }
 

@@ -1,4 +1,4 @@
-// The log: silent unless asked, in lines, whatever the sink does.
+// The log: silent without a sink, one line at a time, and independent of what the sink does.
 #include <doctest/doctest.h>
 #include <powercell.h>
 
@@ -19,7 +19,7 @@ struct Line {
   std::string text;
 };
 
-/// Collects lines for the length of a test.
+/// Collects the lines of the log during its lifetime.
 struct Listener {
   std::vector<Line> lines;
   explicit Listener(LogLevel most) {
@@ -58,8 +58,8 @@ double total_mass() {
 
 }  // namespace
 
-TEST_CASE("each computation is a line with the number of seeds, chunks only where details are asked for") {
-  total_mass();  // what is built for it is built
+TEST_CASE("each computation is logged with its number of seeds, chunks only as details") {
+  total_mass();  // builds the kernels
   {
     const Listener listener(LogLevel::info);
     total_mass();
@@ -75,14 +75,14 @@ TEST_CASE("each computation is a line with the number of seeds, chunks only wher
   CHECK(listener.count("4 of 4 pairs clipped") == 1);
 }
 
-TEST_CASE("ties are told of, with the cells that the host decides") {
+TEST_CASE("pieces that the host finishes are logged") {
   const Listener listener(LogLevel::detail);
   const std::vector<double> grid = {0.25, 0.25, 0.75, 0.25, 0.25, 0.75, 0.75, 0.75};
   measure(device(), unit_square(), {2, grid, {}});
-  CHECK(listener.count("pieces finished on the host: 4") == 2);  // as it happens, and in the sum
+  CHECK(listener.count("pieces finished on the host: 4") == 2);  // when it happens, and in the summary
 }
 
-TEST_CASE("a new device and its programs are told of") {
+TEST_CASE("new devices and their programs are logged") {
   const Listener listener(LogLevel::detail);
   const Device fresh = Device::choose();
   CHECK(listener.count("device " + fresh.info().selector() + ": " + fresh.info().name) == 1);
@@ -90,7 +90,7 @@ TEST_CASE("a new device and its programs are told of") {
   CHECK(listener.count("kernels/clip/by_tree.cl") >= 1);
 }
 
-TEST_CASE("without a sink there is silence, and a sink that throws changes nothing") {
+TEST_CASE("nothing is logged without a sink, and a sink that throws has no effect") {
   std::vector<std::string> lines;
   set_log([&](LogLevel, std::string_view line) { lines.emplace_back(line); });
   set_log({});
@@ -106,7 +106,7 @@ TEST_CASE("without a sink there is silence, and a sink that throws changes nothi
   CHECK(called > 0);
 }
 
-TEST_CASE("lines of several threads come one at a time") {
+TEST_CASE("lines of several threads are written one at a time") {
   const Listener listener(LogLevel::info);
   std::vector<std::thread> threads;
   for (int k = 0; k < 4; ++k) threads.emplace_back([] { total_mass(); });
@@ -114,7 +114,7 @@ TEST_CASE("lines of several threads come one at a time") {
   CHECK(listener.count("4 seeds, 4 pairs in ") == 4);
 }
 
-TEST_CASE("the C interface hands lines to its sink and refuses other levels") {
+TEST_CASE("the C interface sends lines to its sink and refuses invalid levels") {
   std::vector<std::string> lines;
   const pc_log_sink sink = [](pc_log_level, const char* line, void* user) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(line);
@@ -123,8 +123,8 @@ TEST_CASE("the C interface hands lines to its sink and refuses other levels") {
   CHECK(pc_set_log(sink, static_cast<pc_log_level>(7), &lines) == PC_INVALID_ARGUMENT);
   total_mass();
   REQUIRE(pc_set_log(nullptr, PC_LOG_INFO, nullptr) == PC_OK);
-  const std::size_t told = lines.size();
-  CHECK(told >= 1);
+  const std::size_t before = lines.size();
+  CHECK(before >= 1);
   total_mass();
-  CHECK(lines.size() == told);
+  CHECK(lines.size() == before);
 }

@@ -22,7 +22,8 @@ bool is_permutation_of_all(std::vector<std::uint32_t> order, std::size_t n) {
   return order == all;
 }
 
-/// Distance of each point in order to the one before it, divided by its distance to the middle.
+/// Mean over all points of the distance to the previous point divided by the distance to the origin, at
+/// most 1.
 double mean_relative_step(const SeedArray& seeds, const std::vector<std::uint32_t>& order) {
   double sum = 0;
   for (std::size_t k = 1; k < order.size(); ++k) {
@@ -38,8 +39,8 @@ double mean_relative_step(const SeedArray& seeds, const std::vector<std::uint32_
 
 }  // namespace
 
-TEST_CASE("the curve visits each cell of a small grid once, going to a neighbour each time") {
-  // The cells of the coarsest levels: the high bits of the coordinates.
+TEST_CASE("the curve visits each cell of a small grid once, each adjacent to the one before") {
+  // The cells of the coarsest levels are given by the high bits of the coordinates.
   constexpr std::uint32_t side = 16;
   std::vector<std::pair<std::uint64_t, std::array<std::uint32_t, 2>>> flat;
   for (std::uint32_t y = 0; y < side; ++y)
@@ -65,12 +66,12 @@ TEST_CASE("the curve visits each cell of a small grid once, going to a neighbour
   check(solid);
 }
 
-TEST_CASE("the order is a permutation that does not depend on the number of threads") {
+TEST_CASE("the order is a permutation and does not depend on the number of threads") {
   INFO(replay_hint());
   for (const int d : {2, 3}) {
     Random random(test_seed());
     SeedArray seeds = random_seeds(Distribution::cluster, WeightRange::W0, 150000, d, random);
-    for (std::size_t i = 0; i < 70000; ++i)  // many in one grid cell, many equal
+    for (std::size_t i = 0; i < 70000; ++i)  // many in one grid cell, many at one position
       for (int k = 0; k < d; ++k)
         seeds.coordinate(2 * i, k) = i % 3 == 0 ? 0.25 : 0.25 + 1e-12 * random.uniform();
     const std::vector<std::uint32_t> order = hilbert_order(seeds.positions, d, 1);
@@ -111,7 +112,7 @@ TEST_CASE("clusters far below the grid's resolution are in good order") {
   INFO(replay_hint());
   for (const int d : {2, 3}) {
     Random random(test_seed());
-    // Distances to 0 from 1 down to 1e-25: the grid of the whole box resolves 1e-9 (plane), 5e-7 (space).
+    // Distances to the origin from 1 down to 1e-25; the grid of the whole box resolves 1e-9 (2D), 5e-7 (3D).
     SeedArray seeds;
     seeds.dimension = d;
     for (int i = 0; i < 20000; ++i) {
@@ -120,15 +121,15 @@ TEST_CASE("clusters far below the grid's resolution are in good order") {
     }
     const std::vector<std::uint32_t> order = hilbert_order(seeds.positions, d, 1);
     CHECK(is_permutation_of_all(order, seeds.size()));
-    // 800 seeds a decade are 347 for each factor e of the distance r to 0, spread over the surface or rim
-    // of a ball: their spacing is the d-th root of 2 pi (plane) or 4 pi (space) / 347, in units of r. An
-    // order that knew nothing of the clusters would step by about r.
+    // 800 seeds per decade are 347 per factor e of the distance r to the origin, spread over a circle or
+    // sphere: their spacing is the d-th root of 2 pi / 347 (2D) or 4 pi / 347 (3D), in units of r. In an
+    // order that does not refine clusters, steps would be about r long.
     const double spacing = std::pow((d == 2 ? 2 : 4) * 3.14159 / 347, 1.0 / d);
     CHECK(mean_relative_step(seeds, order) < 1.3 * spacing);
   }
 }
 
-TEST_CASE("hostile positions") {
+TEST_CASE("extreme and coinciding positions are ordered") {
   constexpr double huge = std::numeric_limits<double>::max();
   constexpr double tiny = std::numeric_limits<double>::denorm_min();
   const std::vector<double> extent = {-huge, -huge, huge, huge, 0, 0, -huge, huge, huge, -huge, 1, 1,
@@ -137,7 +138,7 @@ TEST_CASE("hostile positions") {
   std::vector<double> denormal;
   for (int k = 0; k < 100; ++k) denormal.push_back(tiny * (k * 37 % 100)), denormal.push_back(tiny * (k % 7));
   CHECK(is_permutation_of_all(hilbert_order(denormal, 2, 1), 100));
-  // Each refinement splits off a few: the deepest recursion that doubles allow.
+  // Each refinement splits off a few points: the deepest recursion that doubles allow.
   std::vector<double> geometric;
   for (int k = 0; k < 2000; ++k)
     for (int c = 0; c < 3; ++c) geometric.push_back(std::ldexp(1.0, 1000 - k));

@@ -32,7 +32,7 @@ void check_refused(const SeedsView& seeds, int dimension, ErrorCode code, const 
 
 }  // namespace
 
-TEST_CASE("seeds are kept as given, by rank") {
+TEST_CASE("positions and weights are those given, by rank") {
   INFO(replay_hint());
   for (const int d : {2, 3})
     for (const std::size_t n : {1, 2, 7, 8, 9, 1000, 70000}) {
@@ -56,7 +56,7 @@ TEST_CASE("seeds are kept as given, by rank") {
     }
 }
 
-TEST_CASE("no weights mean zero weights; no seeds are no error") {
+TEST_CASE("missing weights are zero, and an empty set is valid") {
   const std::vector<double> positions = {0, 0, 1, 1, 2, 0};
   CHECK(make_seed_set({2, positions, {}}, 2, 1).weights == std::vector<double>(3, 0.0));
   const SeedSet none = make_seed_set({3, {}, {}}, 3, 4);
@@ -93,7 +93,7 @@ TEST_CASE("of equal positions the largest weight stays, then the lowest index") 
   }
 }
 
-TEST_CASE("all seeds equal") {
+TEST_CASE("of seeds that are all at one position one stays") {
   std::vector<double> positions(3 * 200000, 1.5), weights(200000, -1.0);
   weights[77] = weights[99] = 2;
   const SeedSet set = make_seed_set({3, positions, weights}, 3, 2);
@@ -115,7 +115,7 @@ TEST_CASE("the set does not depend on the number of threads") {
   }
 }
 
-TEST_CASE("bad seeds are refused with their number and value") {
+TEST_CASE("invalid seeds are refused, with the index and the value") {
   const std::vector<double> good = {0, 0, 1, 1, 2, 2};
   check_refused({3, good, {}}, 2, ErrorCode::invalid_argument, "3 coordinates");
   check_refused({4, good, {}}, 4, ErrorCode::invalid_argument, "2 or 3");

@@ -42,6 +42,8 @@ Vec region_vertex(const RegionMesh& mesh, std::size_t region, std::size_t k) {
   return {x[0], x[1], mesh.dimension == 3 ? x[2] : 0.0};
 }
 
+}  // namespace
+
 Polygon region_polygon(const RegionMesh& mesh, std::size_t region, const Vec& origin) {
   Polygon polygon;
   const std::size_t n = mesh.region_offset[region + 1] - mesh.region_offset[region];
@@ -66,6 +68,8 @@ Polyhedron region_polyhedron(const RegionMesh& mesh, std::size_t region, const V
     polyhedron.faces.push_back({rings[f], mesh.facet[mesh.facet_offset[region] + f]});
   return polyhedron;
 }
+
+namespace {
 
 using Corner = std::array<std::uint32_t, 4>;
 
@@ -93,15 +97,15 @@ void for_each_interior_side(Polyhedron& piece, Visit visit) {
   }
 }
 
-/// How fast the rim of a wall moves within the wall's plane when both planes that meet there at the angle
-/// with that sine are moved by one.
+/// How far the rim of a wall moves within the wall's plane if the two planes that meet there, at an angle
+/// with this sine, move by 1.
 Real rim_speed(Real sine) {
   constexpr Real least = 1e-9L;  // planes of a corner that rounding has made
   return 2 / std::max(sine, least);
 }
 
-/// The direction of the first edge of some length from `k` on, stepping by `step`; edges of no length are
-/// what ties leave behind.
+/// The direction of the first edge of positive length from `k` on, stepping by `step`. Ties leave edges of
+/// length 0.
 Vec edge_direction(const Polygon& piece, std::size_t k, std::size_t step) {
   const std::size_t n = piece.vertices.size();
   for (std::size_t tries = 0; tries < n; ++tries, k = (k + step) % n) {
@@ -128,7 +132,7 @@ void record(ReferenceDiagram& diagram, std::uint32_t i, const Polygon& piece) {
   }
 }
 
-/// Unit normals of the faces; zero for faces of no area, which ties leave behind.
+/// Unit normals of the faces; zero for faces of area 0, which ties leave.
 std::vector<Vec> face_normals(const Polyhedron& piece) {
   std::vector<Vec> normals;
   for (std::size_t f = 0; f < piece.faces.size(); ++f) {
@@ -183,8 +187,7 @@ void record(ReferenceDiagram& diagram, std::uint32_t i, const Polyhedron& piece)
   }
 }
 
-/// A side of the region may itself lie in a bisector: then the wall is there, seen from the region on
-/// whose side seed i is.
+/// Marks sides of the region that lie in a bisector as walls, in the region on seed i's side.
 template <class Piece>
 void name_walls_in_facets(Piece& piece, const SeedsView& seeds, std::uint32_t i,
                           std::span<const std::uint32_t> candidates, const std::vector<SeedStatus>& status) {
@@ -204,7 +207,7 @@ void name_walls_in_facets(Piece& piece, const SeedsView& seeds, std::uint32_t i,
   });
 }
 
-/// Cuts `piece` by every candidate in turn and adds what is left to seed i.
+/// Cuts `piece` by every candidate and adds the rest to seed i.
 template <class Piece>
 void cut_piece(ReferenceDiagram& diagram, const SeedsView& seeds, std::uint32_t i, Piece piece,
                std::span<const std::uint32_t> candidates) {
@@ -254,7 +257,7 @@ Real ReferenceDiagram::total() const {
 
 HalfSpace bisector(const SeedsView& seeds, std::size_t i, std::size_t j) {
   const Vec q = position(seeds, j) - position(seeds, i);
-  // The weights first: a large constant in both cancels without an error.
+  // Subtracts the weights first, so that a large constant in both cancels exactly.
   return {2 * q, dot(q, q) + (weight(seeds, i) - weight(seeds, j))};
 }
 
@@ -312,7 +315,7 @@ RegionMesh box_mesh(int dimension, const Box& box) {
     mesh.measure *= box.high[static_cast<std::size_t>(k)] - box.low[static_cast<std::size_t>(k)];
   const std::uint32_t corners = dimension == 2 ? 4 : 8, facets = dimension == 2 ? 4 : 6;
   for (std::uint32_t c = 0; c < corners; ++c) {
-    // In the plane the corners go round; in space corner c has x, y, z in its bits.
+    // Corners are in order around the square; in space the bits of c are x, y, z.
     const std::uint32_t bits = dimension == 2 ? (c ^ (c >> 1)) : c;
     for (int k = 0; k < dimension; ++k)
       mesh.vertices.push_back(((bits >> k) & 1) ? box.high[static_cast<std::size_t>(k)]

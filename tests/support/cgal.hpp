@@ -1,6 +1,6 @@
 /// \file
-/// CGAL's regular triangulation (exact predicates) as a plain result: which seeds are hidden in the
-/// unbounded diagram, which cells share a wall, and the simplices of the dual.
+/// CGAL's regular triangulation (exact predicates) in plain arrays: hidden seeds of the unbounded diagram,
+/// neighbours, and the simplices of the dual.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace powercell::test {
 
-/// n seeds of distinct positions.
+/// Of n seeds at distinct positions.
 struct RegularTriangulation {
-  std::vector<std::uint8_t> hidden;      ///< n: 1 where the unbounded cell is empty
+  std::vector<std::uint8_t> hidden;      ///< n: 1 if the unbounded cell is empty
   std::vector<std::uint64_t> offset;     ///< n + 1
   std::vector<std::uint32_t> neighbor;   ///< finite edges, both directions, ascending within a row
   std::vector<std::uint32_t> simplices;  ///< finite triangles or tetrahedra, d+1 seeds each

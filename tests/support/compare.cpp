@@ -9,9 +9,9 @@ namespace powercell::test {
 
 namespace {
 
-/// The c of Tolerances: a cut's dot products and interpolation, a few tens of roundings.
+/// The c of Tolerances: a few tens of roundings in the scalar products and interpolation of a cut.
 constexpr double roundings = 64;
-/// The rim, in units of the seeds' spacing, of a wall that only one side has.
+/// The rim, in units of the seeds' spacing, of a wall that the reference does not have.
 constexpr double unseen_rim = 100;
 
 template <class... Args>
@@ -78,7 +78,7 @@ Tolerances::Tolerances(double roundoff, const RegionMesh& mesh, const SeedsView&
   }
   for (std::size_t k = 0; k < 3; ++k)
     coordinate_ = std::max({coordinate_, std::abs(mesh.low[k]), std::abs(mesh.high[k])});
-  coordinate_ *= 4 * 0x1.0p-53;  // results are doubles whatever the kernels compute in
+  coordinate_ *= 4 * 0x1.0p-53;  // results are doubles in either precision
 }
 
 double Tolerances::wall(std::size_t i, std::size_t j) const {
@@ -212,7 +212,7 @@ double orientation(const std::uint32_t* corner, int corners, const SeedsView& se
 }  // namespace
 
 Differences compare_dual(const Dual& dual, const ReferenceDiagram& reference, const SeedsView& seeds,
-                         DomainKind kind, std::size_t doubtful) {
+                         DomainKind kind, std::size_t uncertain) {
   Differences out;
   const int corners = kind == DomainKind::volume ? 4 : 3;
   if (dual.corners != corners) return {text("the dual has %d corners a simplex", dual.corners)};
@@ -223,7 +223,7 @@ Differences compare_dual(const Dual& dual, const ReferenceDiagram& reference, co
     std::sort(key.begin(), key.begin() + corners);
     key[3] = key[static_cast<std::size_t>(corners) - 1];
     found.insert(key);
-    // On a surface the orientation is that of a triangle of the domain, which seeds alone do not tell.
+    // On a surface the orientation is that of a triangle of the domain, not of the seeds.
     if (kind != DomainKind::surface && !(orientation(row, corners, seeds) > 0))
       out.push_back(text("simplex %zu is not positively oriented", s));
     if (s > 0 && std::lexicographical_compare(row, row + corners, row - corners, row))
@@ -232,7 +232,7 @@ Differences compare_dual(const Dual& dual, const ReferenceDiagram& reference, co
   std::vector<std::array<std::uint32_t, 4>> one_side;
   std::set_symmetric_difference(found.begin(), found.end(), reference.simplices.begin(),
                                 reference.simplices.end(), std::back_inserter(one_side));
-  if (one_side.size() > doubtful)
+  if (one_side.size() > uncertain)
     for (const auto& s : one_side)
       out.push_back(
           text("simplex %u %u %u %u: %s", s[0], s[1], s[2], s[3], found.count(s) ? "extra" : "missing"));

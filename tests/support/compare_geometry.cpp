@@ -42,7 +42,7 @@ Vec region_normal(const RegionMesh& mesh, std::size_t region) {
 
 using Walls = std::map<std::pair<std::uint32_t, std::uint32_t>, Real>;
 
-/// Size checks without which nothing else may be read.
+/// Checks of sizes, without which the arrays must not be read.
 Differences check_sizes(const Cells& c, std::size_t seeds, std::size_t regions, bool loops) {
   Differences out;
   const std::size_t pieces = c.region.size();
@@ -71,7 +71,7 @@ void check_border(Differences& out, const Border& border, std::uint32_t cell, st
     out.push_back(text("cell %u borders itself", cell));
 }
 
-/// Signed area of a polygon piece (along the triangle's normal on a surface); its walls are added.
+/// The signed area of a polygonal piece, on a surface along the triangle's normal. Adds its walls to `walls`.
 Real polygon_piece(const Cells& c, std::size_t p, const RegionMesh& mesh, std::uint32_t cell, Walls& walls) {
   std::vector<Vec> ring;
   for (std::uint64_t v = c.vertex_offset[p]; v < c.vertex_offset[p + 1]; ++v)
@@ -84,7 +84,7 @@ Real polygon_piece(const Cells& c, std::size_t p, const RegionMesh& mesh, std::u
   return dot(ring_area(ring), region_normal(mesh, c.region[p])) / 2;
 }
 
-/// Volume inside the faces [first, last) given as loops; the faces' edges must cancel in pairs.
+/// The volume inside the faces [first, last), given as loops; checks that their edges cancel in pairs.
 Real closed_volume(Differences& out, std::uint32_t cell, const std::vector<Vec>& vertices,
                    std::span<const std::uint64_t> loop_offset, const std::vector<std::uint32_t>& loop,
                    const auto& on_face) {
@@ -178,8 +178,8 @@ std::vector<Vec> joined_vertices(const JoinedCells& j, std::size_t cell) {
   return vertices;
 }
 
-/// Area of a polygon cell (rings are signed) or of a surface cell (a face in each triangle).
-/// `interior` receives the length of the interior edges left in a polygon cell.
+/// The area of a polygon cell (rings are signed) or of a surface cell (a face in each triangle). Sets
+/// `interior` to the length of the interior edges left in a polygon cell.
 Real joined_area(const JoinedCells& j, std::uint32_t cell, const std::vector<Vec>& vertices, DomainKind kind,
                  Real& interior) {
   Real sum = 0;
@@ -200,7 +200,7 @@ Real joined_area(const JoinedCells& j, std::uint32_t cell, const std::vector<Vec
   return sum;
 }
 
-/// Volume of a joined cell; `interior` receives the area of the interior faces left.
+/// The volume of a joined cell. Sets `interior` to the area of the interior faces left.
 Real joined_volume(Differences& out, const JoinedCells& j, std::uint32_t cell,
                    const std::vector<Vec>& vertices, Real& interior) {
   const std::uint64_t first = j.face_offset[cell], last = j.face_offset[cell + 1];
@@ -229,7 +229,7 @@ Differences check_joined(const JoinedCells& joined, const Domain& domain, const 
     Real interior = 0;
     const Real sum = solid ? joined_volume(out, joined, i, vertices, interior)
                            : joined_area(joined, i, vertices, domain.kind(), interior);
-    // Pieces no thicker than rounding may lack their counterpart.
+    // Pieces no thicker than rounding may lack their counterparts.
     if (!(static_cast<double>(interior) <= tolerances.wall_from_geometry(i, i)))
       out.push_back(
           text("joined cell %u: interior faces of measure %.3g are left", i, static_cast<double>(interior)));

@@ -1,6 +1,5 @@
 /// \file
-/// The geometry of cells checked against itself and against the measures: sizes, orientation, closed
-/// surfaces, borders, and what joining must keep.
+/// Consistency checks of the geometry of cells, joined or not, and comparisons to the measures.
 #pragma once
 
 #include <powercell/diagram.hpp>
@@ -10,14 +9,13 @@
 
 namespace powercell::test {
 
-/// Arrays of consistent sizes, indices in range, pieces oriented as promised (edges of a piece of
-/// polyhedron once in each direction), measures of the pieces adding up to the cells', and wall faces
-/// adding up to the adjacency.
+/// Checks sizes of arrays, ranges of indices, orientation of pieces (each edge of a polyhedron once in each
+/// direction), that the pieces sum to the measures of cells, and the faces to the walls of the adjacency.
 Differences check_cells(const Cells& cells, const Domain& domain, const Measures& measures,
                         const Adjacency& adjacency, const Tolerances& tolerances);
 
-/// Measures kept, nothing interior left between pieces of a cell (on surfaces, which stay cut by their
-/// triangles, interior edges remain), rings and faces oriented as promised.
+/// Checks that measures are unchanged, no interior edges or faces are left between pieces of a cell (except
+/// on surfaces, which stay cut by their triangles), and rings and faces are oriented.
 Differences check_joined(const JoinedCells& joined, const Domain& domain, const Measures& measures,
                          const Tolerances& tolerances);
 

@@ -91,7 +91,7 @@ std::vector<NamedDomain> surface_domains() {
 }
 
 std::vector<NamedDomain> volume_domains() {
-  Random random(7);  // the shape is part of the case, not of the run
+  Random random(7);  // the shape does not depend on the test seed
   return {{"cube_tetrahedra", volume_of(cube_tetrahedra(2, 0.15, random))},
           {"ball_tetrahedra", volume_of(ball_tetrahedra(1))}};
 }
@@ -102,7 +102,7 @@ std::vector<NamedDomain> box_domains() {
 
 namespace {
 
-/// A point of the simplex with the given corners, uniform in measure (k corners of d coordinates).
+/// A point uniform in a simplex of k corners of d coordinates.
 void simplex_point(const std::vector<const double*>& corners, int d, Random& random, double* out) {
   std::vector<double> weights;
   double sum = 0;
@@ -115,7 +115,7 @@ void simplex_point(const std::vector<const double*>& corners, int d, Random& ran
     for (int c = 0; c < d; ++c) out[c] += weights[k] / sum * corners[k][c];
 }
 
-/// Triangles or tetrahedra that make up the regions, each with its measure.
+/// The triangles or tetrahedra of the regions, each with its measure.
 struct Simplices {
   std::vector<std::vector<const double*>> corners;
   std::vector<double> cumulative;
@@ -191,6 +191,15 @@ SeedArray seeds_for(const Domain& domain, Distribution distribution, WeightRange
   }
   set_weights(seeds, range, h, random);
   return seeds;
+}
+
+std::vector<SeededDomain> with_seeds(const std::vector<NamedDomain>& domains, std::size_t n) {
+  std::vector<SeededDomain> list;
+  for (const NamedDomain& named : domains) {
+    Random random(test_seed());
+    list.push_back({named, seeds_for(named.domain, Distribution::white, WeightRange::W1, n, random)});
+  }
+  return list;
 }
 
 }  // namespace powercell::test

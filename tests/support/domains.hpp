@@ -33,12 +33,20 @@ std::vector<NamedDomain> surface_domains();
 std::vector<NamedDomain> volume_domains();
 std::vector<NamedDomain> box_domains();
 
-/// n points uniform in measure on the regions of the domain (n x d), for seeds on a surface and for
-/// points whose owner is asked. \pre the domain's regions are polygons, tetrahedra or one box
+/// n points uniform in measure on the regions of the domain (n x d).
+/// \pre the regions are polygons, tetrahedra or one box
 std::vector<double> points_in(const Domain& domain, std::size_t n, Random& random);
-/// Seeds on or near the domain: on a surface points_in moved off it by up to half the spacing; else scatter
-/// in the bounding box grown by a tenth, so that some seeds lie outside. Weights by the domain's spacing.
+/// Seeds on or near the domain: on a surface points_in() moved off it by up to half the spacing; else
+/// scatter() in the bounding box enlarged by a tenth, so that some seeds lie outside. Weights are for the
+/// domain's spacing.
 SeedArray seeds_for(const Domain& domain, Distribution distribution, WeightRange range, std::size_t n,
                     Random& random);
+
+struct SeededDomain {
+  NamedDomain domain;
+  SeedArray seeds;
+};
+/// Each domain with n white seeds of weights W1, which depend on the test seed and the domain only.
+std::vector<SeededDomain> with_seeds(const std::vector<NamedDomain>& domains, std::size_t n);
 
 }  // namespace powercell::test

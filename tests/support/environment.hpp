@@ -1,5 +1,5 @@
 /// \file
-/// Environment variables for the length of a test.
+/// Environment variables of tests.
 #pragma once
 
 #include <cstdlib>

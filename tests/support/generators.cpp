@@ -25,7 +25,7 @@ double Random::uniform(double low, double high) {
 }
 
 double Random::normal() {
-  // Twelve uniforms: no library function whose last bits differ between machines.
+  // A sum of twelve uniform numbers, since library functions may differ between machines in their last bits.
   double sum = -6;
   for (int k = 0; k < 12; ++k) sum += uniform();
   return sum;
@@ -128,7 +128,7 @@ void scatter_clusters(SeedArray& seeds, const Box& box, Random& random) {
   for (std::size_t i = 0; i < inside; ++i) {
     const std::size_t b = random.index(blobs);
     for (int k = 0; k < seeds.dimension; ++k) {
-      // A draw outside the box is drawn again: clamping would put many seeds on the box's faces.
+      // Redraws positions outside the box; clamping would put many seeds on its faces.
       double unit = center[b][k] + width[b] * random.normal();
       while (unit < 0 || unit > 1) unit = center[b][k] + width[b] * random.normal();
       place(seeds, i, k, box, unit);

@@ -1,7 +1,6 @@
 /// \file
-/// Seeds for tests and benchmarks: random families with the weights of the paper, and the degenerate
-/// families that a power diagram must survive. Everything is a function of the random seed, bit for bit
-/// on every machine.
+/// Seeds for tests and benchmarks: random families with the weights of the paper, and degenerate families. A
+/// random seed gives the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -28,10 +27,10 @@ class Random {
 
 /// The random seed of this run: POWERCELL_TEST_SEED if set, else 1.
 std::uint64_t test_seed();
-/// What to type to run a failed case again; meant for doctest's INFO.
+/// How to run a failed case again, for doctest's INFO.
 std::string replay_hint();
 
-/// Owned seeds; `view()` is what the library takes.
+/// Seeds with their memory; view() is for the library.
 struct SeedArray {
   int dimension = 3;
   std::vector<double> positions;  ///< n x dimension, row-major
@@ -59,28 +58,28 @@ enum class WeightRange { W0, W1, W2 };  ///< zero; uniform in [0, h^2/2]; unifor
 std::string name(Distribution distribution);
 std::string name(WeightRange range);
 
-/// n positions in a box, weights zero. white: uniform; blue: a jittered grid; cluster: 80 % in six
-/// Gaussian blobs (draws outside the box are drawn again), the rest white.
+/// n positions in a box, with weights 0. white: uniform; blue: a jittered grid; cluster: 80 % in six Gaussian
+/// blobs (redrawn if outside the box), the rest white.
 SeedArray scatter(Distribution distribution, std::size_t n, int dimension, const Box& box, Random& random);
 
-/// The spacing h of n seeds in a cell space of that measure and dimension: (measure / n)^(1/d).
+/// The spacing h = (measure / n)^(1/d) of n seeds.
 double spacing(double measure, std::size_t n, int cell_dimension);
 /// Replaces the weights by random ones of the range for the spacing h.
 void set_weights(SeedArray& seeds, WeightRange range, double h, Random& random);
-/// scatter and set_weights with h = n^(-1/d) times the edge of the box.
+/// scatter() and set_weights() with h = n^(-1/d) times the edge of the box.
 SeedArray random_seeds(Distribution distribution, WeightRange range, std::size_t n, int dimension,
                        Random& random, const Box& box = {});
 
-/// Degenerate families, weights zero.
+/// Degenerate families, with weights 0.
 SeedArray grid(int per_axis, int dimension, const Box& box = {});          ///< centres of a regular grid
 SeedArray collinear(std::size_t n, int dimension, const Box& box = {});    ///< on the box's diagonal
 SeedArray coplanar(std::size_t n, Random& random, const Box& box = {});    ///< on the plane z = middle
 SeedArray cospherical(std::size_t n, int dimension, const Box& box = {});  ///< on a circle or sphere
-/// Seeds whose distances to the middle span the `decades` orders of magnitude below the box's edge.
+/// Seeds with distances to the middle over `decades` orders of magnitude below the box's edge.
 SeedArray spread_over_scales(std::size_t n, int dimension, double decades, Random& random,
                              const Box& box = {});
 
-/// Turns positions about `center`: by `angle` in the plane, in space also by half of it about x.
+/// Rotates positions about `center`: by `angle` in the xy plane, in space then by half of it about x.
 void rotate(SeedArray& seeds, double angle, const std::array<double, 3>& center);
 void translate(SeedArray& seeds, const std::array<double, 3>& by);
 /// Positions times s, weights times s^2.

@@ -33,7 +33,7 @@ Mesh icosahedron() {
   return mesh;
 }
 
-/// Two triangles a cell of a grid of vertices that `index(i, j)` names.
+/// Two triangles per cell of a grid of vertices index(i, j).
 template <class Index>
 void add_grid_triangles(Mesh& mesh, int rows, int columns, Index index) {
   for (int i = 0; i < rows; ++i)
@@ -118,7 +118,7 @@ Mesh cube_tetrahedra(int per_axis, double jitter, Random& random) {
           if (c > 0 && c < per_axis) c += jitter * random.uniform(-1, 1);
         add_vertex(mesh, x[0] / per_axis, x[1] / per_axis, x[2] / per_axis);
       }
-  // Kuhn's subdivision: a tetrahedron for each order in which the three axes are walked.
+  // Kuhn's subdivision: a tetrahedron for each order of the three axes.
   static constexpr int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   for (int k = 0; k < per_axis; ++k)
     for (int j = 0; j < per_axis; ++j)

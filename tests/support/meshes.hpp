@@ -9,7 +9,7 @@
 
 namespace powercell::test {
 
-/// A mesh as the library takes it: nv x 3 coordinates, then 3 or 4 indices an element.
+/// nv x 3 coordinates, and 3 or 4 vertex indices per element.
 struct Mesh {
   std::vector<double> vertices;
   std::vector<std::uint32_t> elements;
@@ -20,8 +20,8 @@ Mesh icosphere(int subdivisions);    ///< radius 1 about 0, closed
 Mesh torus(int around, int across);  ///< radii 1 and 0.4 about the z axis, closed
 Mesh wavy_patch(int per_axis);       ///< open: a height field over the unit square
 Mesh book(int pages);                ///< non-manifold: rectangles that share one edge
-/// The unit cube as 6 tetrahedra a grid cell; inner vertices moved by up to `jitter` cells and every
-/// other tetrahedron turned inside out, as files have them.
+/// The unit cube as 6 tetrahedra per grid cell. Inner vertices are moved by up to `jitter` cells, and every
+/// other tetrahedron is inverted, as may occur in files.
 Mesh cube_tetrahedra(int per_axis, double jitter, Random& random);
 Mesh ball_tetrahedra(int subdivisions);  ///< an icosphere's triangles joined to its centre
 

@@ -26,25 +26,25 @@ cl_int kept_event(cl_int status, cl_event* made) {
 
 }  // namespace
 
-// An entry point that gives a status.
+// An entry point that returns a status.
 #define PASS(function, parameters, arguments)                     \
   cl_int function parameters {                                    \
     if (const cl_int code = before(Entry::function)) return code; \
     return real<decltype(function)>(Entry::function) arguments;   \
   }
-// One that gives an object, with the status in its last argument.
+// One that returns an object, with the status in its last argument.
 #define MAKE(function, type, kind, parameters, arguments)                                \
   type function parameters {                                                             \
     if (const cl_int code = before(Entry::function)) return refused<type>(code, status); \
     return kept(kind, real<decltype(function)>(Entry::function) arguments);              \
   }
-// One that makes an event where the caller asks for it.
+// One that makes an event if the caller wants one.
 #define ENQUEUE(function, parameters, arguments)                                  \
   cl_int function parameters {                                                    \
     if (const cl_int code = before(Entry::function)) return code;                 \
     return kept_event(real<decltype(function)>(Entry::function) arguments, made); \
   }
-// Takes place also where it is to fail: what is told to fail is its answer.
+// Releases even if it must fail: only the returned status is an error.
 #define RELEASE(function, type, kind)                                        \
   cl_int function(type object) {                                             \
     const cl_int code = before(Entry::function);                             \
@@ -151,7 +151,7 @@ void* clEnqueueMapBuffer(cl_command_queue q, cl_mem m, cl_bool blocking, cl_map_
   return result == CL_SUCCESS ? kept(map, mapped) : nullptr;
 }
 
-// Told to fail it still unmaps, as a release still releases: else the buffer could never be used again.
+// Unmaps even if it must fail, like a release: otherwise the buffer could never be used again.
 cl_int clEnqueueUnmapMemObject(cl_command_queue q, cl_mem m, void* mapped, cl_uint n, Events wait,
                                cl_event* made) {
   const cl_int code = before(Entry::clEnqueueUnmapMemObject);
@@ -184,6 +184,8 @@ PASS(clGetEventInfo, (cl_event e, cl_event_info which, std::size_t size, void* v
 PASS(clGetEventProfilingInfo,
      (cl_event e, cl_profiling_info which, std::size_t size, void* value, std::size_t* needed),
      (e, which, size, value, needed))
+PASS(clGetKernelInfo, (cl_kernel k, cl_kernel_info which, std::size_t size, void* value, std::size_t* needed),
+     (k, which, size, value, needed))
 PASS(clGetKernelWorkGroupInfo,
      (cl_kernel k, cl_device_id device, cl_kernel_work_group_info which, std::size_t size, void* value,
       std::size_t* needed),

@@ -33,6 +33,7 @@ constexpr const char* names[entry_count] = {"clBuildProgram",
                                             "clGetDeviceInfo",
                                             "clGetEventInfo",
                                             "clGetEventProfilingInfo",
+                                            "clGetKernelInfo",
                                             "clGetKernelWorkGroupInfo",
                                             "clGetMemObjectInfo",
                                             "clGetPlatformIDs",
@@ -50,7 +51,7 @@ constexpr const char* names[entry_count] = {"clBuildProgram",
                                             "clSetKernelArg",
                                             "clWaitForEvents"};
 
-/// What does not reach a device that is gone.
+/// Whether an entry point needs the device, and fails if it is lost.
 bool needs_device(Entry entry) {
   const char* text = name(entry);
   return std::strncmp(text, "clEnqueue", 9) == 0 || entry == Entry::clCreateBuffer ||

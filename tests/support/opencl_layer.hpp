@@ -1,5 +1,5 @@
 /// \file
-/// The state of the layer over OpenCL (opencl_shim.hpp), and what its entry points do besides passing on.
+/// The state of the layer over OpenCL (opencl_shim.hpp), and the bookkeeping of its entry points.
 #pragma once
 
 #include <limits>
@@ -41,13 +41,13 @@ Function* real(Entry entry) {
   return reinterpret_cast<Function*>(loader_entry(entry));
 }
 
-/// Counts a call; the code with which it is to fail, or CL_SUCCESS.
+/// Counts a call. Returns the code with which it must fail, or CL_SUCCESS.
 cl_int before(Entry entry);
 void hold(Kind kind, void* object);
 void let_go(Kind kind, void* object);
-/// Whether a buffer of so many bytes fits the memory there is said to be.
+/// Whether a buffer of this size fits within the memory limit.
 bool fits(std::size_t bytes);
-/// Puts the pretended value, if there is one, over what the driver wrote.
+/// Overwrites the driver's value with the pretended one, if any.
 void pretend_over(cl_device_info property, std::size_t size, void* value);
 
 }  // namespace powercell::test::shim

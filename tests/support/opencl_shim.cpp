@@ -1,4 +1,4 @@
-// What tests tell the layer, and ask it.
+// The requests and queries of tests.
 #include "tests/support/opencl_layer.hpp"
 
 namespace powercell::test::shim {

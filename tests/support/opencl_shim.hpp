@@ -1,9 +1,9 @@
 /// \file
-/// A layer over the OpenCL entry points that the library calls: it counts calls and living objects, and makes
-/// calls fail, the device get lost, memory run out or a property be another one, as a test tells it.
+/// A layer over the OpenCL entry points that the library calls. It counts calls and objects, and on request
+/// makes calls fail, loses the device, limits memory or changes a property.
 ///
-/// A test that links powercell_opencl_shim defines the entry points itself; each passes on to the ICD loader.
-/// With nothing told the layer changes nothing. Safe to be called from several threads.
+/// powercell_opencl_shim defines the entry points in a test; each calls that of the ICD loader. Without
+/// requests it changes nothing. Thread-safe.
 #pragma once
 
 #ifndef CL_TARGET_OPENCL_VERSION
@@ -18,7 +18,7 @@
 
 namespace powercell::test::shim {
 
-/// Every entry point of the library, and the few more that tests use.
+/// The entry points used by the library and tests.
 enum class Entry : std::size_t {
   clBuildProgram,
   clCreateBuffer,
@@ -44,6 +44,7 @@ enum class Entry : std::size_t {
   clGetDeviceInfo,
   clGetEventInfo,
   clGetEventProfilingInfo,
+  clGetKernelInfo,
   clGetKernelWorkGroupInfo,
   clGetMemObjectInfo,
   clGetPlatformIDs,
@@ -70,34 +71,34 @@ using Calls = std::array<std::uint64_t, entry_count>;
 Calls calls();
 void reset_calls();
 
-/// Objects made or retained and not yet released, as the program holds them, and buffers mapped.
+/// Numbers of objects made or retained and not yet released, and of mapped buffers.
 struct Alive {
   int contexts = 0, queues = 0, buffers = 0, programs = 0, kernels = 0, events = 0, maps = 0;
   friend bool operator==(const Alive&, const Alive&) = default;
 };
 Alive alive();
 std::string to_string(const Alive& alive);
-/// Most bytes that buffers had at once since reset_calls().
+/// The largest total size of buffers since reset_calls().
 std::size_t peak_buffer_bytes();
-/// Releases of something that was not there, since the start: always an error.
+/// The number of releases of unknown objects since the start, each of which is an error.
 int wrong_releases();
 
-/// The nth call of `entry` from now on (from 1) fails with `code`, that one alone. A release that fails has
-/// released. An enqueue that fails has enqueued nothing.
+/// Makes the nth call of `entry` from now on (from 1) fail with `code`, and no other. A failed release still
+/// releases; a failed enqueue enqueues nothing.
 void fail(Entry entry, std::uint64_t nth, cl_int code);
-/// From the nth call from now on (from 1) that needs the device, all such calls fail with `code`.
+/// Makes the nth call from now on (from 1) that needs the device, and all later ones, fail with `code`.
 void lose_device(std::uint64_t nth, cl_int code);
-/// Calls so far, since reset_calls(), that needed the device.
+/// The number of calls since reset_calls() that needed the device.
 std::uint64_t device_calls();
-/// True if what fail() or lose_device() told has happened.
+/// Whether the fault requested by fail() or lose_device() has happened.
 bool fired();
-/// Buffers that would make more than this fail with CL_MEM_OBJECT_ALLOCATION_FAILURE.
+/// Makes buffers beyond a total of this size fail with CL_MEM_OBJECT_ALLOCATION_FAILURE.
 void limit_memory(std::size_t bytes);
-/// What clGetDeviceInfo says of a property that is one number (of 4 or 8 bytes).
+/// Changes what clGetDeviceInfo returns for a property that is one number (of 4 or 8 bytes).
 void pretend(cl_device_info property, std::uint64_t value);
-/// Kernels run in groups of this many work-items, whatever the program asks for.
+/// Makes kernels run in groups of this many work-items.
 void force_group_size(std::size_t items);
-/// Back to changing nothing; counts stay.
+/// Withdraws all requests; counts stay.
 void behave();
 
 /// Calls behave() at the end of a scope.

@@ -13,7 +13,7 @@ Permutation inverse(const Permutation& from) {
   return to;
 }
 
-/// Rows of `width` values in the first order.
+/// Rows of `width` values in the original order.
 template <class T>
 std::vector<T> rows(const std::vector<T>& values, const Permutation& from) {
   std::vector<T> result(values.size());
@@ -24,7 +24,7 @@ std::vector<T> rows(const std::vector<T>& values, const Permutation& from) {
   return result;
 }
 
-/// Appends the entries [begin, end) of one array to another.
+/// Appends the entries [begin, end) of an array.
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& values, std::uint64_t begin, std::uint64_t end) {
   to.insert(to.end(), values.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -107,8 +107,8 @@ Cells restored(const Cells& cells, const Permutation& from) {
 }
 
 Dual restored(const Dual& dual, const Permutation& from) {
-  // The rows as the library writes them: the seeds ascending but for the last two, which are swapped where
-  // the orientation asks for it; rows ascending.
+  // As the library writes them: rows ascend, and seeds within a row, except that orientation may swap the
+  // last two.
   const auto corners = static_cast<std::size_t>(dual.corners);
   std::vector<std::array<std::uint32_t, 4>> list;
   for (std::size_t r = 0; r < dual.size(); ++r) {

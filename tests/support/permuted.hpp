@@ -1,5 +1,5 @@
 /// \file
-/// Seeds in another order, and results brought back to the first one.
+/// Seeds in another order, and their results in the original order.
 #pragma once
 
 #include "tests/support/generators.hpp"
@@ -7,13 +7,13 @@
 
 namespace powercell::test {
 
-/// The place that each seed of a permuted set had before.
+/// The original index of each seed of a permuted set.
 using Permutation = std::vector<std::uint32_t>;
 Permutation random_permutation(std::size_t n, Random& random);
 
 SeedArray permuted(const SeedArray& seeds, const Permutation& from);
 
-/// Results of permuted seeds as if the seeds were in their first order.
+/// The results of permuted seeds, as for seeds in the original order.
 Measures restored(const Measures& measures, const Permutation& from);
 Adjacency restored(const Adjacency& adjacency, const Permutation& from);
 Cells restored(const Cells& cells, const Permutation& from);

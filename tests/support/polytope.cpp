@@ -35,15 +35,15 @@ Moments& Moments::operator+=(const Moments& other) {
 
 namespace {
 
-/// Where the segment from the kept `in` to the cut `out` crosses the plane. Always called in this order,
-/// so that two faces sharing the edge get the same point.
+/// The point where the segment from the kept `in` to the cut `out` crosses the plane. In this order for both
+/// faces of an edge, so that they get the same point.
 Vec crossing(const Vec& in, const Vec& out, Real excess_in, Real excess_out) {
   const Real t = excess_in / (excess_in - excess_out);
   return in + t * (out - in);
 }
 
-/// Moments of a simplex of `corners` vertices in the space of its own dimension, given its measure:
-/// the integral of |x|^2 is measure / ((k+1)(k+2)) * (sum |v|^2 + |sum v|^2) with k+1 corners.
+/// Moments of a simplex of k+1 corners with a known measure: the integral of |x|^2 is
+/// measure / ((k+1)(k+2)) * (sum |v|^2 + |sum v|^2).
 Moments simplex_moments(const Vec* v, int corners, Real measure) {
   Vec sum;
   Real squares = 0;
@@ -81,7 +81,7 @@ Polygon clip(const Polygon& polygon, const HalfSpace& half_space, Border border)
 
 namespace {
 
-/// One cut of a polyhedron: the signs of the vertices, the vertices made, and the cut's own edges.
+/// One cut of a polyhedron: the sides of the vertices, the new vertices, and the edges of the cap.
 class Cut {
  public:
   Cut(const Polyhedron& from, const HalfSpace& half_space) : vertices_(from.vertices) {
@@ -89,7 +89,7 @@ class Cut {
     for (const Vec& v : vertices_) excess_.push_back(half_space.excess(v));
   }
 
-  /// The part of a ring that is kept. Each way out of the half-space and back leaves an edge of the cap.
+  /// The kept part of a ring. Each way out of the half-space and back makes an edge of the cap.
   std::vector<std::uint32_t> clip_ring(const std::vector<std::uint32_t>& ring) {
     std::vector<std::uint32_t> kept;
     std::vector<std::uint32_t> outs, backs;  // crossings in ring order
@@ -114,7 +114,7 @@ class Cut {
     return kept;
   }
 
-  /// The rings of the cap, one unless rounding has broken the convexity.
+  /// The rings of the cap; one, unless rounding made the polyhedron non-convex.
   std::vector<std::vector<std::uint32_t>> cap_rings() {
     std::vector<std::vector<std::uint32_t>> rings;
     while (!cap_next_.empty()) {
@@ -146,7 +146,7 @@ class Cut {
   std::map<std::uint32_t, std::uint32_t> cap_next_;
 };
 
-/// Drops the vertices that no ring names any more.
+/// Removes vertices that are in no ring.
 void compact(Polyhedron& polyhedron) {
   std::vector<std::uint32_t> number(polyhedron.vertices.size(), UINT32_MAX);
   std::vector<Vec> used;

@@ -1,6 +1,6 @@
 /// \file
-/// Convex polygons and polyhedra in long double, cut by half-spaces one at a time. Written for the
-/// oracles alone and as plainly as possible: lists of vertices and of faces, no sharing with lib/.
+/// Convex polygons and polyhedra in long double, cut by half-spaces one at a time. For the oracles only, as
+/// simple as possible, and without code shared with lib/.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Moments {
   Moments& operator+=(const Moments& other);
 };
 
-/// Edge k goes from vertex k to vertex k+1 (cyclic); `border[k]` is what lies behind it.
+/// Edge k goes from vertex k to vertex k+1 (cyclic) and has the border border[k].
 struct Polygon {
   std::vector<Vec> vertices;
   std::vector<Border> border;
@@ -49,13 +49,13 @@ struct Polyhedron {
     std::vector<std::uint32_t> ring;
     Border border;
   };
-  std::vector<Vec> vertices;  ///< those of cut-off parts stay in the list, in no ring
+  std::vector<Vec> vertices;  ///< may include vertices cut off, which are in no ring
   std::vector<Face> faces;
   bool empty() const { return faces.empty(); }
 };
 
-/// What is left of the polygon or polyhedron in the half-space; points on its plane are kept, and the
-/// edge or face made by the cut gets `border`.
+/// The part of the polygon or polyhedron in the half-space, including points on its plane. The edge or face
+/// made by the cut gets `border`.
 Polygon clip(const Polygon& polygon, const HalfSpace& half_space, Border border);
 Polyhedron clip(Polyhedron polyhedron, const HalfSpace& half_space, Border border);
 

@@ -1,5 +1,5 @@
 /// \file
-/// Results of a diagram compared bit for bit, NaN included.
+/// Bitwise comparison of results, including NaN.
 #pragma once
 
 #include <powercell/diagram.hpp>
@@ -8,7 +8,7 @@
 
 namespace powercell::test {
 
-/// All that a diagram gives.
+/// All results of a diagram.
 struct Results {
   Measures measures;
   Adjacency adjacency;
@@ -16,10 +16,10 @@ struct Results {
   Dual dual;
 };
 
-/// Asks for all of it.
+/// Computes all results.
 Results results_of(Diagram& diagram);
 
-/// Which arrays differ and where first; empty where every bit is the same.
+/// The arrays that differ, each with its first difference; empty if all bits are equal.
 std::string bit_differences(const Measures& a, const Measures& b);
 std::string bit_differences(const Adjacency& a, const Adjacency& b);
 std::string bit_differences(const Cells& a, const Cells& b);

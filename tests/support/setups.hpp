@@ -1,5 +1,5 @@
 /// \file
-/// Every way a diagram can be made on this machine: device x precision x neighbour provider.
+/// All configurations of a diagram on this machine: device x precision x neighbour provider.
 #pragma once
 
 #include <powercell/device.hpp>
@@ -15,10 +15,10 @@ struct Setup {
   Options options;
 };
 
-/// All of them; the devices are made once for the process. POWERCELL_DEVICE, if set, restricts the list
-/// to the device it names.
+/// All configurations, with devices made once for the process. POWERCELL_DEVICE, if set, restricts them to
+/// one device.
 const std::vector<Setup>& all_setups();
-/// The first device in its best precision, with each provider.
+/// The first device with its best precision and each provider.
 const std::vector<Setup>& main_setups();
 
 /// 2^-53 or 2^-24.

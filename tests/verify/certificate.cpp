@@ -1,5 +1,4 @@
-// The certificate of every result: it holds for what the library computes, and refuses what was tampered
-// with.
+// The certificate holds for results of the library, and refuses tampered ones.
 #include "lib/verify/certificate.hpp"
 
 #include <doctest/doctest.h>
@@ -38,7 +37,7 @@ TEST_CASE("certificates of ordinary and degenerate diagrams hold, on every kind 
     }
 }
 
-TEST_CASE("certificates hold where the seeds of a point differ by less than rounding") {
+TEST_CASE("certificates hold where power distances differ by less than rounding") {
   // The middle one of three is hidden by a weight far below the rounding of distances.
   const double h = 1e-17;
   for (Setup setup : main_setups()) {
@@ -57,7 +56,7 @@ TEST_CASE("certificates hold where the seeds of a point differ by less than roun
   }
 }
 
-TEST_CASE("certificates of cells far from their seeds hold, and are refused for what is wrong nevertheless") {
+TEST_CASE("certificates of cells far from their seeds hold, and wrong ones are refused nevertheless") {
   Random random(test_seed());
   for (const double far : {0x1p18, 0x1p22}) {
     // Voronoi cells of seeds y, as those of y + far with weights 2 far.y.
@@ -82,7 +81,7 @@ TEST_CASE("certificates of cells far from their seeds hold, and are refused for 
   }
 }
 
-TEST_CASE("a certificate is refused for what no diagram is, and names the seed") {
+TEST_CASE("certificates of impossible results are refused and name the seed") {
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 300, 3, random);
   const Domain domain = unit_box(3);
@@ -118,7 +117,7 @@ TEST_CASE("a certificate is refused for what no diagram is, and names the seed")
           a.asymmetry = 0.01;
           a.asymmetric = {9, a.neighbor[a.offset[9]]};
         }).find("of seeds 9 and ") != std::string::npos);
-  // All but one seed said to be hidden: most points then have an owner without a cell.
+  // With all seeds but one marked hidden, most points have an owner without a cell.
   CHECK(refusal([](Measures& m, Adjacency&) {
           for (std::size_t i = 1; i < m.mass.size(); ++i) {
             m.mass[0] += m.mass[i];

@@ -10,11 +10,19 @@ using namespace powercell::test;
 
 namespace {
 
+/// Of the diagram, and of the saved diagram.
 void expect_laws(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
   Diagram diagram(setup.device, domain, setup.options);
   diagram.set_seeds(seeds);
-  const std::vector<LawCheck> checks = verify(diagram, seeds, {200, test_seed()});
-  CHECK(checks.size() == 6);
+  std::vector<LawCheck> checks = verify(diagram, seeds, {200, test_seed()});
+  const JoinedCells joined = join(domain, diagram.cells());
+  for (LawCheck& check :
+       verify(SavedDiagram{domain.kind(), diagram.precision(), seeds, diagram.measures(), joined},
+              {200, test_seed()})) {
+    check.law += " (saved)";
+    checks.push_back(std::move(check));
+  }
+  CHECK(checks.size() == 14);
   for (const LawCheck& check : checks) {
     INFO(setup.name << ": " << check.law << ": " << check.value << " of " << check.tolerance << "; "
                     << check.detail);
@@ -58,8 +66,7 @@ TEST_CASE("degenerate seeds obey the laws") {
 }
 
 TEST_CASE("diagrams all of whose walls are shorter than rounding obey the laws") {
-  // Bisectors that cut the corners (1, 1) or (1, 1, 1) off, by some roundings of the way from the seeds to
-  // it.
+  // Bisectors that cut off the corner (1, 1) or (1, 1, 1) by a few roundings of its distance from the seeds.
   for (const Setup& setup : main_setups())
     for (const int d : {2, 3})
       for (int k = -8; k <= 16; ++k) {
@@ -72,8 +79,8 @@ TEST_CASE("diagrams all of whose walls are shorter than rounding obey the laws")
       }
 }
 
-TEST_CASE("seeds close together, whose bisectors with others are all but parallel, obey the laws") {
-  // Below some 1e-8 exact decisions take over, and the geometry is exact but for its last places.
+TEST_CASE("seeds close together, whose bisectors with others are nearly parallel, obey the laws") {
+  // Below about 1e-8 decisions are exact, and the geometry is exact up to its last digits.
   for (const Setup& setup : main_setups())
     for (const auto& list : {surface_domains(), volume_domains(), box_domains()})
       for (const NamedDomain& named : list)
@@ -98,7 +105,7 @@ TEST_CASE("cells that measure less than the least number of single precision obe
   }
 }
 
-TEST_CASE("other seeds than the diagram's are refused, or found out") {
+TEST_CASE("seeds other than the diagram's are refused or break laws") {
   Random random(test_seed());
   const SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
   const SeedArray others = scatter(Distribution::white, 50, 2, {}, random);
@@ -107,7 +114,7 @@ TEST_CASE("other seeds than the diagram's are refused, or found out") {
   diagram.set_seeds(seeds.view());
   CHECK_THROWS_AS(verify(diagram, scatter(Distribution::white, 49, 2, {}, random).view()), Error);
   CHECK_THROWS_AS(verify(diagram, scatter(Distribution::white, 50, 3, {}, random).view()), Error);
-  // Too few weights, and half a seed too many.
+  // Too few weights, and half a seed too much.
   const std::vector<double> weights(49, 0);
   CHECK_THROWS_AS(verify(diagram, {2, seeds.positions, weights}), Error);
   std::vector<double> positions = seeds.positions;

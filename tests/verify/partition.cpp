@@ -1,4 +1,4 @@
-// How far the sum of measures may be off follows the domain's shape and the seeds' distance.
+// The tolerance of the sum of measures depends on the domain's shape and the seeds' distance.
 #include "lib/verify/partition.hpp"
 
 #include <doctest/doctest.h>
@@ -28,22 +28,22 @@ const LawCheck& partition_of(const std::vector<LawCheck>& checks) {
 
 }  // namespace
 
-TEST_CASE("what a measure changes by where corners move is that of closed forms") {
-  // Corners of a square move half a diagonal's length of area each, those of a cube a quarter of three
+TEST_CASE("gradients of measures agree with closed forms") {
+  // The gradient at a corner of a square is half a diagonal; at a corner of a cube it is a quarter of three
   // facets.
   CHECK(gradient_of(unit_box(2)) == doctest::Approx(4 * std::sqrt(0.5)));
   CHECK(gradient_of(unit_box(3)) == doctest::Approx(8 * std::sqrt(3.0) / 4));
   const std::vector<double> corner{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
   const Domain tetrahedron = Domain::volume(corner, std::vector<std::uint32_t>{0, 1, 2, 3});
   CHECK(gradient_of(tetrahedron) == doctest::Approx((3 * 2 + 2 * std::sqrt(3.0)) / 3));
-  // A flat sheet is its polygon; a closed surface has twice its mean curvature.
+  // A flat sheet counts as its polygon; a closed surface has twice its mean curvature.
   const std::vector<double> sheet{0, 0, 5, 1, 0, 5, 1, 1, 5, 0, 1, 5};
   CHECK(gradient_of(Domain::surface(sheet, std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3})) ==
         doctest::Approx(4 * std::sqrt(0.5)));
   CHECK(gradient_of(surface_of(icosphere(4))) == doctest::Approx(8 * std::numbers::pi).epsilon(0.05));
 }
 
-TEST_CASE("inner corners of a flat domain do not count") {
+TEST_CASE("gradients at inner corners of a volume are 0") {
   Random random(test_seed());
   const double gradient = gradient_of(volume_of(cube_tetrahedra(8, 0.2, random)));
   CHECK(gradient > gradient_of(unit_box(3)));
@@ -57,7 +57,7 @@ TEST_CASE("boxes far longer than thick obey the laws, with seeds as far away as 
     seeds.push({1, 0.3, 0.6}, 0);
     for (Setup setup : main_setups()) {
       INFO(setup.name << ", " << thick);
-      // Of less than rounding of the distance single precision leaves nothing.
+      // In single precision, nothing is left of a thickness below the rounding of the distance.
       if (setup.options.precision == Precision::float32 && thick < 1e-5) continue;
       setup.options.certify = true;
       Diagram diagram(setup.device, domain, setup.options);

@@ -1,5 +1,5 @@
-// Bisectors at tiny angles to what they cut of the domain: where they end moves by rounding over the sine of
-// the angle, on one side of the wall otherwise than on the other. Verification and certificate know of it.
+// Bisectors at tiny angles to the facets that they cut: the ends of a wall move by rounding over the sine of
+// the angle, differently on its two sides. Verification and certificate allow for it.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ Vector unit(const Vector& a) {
   return (1 / norm(a)) * a;
 }
 
-/// A place in a facet, its normal and a direction within it.
+/// A point of a facet, its normal and a direction in it.
 struct Place {
   Vector point, normal, along;
   double size;  // of the region
@@ -35,7 +35,7 @@ Vector any_of(const Corners& corners, Random& random) {
   return (1 / weights) * sum;
 }
 
-/// In a face of a tetrahedron or box, an edge of a polygon, or of a surface an edge or a triangle.
+/// In a face of a tetrahedron or box, an edge of a polygon, or an edge or triangle of a surface.
 Place any_place(const Domain& domain, Random& random) {
   const RegionMesh& mesh = domain.mesh();
   const Corners region = corners_of(mesh, random.index(mesh.region_count()));
@@ -57,7 +57,7 @@ Place any_place(const Domain& domain, Random& random) {
   return {point, unit(normal), unit(facet[1] - facet[0]), static_cast<double>(norm(region[1] - region[0]))};
 }
 
-/// Two seeds whose bisector crosses the facet there at this angle, and now and then others about.
+/// Two seeds whose bisector crosses the facet there at this angle, sometimes with others around.
 SeedArray seeds_at(const Place& place, double angle, const Domain& domain, Random& random) {
   const int d = domain.dimension();
   SeedArray seeds{d, {}, {}};
@@ -78,7 +78,7 @@ SeedArray seeds_at(const Place& place, double angle, const Domain& domain, Rando
 
 }  // namespace
 
-TEST_CASE("bisectors all but parallel to facets, edges and triangles of the domain obey the laws") {
+TEST_CASE("bisectors nearly parallel to facets, edges and triangles of the domain obey the laws") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const auto& list : {polygon_domains(), surface_domains(), volume_domains(), box_domains()})

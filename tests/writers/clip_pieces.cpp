@@ -41,7 +41,7 @@ Piece clip_polygon(const Piece& piece, const std::vector<double>& side, Border b
   return kept.vertices.size() < 3 ? Piece{} : kept;
 }
 
-// Vertices kept or made by one cut of a polyhedron.
+// Vertices kept or created by a cut of a polyhedron.
 struct Cut {
   const Piece& piece;
   const std::vector<double>& side;
@@ -65,7 +65,7 @@ struct Cut {
 
 Piece clip_polyhedron(const Piece& piece, const std::vector<double>& side, Border border) {
   Cut cut{piece, side, {}, {}, {}};
-  std::map<std::uint32_t, std::uint32_t> rim;  // along the cut, as the new face runs
+  std::map<std::uint32_t, std::uint32_t> rim;  // along the cut, in the order of the new face
   for (std::size_t f = 0; f < piece.loops.size(); ++f) {
     const auto& loop = piece.loops[f];
     std::vector<std::uint32_t> kept;

@@ -1,5 +1,5 @@
 /// \file
-/// Convex pieces cut by half-spaces, for the diagrams that tests of writers are given.
+/// Convex pieces cut by half-spaces, for the diagrams in the tests of the writers.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Piece {
   bool empty() const { return vertices.empty(); }
 };
 
-/// What of the piece has dot(normal, x) <= offset; the cut is labelled `border`.
+/// The part of the piece with dot(normal, x) <= offset; the cut has the border `border`.
 Piece clip(const Piece& piece, const Point& normal, double offset, Border border);
 
 /// The piece as simplices (rows of 3 or 4 points).

@@ -1,4 +1,4 @@
-// The measures recomputed from the written files are those of the cells.
+// Measures recomputed from the written files equal those of the cells.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace powercell::test;
 
 namespace {
 
-// Per seed: area of its polygons, and volume inside them (by the divergence theorem).
+// For each seed the area of its polygons, and the volume inside them (by the divergence theorem).
 struct Sums {
   std::map<int, double> area, volume;
   void add(int seed, const std::vector<Point>& polygon) {
@@ -163,7 +163,7 @@ Sums sums_of_json(const nlohmann::json& json, bool flat) {
 
 }  // namespace
 
-TEST_CASE("polygon files hold the cells") {
+TEST_CASE("polygon files contain the cells") {
   TemporaryFolder folder;
   for (const MadeDiagram& made : diagrams()) {
     CAPTURE(static_cast<int>(made.domain.kind()));
@@ -175,7 +175,7 @@ TEST_CASE("polygon files hold the cells") {
   }
 }
 
-TEST_CASE("JSON holds the joined cells, their numbers and the self-check") {
+TEST_CASE("JSON contains the joined cells, their figures and the self-check") {
   TemporaryFolder folder;
   for (const MadeDiagram& made : diagrams()) {
     CAPTURE(static_cast<int>(made.domain.kind()));
@@ -205,7 +205,7 @@ TEST_CASE("the borders in JSON name the neighbours") {
     std::map<std::uint32_t, bool> named;
     for (const auto& ring : json.at("cells")[i].at("borders")) {
       for (const auto& border : ring) {
-        REQUIRE(border.is_number_integer());  // no edge between the pieces of one cell is left
+        REQUIRE(border.is_number_integer());  // no edges between pieces of a cell remain
         if (border.get<int>() >= 0) named[border.get<std::uint32_t>()] = true;
       }
     }

@@ -13,7 +13,7 @@ struct Edge {
   Border border;
 };
 
-// One cell while it is joined.
+// A cell that is being joined.
 struct Joining {
   const Cells& cells;
   JoinedCells& joined;

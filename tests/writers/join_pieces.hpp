@@ -5,7 +5,7 @@
 
 namespace powercell::test {
 
-/// Cells whose vertices within 1e-9 of each other are one, without the faces between pieces.
+/// The cells with vertices within 1e-9 of each other merged, without the faces between pieces.
 JoinedCells join_pieces(const Cells& cells);
 
 }  // namespace powercell::test

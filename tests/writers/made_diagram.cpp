@@ -53,7 +53,7 @@ struct Maker {
     const double offset = dot(seed(j), seed(j)) - made.weights[j] - dot(seed(i), seed(i)) + made.weights[i];
     return clip(piece, normal, offset, {Border::Kind::wall, static_cast<std::uint32_t>(j)});
   }
-  // The seeds that own the corners and the middle of the region go first: they empty most pieces at once.
+  // The seeds that own the corners and the middle of the region come first: they empty most pieces at once.
   Piece cell_piece(const Piece& region, std::size_t i, const std::vector<std::size_t>& owners) const {
     Piece piece = region;
     for (std::size_t k = 0; k < owners.size() && !piece.empty(); ++k) piece = cut(piece, i, owners[k]);

@@ -1,6 +1,6 @@
 /// \file
-/// Diagrams for tests of writers, computed here by clipping every region by every seed: the writers are
-/// tested apart from the pipeline that feeds them.
+/// Diagrams for the tests of the writers, computed by clipping every region by every seed, independently of
+/// the library.
 #pragma once
 
 #include <string>
@@ -23,15 +23,15 @@ struct MadeDiagram {
   }
 };
 
-/// Clips, measures, joins. Seeds at one position are told apart as SeedStatus says.
+/// Clips, measures, joins. Seeds at the same position are treated as SeedStatus describes.
 MadeDiagram make_diagram(const Domain& domain, std::vector<double> positions, std::vector<double> weights);
 
-/// A wavy blob with a hole; `n` weighted seeds, of which some are hidden, two share a place and every
-/// fifth has a negative weight.
+/// A wavy shape with a hole. Of the `n` weighted seeds some are hidden, two share a position and every fifth
+/// has a negative weight.
 MadeDiagram polygon_diagram(int n);
-/// A torus in cells.
+/// A torus.
 MadeDiagram surface_diagram(int n);
-/// The unit cube as tetrahedra, in cells.
+/// The unit cube in tetrahedra.
 MadeDiagram volume_diagram(int n);
 
 }  // namespace powercell::test

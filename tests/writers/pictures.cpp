@@ -9,10 +9,10 @@
 #include <set>
 
 #include "apps/io/output.hpp"
+#include "apps/io/picture_light.hpp"
+#include "apps/io/picture_models.hpp"
 #include "apps/io/picture_outline.hpp"
-#include "apps/io/picture_palette.hpp"
 #include "apps/io/picture_scene.hpp"
-#include "apps/io/picture_solid.hpp"
 #include "tests/writers/clip_pieces.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"
@@ -118,7 +118,7 @@ TEST_CASE("discs show signs, hidden seeds and duplicates") {
   CHECK(duplicates == 1);
 }
 
-TEST_CASE("weights that are no radii are not drawn as discs") {
+TEST_CASE("weights that are not radii are not drawn as discs") {
   const MadeDiagram made = polygon_diagram(80);
   io::DiagramOutput output = made.output();
   output.weights_as_discs = false;
@@ -146,7 +146,7 @@ TEST_CASE("cells with a common wall differ in colour") {
   }
 }
 
-TEST_CASE("a PNG can be read, has its size and shows cells on white") {
+TEST_CASE("a PNG can be read, has the right size and shows cells on white") {
   TemporaryFolder folder;
   const MadeDiagram flat = polygon_diagram(60), surface = surface_diagram(15), solid = volume_diagram(20);
   for (const MadeDiagram* made : {&flat, &surface, &solid}) {
@@ -175,26 +175,22 @@ TEST_CASE("a PNG can be read, has its size and shows cells on white") {
   }
 }
 
-TEST_CASE("the picture of a surface holds all of it, walls once") {
+TEST_CASE("the picture of a surface shows all of it, with each cell as a part") {
   const MadeDiagram made = surface_diagram(30);
   const io::Model model = io::surface_model(made.output());
-  double area = 0, length = 0;
-  for (const auto& triangle : model.triangles) area += triangle_area(triangle);
-  for (const auto& line : model.lines) length += static_cast<double>(io::length(line.to - line.from));
   const auto low = made.domain.low(), high = made.domain.high();
   const double radius = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
-  CHECK(area * radius * radius == doctest::Approx(made.domain.measure()).epsilon(1e-4));
-  double walls = 0;
-  for (const double wall : made.adjacency.wall) walls += wall / 2;
-  CHECK(length * radius < walls);  // those that face the camera
-  CHECK(length * radius > 0.3 * walls);
+  std::vector<double> area(made.weights.size());
+  for (const auto& triangle : model.triangles)
+    area.at(triangle.part) += triangle_area(triangle) * radius * radius;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    CHECK(area[i] == doctest::Approx(made.measures.mass[i]).epsilon(1e-4));
 }
 
-TEST_CASE("a volume is opened: cells of the octant towards the camera are left out") {
+TEST_CASE("a volume is opened: cells of the octant towards the camera are omitted") {
   const MadeDiagram made = volume_diagram(64);
   const io::Model model = io::volume_model(made.output());
-  CHECK(model.closed);
-  const io::Vec3 view = io::view_direction();
+  const io::Vec3 view = io::View{}.towards;
   double six_volumes = 0;
   for (const auto& t : model.triangles)
     six_volumes += static_cast<double>(dot(t.corner[0], io::cross(t.corner[1], t.corner[2])));
@@ -209,9 +205,73 @@ TEST_CASE("a volume is opened: cells of the octant towards the camera are left o
   CHECK(six_volumes / 6 / std::pow(scale * 0.88, 3) == doctest::Approx(kept).epsilon(1e-4));
 }
 
-TEST_CASE("pictures are the same every time") {
+TEST_CASE("lines divide parts and creases, and nothing else") {
+  // Two squares in one plane, and one that meets them at a right angle, seen from above.
+  const auto square = [](io::Model& model, io::Vec3 at, io::Vec3 along, io::Vec3 across, std::uint32_t part) {
+    const io::Vec3 normal = io::normalized(io::cross(along, across));
+    for (const auto& [a, b] : {std::pair{along, along + across}, std::pair{along + across, across}})
+      model.triangles.push_back(
+          {{at, at + a, at + b}, {normal, normal, normal}, {200, 200, 200}, part, 0.9f});
+  };
+  const auto dark_pixels = [&](std::uint32_t second, std::uint32_t third) {
+    io::Model model;
+    model.line_width = 3;
+    square(model, {-0.6f, -0.3f, 0}, {0.6f, 0, 0}, {0, 0.6f, 0}, 0);
+    square(model, {0, -0.3f, 0}, {0.6f, 0, 0}, {0, 0.6f, 0}, second);
+    square(model, {-0.6f, -0.3f, -0.6f}, {1.2f, 0, 0}, {0, 0, 0.6f}, third);
+    const io::Image image = io::render(model, {.size = 400});
+    std::ptrdiff_t dark = 0;
+    for (std::size_t k = 0; k < image.rgb.size(); k += 3) dark += image.rgb[k] < 60;
+    return dark;
+  };
+  const auto outline = dark_pixels(0, 0);  // around the whole, and at the crease
+  CHECK(outline > 0);
+  CHECK(dark_pixels(0, 1) == outline);      // a crease is drawn once
+  CHECK(dark_pixels(1, 0) > outline + 50);  // and a border of two parts in one plane too
+}
+
+TEST_CASE("shadows: a place below a plate has no sun and little sky") {
+  std::vector<io::Triangle> plate;
+  plate.push_back({{{-0.5f, -0.5f, 0.1f}, {0.5f, -0.5f, 0.1f}, {0.5f, 0.5f, 0.1f}}});
+  plate.push_back({{{-0.5f, -0.5f, 0.1f}, {0.5f, 0.5f, 0.1f}, {-0.5f, 0.5f, 0.1f}}});
+  const io::Vec3 up{0, 0, 1};
+  const std::vector<io::Place> places = {{{0, 0, 0}, up}, {{0, 0, 0.1f}, up}, {{0.9f, 0, 0}, up}};
+  const auto light = io::light_on(places, 3, plate, up);
+  CHECK(light[0].sun == 0);
+  CHECK(light[0].sky < 0.2f);
+  CHECK(light[1].sun == 1);  // it does not shade itself
+  CHECK(light[1].sky == 1);
+  CHECK(light[2].sun == 1);
+  CHECK(light[2].sky < 1);
+  CHECK(light[2].sky > 0.8f);
+}
+
+TEST_CASE("triangles that share edges leave no sample between them") {
+  constexpr int corners = 37;
+  const auto corner = [](int k) {
+    const float angle = 6.2831853f * static_cast<float>(k % corners) / corners;
+    return io::Projected{50.3f + 40.7f * std::cos(angle), 49.9f + 40.7f * std::sin(angle), 1};
+  };
+  io::Samples samples(100, 100);
+  for (int k = 0; k < corners; ++k)
+    samples.draw({io::Projected{47.1f, 52.3f, 1}, corner(k), corner(k + 1)}, static_cast<std::uint32_t>(k));
+  std::size_t inside = 0, drawn = 0;
+  for (int row = 0; row < 100; ++row)
+    for (int column = 0; column < 100; ++column) {
+      const bool here = samples.triangle[samples.at(column, row)] != io::Samples::nothing;
+      const double away = std::hypot(column + 0.5 - 50.3, row + 0.5 - 49.9);
+      if (away < 40.4) CHECK(here);
+      if (away > 40.9) CHECK_FALSE(here);
+      inside += away < 40.4;
+      drawn += here;
+    }
+  CHECK(inside > 5000);
+  CHECK(drawn >= inside);
+}
+
+TEST_CASE("pictures are reproducible") {
   const io::Model model = io::volume_model(volume_diagram(10).output());
-  CHECK(io::render(model, 200).rgb == io::render(model, 200).rgb);
+  CHECK(io::render(model, {.size = 200}).rgb == io::render(model, {.size = 200}).rgb);
   TemporaryFolder folder;
   const MadeDiagram made = polygon_diagram(30);
   for (const std::string extension : {".svg", ".png"}) {
@@ -221,7 +281,7 @@ TEST_CASE("pictures are the same every time") {
   }
 }
 
-// Started by read_back.py, which hands the files to other programs.
+// Run by read_back.py, which reads the files with other programs.
 TEST_CASE("files for other programs" * doctest::skip(std::getenv("POWERCELL_WRITERS_FOLDER") == nullptr)) {
   const char* to = std::getenv("POWERCELL_WRITERS_FOLDER");
   REQUIRE(to);

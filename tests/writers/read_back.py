@@ -1,4 +1,4 @@
-"""Reads what the writers wrote by other programs: VTK, meshio, rsvg-convert, pdftoppm where they are.
+"""Reads the writers' files with other programs: VTK, meshio and, if installed, rsvg-convert and pdftoppm.
 
 read_back.py TEST_WRITERS. Exit code 77 where VTK is not importable."""
 import json
@@ -47,7 +47,7 @@ def areas(data):
 
 
 def polyhedron_volumes(data):
-    """By the divergence theorem on the faces as VTK has them (its own sizes of polyhedra are rough)."""
+    """By the divergence theorem on VTK's faces (VTK's own volumes of polyhedra are inaccurate)."""
     points = vtk_to_numpy(data.GetPoints().GetData())
     volume = numpy.zeros(data.GetNumberOfCells())
     for cell in range(len(volume)):

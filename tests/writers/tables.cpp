@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "apps/io/names.hpp"
 #include "apps/io/write_table.hpp"
 #include "tests/writers/made_diagram.hpp"
 #include "tests/writers/temporary_folder.hpp"
@@ -15,7 +16,7 @@ namespace {
 std::vector<std::vector<std::string>> rows(const std::string& path) {
   std::vector<std::vector<std::string>> result;
   for (const std::string& line : split(read_all(path), '\n')) result.push_back(split(line, ','));
-  REQUIRE(result.back() == std::vector<std::string>{""});  // the last line is ended
+  REQUIRE(result.back() == std::vector<std::string>{""});  // the last line ends with a newline
   result.pop_back();
   return result;
 }
@@ -41,7 +42,7 @@ TEST_CASE("the table has a row for each seed and its numbers read back the same"
       CHECK(row[0] == std::to_string(i));
       for (std::size_t k = 0; k < d; ++k) CHECK(std::stod(row[1 + k]) == seeds.positions[i * d + k]);
       CHECK(std::stod(row[1 + d]) == seeds.weights[i]);
-      CHECK(row[2 + d] == io::status_name(made.measures.status[i]));
+      CHECK(row[2 + d] == io::name(made.measures.status[i]));
       CHECK(std::stod(row[3 + d]) == made.measures.mass[i]);
       for (std::size_t k = 0; k < d; ++k) {
         if (made.measures.mass[i] > 0)
@@ -55,7 +56,7 @@ TEST_CASE("the table has a row for each seed and its numbers read back the same"
   }
 }
 
-TEST_CASE("hidden and duplicate seeds are told apart") {
+TEST_CASE("hidden and duplicate seeds are distinguished") {
   TemporaryFolder folder;
   const MadeDiagram made = polygon_diagram(60);
   io::write_table(folder.file("t.csv"), made.output().seeds, made.measures, made.adjacency);
@@ -66,7 +67,7 @@ TEST_CASE("hidden and duplicate seeds are told apart") {
   CHECK(count["duplicate"] == 1);
 }
 
-TEST_CASE("walls are written in both directions with one measure") {
+TEST_CASE("walls are written in both directions with the same measure") {
   TemporaryFolder folder;
   const MadeDiagram made = polygon_diagram(60);
   io::write_walls(folder.file("walls.csv"), made.adjacency);
@@ -83,7 +84,7 @@ TEST_CASE("walls are written in both directions with one measure") {
   }
 }
 
-TEST_CASE("no seeds give a table of its header") {
+TEST_CASE("without seeds a table has only its header") {
   TemporaryFolder folder;
   Measures measures;
   measures.dimension = 2;

@@ -11,7 +11,7 @@
 
 namespace powercell::test {
 
-/// An empty folder that is removed with all in it.
+/// An empty folder that is removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

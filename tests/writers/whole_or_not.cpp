@@ -1,4 +1,5 @@
-// A file appears whole or not at all, and what cannot be written is refused before anything is.
+// Files appear as a whole or not at all, and outputs that cannot be written are refused before any is
+// written.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -35,7 +36,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// Files of this process may not grow past `bytes`: what a full disk does, without one.
+// Limits the size of files of this process, which simulates a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -76,7 +77,7 @@ TEST_CASE("a file that cannot grow leaves nothing, for every format") {
   }
 }
 
-TEST_CASE("a failed write leaves the older file as it was") {
+TEST_CASE("a failed write leaves the older file unchanged") {
   TemporaryFolder folder;
   const std::string path = folder.file("table.csv");
   std::ofstream(path) << "old";
@@ -141,19 +142,19 @@ TEST_CASE("an interrupt leaves no unfinished file") {
   CHECK(folder.count() == 0);
 }
 
-TEST_CASE("an unknown extension is refused with those that are known") {
+TEST_CASE("the error for an unknown extension lists the known ones") {
   TemporaryFolder folder;
   const MadeDiagram made = polygon_diagram(10);
   for (const std::string name : {"diagram.bmp", "diagram", ".svg.", "svg"}) {
     CAPTURE(name);
     std::string message;
-    CHECK(!io::known_output(name));
+    CHECK_THROWS_AS(io::check_output_format(name), Error);
     CHECK(code_of([&] { io::write_output(folder.file(name), made.output()); }, message) ==
           ErrorCode::invalid_file);
     CHECK(contains(message, name));
     for (const std::string extension : extensions) CHECK(contains(message, extension));
   }
-  CHECK(io::known_output("A.SVG"));
+  CHECK_NOTHROW(io::check_output_format("A.SVG"));
   CHECK(folder.count() == 0);
 }
 

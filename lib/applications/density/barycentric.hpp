@@ -1,5 +1,5 @@
 /// \file
-/// Parts of a simplex, by the coordinates of their corners in it. Internal.
+/// Parts of a simplex, given by the barycentric coordinates of their corners. Internal.
 #pragma once
 
 #include <array>
@@ -12,20 +12,21 @@
 
 namespace powercell {
 
-constexpr std::size_t most_corners = 4;
-/// Of a part of the simplex, of its dimension or one less.
+constexpr std::size_t most_corners = 4;  // of a tetrahedron
+/// The corners of a part of the simplex that has its dimension or one less.
 using Corners = std::array<Barycentric, most_corners>;
-/// What there is for each two corners.
+/// A value for each pair of corners.
 template <class T>
 using ByCorners = std::array<std::array<T, most_corners>, most_corners>;
 
+/// The point at fraction `at` of the way from a to b.
 inline Barycentric between(const Barycentric& a, const Barycentric& b, double at) {
   Barycentric point;
   for (std::size_t c = 0; c < point.size(); ++c) point[c] = (1 - at) * a[c] + at * b[c];
   return point;
 }
 
-/// Of the first coordinates of the first rows.
+/// The determinant of the first `size` coordinates of the first `size` rows, by elimination.
 inline double determinant(std::size_t size, Corners row) {
   double product = 1;
   for (std::size_t k = 0; k < size; ++k) {
@@ -46,8 +47,9 @@ inline double determinant(std::size_t size, Corners row) {
   return product;
 }
 
-/// `body(path)` for each way through a grid from its first place to its last that goes down or right: the
-/// simplices of the product of two, whose corners are the rows and the columns.
+/// Calls `body(path)` for each monotone lattice path from the first row and column to the last. These paths
+/// are the simplices of the standard triangulation of the product of two simplices, one with the rows and one
+/// with the columns as corners.
 template <class Body>
 void for_paths(std::size_t rows, std::size_t columns, const Body& body) {
   const std::size_t steps = rows + columns - 2;

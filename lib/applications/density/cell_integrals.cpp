@@ -8,14 +8,14 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t most_cells_a_task = 64;
+constexpr std::size_t most_cells_a_task = 64;  // enough to make taking a task cheap
 
-/// `body(integrator, i)` for every cell i; cells of a task by one thread.
+/// Calls `body(integrator, i)` for every cell i, in parallel.
 template <class Body>
 void for_cells(std::size_t count, const MakeIntegrator& make, int threads, const Body& body) {
   const auto workers = static_cast<std::size_t>(std::max(threads, 1));
   std::vector<std::unique_ptr<PieceIntegrator>> integrators(workers);
-  // Few cells may take long, each.
+  // Few cells may take long each, so they are shared out finely.
   const std::size_t cells_a_task = std::clamp<std::size_t>(count / (8 * workers), 1, most_cells_a_task);
   parallel_tasks(threads, (count + cells_a_task - 1) / cells_a_task, [&](int worker, std::size_t task) {
     std::unique_ptr<PieceIntegrator>& own = integrators[static_cast<std::size_t>(worker)];
@@ -25,7 +25,7 @@ void for_cells(std::size_t count, const MakeIntegrator& make, int threads, const
   });
 }
 
-/// Neighbours of cells: rows in ascending order, each once.
+/// The neighbours of each cell, ascending and distinct.
 class Rows {
  public:
   Rows(const Cells& cells, std::span<const SeedStatus> status) {
@@ -44,7 +44,7 @@ class Rows {
     }
   }
   static constexpr std::uint64_t none = ~std::uint64_t{0};
-  /// Where row i has j.
+  /// Position of j in row i.
   std::uint64_t find(std::size_t i, std::uint32_t j) const {
     const auto begin = neighbor_.begin() + static_cast<std::ptrdiff_t>(offset_[i]);
     const auto end = neighbor_.begin() + static_cast<std::ptrdiff_t>(offset_[i + 1]);
@@ -59,7 +59,7 @@ class Rows {
   std::vector<std::uint32_t> neighbor_;
 };
 
-/// Rows of a symmetric matrix from values that each pair has at one side; walls of measure 0 are left out.
+/// Rows of a symmetric matrix, from values stored for one side of each pair. Drops walls of measure 0.
 Adjacency both_sides(const Rows& rows, const std::vector<double>& value) {
   Adjacency out;
   const std::size_t n = rows.offset().size() - 1;

@@ -13,13 +13,13 @@ namespace powercell {
 
 using MakeIntegrator = std::function<std::unique_ptr<PieceIntegrator>()>;
 
-/// The moments of every cell about its first vertex: its seed may be so far away that nothing is left of the
-/// cell beside the distance. Each cell is summed by one thread, in the order of its pieces.
+/// The moments of every cell about its first vertex. (About the seed they would lose all digits if it is very
+/// far away.) Each cell is summed by one thread, in the order of its pieces.
 std::vector<Moments> cell_moments(const Cells& cells, const Box& box, const MakeIntegrator& make,
                                   int threads);
 
-/// The integrals over the walls between cells that have a status of ok, each from the side of the lower
-/// index, or from the other where only that has it.
+/// The integrals over the walls between cells with the status ok, each computed in the cell of the lower
+/// index, or in the other one if only that has the wall.
 Adjacency wall_integrals(const Cells& cells, const Box& box, std::span<const SeedStatus> status,
                          const MakeIntegrator& make, int threads);
 

@@ -1,8 +1,7 @@
 #include <cmath>
 #include <powercell/density.hpp>
 
-#include "lib/applications/density/constant.hpp"
-#include "lib/applications/density/make.hpp"
+#include "lib/applications/density/model.hpp"
 #include "lib/base/sums.hpp"
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
@@ -10,18 +9,14 @@
 namespace powercell {
 namespace {
 
-/// Sums and products with small numbers of an integral are to stay in the range of numbers.
+// Upper limit of an integral of a density: sums of integrals stay within the range of doubles.
 constexpr double largest_integral = 1e300;
 
 }  // namespace
 
 Density Density::constant(double value) {
-  if (!(value > 0 && value <= largest_value))
-    throw Error(ErrorCode::invalid_argument, "a constant density must be positive and at most " +
-                                                 digits(largest_value) + ", got " + digits(value));
-  return Density(std::make_shared<ConstantDensity>(value));
+  return Density(make_constant(value));
 }
-
 Density Density::formula(std::string_view expression, double tolerance) {
   return Density(make_formula(expression, tolerance));
 }
@@ -56,9 +51,9 @@ DensityIntegrals integrate(Diagram& diagram, const Density& density, const Integ
   if (!(options.tolerance >= 0 && options.tolerance < 1))
     throw Error(ErrorCode::invalid_argument, "the tolerance of integrals is " + digits(options.tolerance) +
                                                  "; it must be 0 or between 0 and 1");
-  IntegrationOptions counted = options;
-  counted.threads = thread_count(options.threads);
-  DensityIntegrals result = density.model().integrate(diagram, counted);
+  IntegrationOptions resolved = options;
+  resolved.threads = thread_count(options.threads);
+  DensityIntegrals result = density.model().integrate(diagram, resolved);
   result.domain_mass = density.total(diagram.domain(), options.threads);
   return result;
 }

@@ -1,9 +1,9 @@
 #include <muParser.h>
 
+#include <numbers>
 #include <string_view>
 
-#include "lib/applications/density/checked_source.hpp"
-#include "lib/applications/density/make.hpp"
+#include "lib/applications/density/checked_values.hpp"
 #include "lib/applications/density/pointwise.hpp"
 #include "lib/base/text.hpp"
 
@@ -16,14 +16,14 @@ void check_tolerance(double tolerance) {
                 "the tolerance of a density is " + digits(tolerance) + "; it must be between 0 and 1");
 }
 
-/// A parser with its variables. It can be used by one thread at a time and cannot move. Points one by one:
-/// muparser's own way for many at once starts OpenMP threads each time.
+/// A parser with its variables, which it refers to, so it cannot move. Not thread-safe. Evaluates points one
+/// by one: muparser's bulk mode starts OpenMP threads each time.
 class Expression {
  public:
   explicit Expression(const std::string& text) : text_(text) {
     guarded([&] {
-      parser_.DefineConst("pi", 3.14159265358979323846);
-      parser_.DefineConst("e", 2.71828182845904523536);
+      parser_.DefineConst("pi", std::numbers::pi);
+      parser_.DefineConst("e", std::numbers::e);
       parser_.DefineVar("x", &x_[0]);
       parser_.DefineVar("y", &x_[1]);
       parser_.DefineVar("z", &x_[2]);
@@ -33,7 +33,7 @@ class Expression {
   }
   Expression(const Expression&) = delete;
 
-  /// \throw Error invalid_argument where it has several values: muparser takes the last of "1,5 + x"
+  /// \throw Error invalid_argument if it has several values: of "1,5 + x" muparser would take the last
   void require_one_value() {
     int count = 0;
     x_ = {0.5, 0.5, 0.5};
@@ -57,7 +57,7 @@ class Expression {
                 "formula \"" + readable(text_, longest) + "\": " + readable(why, longest));
   }
 
-  /// muparser assigns to the variables: "x = 0.5 ? 1 : 3" would be 1 everywhere.
+  /// In muparser '=' assigns to a variable: "x = 0.5 ? 1 : 3" would be 1 everywhere.
   void refuse_assignment() const {
     for (std::size_t k = 0; k < text_.size(); ++k) {
       if (text_[k] != '=') continue;
@@ -78,7 +78,7 @@ class Expression {
     }
   }
 
-  static constexpr std::size_t longest = 300;  // that is quoted
+  static constexpr std::size_t longest = 300;  // bytes of the formula and of a message that are quoted
   std::string text_;
   Point x_{};
   mu::Parser parser_;
@@ -89,7 +89,9 @@ class FormulaSource : public CheckedSource {
   FormulaSource(const Domain& domain, const std::string& text) : CheckedSource(domain), expression_(text) {}
 
  private:
-  void ask(std::span<const Point> x, std::span<double> values) override { expression_.evaluate(x, values); }
+  void evaluate_unchecked(std::span<const Point> x, std::span<double> values) override {
+    expression_.evaluate(x, values);
+  }
 
   Expression expression_;
 };
@@ -98,10 +100,9 @@ class Formula : public PointwiseDensity {
  public:
   Formula(std::string_view text, double tolerance) : PointwiseDensity(tolerance), text_(text) {
     check_tolerance(tolerance);
-    Expression(text_).require_one_value();  // tells whether it is one
+    Expression(text_).require_one_value();
   }
 
- public:
   std::unique_ptr<PointSource> source(const Domain& domain) const override {
     return std::make_unique<FormulaSource>(domain, text_);
   }
@@ -117,7 +118,7 @@ class FunctionSource : public CheckedSource {
   FunctionSource(const Domain& domain, const Function& value) : CheckedSource(domain), value_(value) {}
 
  private:
-  void ask(std::span<const Point> x, std::span<double> values) override {
+  void evaluate_unchecked(std::span<const Point> x, std::span<double> values) override {
     for (std::size_t k = 0; k < x.size(); ++k) values[k] = value_(x[k]);
   }
 
@@ -131,7 +132,6 @@ class FunctionDensity : public PointwiseDensity {
     if (!value_) throw Error(ErrorCode::invalid_argument, "the density's function is empty");
   }
 
- public:
   std::unique_ptr<PointSource> source(const Domain& domain) const override {
     return std::make_unique<FunctionSource>(domain, value_);
   }

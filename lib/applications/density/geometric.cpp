@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "lib/applications/density/cell_integrals.hpp"
-#include "lib/applications/density/region_cells.hpp"
 #include "lib/base/sums.hpp"
 #include "lib/base/text.hpp"
 
@@ -14,9 +13,9 @@ namespace {
 
 constexpr double negligible_share = 1e-3;  // of the mean density
 
-/// Of the parts that show where a density lies: some thousand in a domain about as long as wide, and never
-/// more than 128 one behind the other. In space smaller ones find no more of peaks from 1/300 of a cube on,
-/// and cost up to twice as much for eighths where all of the domain is hard.
+/// The longest edge of the simplices that show where a density lies: about a thousand of them in a domain
+/// about as long as wide, and at most 128 along it. In space shorter edges find no more of the peaks wider
+/// than 1/300 of a cube, and cost up to twice as much for eighths of the domain that are hard throughout.
 double longest_edge(const Domain& domain) {
   const int d = domain.cell_dimension();
   double square = 0;
@@ -31,8 +30,8 @@ double mass_of(std::span<const Moments> moments) {
   return sum.value();
 }
 
-/// The second moment about x: that about the centroid, and what the way from there adds. Of cells without
-/// mass no centroid is known.
+/// The second moment about x, by the parallel axis theorem from that about the centroid. (A cell without mass
+/// has no centroid.)
 double second_about(const Point& x, const Moments& m) {
   if (!(m.mass > 0)) return std::max(m.second, 0.0);
   const Point centroid{m.first[0] / m.mass, m.first[1] / m.mass, m.first[2] / m.mass};
@@ -40,63 +39,65 @@ double second_about(const Point& x, const Moments& m) {
   return std::max(m.second - m.mass * dot(centroid, centroid), 0.0) + m.mass * dot(way, way);
 }
 
-/// Edges as long, beside the width of where the density is, as longest_edge() has them beside the domain's:
-/// the root mean square of the way from the middle is 1/√6 of the width of a square, 1/2 of that of a cube.
+/// Edges as short relative to the extent of the density as longest_edge() is relative to the domain: the root
+/// mean square distance from the middle is 1/√6 of the width of a square and 1/2 of that of a cube.
 /// \param moments  of the regions
-Grain grain_of(const Domain& domain, std::span<const Moments> moments) {
-  Grain grain{longest_edge(domain), longest_edge(domain)};
+Resolution resolution_of(const Domain& domain, std::span<const Moments> moments) {
+  Resolution resolution{longest_edge(domain), longest_edge(domain)};
   const double mass = mass_of(moments);
-  if (!(mass > 0) || !std::isfinite(mass)) return grain;
+  if (!(mass > 0) || !std::isfinite(mass)) return resolution;
   for (const Moments& m : moments)
-    for (std::size_t k = 0; k < 3; ++k) grain.center[k] += (m.first[k] + m.mass * m.origin[k]) / mass;
+    for (std::size_t k = 0; k < 3; ++k) resolution.center[k] += (m.first[k] + m.mass * m.origin[k]) / mass;
   double square = 0;
-  for (const Moments& m : moments) square += second_about(grain.center, m) / mass;
-  constexpr double reach = 3;  // times that: beyond lies a ninth at most, whatever the density
-  const double spread = std::sqrt(square);
-  const double dense = spread * (domain.cell_dimension() == 3 ? 0.5 : 0.15);
-  if (!(dense < grain.dense) || !(dense > 0)) return grain;
-  grain.dense = dense;
-  grain.radius = reach * spread;
-  return grain;
+  for (const Moments& m : moments) square += second_about(resolution.center, m) / mass;
+  constexpr double reach = 3;  // standard deviations: at most a ninth of any density lies farther (Chebyshev)
+  const double deviation = std::sqrt(square);
+  const double in_ball = deviation * (domain.cell_dimension() == 3 ? 0.5 : 0.15);
+  if (!(in_ball < resolution.in_ball) || !(in_ball > 0)) return resolution;
+  resolution.in_ball = in_ball;
+  resolution.radius = reach * deviation;
+  return resolution;
 }
 
 }  // namespace
 
-GeometricDensity::Known GeometricDensity::known(const Domain& domain, int threads) const {
+GeometricDensity::Summary GeometricDensity::summary(const Domain& domain, int threads) const {
   {
     const std::lock_guard lock(mutex_);
-    if (last_known_ && last_known_->domain.regions().source.data() == domain.regions().source.data())
-      return *last_known_;
+    if (last_summary_ && last_summary_->domain.regions().source.data() == domain.regions().source.data())
+      return *last_summary_;
   }
   const Cells regions = region_cells(domain.regions());
-  // Regions may be many times as large as cells, and as what the density has in them.
-  constexpr int more_depth = 10;
-  const auto moments = [&](double tolerance, double negligible, const Grain& grain, bool jumps) {
-    const auto make = [&] { return integrator(domain, {tolerance, negligible, grain, more_depth, jumps}); };
+  // Regions may be many times as large as cells and as the features of the density.
+  constexpr int extra_depth = 10;
+  const auto moments = [&](double tolerance, double negligible, const Resolution& resolution, bool jumps) {
+    const auto make = [&] {
+      return integrator(domain, {tolerance, negligible, resolution, extra_depth, jumps});
+    };
     return cell_moments(regions, Box(domain), make, threads);
   };
-  // What is negligible beside the mean is known once the sum is, roughly, and so is where the density lies
-  // and whether it jumps; small jumps are seen with the others' tolerance.
+  // A rough integral gives the mean density, hence what is negligible, and the extent of the density; a
+  // second one shows whether it jumps. Small jumps are found at full tolerance only.
   constexpr double rough = 1e-2;
   const auto jump_in = [](std::span<const Moments> all) { return std::ranges::any_of(all, &Moments::jump); };
   std::vector<Moments> found =
       moments(0, std::numeric_limits<double>::infinity(), {longest_edge(domain)}, false);
   const double negligible = negligible_share * std::abs(mass_of(found)) / domain.measure();
-  const Grain grain = grain_of(domain, found);
-  const bool jumps = jump_in(moments(rough, negligible, grain, false));
-  found = moments(0, negligible, grain, jumps);
-  if (!jumps && jump_in(found)) found = moments(0, negligible, grain, true);
+  const Resolution resolution = resolution_of(domain, found);
+  const bool jumps = jump_in(moments(rough, negligible, resolution, false));
+  found = moments(0, negligible, resolution, jumps);
+  if (!jumps && jump_in(found)) found = moments(0, negligible, resolution, true);
   const double total = mass_of(found);
   if (!(total > 0) || !std::isfinite(total))
     throw Error(ErrorCode::invalid_argument, "the density has the integral " + digits(total) +
                                                  " over the domain; it must be positive somewhere");
   const std::lock_guard lock(mutex_);
-  last_known_.emplace(Known{domain, total, grain_of(domain, found), jump_in(found)});
-  return *last_known_;
+  last_summary_.emplace(Summary{domain, total, resolution_of(domain, found), jump_in(found)});
+  return *last_summary_;
 }
 
 double GeometricDensity::total(const Domain& domain, int threads) const {
-  return known(domain, threads).total;
+  return summary(domain, threads).total;
 }
 
 std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& cells,
@@ -110,10 +111,10 @@ std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& 
 
 DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const IntegrationOptions& options) const {
   const Domain& domain = diagram.domain();
-  const Known about = known(domain, options.threads);
-  const double negligible = negligible_share * about.total / domain.measure();
+  const Summary whole = summary(domain, options.threads);
+  const double negligible = negligible_share * whole.total / domain.measure();
   const auto make = [&] {
-    return integrator(domain, {options.tolerance, negligible, about.grain, 0, about.jumps});
+    return integrator(domain, {options.tolerance, negligible, whole.resolution, 0, whole.jumps});
   };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
@@ -126,9 +127,9 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
   result.centroid.reserve(moments.size() * d);
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const Moments& m = moments[i];
-    // Rounding turns slivers of cells inside out.
-    const double below = std::max(0.0, -m.mass), error = m.error + below;
-    result.mass.push_back(m.mass + below);
+    // Rounding may turn a sliver inside out.
+    const double negative = std::max(0.0, -m.mass), error = m.error + negative;
+    result.mass.push_back(m.mass + negative);
     Point seed{};
     std::copy_n(&seeds[i * d], d, seed.begin());
     result.second_moment.push_back(second_about(seed, m));

@@ -1,5 +1,5 @@
 /// \file
-/// Densities that are integrated over the geometry of the cells. Internal.
+/// Densities that are integrated over the geometry of cells. Internal.
 #pragma once
 
 #include <limits>
@@ -12,7 +12,7 @@
 
 namespace powercell {
 
-/// Integrates over pieces; one for each thread.
+/// Integrates over pieces. Not thread-safe: each thread has its own.
 struct PieceIntegrator {
   virtual ~PieceIntegrator() = default;
   /// Adds the integrals over a piece, about the origin of `moments`.
@@ -21,29 +21,30 @@ struct PieceIntegrator {
   virtual double over_face(const Piece& piece, std::uint64_t face) = 0;
 };
 
-/// How finely pieces are divided before an estimate is believed. (docs/mathematics.md, below (32))
-struct Grain {
-  double anywhere = std::numeric_limits<double>::infinity();  ///< longest edge
-  /// In the ball that has most of a density that lies in a small part of the domain.
-  double dense = std::numeric_limits<double>::infinity();
+/// How finely pieces are subdivided before the error estimate of a rule is trusted (docs/mathematics.md,
+/// below (32)): longest edge of a simplex.
+struct Resolution {
+  double anywhere = std::numeric_limits<double>::infinity();
+  /// In the ball that holds most of the density, if that is a small part of the domain.
+  double in_ball = std::numeric_limits<double>::infinity();
   Point center{};
   double radius = 0;
 };
 
-/// What adaptive integrators need to know.
+/// Options of adaptive integrators.
 struct Accuracy {
-  double tolerance = 0;           ///< of masses, where it is looser than the integrator's own
-  double negligible_density = 0;  ///< errors of the tolerance times this, times the volume, don't count
-  Grain grain{};
-  int more_depth = 0;  ///< further bisections, for pieces that are large
-  bool jumps = false;  ///< the density has jumps: what passes between the points of a rule is looked for
+  double tolerance = 0;           ///< relative, of masses; used if looser than the integrator's own
+  double negligible_density = 0;  ///< densities below count as this one when errors are compared with them
+  Resolution resolution{};
+  int extra_depth = 0;  ///< additional levels of bisection, for large pieces
+  bool jumps = false;   ///< the density has jumps: also look for those that pass between the points of a rule
 };
 
 class GeometricDensity : public DensityModel {
  public:
   double total(const Domain& domain, int threads) const override;
   DensityIntegrals integrate(Diagram& diagram, const IntegrationOptions& options) const override;
-  /// The integrals over cells of one's own, with the regions of the domain.
+  /// The masses of arbitrary cells, whose regions are those of the domain.
   std::vector<double> masses(const Domain& domain, const Cells& cells, const Accuracy& accuracy,
                              int threads) const;
 
@@ -53,16 +54,17 @@ class GeometricDensity : public DensityModel {
                                                       const Accuracy& accuracy) const = 0;
 
  private:
-  struct Known {
+  /// The density as a whole on a domain.
+  struct Summary {
     Domain domain;
     double total;
-    Grain grain;
+    Resolution resolution;
     bool jumps;
   };
-  Known known(const Domain& domain, int threads) const;
+  Summary summary(const Domain& domain, int threads) const;
 
   mutable std::mutex mutex_;
-  mutable std::optional<Known> last_known_;  // the last domain asked for
+  mutable std::optional<Summary> last_summary_;  // for the domain used last
 };
 
 }  // namespace powercell

@@ -2,23 +2,23 @@
 #include <cmath>
 
 #include "lib/applications/density/geometric.hpp"
-#include "lib/applications/density/make.hpp"
 #include "lib/applications/density/pixels.hpp"
 #include "lib/base/text.hpp"
 
 namespace powercell {
 namespace {
 
-using Place = std::array<double, 2>;  // in pixels
+using Place = std::array<double, 2>;  // in pixel coordinates
 
-/// Beside the image nothing changes from column to column, and it may be far wider than pixels.
-enum class Columns { one_by_one, beside };
+/// Where a segment is cut. Left and right of the image the columns make no difference, and it may span very
+/// many of them, so it is cut at rows only.
+enum class CutAt { pixels, rows };
 
-/// Cuts the segment from a to b at the borders of pixels: `visit(from, to)` for each part, in order.
+/// Cuts the segment from a to b and calls `visit(from, to)` for each part, in order.
 template <class Visit>
-void cut_at_pixels(const Place& a, const Place& b, Columns columns, const Visit& visit) {
+void cut_segment(const Place& a, const Place& b, CutAt where, const Visit& visit) {
   struct Crossings {
-    double next, step, end;  // the next border, the way to go, and where the segment ends
+    double next, step, end;  // the next border, the step to the one after, and the end of the segment
     double from, slope;      // fraction of the segment at a border: (border - from) * slope
     double fraction() const {
       return (step > 0 ? next < end : step < 0 && next > end) ? (next - from) * slope : 2.0;
@@ -26,7 +26,7 @@ void cut_at_pixels(const Place& a, const Place& b, Columns columns, const Visit&
   };
   std::array<Crossings, 2> axis;
   for (std::size_t k = 0; k < 2; ++k) {
-    const double way = k == 0 && columns == Columns::beside ? 0 : b[k] - a[k];
+    const double way = k == 0 && where == CutAt::rows ? 0 : b[k] - a[k];
     const double step = way > 0 ? 1 : way < 0 ? -1 : 0;
     axis[k] = {step > 0 ? std::floor(a[k]) + 1 : std::ceil(a[k]) - 1, step, b[k], a[k],
                step == 0 ? 0 : 1 / way};
@@ -46,43 +46,43 @@ void cut_at_pixels(const Place& a, const Place& b, Columns columns, const Visit&
   visit(from, b);
 }
 
-/// Where a segment is at fraction t.
+/// The point at fraction t of a segment.
 Place between(const Place& a, const Place& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
 }
 
-/// Fractions of the way from a to b at which it comes into [0, end] and leaves it; the first is the larger
-/// where it does neither.
+/// Fractions of the way from a to b at which it enters and leaves [0, end]; the first is the larger if it
+/// does not meet the interval.
 std::array<double, 2> passage(double a, double b, double end) {
   if (a == b) return a >= 0 && a <= end ? std::array{0.0, 1.0} : std::array{1.0, 0.0};
   const double s = -a / (b - a), t = (end - a) / (b - a);
   return {std::max(std::min(s, t), 0.0), std::min(std::max(s, t), 1.0)};
 }
 
-/// The parts of a segment in the rows of the image, cut at the borders of its pixels.
+/// Visits the parts of a segment within the rows of the image, cut at the borders of pixels.
 template <class Visit>
 void walk(const Place& a, const Place& b, const Pixels& pixels, const Visit& visit) {
   const auto [in, out] = passage(a[1], b[1], pixels.height());
   if (in > out) return;
-  // Ends that are not cut stay what they are, so that segments which meet there still do.
+  // Ends that are not cut keep their exact coordinates, so that consecutive segments still meet.
   const Place from = in > 0 ? between(a, b, in) : a, to = out < 1 ? between(a, b, out) : b;
   const auto [left, right] = passage(from[0], to[0], pixels.width());
-  if (left > right) return cut_at_pixels(from, to, Columns::beside, visit);
+  if (left > right) return cut_segment(from, to, CutAt::rows, visit);
   const Place first = left > 0 ? between(from, to, left) : from,
               last = right < 1 ? between(from, to, right) : to;
-  if (left > 0) cut_at_pixels(from, first, Columns::beside, visit);
-  cut_at_pixels(first, last, Columns::one_by_one, visit);
-  if (right < 1) cut_at_pixels(last, to, Columns::beside, visit);
+  if (left > 0) cut_segment(from, first, CutAt::rows, visit);
+  cut_segment(first, last, CutAt::pixels, visit);
+  if (right < 1) cut_segment(last, to, CutAt::rows, visit);
 }
 
-/// The pixel that a part lies in; beside the image any number beyond it.
+/// Row or column of the pixel that contains the part from a to b; outside the image any index outside.
 std::ptrdiff_t pixel_of(double a, double b) {
   return static_cast<std::ptrdiff_t>(std::clamp(std::floor((a + b) / 2), -1.0, 0x1p53));
 }
 
-/// Green's theorem: with R(u, v) the integral of the density along the row up to u, the mass is the integral
-/// of R dv around the piece, and the moments likewise (mathematics, (33)). R is taken from the column of the
-/// origin, which changes nothing around a closed curve and keeps the terms small.
+/// Green's theorem, (33): with R(u, v) the integral of the density along the row up to u, the mass is the
+/// integral of R dv around the piece, and the moments likewise. R starts at the column of the origin, which
+/// changes nothing around a closed curve and keeps the terms small.
 class ImageIntegrator : public PieceIntegrator {
  public:
   explicit ImageIntegrator(const Pixels& pixels) : pixels_(pixels) {}
@@ -96,8 +96,9 @@ class ImageIntegrator : public PieceIntegrator {
       walk(from, to, pixels_, [&](const Place& a, const Place& b) { add_part(a, b); });
       from = to;
     }
-    // Without density in it a piece has what rounding leaves of terms that cancel.
-    if (std::abs(sum_.mass) <= 0x1p-44 * sum_.largest) return;
+    // A piece without density gets the rounding errors of terms that cancel.
+    constexpr double rounding = 0x1p-44;  // of the largest term
+    if (std::abs(sum_.mass) <= rounding * sum_.largest) return;
     const auto [w, h] = pixels_.size();
     const double area = w * h;
     moments.mass += area * sum_.mass;
@@ -120,7 +121,7 @@ class ImageIntegrator : public PieceIntegrator {
  private:
   struct Sum {
     double mass = 0, u = 0, v = 0, uu = 0, vv = 0;
-    double largest = 0;  // of the terms of the mass
+    double largest = 0;  // largest term of the mass
   };
 
   Place place(const Piece& piece, std::uint64_t k) const {
@@ -128,7 +129,8 @@ class ImageIntegrator : public PieceIntegrator {
     return pixels_.pixels(x[0], x[1]);
   }
 
-  /// A part of an edge within one pixel: integrands are cubic along it, so two points of Gauss are exact.
+  /// Adds a part of an edge within one pixel. The integrands are cubic along it, so two-point Gauss
+  /// quadrature is exact.
   void add_part(const Place& a, const Place& b) {
     const double dv = b[1] - a[1];
     if (dv == 0) return;
@@ -155,7 +157,7 @@ class ImageIntegrator : public PieceIntegrator {
   Sum sum_;
 };
 
-/// Values of the pixels that points lie in.
+/// The values of the pixels that contain the points.
 class PixelSource : public PointSource {
  public:
   explicit PixelSource(const Pixels& pixels) : pixels_(pixels) {}
@@ -193,15 +195,15 @@ class Image : public GeometricDensity {
       throw Error(ErrorCode::unsupported, "an image is a density of the plane: the domain must be a polygon");
   }
 
-  /// Places are counted in pixels, of which rounding of the farthest must be a small part.
+  /// The rounding of pixel coordinates must be a small part of a pixel.
   void require_pixels_in_reach(const Domain& domain) const {
-    constexpr double most = 1e12;
+    constexpr double most = 1e12;  // pixels; their rounding is 1e-4
     for (const auto& corner : {domain.low(), domain.high()}) {
       const Place at = pixels_.pixels(corner[0], corner[1]);
       if (!(std::abs(at[0]) <= most && std::abs(at[1]) <= most))
         throw Error(ErrorCode::invalid_argument,
-                    "the image is too small, or too far away, beside the domain: a corner of it is " +
-                        digits(std::max(std::abs(at[0]), std::abs(at[1])), 3) + " pixels from the image's");
+                    "the image is too small or too far from the domain: a corner of the domain is " +
+                        digits(std::max(std::abs(at[0]), std::abs(at[1])), 3) + " pixels from the image");
     }
   }
 

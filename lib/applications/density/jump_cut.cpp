@@ -12,7 +12,7 @@
 namespace powercell {
 namespace {
 
-/// Where a jump lies on the way between two points, and the density on both sides of it.
+/// Position of a jump between two points, as a fraction, and the density on both sides of it.
 struct Jump {
   double at = 0, before = 0, after = 0;
 };
@@ -36,7 +36,7 @@ class Cutter {
     if (!add_bends()) return false;
     add_side(0, [&](std::size_t i, std::size_t j) { return crossing_[i][j]; });
     add_side(1, [&](std::size_t j, std::size_t i) { return crossing_[i][j]; });
-    cut_.error += static_cast<double>(n_) * unsure_;
+    cut_.error += static_cast<double>(n_) * crossing_error_;
     apply_rules();
     return true;
   }
@@ -54,14 +54,16 @@ class Cutter {
     return value;
   }
 
-  /// Goes to the half with the greater change, again and again: at a jump the change stays.
+  /// Bisects repeatedly towards the half with the larger change: at a jump the change remains, elsewhere it
+  /// vanishes.
   std::optional<Jump> jump_between(const Barycentric& a, const Barycentric& b, double at_a, double at_b) {
-    constexpr double stays = 0.25, place_error = 0.05;  // of the change; of what is allowed
-    constexpr double nearest = 0x1p-44;
+    constexpr double remains = 0.25;         // share of the first change that a jump keeps
+    constexpr double position_error = 0.05;  // share of the allowed error spent on the position of the jump
+    constexpr double nearest = 0x1p-44;      // fractions of the way nearer than this are lost in rounding
     const double change = std::abs(at_b - at_a);
     if (!(change > allowed_)) return std::nullopt;
-    const double width = std::max(nearest, place_error * allowed_ / change);
-    unsure_ = std::max(unsure_, width * change);
+    const double width = std::max(nearest, position_error * allowed_ / change);
+    crossing_error_ = std::max(crossing_error_, width * change);
     double low = 0, high = 1;
     while (high - low > width) {
       const double middle = (low + high) / 2, value = value_at(between(a, b, middle));
@@ -72,12 +74,13 @@ class Cutter {
         low = middle;
         at_a = value;
       }
-      if (!(std::abs(at_b - at_a) > stays * change)) return std::nullopt;
+      if (!(std::abs(at_b - at_a) > remains * change)) return std::nullopt;
     }
     return Jump{(low + high) / 2, at_a, at_b};
   }
 
-  /// Corners without a jump on the way to the first are on its side.
+  /// Divides the corners by the jumps on the edges: those without a jump on the edge to the first are on its
+  /// side. False if the edges contradict each other or have no jump.
   bool find_sides() {
     std::array<std::size_t, most_corners> side{};
     for (std::size_t a = 0; a < n_; ++a)
@@ -93,12 +96,12 @@ class Cutter {
         const std::size_t a = side_[0][i], b = side_[1][j];
         const Jump& found = *jump_[std::min(a, b)][std::max(a, b)];
         crossing_[i][j] = between(corner_at(std::min(a, b)), corner_at(std::max(a, b)), found.at);
-        note(a < b ? found : Jump{1 - found.at, found.after, found.before});
+        record(a < b ? found : Jump{1 - found.at, found.after, found.before});
       }
     return true;
   }
 
-  /// Whether edges cross the jump no more than once, as far as three points of each tell.
+  /// Whether each edge crosses the jump at most once, judged by three points on it.
   bool edges_agree() const {
     for (std::size_t a = 0; a < n_; ++a)
       for (std::size_t b = a + 1; b <= n_; ++b)
@@ -115,26 +118,26 @@ class Cutter {
     return true;
   }
 
-  /// From the first side to the other.
-  void note(const Jump& jump) {
+  /// \param jump  from the first side to the other
+  void record(const Jump& jump) {
     const double height = jump.before - jump.after;
     least_ = std::min(least_, height);
     most_ = std::max(most_, height);
     sum_at_[0] += jump.before;
     sum_at_[1] += jump.after;
-    ++found_;
+    ++jump_count_;
   }
 
   double height() const { return std::max(std::abs(least_), std::abs(most_)); }
 
-  /// Whether it is one jump, up or down all along.
-  bool is_one() const {
-    constexpr double most_apart = 4;
-    return least_ > 0 ? most_ <= most_apart * least_ : most_ < 0 && least_ >= most_apart * most_;
+  /// Whether it is one jump: of one sign and of similar height everywhere.
+  bool is_single() const {
+    constexpr double largest_ratio = 4;  // of two heights
+    return least_ > 0 ? most_ <= largest_ratio * least_ : most_ < 0 && least_ >= largest_ratio * most_;
   }
 
-  /// From the corners of a side to those of the other, of the face of the simplex that a point lies in: so
-  /// that simplices which share that face find the same there.
+  /// Direction from the corners of the first side to those of the other, within the face of the simplex that
+  /// contains the point, so that simplices sharing that face agree there.
   Barycentric way_across(const Barycentric& point) const {
     Barycentric way{};
     for (std::size_t s = 0; s < 2; ++s) {
@@ -146,9 +149,9 @@ class Cutter {
     return way;
   }
 
-  /// Where the jump lies on the way across through a point.
+  /// The jump on the line across through a point.
   struct Bend {
-    Barycentric moved{};  // from that point
+    Barycentric moved{};  // displacement from that point
     double height = 0;
   };
   std::optional<Bend> bend_at(const Barycentric& point) {
@@ -166,33 +169,33 @@ class Cutter {
     }
     const std::optional<Jump> jump = jump_between(end[0], end[1], value_at(end[0]), value_at(end[1]));
     if (!jump) return std::nullopt;
-    note(*jump);
+    record(*jump);
     Bend bend{.moved = {}, .height = jump->before - jump->after};
     const double moved = low + jump->at * (high - low);
     for (std::size_t c = 0; c <= n_; ++c) bend.moved[c] = moved * way[c];
     return bend;
   }
 
-  /// What lies between the jump and the flat faces through its crossings.
+  /// Adds the integral over the lenses between the jump and the flat faces through its crossings.
   bool add_bends() {
-    bool whole = true;
+    bool complete = true;
     for_paths(side_[0].size(), side_[1].size(), [&](const auto& path) {
       Patch patch;
       for (std::size_t k = 0; k < n_; ++k) patch.corner[k] = crossing_[path[k].first][path[k].second];
-      whole = whole && add_bend_of(patch);
+      complete = complete && add_bend_of(patch);
     });
-    return whole && is_one();
+    return complete && is_single();
   }
 
-  /// A flat face and the quadratic one that goes through the jump at the middles of its edges too.
+  /// A flat face, and the quadratic patch that also passes through the jump at the middles of its edges.
   struct Patch {
     Corners corner{};
-    ByCorners<Barycentric> moved{};  // the middle between two corners
+    ByCorners<Barycentric> moved{};  // displacement of the middle between two corners
   };
 
-  /// A point of a patch, its derivatives, and its way from the flat face.
+  /// A point of the flat face, the tangents there, and its displacement to the patch.
   struct PatchPoint {
-    Corners tangent{};  // n - 1, and room for a vector
+    Corners tangent{};  // n - 1 of them; the last row is free for another vector
     Barycentric flat{}, moved{};
   };
   PatchPoint at_patch(const Patch& patch, const Barycentric& at) const {
@@ -208,7 +211,7 @@ class Cutter {
     }
     return found;
   }
-  /// The derivatives of its way, times `part`, to those of the flat face.
+  /// Adds `part` times the derivatives of the displacement to the tangents of the flat face.
   void add_slopes(const Patch& patch, const Barycentric& at, double part, Corners& tangent) const {
     const std::size_t last = n_ - 1;
     for (std::size_t a = 0; a < n_; ++a)
@@ -243,15 +246,16 @@ class Cutter {
     return cut_.error <= most_error_;
   }
 
-  /// In the plane between the ends and the middle of a segment, in space on a triangle.
+  /// Points of the face where the patch is compared with the jump: quarters of a segment, the middle of a
+  /// triangle.
   std::span<const Barycentric> check_points() const {
     static constexpr std::array<Barycentric, 2> quarters{{{0.75, 0.25}, {0.25, 0.75}}};
     static constexpr std::array<Barycentric, 1> middle{{{1.0 / 3, 1.0 / 3, 1.0 / 3}}};
     return n_ == 2 ? std::span<const Barycentric>(quarters) : std::span<const Barycentric>(middle);
   }
 
-  /// Between the flat face and the patch the density is off by the jump: the integral over the face and over
-  /// the way from it, a polynomial of a degree that rule 2 and two points of Gauss are exact for.
+  /// Between the flat face and the patch the density is off by the height of the jump. The integrand of (32b)
+  /// is a polynomial for which rule 2 on the face and two-point Gauss quadrature across it are exact.
   void add_lens(const Patch& patch, double height) {
     constexpr std::size_t rule = 2;
     const SimplexRules& rules = simplex_rules(static_cast<int>(n_) - 1);
@@ -269,14 +273,14 @@ class Cutter {
         }
   }
 
-  /// That of determinants whose last vector goes to the other side.
+  /// The sign of determinants whose last vector points to the other side.
   double sign_towards_other(const Patch& patch) const {
     Corners row = at_patch(patch, {}).tangent;
     row[n_ - 1] = way_across({0.25, 0.25, 0.25, 0.25});
     return determinant(n_, row) < 0 ? -1 : 1;
   }
 
-  /// The simplices between the corners of a side and the flat faces.
+  /// Adds the simplices between the corners of a side and the flat faces.
   template <class Crossing>
   void add_side(std::size_t side, const Crossing& crossing) {
     const std::vector<std::size_t>& own = side_[side];
@@ -292,7 +296,7 @@ class Cutter {
   }
 
   void apply_rules() {
-    const std::size_t last = n_ == 3 ? 2 : 3;  // of SimplexRules; in space the parts are many
+    const std::size_t last = n_ == 3 ? 2 : 3;  // of SimplexRules; lower in space, where there are many parts
     const SimplexRules& rules = simplex_rules(static_cast<int>(n_));
     std::vector<Barycentric> points;
     for (const PartOfSide& part : parts_)
@@ -318,14 +322,14 @@ class Cutter {
 
   struct PartOfSide {
     Corners corner{};
-    double share = 0;  // of the simplex
+    double share = 0;  // of the measure of the simplex
     std::size_t side = 0;
   };
 
-  /// Points of a part that is thin beside the bend may lie beyond the jump. Where the sides are plainly
-  /// apart, the mean of the other points stands in.
+  /// In a part that is thin compared with the bend of the jump, points may lie beyond the jump. If the sides
+  /// are clearly apart, such values are replaced by the mean of the others.
   void keep_to_side(const PartOfSide& part, std::span<double> values) {
-    const double own = sum_at_[part.side] / static_cast<double>(found_);
+    const double own = sum_at_[part.side] / static_cast<double>(jump_count_);
     const auto is_stray = [&](double value) { return std::abs(value - own) > height() / 2; };
     double sum = 0, least = std::numeric_limits<double>::infinity(), most = -least;
     std::size_t kept = 0;
@@ -349,13 +353,13 @@ class Cutter {
   const ValuesAt& values_;
   double allowed_, most_error_;
   JumpCut& cut_;
-  ByCorners<std::optional<Jump>> jump_;                                      // from corners to later ones
-  std::array<std::vector<std::size_t>, 2> side_;                             // the corners on each
-  ByCorners<Barycentric> crossing_{};                                        // by their places in side_
+  ByCorners<std::optional<Jump>> jump_;                                      // from a corner to a later one
+  std::array<std::vector<std::size_t>, 2> side_;                             // the corners of each side
+  ByCorners<Barycentric> crossing_{};                                        // by positions in side_
   double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;  // heights of the jump
-  double unsure_ = 0;               // of the mass, for how narrowly a crossing was sought
-  std::array<double, 2> sum_at_{};  // of the density beside the jump, where it was found
-  std::size_t found_ = 0;
+  double crossing_error_ = 0;       // error of the mass from the width at which a bisection ended
+  std::array<double, 2> sum_at_{};  // sums of the density next to the jump, over the jumps found
+  std::size_t jump_count_ = 0;
   std::vector<PartOfSide> parts_;
 };
 

@@ -3,15 +3,14 @@
 #include <powercell/regions.hpp>
 #include <vector>
 
-#include "lib/applications/density/make.hpp"
+#include "lib/applications/density/checked_values.hpp"
 #include "lib/applications/density/pointwise.hpp"
-#include "lib/applications/density/value.hpp"
 
 namespace powercell {
 namespace {
 
-/// The affine function of each region, as its value at a corner and its gradient. On a surface the gradient
-/// lies in the triangle.
+/// The affine function on a region, as its value at a corner and its gradient. On a surface the gradient is
+/// tangential.
 class LinearSource : public PointSource {
  public:
   LinearSource(const RegionsView& mesh, std::span<const double> values) : mesh_(mesh), values_(values) {}
@@ -40,13 +39,13 @@ class LinearSource : public PointSource {
       c = vertex(corner[3]) - origin_;
       dc = values_[corner[3]] - value_;
     }
-    // In a unit of the region's own: products of four lengths may be beyond range.
+    // In units of the region's size: products of four lengths may overflow.
     double size = 0;
     for (const Point* edge : {&a, &b, &c})
       for (const double x : *edge) size = std::max(size, std::abs(x));
     for (Point* edge : {&a, &b, &c})
       for (double& x : *edge) x /= size;
-    if (mesh_.cell_dimension == 2) c = cross(a, b);  // along which nothing changes
+    if (mesh_.cell_dimension == 2) c = cross(a, b);  // the value is constant along the normal
     const Point bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
     const double determinant = dot(a, bc);
     for (std::size_t k = 0; k < 3; ++k)
@@ -64,7 +63,7 @@ class LinearSource : public PointSource {
 class Nodal : public PointwiseDensity {
  public:
   explicit Nodal(std::span<const double> values)
-      : PointwiseDensity(1e-9), values_(values.begin(), values.end()) {
+      : PointwiseDensity(unused_tolerance), values_(values.begin(), values.end()) {
     check_densities(values, std::to_string(values.size()) + " values at vertices",
                     [](std::size_t k) { return "vertex " + std::to_string(k); });
   }
@@ -73,10 +72,10 @@ class Nodal : public PointwiseDensity {
     const RegionsView mesh = domain.regions();
     if (domain.kind() == DomainKind::polygon || mesh.shape == RegionShape::box)
       throw Error(ErrorCode::unsupported,
-                  "a density by vertices needs a mesh of triangles or tetrahedra as domain");
+                  "a density given at vertices needs a mesh of triangles or tetrahedra as domain");
     if (values_.size() * 3 != mesh.vertices.size())
       throw Error(ErrorCode::invalid_argument, std::to_string(values_.size()) +
-                                                   " values of density for a mesh of " +
+                                                   " values of the density for a mesh of " +
                                                    std::to_string(mesh.vertices.size() / 3) + " vertices");
     return std::make_unique<LinearSource>(mesh, values_);
   }
@@ -85,6 +84,7 @@ class Nodal : public PointwiseDensity {
   bool linear() const override { return true; }
 
  private:
+  static constexpr double unused_tolerance = 1e-9;  // linear() densities are integrated exactly
   std::vector<double> values_;
 };
 

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "lib/applications/density/geometric.hpp"
-#include "lib/applications/density/region_cells.hpp"
 #include "lib/applications/density/simplex.hpp"
 #include "lib/applications/density/simplex_rule.hpp"
 #include "lib/base/sums.hpp"
@@ -15,16 +14,19 @@
 namespace powercell {
 namespace {
 
-constexpr double parts_at_first =
-    1 << 15;  // of equal measure: what has mass in none of their points is missed
-constexpr std::size_t most_parts = 1 << 19;
-// Of the densities seen in a part the least over the largest, where the border of what has mass may lie
-// beside points of neighbours; such parts are divided until they have little of the mass.
-constexpr double steepest = 1e-6, unresolved = 32;
-constexpr int most_steep = 600;  // each takes long to integrate
-constexpr double little = 1e-4;  // of all mass, for those that count
-constexpr int most_rounds = 500;
-constexpr double enough = 4, too_much = 1000;  // measure times most of all parts, over the mass
+// Parts at first, of equal measure. Mass that none of their points shows is missed.
+constexpr double parts_at_first = 1 << 15;
+constexpr std::size_t most_parts = 1 << 19;  // 90 MB
+// A part is steep if the least density evaluated in it is below this fraction of the largest. The edge of the
+// support may then pass unseen between the points of its neighbours, so steep parts are divided until they
+// hold little mass: their mass counts as waste this many times.
+constexpr double steepest = 1e-6, steep_waste = 32;
+constexpr int most_steep = 600;   // steep parts take long to integrate
+constexpr double little = 1e-4;   // share of the mass below which a steep part does not count
+constexpr int most_rounds = 500;  // each halves the parts with the most waste
+// Sum of measure x most over the parts, relative to the mass: the expected number of draws for a point.
+// Enough to stop, and too much to accept.
+constexpr double enough = 4, too_much = 1000;
 
 double measure_of(const Part& part) {
   const auto& c = part.corner;
@@ -41,7 +43,7 @@ void set_size(Part& part) {
   part.measure = measure_of(part);
 }
 
-/// Halves of the longest edge; tetrahedra keep their orientation.
+/// Bisects the longest edge; tetrahedra keep their orientation.
 std::array<Part, 2> halves(const Part& part) {
   const SimplexEdge edge = longest_edge_of(part);
   std::array<Part, 2> half{part, part};
@@ -52,7 +54,7 @@ std::array<Part, 2> halves(const Part& part) {
   return half;
 }
 
-/// The regions of a domain: polygons fanned from their first corner, solids from their middle.
+/// Triangulates the regions of a domain: polygons as fans from their first corner, solids from their middle.
 std::vector<Part> simplices_of(const Domain& domain) {
   const RegionsView mesh = domain.regions();
   const Cells cells = region_cells(mesh);
@@ -115,22 +117,21 @@ class Division {
   }
 
   std::vector<Part> run() {
-    // What is negligible is known once the mass is, roughly.
+    // What is negligible follows from a first, rough mass.
     measure(0, std::numeric_limits<double>::infinity());
     double mass = sum(&Part::mass);
     measure(0, mass);
     mass = sum(&Part::mass);
-    if (!(mass > 0)) refuse_too_small_a_part("it is 0 wherever it was tried");
+    if (!(mass > 0)) refuse_too_small_a_part("it is 0 at all points tried");
     double waste = sum(&Part::waste);
     for (int round = 0; round < most_rounds && parts_.size() < most_parts; ++round) {
       if (waste <= (enough - 1) * mass) break;
-      const std::size_t whole = split_where_wasted(waste / 2 / static_cast<double>(parts_.size()));
-      measure(whole, mass);
+      const std::size_t first_new = split_where_wasted(waste / 2 / static_cast<double>(parts_.size()));
+      measure(first_new, mass);
       mass = sum(&Part::mass);
       waste = sum(&Part::waste);
     }
-    if (waste > too_much * mass)
-      refuse_too_small_a_part("in parts as small as can be it still varies too much");
+    if (waste > too_much * mass) refuse_too_small_a_part("it varies too much even in the smallest parts");
     return std::move(parts_);
   }
 
@@ -141,16 +142,18 @@ class Division {
     return all.value();
   }
 
-  /// Those that `which` names and their halves, again and again.
+  /// Splits the parts for which `which(part)` holds, and their halves likewise, until there are none.
   template <class Which>
   void divide(const Which& which) {
     for (std::size_t from = 0; from < parts_.size();) from = split(which, from);
   }
 
-  /// Parts with more waste than `share`, and larger ones around their densest points: what grows towards a
-  /// corner may be the flank of a peak that neighbours have in them and see nothing of.
+  /// Splits the parts with more waste than `share`, and larger parts around the densest points of these: a
+  /// density that grows towards a corner may be the flank of a peak that the neighbours contain but do not
+  /// see.
+  /// \return the index of the first new part
   std::size_t split_where_wasted(double share) {
-    constexpr std::size_t most_spots = 64;
+    constexpr std::size_t most_spots = 64;  // those with the most waste
     std::vector<const Part*> spots;
     for (const Part& part : parts_)
       if (part.waste > share) spots.push_back(&part);
@@ -169,21 +172,23 @@ class Division {
         0);
   }
 
-  /// From part `from` on puts halves of those that `which` names behind the others. \return where they begin
+  /// Replaces the parts from index `from` on for which `which(part)` holds by their halves, at the end.
+  /// \return the index of the first half
   template <class Which>
   std::size_t split(const Which& which, std::size_t from) {
     const auto begin = parts_.begin() + static_cast<std::ptrdiff_t>(from);
-    const auto whole =
+    const auto chosen =
         std::stable_partition(begin, parts_.end(), [&](const Part& part) { return !which(part); });
-    const std::vector<Part> divided(whole, parts_.end());
-    parts_.erase(whole, parts_.end());
+    const std::vector<Part> divided(chosen, parts_.end());
+    parts_.erase(chosen, parts_.end());
     const std::size_t first = parts_.size();
     for (const Part& part : divided)
       for (const Part& half : halves(part)) parts_.push_back(half);
     return first;
   }
 
-  /// Mass and waste of the parts from `first` on. \param mass  of all, as far as it is known
+  /// Computes mass and waste of the parts from index `first` on.
+  /// \param mass  current estimate of the total mass
   void measure(std::size_t first, double mass) {
     constexpr double tolerance = 1e-2, negligible_share = 1e-3;
     const std::span<Part> fresh = std::span(parts_).subspan(first);
@@ -197,7 +202,9 @@ class Division {
   }
 
   void set_waste(Part& part, double mass) {
-    constexpr double unseen = 8;  // more than `enough`: what was not seen is divided
+    // Mass that the points do not show counts as waste this many times: more than `enough`, so it gets
+    // divided.
+    constexpr double unseen = 8;
     const SimplexRules& rules = simplex_rules(static_cast<int>(part.corners) - 1);
     points_.assign(part.corner.begin(), part.corner.begin() + static_cast<std::ptrdiff_t>(part.corners));
     for (std::size_t q = 0; q < rules.size[2]; ++q) {
@@ -215,9 +222,9 @@ class Division {
     part.most = std::max(*most, part.mass / part.measure);
     part.waste = part.measure * part.most - part.mass + unseen * std::abs(part.measure * mean - part.mass);
     if (density_.exact() || !(*std::min_element(values_.begin(), values_.end()) < steepest * *most)) return;
-    part.waste += unresolved * part.mass;
+    part.waste += steep_waste * part.mass;
     steep_ += part.mass > little * mass ? 1 : 0;
-    if (steep_ > most_steep) refuse_too_small_a_part("around that part it falls to next to nothing at once");
+    if (steep_ > most_steep) refuse_too_small_a_part("around that part it falls too steeply");
   }
 
   const Domain& domain_;

@@ -1,9 +1,10 @@
 /// \file
-/// A convex piece of a cell as integration sees it. Internal.
+/// Cells as integration sees them: convex pieces within the box of the domain. Internal.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <powercell/regions.hpp>
 #include <powercell/results.hpp>
 
 #include "lib/applications/density/model.hpp"
@@ -11,23 +12,24 @@
 
 namespace powercell {
 
-/// Integrals over one cell, about a point of it.
+/// Integrals over one cell: of the density, of x times it and of |x|² times it, x relative to the origin.
 struct Moments {
   Point origin{};
   double mass = 0, second = 0;
   Point first{};
-  double error = 0;   ///< estimate of what adaptive rules left in the mass
-  bool jump = false;  ///< the density has a jump there, as far as was seen
+  double error = 0;   ///< estimated quadrature error of the mass
+  bool jump = false;  ///< a jump of the density was found in the cell
 };
 
-/// The box around a domain; in 2D the third coordinates are 0.
+/// The bounding box of a domain; in 2D the third coordinates are 0.
 struct Box {
   Point low{}, high{};
   explicit Box(const Domain& domain) : low(domain.low()), high(domain.high()) {}
 };
 
-/// View of piece `index` of some cells, whose vertices lie in the box: rounding of the distance to a seed
-/// that is very far away would put them anywhere, and what is larger than the domain takes long to integrate.
+/// View of piece `index` of some cells, with its vertices clamped to the box: if a seed is very far away, the
+/// rounding of its distance may put them anywhere, and a piece larger than the domain takes long to
+/// integrate.
 class Piece {
  public:
   Piece(const Cells& cells, const Box& box, std::uint64_t index)
@@ -51,11 +53,11 @@ class Piece {
     const double* x = &cells_.vertices[(first_ + k) * d];
     return {within(x[0], 0), within(x[1], 1), d == 3 ? within(x[2], 2) : 0.0};
   }
-  /// Corners of a face: two in order for an edge, a polygon for a solid.
+  /// Number of corners of a face: 2 for an edge of a polygon; the face of a solid is a polygon.
   std::uint64_t corner_count(std::uint64_t face) const {
     return solid() ? cells_.loop_offset[face + 1] - cells_.loop_offset[face] : 2;
   }
-  /// Place of corner k of a face among the vertices of the piece.
+  /// Index of corner k of a face among the vertices of the piece.
   std::uint64_t corner(std::uint64_t face, std::uint64_t k) const {
     if (solid()) return cells_.loop[cells_.loop_offset[face] + k];
     return (face - first_face_ + k) % vertex_count();
@@ -69,5 +71,9 @@ class Piece {
   std::uint64_t first_, end_, first_face_, end_face_;
   std::uint32_t region_;
 };
+
+/// The regions of a domain as cells of one piece each, so that code for cells also integrates over the
+/// domain.
+Cells region_cells(const RegionsView& mesh);
 
 }  // namespace powercell

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/applications/density/value.hpp"
+#include "lib/applications/density/checked_values.hpp"
 
 namespace powercell {
 namespace {

@@ -10,19 +10,19 @@
 namespace powercell {
 namespace {
 
-/// Walls make the matrix of an iteration, whose result they do not change: they may be off by so much more
-/// than masses, within these bounds.
+// Integrals over walls only enter the matrix of an iteration, not its result, so their tolerance is larger
+// than that of masses by this factor, within these bounds.
 constexpr double wall_slack = 1e3, least_wall_tolerance = 1e-6, most_wall_tolerance = 1e-4;
 
-/// Where jumps have corners few simplices are left at the last depth, and are halved on: in one piece as
-/// many.
+// Bisections allowed beyond the last depth in one piece: a jump with corners leaves few simplices there.
 constexpr int most_spare = 200;
 
-/// What of a simplex lies nearer to a face than all points of the last rule, at most: 1 - (1 - 1/(9 + N))^N.
+// The part of a simplex that lies nearer to a face than all points of the last rule is at most
+// 1 - (1 - 1/(9 + N))^N.
 constexpr double unseen = 0.25;
 
-/// Integrates by the rules of a simplex, going to the next until the error is within the tolerance, and then
-/// bisecting the longest edge.
+/// Adaptive integration over pieces: raises the rule on each simplex until the error is within the tolerance,
+/// then bisects its longest edge.
 class SimplexIntegrator : public PieceIntegrator {
  public:
   SimplexIntegrator(std::unique_ptr<PointSource> source, bool linear, double tolerance,
@@ -32,13 +32,13 @@ class SimplexIntegrator : public PieceIntegrator {
         jumps_(accuracy.jumps),
         cell_tolerance_(std::max(tolerance, accuracy.tolerance)),
         negligible_(accuracy.negligible_density),
-        grain_(accuracy.grain),
-        more_depth_(accuracy.more_depth + deeper(accuracy.grain)) {}
+        resolution_(accuracy.resolution),
+        extra_depth_(accuracy.extra_depth + depth_to_reach(accuracy.resolution)) {}
 
   void add(const Piece& piece, Moments& moments) override {
     begin(piece, moments.origin);
     tolerance_ = cell_tolerance_;
-    depth_ = (piece.solid() ? 12 : 20) + more_depth_;
+    depth_ = (piece.solid() ? 12 : 20) + extra_depth_;
     const auto count = static_cast<std::size_t>(piece.vertex_count());
     places_.resize(count);
     for (std::size_t v = 0; v < count; ++v) places_[v] = piece.vertex(v) - origin_;
@@ -72,7 +72,8 @@ class SimplexIntegrator : public PieceIntegrator {
     region_ = piece.region();
   }
 
-  /// The mean of the vertices: tetrahedra from there are smaller than those from a vertex, and few more.
+  /// The mean of the vertices. A fan of tetrahedra from there has smaller ones, and few more, than from a
+  /// vertex.
   static Point middle_of(std::span<const Point> vertices) {
     Point sum{};
     for (const Point& v : vertices)
@@ -81,14 +82,14 @@ class SimplexIntegrator : public PieceIntegrator {
     return sum;
   }
 
-  /// The triangles of the polygon of corners_.
+  /// The triangles of the polygon corners_.
   template <class Each>
   void for_fan(const Each& each) {
     for (std::size_t k = 2; k < corners_.size(); ++k)
       each(Simplex<2>{corners_[0], corners_[k - 1], corners_[k]});
   }
 
-  /// The tetrahedra between the faces and the corner behind the vertices.
+  /// The tetrahedra between the faces and the last corner, the middle of the solid.
   template <class Each>
   void for_fan_of_solid(const Piece& piece, std::size_t vertices, const Each& each) {
     const Corner& apex = corners_[vertices];
@@ -107,7 +108,7 @@ class SimplexIntegrator : public PieceIntegrator {
     source_->evaluate(at_, region_, values);
   }
 
-  /// Corners at places_, which many simplices share. What is linear does not look at them.
+  /// Evaluates the corners at places_, which many simplices share. Affine densities do not need their values.
   void set_corners() {
     corners_.resize(places_.size());
     values_.resize(places_.size());
@@ -115,41 +116,46 @@ class SimplexIntegrator : public PieceIntegrator {
     for (std::size_t c = 0; c < places_.size(); ++c) corners_[c] = {places_[c], values_[c]};
   }
 
-  /// A part whose estimate is not good enough by itself.
+  /// A simplex whose estimate does not meet the tolerance, with that estimate.
   template <int N>
-  struct Rest {
+  struct Deferred {
     Simplex<N> simplex;
     int depth = 0;
-    double size = 0;
+    double size = 0;  ///< signed measure
     Sums<N> found;
-    double left = 0, beside = 0, change = 0;
-    bool at_jump = false;
+    double error = 0, misfit = 0;  ///< of the rule; of values at the boundary
+    double change = 0;             ///< from the rule before
+    bool at_jump = false;          ///< higher rules do not converge
   };
 
-  /// Simplices that for_simplices(each) makes. Errors count beside the mean density over all of them: what
-  /// is sure of that is known when each has been looked at once, and then parts are refined that need it.
+  /// Integrates over the simplices that for_simplices(each) generates. Errors are compared with the mean
+  /// density over all of them. A lower bound of it is known once each has been estimated; those that need it
+  /// are refined then.
   template <int N, class ForSimplices>
   void integrate(const ForSimplices& for_simplices, Moments& moments) {
-    floor_ = negligible_;
+    density_floor_ = negligible_;
     spare_ = most_spare;
-    std::vector<Rest<N>> rests;
-    double size = 0, sure = -moments.mass;
+    std::vector<Deferred<N>> deferred;
+    double size = 0, certain_mass = -moments.mass;
     for_simplices([&](const Simplex<N>& simplex) {
       size += std::abs(measure(simplex));
-      add_parts<N>(simplex, 0, moments, rests);
+      add_parts<N>(simplex, 0, moments, deferred);
     });
-    sure += moments.mass;
-    for (const Rest<N>& rest : rests)
-      sure += std::abs(rest.size) * std::max(0.0, rest.found.mass - std::max(rest.left, rest.beside));
-    if (sure > 0) floor_ = std::max(floor_, sure / size);
-    for (const Rest<N>& rest : rests) {
-      part_depth_ = rest.depth;
-      finish<N>(rest, moments);
+    certain_mass += moments.mass;
+    for (const Deferred<N>& one : deferred)
+      certain_mass += std::abs(one.size) * std::max(0.0, one.found.mass - std::max(one.error, one.misfit));
+    if (certain_mass > 0) density_floor_ = std::max(density_floor_, certain_mass / size);
+    for (const Deferred<N>& one : deferred) {
+      part_depth_ = one.depth;
+      refine<N>(one, moments);
     }
   }
 
+  /// Adds a simplex by the lowest rule that meets the tolerance; else defers it, or refines it if `deferred`
+  /// is null.
   template <int N>
-  void add_simplex(const Simplex<N>& simplex, int depth, Moments& moments, std::vector<Rest<N>>* later) {
+  void add_simplex(const Simplex<N>& simplex, int depth, Moments& moments,
+                   std::vector<Deferred<N>>* deferred) {
     const double size = measure(simplex);
     if (size == 0) return;
     const SimplexRules& rules = simplex_rules(N);
@@ -161,21 +167,21 @@ class SimplexIntegrator : public PieceIntegrator {
     for (std::size_t s = 0; s < SimplexRules::count; ++s) {
       part[s] = sum_points<N>(local, rules, s, value);
       const Sums<N> found = apply<N>(rules, s, part);
-      if (linear_ && s == 1) return take(found, local, size, 0, moments);
+      if (linear_ && s == 1) return add_estimate(found, local, size, 0, moments);
       const double change = s == 0 ? 0 : difference<N>(found, last, local);
       if (s > 1) {
-        // Where changes shrink they go on shrinking; a factor of 4 is for safety.
-        const double left = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
+        // Changes from rule to rule shrink geometrically if they shrink; 4 is a safety factor.
+        const double error = change * (before > 0 ? std::min(1.0, 4 * change / before) : 1.0);
         const LinearFit<N> fit(found, std::span(value).first(rules.size[s]));
-        double beside = fit.misfit_of_corners(simplex);
+        double misfit = fit.misfit_of_corners(simplex);
         const bool end = s + 1 == SimplexRules::count, at_jump = change > before / 2;
-        const double allowed = tolerance_ * std::max(std::abs(found.mass), floor_);
-        if (jumps_ && left <= allowed && beside <= allowed) beside = misfit_of_boundary<N>(local, fit);
-        if (left <= allowed && beside <= allowed) return take(found, local, size, 0, moments);
+        const double allowed = tolerance_ * std::max(std::abs(found.mass), density_floor_);
+        if (jumps_ && error <= allowed && misfit <= allowed) misfit = misfit_of_boundary<N>(local, fit);
+        if (error <= allowed && misfit <= allowed) return add_estimate(found, local, size, 0, moments);
         if (end || (at_jump && depth < depth_)) {
-          const Rest<N> rest{simplex, depth, size, found, left, beside, change, at_jump};
-          if (later) return later->push_back(rest);
-          return finish<N>(rest, moments);
+          const Deferred<N> one{simplex, depth, size, found, error, misfit, change, at_jump};
+          if (deferred) return deferred->push_back(one);
+          return refine<N>(one, moments);
         }
       }
       before = change;
@@ -203,37 +209,38 @@ class SimplexIntegrator : public PieceIntegrator {
     evaluate(places_, values);
   }
 
-  /// Takes what is good enough, and what has no depth left; halves others.
+  /// Adds a deferred simplex if its estimate is good enough after all, if it can be cut at a jump, or if no
+  /// depth is left; else bisects it.
   template <int N>
-  void finish(const Rest<N>& rest, Moments& moments) {
-    const double density = std::max(std::abs(rest.found.mass), floor_), allowed = tolerance_ * density;
+  void refine(const Deferred<N>& one, Moments& moments) {
+    const double density = std::max(std::abs(one.found.mass), density_floor_), allowed = tolerance_ * density;
     const auto accept = [&](double error) {
-      take(rest.found, Local<N>(rest.simplex), rest.size, error, moments);
+      add_estimate(one.found, Local<N>(one.simplex), one.size, error, moments);
     };
-    if (rest.depth == part_depth_) density_around_ = density;
-    if (rest.left <= allowed && rest.beside <= allowed) return accept(0);
-    if (take_cut<N>(rest, moments)) return;
-    if (at_end(rest.depth)) return accept(std::max(rest.left, unseen * rest.beside));
-    const double at_jump = rest.at_jump ? allowed_at_jump<N>(rest.depth) : 0;
-    if (rest.change <= at_jump && rest.beside <= at_jump) return accept(rest.change);
-    if (rest.depth >= depth_) --spare_;
-    bisect<N>(rest.simplex, rest.depth, moments);
+    if (one.depth == part_depth_) part_density_ = density;
+    if (one.error <= allowed && one.misfit <= allowed) return accept(0);
+    if (add_cut<N>(one, moments)) return;
+    if (at_end(one.depth)) return accept(std::max(one.error, unseen * one.misfit));
+    const double at_jump = one.at_jump ? allowed_at_jump<N>(one.depth) : 0;
+    if (one.change <= at_jump && one.misfit <= at_jump) return accept(one.change);
+    if (one.depth >= depth_) --spare_;
+    bisect<N>(one.simplex, one.depth, moments);
   }
 
   bool at_end(int depth) const { return depth >= depth_ && spare_ == 0; }
 
-  /// Takes a simplex in the parts on both sides of a jump, if that is good enough, or better than what else
-  /// there is where no depth is left.
+  /// Adds a simplex as parts on both sides of a jump, if that is good enough, or if no depth is left and it
+  /// is better than the rule.
   template <int N>
-  bool take_cut(const Rest<N>& rest, Moments& moments) {
-    const Local<N> local(rest.simplex);
+  bool add_cut(const Deferred<N>& one, Moments& moments) {
+    const Local<N> local(one.simplex);
     std::array<double, N + 1> corner;
-    for (std::size_t c = 0; c <= N; ++c) corner[c] = rest.simplex[c].value;
-    const double allowed = allowed_at_jump<N>(rest.depth);
+    for (std::size_t c = 0; c <= N; ++c) corner[c] = one.simplex[c].value;
+    const double allowed = allowed_at_jump<N>(one.depth);
     const auto values = [&](std::span<const Barycentric> points, std::span<double> at_points) {
       evaluate_in<N>(local, points, at_points);
     };
-    const double most = at_end(rest.depth) ? std::max(rest.left, unseen * rest.beside) : allowed;
+    const double most = at_end(one.depth) ? std::max(one.error, unseen * one.misfit) : allowed;
     if (!cut_at_jump(N, corner, values, allowed, most, cut_)) return false;
     Sums<N> found, lower;
     for (const JumpCut::Term& term : cut_.terms) {
@@ -244,44 +251,47 @@ class SimplexIntegrator : public PieceIntegrator {
     const double error = cut_.error + difference<N>(found, lower, local);
     if (!(error <= most)) return false;
     moments.jump = true;
-    take(found, local, rest.size, error, moments);
+    add_estimate(found, local, one.size, error, moments);
     return true;
   }
 
-  /// Where higher rules bring nothing there is a jump or a kink, a surface that 2^((N - 1) depth / N) of the
-  /// 2^depth simplices meet: each may be off by its part of what all may (docs/mathematics.md, below (32a)).
+  /// Where higher rules do not converge there is a jump or a kink: a surface that crosses 2^((N - 1) depth /
+  /// N) of the 2^depth simplices. Each of these may have its share of the total error (docs/mathematics.md,
+  /// below (32a)).
   template <int N>
   double allowed_at_jump(int depth) const {
-    return tolerance_ * density_around_ * std::exp2(static_cast<double>(depth) / N);
+    return tolerance_ * part_density_ * std::exp2(static_cast<double>(depth) / N);
   }
 
-  /// Bisections that take an edge of the domain's grain to that of where the density is, in space as in the
-  /// plane: fewer than there would be, and no more simplices than a density all over the domain has.
-  static int deeper(const Grain& grain) {
+  /// Bisections that shorten an edge from Resolution::anywhere to Resolution::in_ball, by the count for the
+  /// plane in space too: fewer suffice there, as a density in a ball needs no more simplices than one all
+  /// over the domain.
+  static int depth_to_reach(const Resolution& resolution) {
     constexpr double most = 20;
-    return grain.radius > 0 ? static_cast<int>(std::min(most, 2 * std::log2(grain.anywhere / grain.dense)))
-                            : 0;
+    if (!(resolution.radius > 0)) return 0;
+    return static_cast<int>(std::min(most, 2 * std::log2(resolution.anywhere / resolution.in_ball)));
   }
 
-  /// Whether no peak worth telling falls between the points of a rule.
+  /// Whether a simplex is so small that no significant peak falls between the points of a rule.
+  /// \param square  squared length of its longest edge
   template <int N>
   bool small_enough(const Simplex<N>& simplex, double square) const {
-    if (square > grain_.anywhere * grain_.anywhere) return false;
-    if (!(square > grain_.dense * grain_.dense)) return true;
-    Point way = simplex[0].at - grain_.center;
+    if (square > resolution_.anywhere * resolution_.anywhere) return false;
+    if (!(square > resolution_.in_ball * resolution_.in_ball)) return true;
+    Point way = simplex[0].at - resolution_.center;
     for (std::size_t k = 0; k < 3; ++k) way[k] += origin_[k];
-    return std::sqrt(dot(way, way)) > grain_.radius + std::sqrt(square);
+    return std::sqrt(dot(way, way)) > resolution_.radius + std::sqrt(square);
   }
 
-  /// A simplex in parts that are small enough.
+  /// Adds a simplex in parts that are small enough.
   template <int N>
-  void add_parts(const Simplex<N>& simplex, int depth, Moments& moments, std::vector<Rest<N>>& rests) {
+  void add_parts(const Simplex<N>& simplex, int depth, Moments& moments, std::vector<Deferred<N>>& deferred) {
     const SimplexEdge longest = longest_edge_of(simplex);
     if (linear_ || depth == depth_ || small_enough<N>(simplex, longest.square))
-      return add_simplex<N>(simplex, depth, moments, &rests);
+      return add_simplex<N>(simplex, depth, moments, &deferred);
     if (measure(simplex) == 0) return;
     halve<N>(simplex, longest,
-             [&](const Simplex<N>& half) { add_parts<N>(half, depth + 1, moments, rests); });
+             [&](const Simplex<N>& half) { add_parts<N>(half, depth + 1, moments, deferred); });
   }
 
   template <int N>
@@ -303,7 +313,8 @@ class SimplexIntegrator : public PieceIntegrator {
     }
   }
 
-  /// Sums over the points that rule s adds to the one before, whose values go behind those of the latter.
+  /// Sums over the points that rule s adds to the one before; appends their values to those of the earlier
+  /// ones.
   template <int N>
   Sums<N> sum_points(const Local<N>& local, const SimplexRules& rules, std::size_t s,
                      std::span<double, SimplexRules::most_points> values) {
@@ -323,7 +334,7 @@ class SimplexIntegrator : public PieceIntegrator {
     return sums;
   }
 
-  /// Rule s.
+  /// Combines the sums of the points into rule s.
   template <int N>
   static Sums<N> apply(const SimplexRules& rules, std::size_t s,
                        const std::array<Sums<N>, SimplexRules::count>& part) {
@@ -333,7 +344,8 @@ class SimplexIntegrator : public PieceIntegrator {
   }
 
   template <int N>
-  static void take(const Sums<N>& found, const Local<N>& local, double size, double error, Moments& moments) {
+  static void add_estimate(const Sums<N>& found, const Local<N>& local, double size, double error,
+                           Moments& moments) {
     const Point first = found.first(local), &middle = local.middle;
     moments.mass += size * found.mass;
     for (std::size_t k = 0; k < 3; ++k) moments.first[k] += size * (first[k] + found.mass * middle[k]);
@@ -344,15 +356,17 @@ class SimplexIntegrator : public PieceIntegrator {
   std::unique_ptr<PointSource> source_;
   bool linear_, jumps_;
   double cell_tolerance_, negligible_;
-  Grain grain_;
-  int more_depth_;
-  int part_depth_ = 0;  // of the part that is integrated
-  int spare_ = 0;       // simplices that may still be halved beyond the last depth
-  double tolerance_ = 0, floor_ = 0, density_around_ = 0;
+  Resolution resolution_;
+  int extra_depth_;
+  int part_depth_ = 0;        // depth of the deferred simplex that is being refined
+  double part_density_ = 0;   // density with which its errors are compared
+  int spare_ = 0;             // bisections left beyond the last depth
+  double density_floor_ = 0;  // densities below count as this one when errors are compared with them
+  double tolerance_ = 0;
   Point origin_{};
   std::uint32_t region_ = 0;
   int depth_ = 0;
-  std::vector<Point> places_, at_;  // about the origin, and where that is
+  std::vector<Point> places_, at_;  // relative to the origin, and absolute
   std::vector<double> values_;
   std::vector<Corner> corners_;
   JumpCut cut_;

@@ -1,5 +1,5 @@
 /// \file
-/// Densities that can be evaluated at points, integrated by nested rules on simplices. Internal.
+/// Densities that are evaluated at points and integrated by nested rules on simplices. Internal.
 #pragma once
 
 #include "lib/applications/density/geometric.hpp"
@@ -11,9 +11,9 @@ class PointwiseDensity : public GeometricDensity {
   bool exact() const override { return linear(); }
 
  protected:
-  /// \param tolerance  relative, of the mass of a simplex
+  /// \param tolerance  of the mass of a simplex, relative
   explicit PointwiseDensity(double tolerance) : tolerance_(tolerance) {}
-  /// True if the density is a polynomial of degree 1 in each region: then a rule of degree 3 is exact.
+  /// Whether the density is affine in each region: then the rule of degree 3 is exact.
   virtual bool linear() const { return false; }
   std::unique_ptr<PieceIntegrator> integrator(const Domain& domain, const Accuracy& accuracy) const override;
 

@@ -1,4 +1,3 @@
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -12,8 +11,13 @@
 namespace powercell {
 namespace {
 
-/// Rejection: a point of the domain stays with a probability that goes with the density. The largest density
-/// is that of the points seen; should a larger one come, all begins again. \return none if too few stay
+// The largest density is estimated from points; this factor above it, a slightly larger one later on does not
+// start the sampling over.
+constexpr double headroom = 1.2;
+
+/// Rejection sampling: keeps a uniform point of the domain with a probability proportional to the density
+/// there. Starts over whenever the density exceeds its estimated largest value.
+/// \return nullopt if too few points are kept
 std::optional<std::vector<double>> points_by_rejection(const Domain& domain, const Density& density,
                                                        std::size_t n, std::uint64_t random_seed) {
   constexpr std::size_t batch = 4096, batches_at_least = 64, most_draws_a_point = 4096;
@@ -22,7 +26,7 @@ std::optional<std::vector<double>> points_by_rejection(const Domain& domain, con
   std::mt19937_64 engine(random_seed);
   std::vector<double> points;
   double largest = 0;
-  std::size_t draws = 0;  // with the largest as it is
+  std::size_t draws = 0;  // since the last start
   for (std::size_t round = 0; points.size() < n * d; ++round) {
     if (round >= batches_at_least && points.size() / d * most_draws_a_point < draws) return std::nullopt;
     const std::vector<RegionPoint> drawn = random_points(domain, batch, engine());
@@ -32,7 +36,7 @@ std::optional<std::vector<double>> points_by_rejection(const Domain& domain, con
     }
     const double top = *std::max_element(value.begin(), value.end());
     if (top > largest) {
-      largest = 1.2 * top;  // so that a little more does not begin it all again
+      largest = headroom * top;
       points.clear();
       draws = 0;
     }
@@ -53,19 +57,19 @@ Point point_in(const Part& part, std::mt19937_64& engine) {
   return x;
 }
 
-/// n points of a part by rejection, all anew whenever a density comes that is larger than any seen.
+/// n points of a part by rejection. Starts over whenever the density exceeds its estimated largest value.
 std::vector<Point> points_in(const Part& part, std::size_t n, PointSource& source, std::mt19937_64& engine) {
   constexpr std::size_t most_draws = 1000000;
   std::vector<Point> points;
-  double largest = 1.2 * part.most;
+  double largest = headroom * part.most;
   for (std::size_t draws = 0; points.size() < n; ++draws) {
     if (draws > most_draws * (points.size() + 1))
-      refuse_too_small_a_part("none was kept of " + std::to_string(draws) + " in a part of it");
+      refuse_too_small_a_part("no point was kept of " + std::to_string(draws) + " in a part of it");
     const Point x = point_in(part, engine);
     double value = 0;
     source.evaluate({&x, 1}, part.region, {&value, 1});
     if (value > largest) {
-      largest = 1.2 * value;
+      largest = headroom * value;
       points.clear();
     }
     if (uniform(engine) * largest < value) points.push_back(x);
@@ -73,7 +77,7 @@ std::vector<Point> points_in(const Part& part, std::size_t n, PointSource& sourc
   return points;
 }
 
-/// Parts of the domain are drawn by their masses, then points in each.
+/// Draws parts of the domain by their masses, then points in each.
 std::vector<double> points_by_parts(const Domain& domain, const Density& density, std::size_t n,
                                     std::uint64_t random_seed) {
   const std::vector<Part> parts = parts_by_density(domain, density.model());

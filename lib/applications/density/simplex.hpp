@@ -15,20 +15,21 @@ inline double measure_of_segment(const Point& a, const Point& b) {
 }
 inline double measure_of_triangle(const Point& a, const Point& b, const Point& c) {
   const Point normal = cross(b - a, c - a);
-  return std::hypot(normal[0], normal[1], normal[2]) / 2;  // squares of areas may be beyond range
+  return std::hypot(normal[0], normal[1], normal[2]) / 2;  // squares of areas may overflow
 }
-/// Signed: fans of solids that rounding has bent cancel.
+/// Signed: where rounding turns tetrahedra of a fan inside out, the excess cancels.
 inline double measure_of_tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d) {
   return dot(b - a, cross(c - a, d - a)) / 6;
 }
 
-/// Between two corners of a simplex.
+/// The edge between two corners of a simplex.
 struct SimplexEdge {
   std::size_t from = 0, to = 1;
-  double square = -1;  ///< of its length
+  double square = -1;  ///< squared length
 };
 
-/// The first of the longest. \param at  at(c) is the place of a corner
+/// The longest edge, of equally long ones the first.
+/// \param at  at(c) is the position of corner c
 template <class At>
 SimplexEdge longest_edge(std::size_t corners, const At& at) {
   SimplexEdge longest;

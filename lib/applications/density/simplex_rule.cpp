@@ -5,7 +5,7 @@
 namespace powercell {
 namespace {
 
-/// `body(beta)` for all beta of n+1 whole numbers that sum to k.
+/// Calls `body(beta)` for all beta of n+1 natural numbers that sum to k.
 template <class Body>
 void for_sums(int n, int k, const Body& body) {
   std::array<int, 4> beta{};
@@ -13,8 +13,8 @@ void for_sums(int n, int k, const Body& body) {
     for (beta[1] = 0; beta[0] + beta[1] <= k; ++beta[1])
       for (beta[2] = 0; beta[0] + beta[1] + beta[2] <= k; ++beta[2]) {
         beta[3] = k - beta[0] - beta[1] - beta[2];
-        const bool of_others = (n < 3 && beta[3] > 0) || (n < 2 && beta[2] > 0);
-        if (!of_others) body(beta);
+        const bool has_unused = (n < 3 && beta[3] > 0) || (n < 2 && beta[2] > 0);
+        if (!has_unused) body(beta);
       }
 }
 

@@ -12,7 +12,7 @@
 
 namespace powercell {
 
-/// A place about the origin of an integral, with the density there.
+/// A point relative to the origin of an integral, with the density there.
 struct Corner {
   Point at{};
   double value = 0;
@@ -36,18 +36,20 @@ SimplexEdge longest_edge_of(const std::array<Corner, Corners>& simplex) {
   return longest_edge(Corners, [&](std::size_t c) -> const Point& { return simplex[c].at; });
 }
 
-/// A simplex about its middle, and what moments are compared by.
+/// A simplex relative to its middle.
 template <int N>
 struct Local {
-  Point middle{}, reach{};
+  Point middle{};
+  Point reach{};  ///< length scale by which first moments are compared with masses
   std::array<Point, N + 1> corner;
   explicit Local(const Simplex<N>& simplex) {
     for (const Corner& c : simplex)
       for (std::size_t k = 0; k < 3; ++k) middle[k] += c.at[k] / (N + 1);
     for (std::size_t c = 0; c <= N; ++c) corner[c] = simplex[c].at - middle;
-    for (std::size_t k = 0; k < 3; ++k) reach[k] = corner[N][k] * 2 / (N + 3);  // to rule 1's first point
+    for (std::size_t k = 0; k < 3; ++k)
+      reach[k] = corner[N][k] * 2 / (N + 3);  // to the first point of rule 1
   }
-  /// About the middle.
+  /// Position relative to the middle.
   Point place(const Barycentric& point) const {
     Point y{};
     for (std::size_t c = 0; c <= N; ++c)
@@ -56,14 +58,14 @@ struct Local {
   }
 };
 
-/// Integrals over a simplex of measure 1 about its middle, or the part of them that the points of a rule
-/// make: of the density, its moment of inertia, and the density times each barycentric coordinate.
+/// Integrals over a simplex scaled to measure 1, relative to its middle, or contributions to them: of the
+/// density rho, of rho |y|² and of rho times each barycentric coordinate.
 template <int N>
 struct Sums {
   double mass = 0, second = 0;
   std::array<double, N + 1> at_corner{};
 
-  /// \param place  of the point, about the middle
+  /// \param place  position of the point relative to the middle
   void add(double value, const Barycentric& point, const Point& place) {
     mass += value;
     for (std::size_t c = 0; c <= N; ++c) at_corner[c] += value * point[c];
@@ -82,32 +84,33 @@ struct Sums {
   }
 };
 
-/// How far apart two rules are, in the unit of the mass: moments over the way from the middle to the second
-/// point.
+/// The difference of two rules, in the unit of the mass: in the mass, or in the first moment divided by
+/// Local::reach, whichever is larger.
 template <int N>
 double difference(const Sums<N>& a, const Sums<N>& b, const Local<N>& local) {
   const Point moved = a.first(local) - b.first(local);
   return std::max(std::abs(a.mass - b.mass), std::sqrt(dot(moved, moved) / dot(local.reach, local.reach)));
 }
 
-/// Points of rules lie inside, and a jump or a kink across a corner or an edge goes between them. What they
-/// bend, their way from the linear function of the same moments (docs/mathematics.md, (32a)), goes on to the
-/// corners, where polynomials of the rules' degrees are farther from it by up to some twenty times.
+/// Detects jumps and kinks near the boundary of a simplex, which the interior points of the rules miss.
+/// Compares values with the linear function of the same moments, (32a): at the boundary a polynomial of the
+/// rules' degree is up to some twenty times farther from it than at the points.
 template <int N>
 class LinearFit {
  public:
-  /// \param value  at the first points of the rules
+  /// \param value  the density at the first points of the rules
   LinearFit(const Sums<N>& found, std::span<const double> value) {
     const SimplexRules& rules = simplex_rules(N);
     for (std::size_t c = 0; c <= N; ++c)
       at_corner_[c] = (N + 1) * ((N + 2) * found.at_corner[c] - found.mass);
     for (std::size_t q = 0; q < value.size(); ++q)
-      bend_ = std::max(bend_, std::abs(value[q] - at(rules.point[q])));
+      deviation_ = std::max(deviation_, std::abs(value[q] - at(rules.point[q])));
   }
-  /// What a value at a point of the boundary is farther.
+  /// How far a value at a point of the boundary lies outside what a polynomial can explain; below 0 if
+  /// inside.
   double misfit(const Barycentric& point, double value) const {
-    constexpr double farther = 20;
-    return std::abs(value - at(point)) - farther * bend_;
+    constexpr double growth = 20;  // of the deviation, from the points to the boundary
+    return std::abs(value - at(point)) - growth * deviation_;
   }
   double misfit_of_corners(const Simplex<N>& simplex) const {
     double most = 0;
@@ -127,7 +130,7 @@ class LinearFit {
   }
 
   std::array<double, N + 1> at_corner_;
-  double bend_ = 0;
+  double deviation_ = 0;  // largest at the points of the rules
 };
 
 }  // namespace powercell

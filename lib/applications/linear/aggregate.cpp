@@ -1,14 +1,17 @@
-#include "lib/applications/linear/aggregate.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "lib/applications/linear/multilevel.hpp"
 
 namespace powercell {
 namespace {
 
 constexpr std::int32_t unassigned = -1;
+// An entry couples strongly if it is at least this part of the largest of its row, on the finest level;
+// halved on each coarser one.
+constexpr double finest_threshold = 0.25;
 
-/// Entries of at least `threshold` times the largest of their own row or of the other.
+/// Marks the entries that are at least `threshold` times the largest of their row or of their column.
 std::vector<char> strong_entries(const SparseRows& matrix, double threshold) {
   Vector largest = Vector::Zero(matrix.rows());
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -29,6 +32,8 @@ class Aggregator {
     out_.of.assign(static_cast<std::size_t>(matrix.rows()), unassigned);
   }
 
+  /// Disjoint neighbourhoods first; then the remaining unknowns join a neighbour's aggregate; what is left
+  /// makes aggregates of its own.
   void run() {
     const auto n = static_cast<std::int32_t>(matrix_.rows());
     for (std::int32_t i = 0; i < n; ++i)
@@ -53,7 +58,7 @@ class Aggregator {
     for_strong(i, [&](std::int32_t j, double) { all = all && is_free(j); });
     return all;
   }
-  /// A new aggregate of i and its strong neighbours that are free.
+  /// Makes an aggregate of i and its free strong neighbours.
   void join(std::int32_t i) {
     out_.of[static_cast<std::size_t>(i)] = out_.count;
     for_strong(i, [&](std::int32_t j, double) {
@@ -61,7 +66,7 @@ class Aggregator {
     });
     ++out_.count;
   }
-  /// To the aggregate of the neighbour it is coupled to most strongly.
+  /// Adds i to the aggregate of the neighbour to which it is coupled most strongly.
   void attach(std::int32_t i, const std::vector<std::int32_t>& first) {
     double best = 0;
     for_strong(i, [&](std::int32_t j, double value) {
@@ -79,7 +84,7 @@ class Aggregator {
 
 Aggregates aggregate(const SparseRows& matrix, int level) {
   Aggregates result;
-  result.strong = strong_entries(matrix, 0.25 * std::pow(0.5, level));
+  result.strong = strong_entries(matrix, finest_threshold * std::pow(0.5, level));
   Aggregator(matrix, result).run();
   return result;
 }

@@ -23,7 +23,7 @@ Laplacian make_laplacian(std::span<const std::uint64_t> offset, std::span<const 
   std::size_t at = 0;
   for (std::size_t i = 0; i < n; ++i) {
     outer[i] = static_cast<std::int32_t>(at);
-    std::size_t diagonal = at;  // moved behind the neighbours below i
+    std::size_t diagonal = at;  // moves behind the neighbours j < i
     double sum = shift.empty() ? 0 : shift[i];
     ++at;
     for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) {
@@ -44,7 +44,7 @@ Laplacian make_laplacian(std::span<const std::uint64_t> offset, std::span<const 
   return system;
 }
 
-std::size_t connected_parts(const SparseRows& matrix) {
+std::size_t connected_components(const SparseRows& matrix) {
   std::vector<char> seen(static_cast<std::size_t>(matrix.rows()));
   std::vector<std::int32_t> open;
   std::size_t parts = 0;

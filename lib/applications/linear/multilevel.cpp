@@ -2,20 +2,18 @@
 
 #include <algorithm>
 
-#include "lib/applications/linear/aggregate.hpp"
-#include "lib/applications/linear/grounded.hpp"
-
 namespace powercell {
 namespace {
 
-constexpr Eigen::Index coarsest_size = 400;  // unknowns that are solved for directly
-constexpr double least_coarsening = 0.7;     // a level that keeps more of its unknowns is the last
-// Weight of the Jacobi step that smooths the prolongation: 4/3 by the largest eigenvalue of D^-1 L, which for
-// the diagonally dominant matrices here is at most 2.
+constexpr Eigen::Index coarsest_size = 400;  // unknowns; a direct solve of so few costs less than more levels
+// A level that would keep more than this share of the unknowns is not made.
+constexpr double least_coarsening = 0.7;
+// Weight of the Jacobi step that smooths the prolongation: 4/3 over the largest eigenvalue of D^-1 L, which
+// is at most 2 for diagonally dominant matrices.
 constexpr double jacobi_weight = 2.0 / 3.0;
 
-/// (I - w D^-1 A_F) P for the piecewise constant P, with A_F the matrix with weak entries moved onto the
-/// diagonal.
+/// (I - w D^-1 A_F) P for the piecewise constant P, where A_F is the matrix with its weak entries moved to
+/// the diagonal.
 SparseRows smoothed_prolongation(const SparseRows& matrix, const Aggregates& aggregates) {
   const Eigen::Index n = matrix.rows();
   SparseRows prolong(n, aggregates.count);
@@ -25,10 +23,10 @@ SparseRows smoothed_prolongation(const SparseRows& matrix, const Aggregates& agg
   const double* const value = matrix.valuePtr();
   std::vector<double> sum(static_cast<std::size_t>(aggregates.count));
   std::vector<std::int32_t> touched;
-  const auto add = [&](std::int32_t aggregate, double what) {
-    double& there = sum[static_cast<std::size_t>(aggregate)];
-    if (there == 0) touched.push_back(aggregate);
-    there += what;
+  const auto add = [&](std::int32_t aggregate, double term) {
+    double& entry = sum[static_cast<std::size_t>(aggregate)];
+    if (entry == 0) touched.push_back(aggregate);
+    entry += term;
   };
   for (std::int32_t i = 0; i < n; ++i) {
     double strong = 0, all = 0;
@@ -54,23 +52,13 @@ SparseRows smoothed_prolongation(const SparseRows& matrix, const Aggregates& agg
   return prolong;
 }
 
-void sweep_forward(const SparseRows& matrix, const Vector& inverse_diagonal, const Vector& right, Vector& x) {
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    double sum = right[i];
-    for (SparseRows::InnerIterator entry(matrix, i); entry; ++entry)
-      if (entry.col() != i) sum -= entry.value() * x[entry.col()];
-    x[i] = sum * inverse_diagonal[i];
-  }
-}
-
-void sweep_backward(const SparseRows& matrix, const Vector& inverse_diagonal, const Vector& right,
-                    Vector& x) {
-  for (Eigen::Index i = matrix.rows(); i-- > 0;) {
-    double sum = right[i];
-    for (SparseRows::InnerIterator entry(matrix, i); entry; ++entry)
-      if (entry.col() != i) sum -= entry.value() * x[entry.col()];
-    x[i] = sum * inverse_diagonal[i];
-  }
+/// One Gauss-Seidel update: solves row i for x_i.
+void update(const SparseRows& matrix, const Vector& inverse_diagonal, const Vector& right, Vector& x,
+            Eigen::Index i) {
+  double sum = right[i];
+  for (SparseRows::InnerIterator entry(matrix, i); entry; ++entry)
+    if (entry.col() != i) sum -= entry.value() * x[entry.col()];
+  x[i] = sum * inverse_diagonal[i];
 }
 
 }  // namespace
@@ -94,24 +82,24 @@ Multilevel::Multilevel(const Laplacian& system) : finest_(&system.matrix), singu
     entries += static_cast<double>(matrix->nonZeros());
   }
   complexity_ = entries / static_cast<double>(finest_->nonZeros());
-  broke_down_ = !factorise(*matrix, singular_, coarsest_);
+  broke_down_ = !coarsest_.compute(*matrix, singular_);
 }
 
 void Multilevel::cycle(std::size_t at, const SparseRows& matrix, const Vector& r, Vector& z) {
   if (at == levels_.size()) {
-    solve_factorised(coarsest_, singular_, r, z);
+    coarsest_.solve(r, z);
     return;
   }
   Level& level = levels_[at];
   z.setZero(r.size());
-  sweep_forward(matrix, level.inverse_diagonal, r, z);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) update(matrix, level.inverse_diagonal, r, z, i);
   level.residual = r;
   level.residual.noalias() -= matrix * z;
   level.right.noalias() = level.restrict_ * level.residual;
   const SparseRows& next = at + 1 < levels_.size() ? levels_[at + 1].matrix : coarsest_matrix_;
   cycle(at + 1, next, level.right, level.solution);
   z.noalias() += level.prolong * level.solution;
-  sweep_backward(matrix, level.inverse_diagonal, r, z);
+  for (Eigen::Index i = matrix.rows(); i-- > 0;) update(matrix, level.inverse_diagonal, r, z, i);
 }
 
 void Multilevel::apply(const Vector& r, Vector& z) {

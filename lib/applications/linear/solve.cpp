@@ -1,15 +1,14 @@
 #include <Eigen/Dense>
 
-#include "lib/applications/linear/grounded.hpp"
 #include "lib/applications/linear/multilevel.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr Eigen::Index largest_dense = 64;
-// Where the iteration starts to be faster than the factorisation, measured (docs/applications.md).
+constexpr Eigen::Index largest_dense = 64;  // unknowns
+// Unknowns up to which the factorisation is faster than the iteration, measured (docs/applications.md).
 constexpr Eigen::Index largest_direct_plane = 16000, largest_direct_space = 1000;
-constexpr int most_iterations = 500;
+constexpr int most_iterations = 500;  // 10 to 20 are usual (docs/applications.md)
 
 LinearSolver choose(LinearSolver asked, Eigen::Index n, int dimension) {
   if (asked != LinearSolver::automatic) return asked;
@@ -54,6 +53,20 @@ void iterate(const Laplacian& system, const Vector& b, double tolerance, LinearR
 
 }  // namespace
 
+const char* name(LinearSolver solver) noexcept {
+  switch (solver) {
+    case LinearSolver::automatic:
+      return "automatic";
+    case LinearSolver::dense:
+      return "dense";
+    case LinearSolver::direct:
+      return "direct";
+    case LinearSolver::multilevel:
+      return "multilevel";
+  }
+  return "unknown";
+}
+
 LinearResult solve_laplacian(const Laplacian& system, const Vector& right, LinearSolver solver,
                              double tolerance, int dimension) {
   LinearResult result;
@@ -71,8 +84,8 @@ LinearResult solve_laplacian(const Laplacian& system, const Vector& right, Linea
     result.solution = solve_dense(system, b);
   } else {
     Factorisation factors;
-    result.broke_down = !factorise(system.matrix, system.singular, factors);
-    if (!result.broke_down) solve_factorised(factors, system.singular, b, result.solution);
+    result.broke_down = !factors.compute(system.matrix, system.singular);
+    if (!result.broke_down) factors.solve(b, result.solution);
   }
   result.broke_down = result.broke_down || !result.solution.allFinite();
   if (result.broke_down) return result;

@@ -6,7 +6,8 @@
 namespace powercell {
 namespace {
 
-Domain grown(const Domain& box) {
+/// The box extended by half its size to each side, which contains all cells of seeds in the box.
+Domain extended(const Domain& box) {
   if (box.kind() != DomainKind::polygon || box.region_count() != 1 ||
       box.measure() < (1 - 1e-12) * (box.high()[0] - box.low()[0]) * (box.high()[1] - box.low()[1]))
     throw Error(ErrorCode::unsupported, "only a box of the plane can be periodic");
@@ -19,8 +20,9 @@ Domain grown(const Domain& box) {
   return Domain::box(low, high);
 }
 
-/// That the margin has. In single precision cells must prove that they are whole, which takes a wider one.
-double spacings_at_first(Precision precision) {
+/// Width of the first margin in mean spacings of the seeds. In single precision each cell must prove that it
+/// is complete, which takes a wider margin.
+double first_margin(Precision precision) {
   return precision == Precision::float64 ? 3 : 6;
 }
 
@@ -30,19 +32,19 @@ PeriodicDiagram::PeriodicDiagram(Device device, Domain box, const Options& optio
     : box_(std::move(box)),
       low_{box_.low()[0], box_.low()[1]},
       size_{box_.high()[0] - box_.low()[0], box_.high()[1] - box_.low()[1]},
-      diagram_(std::move(device), grown(box_), options) {}
+      diagram_(std::move(device), extended(box_), options) {}
 
 void PeriodicDiagram::set_seeds(std::span<const double> positions, std::span<const double> weights) {
   const std::size_t n = positions.size() / 2;
   if (positions.size() % 2 != 0 || (!weights.empty() && weights.size() != n))
     throw Error(ErrorCode::invalid_argument, std::to_string(positions.size()) + " coordinates and " +
-                                                 std::to_string(weights.size()) + " weights of seeds");
+                                                 std::to_string(weights.size()) + " weights for seeds");
   given_.assign(positions.begin(), positions.end());
   weights_.assign(weights.begin(), weights.end());
   weights_.resize(n);
   inside_ = inside(positions);
   if (margin_ == 0)
-    margin_ = spacings_at_first(diagram_.precision()) *
+    margin_ = first_margin(diagram_.precision()) *
               std::sqrt(size_[0] * size_[1] / static_cast<double>(std::max<std::size_t>(n, 1))) /
               std::min(size_[0], size_[1]);
   margin_ = std::min(margin_, 1.0);
@@ -71,7 +73,7 @@ void PeriodicDiagram::set_weights(std::span<const double> weights) {
   measures_.reset();
 }
 
-/// The seeds first, then the copies.
+/// Lists the seeds first, then their copies in the margin.
 void PeriodicDiagram::place_copies() {
   const std::size_t n = weights_.size();
   original_.clear();
@@ -94,9 +96,9 @@ void PeriodicDiagram::place_copies() {
       }
 }
 
-/// Missing copies make cells larger and never smaller, so the areas tell (mathematics, (34)); in single
-/// precision their rounding may hide what is missing.
-bool PeriodicDiagram::covers() const {
+/// Missing copies can only enlarge cells, so the sum of the areas shows them, (34). In single precision
+/// rounding may hide them.
+bool PeriodicDiagram::has_enough_copies() const {
   if (margin_ >= 1) return true;
   if (diagram_.precision() == Precision::float32) return missing_copies_are_far();
   double sum = 0;
@@ -105,11 +107,11 @@ bool PeriodicDiagram::covers() const {
   return std::abs(sum / box_.measure() - 1) <= 1e-12;
 }
 
-/// (34a): within the reach of each cell, (34b), its seed is nearer, in power, than the heaviest seed could be
-/// from outside the margin.
+/// (34a): within the extent of each cell, (34b), its seed has a smaller power distance than even the heaviest
+/// seed outside the margin could have.
 bool PeriodicDiagram::missing_copies_are_far() const {
-  constexpr double rounding = 1e-5;  // of mean squares of distances from the seed
-  // Area over that mean square; narrower cells may be what rounding made.
+  constexpr double rounding = 1e-5;  // relative error of mean squared distances from the seed
+  // Least area relative to that mean square: narrower cells may be artefacts of rounding.
   constexpr double narrowest = 1e-3;
   const double most = *std::max_element(weights_.begin(), weights_.end());
   const Measures& all = *measures_;
@@ -147,7 +149,7 @@ void PeriodicDiagram::compute(bool walls) {
     }
     diagram_.compute(walls, false);
     measures_ = diagram_.measures();
-    if (!covers()) {
+    if (!has_enough_copies()) {
       margin_ = std::min(2 * margin_, 1.0);
       copies_placed_ = false;
       measures_.reset();

@@ -1,5 +1,5 @@
-// The greedy basis of loops: J. Erickson, K. Whittlesey, Greedy optimal homotopy and homology generators,
-// SODA 2005, on the graph of the pieces of a cell.
+// The first loop of the greedy homology basis (J. Erickson, K. Whittlesey, Greedy optimal homotopy and
+// homology generators, SODA 2005) on the graph of the pieces of a cell.
 #include "lib/applications/remeshing/cell_loop.hpp"
 
 #include <algorithm>
@@ -13,22 +13,22 @@ namespace {
 constexpr std::uint64_t outside = ~std::uint64_t{0};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Two pieces on both sides of an edge of the surface.
+/// Two adjacent pieces of the cells.
 struct Join {
-  std::uint32_t p, q;                ///< in the list of the seed
-  Vec middle;                        ///< of what they share
-  bool kept;                         ///< they meet across an edge of the surface that stays
-  std::array<std::uint64_t, 2> end;  ///< vertices of the joined cells, or `outside`
+  std::uint32_t p, q;                ///< indices among the pieces
+  Vec middle;                        ///< of the edge they share
+  bool kept;                         ///< that edge is on a kept edge of the surface
+  std::array<std::uint64_t, 2> end;  ///< vertices at its ends, or `outside`
 };
 
 struct Segment {
   std::uint32_t triangle;
   Vec from, to;
-  bool ends_on_kept = false;  ///< on an edge of the surface that stays
+  bool ends_on_kept = false;  ///< `to` is on a kept edge of the surface
 };
 
 struct Loop {
-  double away = 0;  ///< its distance from the start, within the cell
+  double away = 0;  ///< distance from the start, within the cells
   std::vector<Segment> segment;
 };
 
@@ -52,17 +52,18 @@ class Cells {
     for (std::uint32_t p = 0; p < piece_.size(); ++p) find_joins(p);
   }
 
-  /// The shortest loop that is no sum of loops around vertices of the surface and the walls.
+  /// The shortest loop that is not a sum of loops around vertices of the surface and of loops along walls.
   Loop loop() {
     if (start_ == nothing) return {};
     find_paths();
-    std::vector<std::pair<double, std::size_t>> closing;  // loops, by the join that is on no shortest path
+    std::vector<std::pair<double, std::size_t>> closing;  // loops, by their join that is on no shortest path
     for (std::size_t j = 0; j < join_.size(); ++j)
       if (const Join& join = join_[j];
           distance_[join.p] < infinity && back_[join.p] != j && back_[join.q] != j)
         closing.emplace_back(distance_[join.p] + length(join) + distance_[join.q], j);
     std::sort(closing.begin(), closing.end(), std::greater<>());
-    // The longest loops that together go round each vertex once, and the walls, are no generators.
+    // Loops that generate those around vertices and along walls are no generators of the homology: a maximum
+    // spanning tree of the dual graph consists of them.
     std::size_t shortest = none;
     for (const auto& [length, j] : closing) {
       const std::uint32_t a = root(node(join_[j].end[0])), b = root(node(join_[j].end[1]));
@@ -91,13 +92,13 @@ class Cells {
            std::find(seed_.begin(), seed_.end(), static_cast<std::uint32_t>(behind)) != seed_.end();
   }
 
-  /// The vertex of the joined cells where edge `in` of a piece ends and edge `out` starts, `outside` on their
-  /// rim.
+  /// The vertex where edge `in` of a piece ends and edge `out` starts; `outside` on the boundary of the
+  /// cells.
   std::uint64_t vertex_between(std::uint32_t triangle, int in, int out) const {
     const auto& row = diagram_.surface().triangle[triangle];
     if (in < 0 && out < 0) return row[static_cast<std::size_t>(~out)];
     if ((in < 0 && is_ours(out)) ||
-        (out < 0 && is_ours(in))) {  // a wall between ours meets an edge of the surface
+        (out < 0 && is_ours(in))) {  // a wall between the two cells meets an edge of the surface
       const auto k = static_cast<std::size_t>(~std::min(in, out));
       const auto [a, b] = std::minmax(row[k], row[(k + 1) % 3]);
       return (std::uint64_t{a} + 1) << 32 | b;
@@ -120,7 +121,7 @@ class Cells {
       const std::uint32_t q = across == nothing
                                   ? nothing
                                   : find(across, here >= 0 ? static_cast<std::uint32_t>(here) : piece.seed);
-      if (q == nothing)  // the rim of the surface, or what rounding made of a wall along an edge
+      if (q == nothing)  // the boundary of the surface, or a wall along an edge that rounding has displaced
         for (const std::uint64_t u : end) join_nodes(node(u), node(outside));
       else if (p < q)
         join_.push_back({p, q, (piece.ring[v].at + piece.ring[(v + 1) % n].at) * 0.5,
@@ -170,7 +171,7 @@ class Cells {
     return joins;
   }
 
-  /// The two paths from the ends of join j without what they have in common.
+  /// The loop of join j and the two shortest paths from its ends, without their common part.
   Loop loop_through(std::size_t j) const {
     std::vector<std::size_t> round = path(join_[j].p), back = path(join_[j].q);
     while (!round.empty() && !back.empty() && round.back() == back.back()) {
@@ -191,7 +192,7 @@ class Cells {
     return loop;
   }
 
-  /// Sets of vertices of the cells; all of their rim are one.
+  /// Disjoint sets of the vertices of the cells, with all of their boundary as one vertex.
   std::uint32_t node(std::uint64_t vertex) {
     const auto [at, added] = node_.try_emplace(vertex, static_cast<std::uint32_t>(parent_.size()));
     if (added) parent_.push_back(at->second);
@@ -205,8 +206,8 @@ class Cells {
 
   const LocalDiagram& diagram_;
   std::vector<std::uint32_t> seed_;
-  std::vector<std::uint32_t> piece_;                         ///< of all the seeds
-  std::unordered_map<std::uint32_t, std::uint32_t> number_;  ///< in that list
+  std::vector<std::uint32_t> piece_;                         ///< the pieces of all cells
+  std::unordered_map<std::uint32_t, std::uint32_t> number_;  ///< index in piece_
   std::uint32_t start_ = nothing;
   std::vector<Vec> centre_;
   std::vector<Join> join_;
@@ -222,7 +223,7 @@ std::vector<Place> points_around(const LocalDiagram& diagram, std::uint32_t seed
   const Loop loop = Cells(diagram, {seed}, from).loop();
   double length = 0;
   for (const Segment& s : loop.segment) length += norm(s.to - s.from);
-  // Three around: the seed is one of them where the loop starts near it.
+  // Three points around; the seed is one of them if the loop starts near it.
   std::vector<double> wanted{length / 3, length * 2 / 3};
   if (loop.away > length / 6) wanted.push_back(length);
   std::vector<Place> result;
@@ -242,7 +243,7 @@ Place point_between(const LocalDiagram& diagram, std::uint32_t a, std::uint32_t 
   double most = 0;
   for (const Segment& s : loop.segment) {
     const double distance = std::min(norm2(s.to - diagram.seed(a).at), norm2(s.to - diagram.seed(b).at));
-    if (s.ends_on_kept || distance <= most) continue;  // what is on a kept edge is for the seeds of its curve
+    if (s.ends_on_kept || distance <= most) continue;  // kept edges are left to the seeds of their curves
     most = distance;
     best = {s.triangle, s.to};
   }

@@ -1,5 +1,5 @@
 /// \file
-/// The way around a cell that is no disc.
+/// Loops in cells that are not discs. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace powercell::remeshing {
 
-/// About the shortest closed path from a place in the cell of a seed that no move within the cell draws
-/// together (docs/mathematics.md, "Remeshing"): points at one and two thirds of it, or three where it goes
-/// around far from that place; none where all paths can be drawn together, as in a disc, or where the place
-/// is not in the cell.
+/// Points on about the shortest loop through a place in the cell of a seed that cannot be contracted within
+/// the cell (docs/mathematics.md, "Remeshing"): at one and two thirds of its length, or at three thirds if
+/// the loop is far from the place. Empty if every loop can be contracted, as in a disc, or if the place is
+/// not in the cell.
 std::vector<Place> points_around(const LocalDiagram& diagram, std::uint32_t seed, const Place& from);
 
-/// Of the shortest such path in the cells of two seeds that meet more than once, through the place in the
-/// cell of the first: about its point farthest from both. Of triangle `nothing` if there is no such path.
+/// About the point farthest from both seeds on the shortest such loop in the union of two cells that share
+/// several walls, through a place in the first cell. Its triangle is `nothing` if there is no such loop.
 Place point_between(const LocalDiagram& diagram, std::uint32_t a, std::uint32_t b, const Place& from);
 
 }  // namespace powercell::remeshing

@@ -10,7 +10,7 @@ bool has_edge(const Piece& piece, int k) {
   return std::any_of(piece.ring.begin(), piece.ring.end(), [&](const Corner& c) { return c.behind == ~k; });
 }
 
-/// Calls `found(p, q)` once for each two pieces of a cell that an edge of the surface separates.
+/// Calls `found(p, q)` once for each pair of pieces of a cell that meet at an edge of the surface.
 template <class Found>
 void for_each_join(const LocalDiagram& diagram, const Found& found) {
   const Surface& surface = diagram.surface();
@@ -38,7 +38,7 @@ struct Union {
   void join(std::uint32_t p, std::uint32_t q) { parent[root(p)] = root(q); }
 };
 
-/// The corner of the triangle that a vertex of a piece is, or -1.
+/// The corner of the triangle at a vertex of a piece, or -1.
 int corner_of_triangle(const Piece& piece, std::size_t v) {
   const int here = piece.ring[v].behind, before = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1].behind;
   return here < 0 && before < 0 && here != before ? ~here : -1;
@@ -67,7 +67,7 @@ CellParts cell_parts(const LocalDiagram& diagram) {
       }
       parts.part[p] = of_root;
     }
-  // Faces - inner edges + inner vertices (docs/mathematics.md (63)).
+  // Faces - inner edges + inner vertices, (63).
   parts.euler.assign(parts.seed.size(), 0);
   for (std::uint32_t i = 0; i < diagram.size(); ++i)
     for (const std::uint32_t p : diagram.pieces(i)) ++parts.euler[parts.part[p]];
@@ -77,7 +77,7 @@ CellParts cell_parts(const LocalDiagram& diagram) {
   for (std::uint32_t t = 0; t < surface.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       ++around[surface.triangle[t][k]];
-      if (surface.across[t][k] == nothing)  // a vertex of the boundary is inside no cell
+      if (surface.across[t][k] == nothing)  // a vertex on the boundary is not inside a cell
         owner[surface.triangle[t][k]] = owner[surface.triangle[t][(k + 1) % 3]] = nothing - 1;
     }
     for (const std::uint32_t p : diagram.pieces_in(t)) {

@@ -1,5 +1,5 @@
 /// \file
-/// The connected parts of cells on a surface.
+/// The connected components of cells on a surface. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace powercell::remeshing {
 
-/// The pieces of each cell joined across the edges of the surface.
+/// Components of pieces that are connected across edges of the surface.
 struct CellParts {
-  std::vector<std::uint32_t> part;  ///< per piece number (also of unused ones): its part
-  std::vector<std::uint32_t> seed;  ///< per part
-  std::vector<int> euler;           ///< per part: 1 for a disc
+  std::vector<std::uint32_t> part;  ///< per piece index: its component; `nothing` for unused indices
+  std::vector<std::uint32_t> seed;  ///< per component
+  std::vector<int> euler;           ///< per component: Euler characteristic (63), 1 for a disc
 };
 
 CellParts cell_parts(const LocalDiagram& diagram);

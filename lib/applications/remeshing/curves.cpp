@@ -10,10 +10,10 @@ struct KeptEdge {
   std::uint32_t a, b, triangle;
 };
 
-/// Kept edges, each once, and those at each vertex.
+/// The graph of kept edges.
 struct Net {
   std::vector<KeptEdge> edge;
-  std::vector<std::vector<std::uint32_t>> at;
+  std::vector<std::vector<std::uint32_t>> at;  ///< per vertex: its edges
   std::vector<bool> corner;
 
   std::uint32_t other(std::uint32_t e, std::uint32_t v) const {
@@ -47,6 +47,7 @@ Net net_of(const Surface& surface, double sharp_angle) {
   return net;
 }
 
+/// Follows unused edges from a vertex to the next corner or back to the start.
 Curve walk(const Surface& surface, const Net& net, std::uint32_t start, std::uint32_t e,
            std::vector<bool>& used) {
   Curve curve;
@@ -75,7 +76,7 @@ Place Curve::at(const Surface& surface, double s) const {
   const double step = along[k + 1] - along[k];
   const double share = step > 0 ? std::clamp((s - along[k]) / step, 0.0, 1.0) : 0;
   const Vec a = surface.vertex[vertex[k]], b = surface.vertex[vertex[k + 1]];
-  // The ends exactly, for corners stay where they are.
+  // Exact at the ends, as corners must not move.
   return {triangle[k], share == 0 ? a : share == 1 ? b : a + (b - a) * share};
 }
 

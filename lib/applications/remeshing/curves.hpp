@@ -1,5 +1,5 @@
 /// \file
-/// The edges that are kept, as curves, and seeds along them.
+/// The kept edges of a surface as curves, and seeds along them. Internal.
 #pragma once
 
 #include <vector>
@@ -9,24 +9,25 @@
 
 namespace powercell::remeshing {
 
-/// A polyline of kept edges from corner to corner, or closed.
+/// A polyline of kept edges from corner to corner, or a closed one.
 struct Curve {
-  std::vector<std::uint32_t> vertex;    ///< of the surface; closed: the first is repeated at the end
-  std::vector<std::uint32_t> triangle;  ///< per edge: a triangle beside it
-  std::vector<double> along;            ///< length from the start, per vertex
+  std::vector<std::uint32_t> vertex;    ///< of the surface; if closed, the first is repeated at the end
+  std::vector<std::uint32_t> triangle;  ///< per edge: an adjacent triangle
+  std::vector<double> along;            ///< per vertex: length from the start
   bool closed = false;
 
   double length() const { return along.back(); }
+  /// The point at length s from the start.
   Place at(const Surface& surface, double s) const;
 };
 
-/// Curves end in corners: vertices of other than two kept edges, and vertices where the curve turns by more
-/// than `sharp_angle` degrees.
+/// Divides the kept edges into curves. They end in corners: vertices with other than two kept edges, and
+/// vertices where the curve turns by more than `sharp_angle` degrees.
 std::vector<Curve> kept_curves(const Surface& surface, double sharp_angle);
 
-/// Lengths along a curve at which seeds stand, both ends included (closed: the first only), such that
-/// neighbours are the same number of h apart, about 1. Closed curves have at least 3; open ones at least
-/// `least_edges`.
+/// Lengths along a curve at which seeds are placed, including both ends (if closed, only the first): evenly
+/// in units of h, about 1 apart.
+/// \param least_edges  minimum number of chords; closed curves have at least 3
 std::vector<double> seeds_along(const Sizing& sizing, const Curve& curve, std::size_t least_edges);
 
 }  // namespace powercell::remeshing

@@ -13,16 +13,13 @@ namespace {
 
 using Row = std::array<std::uint32_t, 3>;
 
-std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{a} << 32 | b;
-}
-
-/// Corners between two walls, each seen from the three cells that meet there; the cell of the smallest seed
-/// makes the triangle. Cells around a corner of cell i follow as (i, behind the edge that ends there,
+/// The points where three cells meet, as triangles of seeds. Each of the three cells has the point as a
+/// corner between two walls; in cell i the order around it is (i, seed behind the edge that ends there, seed
 /// behind the edge that starts there).
-std::vector<Row> corners_of_three(const LocalDiagram& diagram, std::vector<std::uint32_t>& odd) {
+/// \param inconsistent  output: seeds of cells that disagree about a corner
+std::vector<Row> triple_points(const LocalDiagram& diagram, std::vector<std::uint32_t>& inconsistent) {
   std::vector<Row> triangles;
-  std::vector<Row> seen;  // of one triangle of the surface
+  std::vector<Row> seen;  // in one triangle of the surface
   for (std::uint32_t t = 0; t < diagram.surface().size(); ++t) {
     seen.clear();
     for (const std::uint32_t p : diagram.pieces_in(t)) {
@@ -41,24 +38,24 @@ std::vector<Row> corners_of_three(const LocalDiagram& diagram, std::vector<std::
       while (end < seen.size() && seen[end] == seen[k]) ++end;
       if (end - k == 3)
         triangles.push_back(seen[k]);
-      else  // rounding let the cells disagree
-        odd.insert(odd.end(), seen[k].begin(), seen[k].end());
+      else  // because of rounding
+        inconsistent.insert(inconsistent.end(), seen[k].begin(), seen[k].end());
       k = end;
     }
   }
   return triangles;
 }
 
-/// The reflection of a place on one sheet of the surface to another one: cells of seeds at both meet half
-/// way, and neither reaches through. The foot is that for parallel sheets alone.
+/// Reflects a place on one sheet of the surface to another sheet, so that cells of seeds at both places meet
+/// half way and neither extends to the other sheet. (The nearest point would do so for parallel sheets only.)
 Vec opposite(const Surface& surface, const Place& place, std::uint32_t triangle) {
   const Vec normal = surface.normal(triangle), across = surface.normal(place.triangle) - normal;
   const double slope = dot(across, normal);
-  if (slope > -0.1) return place.at;  // the sheets are nearly one
+  if (slope > -0.1) return place.at;  // the sheets nearly coincide
   return place.at - across * (dot(place.at - surface.corner(triangle, 0), normal) / slope);
 }
 
-/// Of a part of a cell the place nearest to opposite to its seed.
+/// The place in a part of a cell nearest to the reflection of its seed.
 Place place_opposite(const Sampling& sampling, const CellParts& parts, std::uint32_t part) {
   const LocalDiagram& diagram = sampling.diagram();
   const std::uint32_t seed = parts.seed[part];
@@ -78,17 +75,17 @@ Place place_opposite(const Sampling& sampling, const CellParts& parts, std::uint
   return nearest;
 }
 
-/// Cells that meet along more than one wall.
+/// Finds pairs of cells that share several walls.
 void find_double_walls(const MeshCheck& check, Defects& defects) {
   for (std::size_t k = 1; k < check.edges.size(); ++k)
     if (check.edges[k] == check.edges[k - 1]) {
       const auto from = static_cast<std::uint32_t>(check.edges[k] >> 32),
                  to = static_cast<std::uint32_t>(check.edges[k]);
-      defects.twice.push_back(std::minmax(from, to));
+      defects.twice.emplace_back(std::minmax(from, to));
     }
 }
 
-/// Parts of cells without their seed, and parts that are no discs.
+/// Finds parts of cells without their seed, and cells that are not discs.
 void find_part_defects(const Sampling& sampling, Defects& defects) {
   const LocalDiagram& diagram = sampling.diagram();
   const CellParts parts = cell_parts(diagram);
@@ -96,14 +93,14 @@ void find_part_defects(const Sampling& sampling, Defects& defects) {
   for (std::uint32_t i = 0; i < diagram.size(); ++i)
     for (const std::uint32_t p : diagram.pieces(i))
       if (diagram.piece(p).triangle == sampling.hold(i).place.triangle) own[i] = parts.part[p];
-  std::vector<bool> told(parts.seed.size(), false);
+  std::vector<bool> seen(parts.seed.size(), false);
   for (std::uint32_t i = 0; i < diagram.size(); ++i) {
     if (!diagram.seed(i).alive) continue;
     if (own[i] == nothing) defects.outside.push_back(i);
     for (const std::uint32_t p : diagram.pieces(i)) {
       const std::uint32_t part = parts.part[p];
-      if (told[part]) continue;
-      told[part] = true;
+      if (seen[part]) continue;
+      seen[part] = true;
       if (part == own[i]) {
         if (parts.euler[part] != 1) defects.not_discs.push_back(i);
         continue;
@@ -113,7 +110,7 @@ void find_part_defects(const Sampling& sampling, Defects& defects) {
   }
 }
 
-/// Which curve an edge of the surface is on.
+/// The position of an edge of the surface on a curve.
 struct OnCurve {
   std::uint32_t curve;
   std::size_t edge;
@@ -124,11 +121,12 @@ std::unordered_map<std::uint64_t, OnCurve> curve_edges(const Sampling& sampling)
   for (std::uint32_t c = 0; c < sampling.curve_count(); ++c) {
     const std::vector<std::uint32_t>& v = sampling.curve(c).vertex;
     for (std::size_t k = 0; k + 1 < v.size(); ++k)
-      result[pair_key(std::min(v[k], v[k + 1]), std::max(v[k], v[k + 1]))] = {c, k};
+      result[edge_key(std::min(v[k], v[k + 1]), std::max(v[k], v[k + 1]))] = {c, k};
   }
   return result;
 }
 
+/// The length along curve c at the seed with this rank.
 double along_of(const Sampling& sampling, std::uint32_t c, std::size_t rank) {
   const auto& seeds = sampling.on_curve(c);
   if (rank == 0 && !sampling.curve(c).closed) return 0;
@@ -136,14 +134,14 @@ double along_of(const Sampling& sampling, std::uint32_t c, std::size_t rank) {
   return sampling.hold(seeds[rank]).along;
 }
 
-/// The chord of a curve over the length s.
+/// The rank of the seed before the chord that spans the length s.
 std::size_t rank_at(const Sampling& sampling, std::uint32_t c, double s) {
   std::size_t rank = 0;
   while (rank + 2 < sampling.on_curve(c).size() && along_of(sampling, c, rank + 1) <= s) ++rank;
   return rank;
 }
 
-/// Chords over which the curve is not in the cells of their two seeds alone.
+/// Finds chords where the curve between their seeds passes through cells of other seeds.
 void find_intruders(const Sampling& sampling, Defects& defects) {
   const LocalDiagram& diagram = sampling.diagram();
   const Surface& surface = diagram.surface();
@@ -152,7 +150,7 @@ void find_intruders(const Sampling& sampling, Defects& defects) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (!surface.kept[t][k]) continue;
       const std::uint32_t a = surface.triangle[t][k], b = surface.triangle[t][(k + 1) % 3];
-      const OnCurve on = edges.at(pair_key(std::min(a, b), std::max(a, b)));
+      const OnCurve on = edges.at(edge_key(std::min(a, b), std::max(a, b)));
       const Curve& curve = sampling.curve(on.curve);
       for (const std::uint32_t p : diagram.pieces_in(t)) {
         const Piece& piece = diagram.piece(p);
@@ -169,20 +167,20 @@ void find_intruders(const Sampling& sampling, Defects& defects) {
     }
 }
 
-/// Chords that are no edges of the mesh, edges at the boundary that are no chords.
+/// Finds chords that are not edges of the dual, and boundary edges of the dual that are not chords.
 void find_edge_defects(const Sampling& sampling, const MeshCheck& check, Defects& defects) {
   std::vector<std::uint64_t> chords;
   for (std::uint32_t c = 0; c < sampling.curve_count(); ++c) {
     const auto& seeds = sampling.on_curve(c);
     for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
       const std::uint32_t a = seeds[k], b = seeds[k + 1];
-      chords.insert(chords.end(), {pair_key(a, b), pair_key(b, a)});
+      chords.insert(chords.end(), {edge_key(a, b), edge_key(b, a)});
       if (!check.has_edge(a, b) && !check.has_edge(b, a)) defects.chords.emplace_back(c, k);
     }
   }
   std::sort(chords.begin(), chords.end());
   for (const auto& [a, b] : check.boundary_edges)
-    if (!std::binary_search(chords.begin(), chords.end(), pair_key(a, b)))
+    if (!std::binary_search(chords.begin(), chords.end(), edge_key(a, b)))
       defects.seeds.insert(defects.seeds.end(), {a, b});
 }
 
@@ -197,7 +195,7 @@ void keep_distinct(std::vector<T>& list) {
 DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress) {
   DualMesh dual;
   const LocalDiagram& diagram = sampling.diagram();
-  dual.triangle = corners_of_three(diagram, defects.seeds);
+  dual.triangle = triple_points(diagram, defects.seeds);
   progress.at(0);
   find_part_defects(sampling, defects);
   progress.at(0);

@@ -1,31 +1,31 @@
 /// \file
-/// The triangle mesh that is dual to the cells of seeds on a surface, and where it is not one.
+/// The triangle mesh dual to the cells of seeds on a surface, its defects and their repair. Internal.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "lib/applications/remeshing/interrupt.hpp"
+#include "lib/applications/remeshing/progress.hpp"
 #include "lib/applications/remeshing/sampling.hpp"
 
 namespace powercell::remeshing {
 
-/// A triangle for each point where three cells meet; corners are seeds, as the surface is oriented.
+/// One triangle for each point where three cells meet. Its corners are seeds, oriented as the surface.
 struct DualMesh {
   std::vector<std::array<std::uint32_t, 3>> triangle;
 };
 
-/// Where the dual cannot be a mesh like the surface (docs/mathematics.md, "Remeshing").
+/// Reasons why the dual is not a mesh with the topology of the surface (docs/mathematics.md, "Remeshing").
 struct Defects {
-  /// A place in each part of a cell that its seed is not in, opposite to the seed.
+  /// Per connected part of a cell without its seed: a place in it, opposite to the seed.
   std::vector<Place> fragments;
-  std::vector<std::uint32_t> outside;                          ///< seeds that are not in their own cells
-  std::vector<std::uint32_t> not_discs;                        ///< seeds whose cells go around something
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> twice;  ///< seeds whose cells meet more than once
-  std::vector<std::uint32_t> seeds;  ///< at which the dual is no manifold for another reason
-  /// Places of curves that belong to cells of other seeds, and chords that are no edge: a curve and the
-  /// rank of the seed before.
+  std::vector<std::uint32_t> outside;                          ///< seeds outside their own cells
+  std::vector<std::uint32_t> not_discs;                        ///< seeds whose cells are not discs
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> twice;  ///< pairs of cells that share several walls
+  std::vector<std::uint32_t> seeds;  ///< vertices where the dual is not a manifold for another reason
+  /// Chords of curves (a curve, and the rank of the seed before the chord) that the cells of other seeds
+  /// interrupt, or that are not edges of the dual.
   std::vector<std::pair<std::uint32_t, std::size_t>> chords;
 
   bool none() const {
@@ -34,12 +34,13 @@ struct Defects {
   }
 };
 
-/// The dual of the cells as they are, and what is wrong with it.
+/// The dual of the cells.
+/// \param defects  output
 DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress = {});
 
-/// Adds seeds where there are defects until there are none.
-/// \param most      seeds there may be in the end
-/// \throw Error invalid_argument when they do not suffice; interrupted
+/// Adds seeds at the defects until there are none.
+/// \param most  limit on the number of seeds
+/// \throw Error invalid_argument if these do not suffice; interrupted
 DualMesh mend(Sampling& sampling, std::size_t most, Progress progress = {});
 
 }  // namespace powercell::remeshing

@@ -1,17 +1,16 @@
-#include "lib/applications/remeshing/fit.hpp"
-
 #include <algorithm>
 #include <optional>
 
 #include "lib/applications/remeshing/nearest.hpp"
+#include "lib/applications/remeshing/relax.hpp"
 #include "lib/applications/remeshing/star.hpp"
 #include "lib/applications/remeshing/triangle.hpp"
 
 namespace powercell::remeshing {
 namespace {
 
-constexpr double share = 0.01;       // of the triangles that a pass works on
-constexpr double negligible = 1e-4;  // distance, in units of the sizing: the surface is flat there
+constexpr double share = 0.01;       // of the triangles, that a pass works on
+constexpr double negligible = 1e-4;  // distance from the surface in units of h
 
 std::vector<std::array<Vec, 3>> corners_of(const Surface& surface) {
   std::vector<std::array<Vec, 3>> corners(surface.size());
@@ -20,6 +19,7 @@ std::vector<std::array<Vec, 3>> corners_of(const Surface& surface) {
   return corners;
 }
 
+/// At most 1 for a triangle of sufficient shape.
 double shape_cost(Vec a, Vec b, Vec c) {
   return misshape(a, b, c, 0.74);
 }
@@ -29,7 +29,7 @@ class Fit {
   Fit(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress& progress)
       : mesh_(mesh), surface_(surface), sizing_(sizing), progress_(progress), nearest_(corners_of(surface)) {}
 
-  /// Returns whether anything changed.
+  /// \return whether anything changed
   bool pass() {
     bool any = false;
     for (const std::uint32_t v : far_vertices()) {
@@ -41,13 +41,13 @@ class Fit {
   }
 
  private:
-  /// Largest squared distance of the centroid and the middles of the edges from the surface.
+  /// The largest squared distance from the surface of the centroid and the midpoints of the edges.
   double distance2(Vec a, Vec b, Vec c) const {
     return std::max({nearest_.distance2((a + b + c) * (1.0 / 3)), nearest_.distance2((a + b) * 0.5),
                      nearest_.distance2((b + c) * 0.5), nearest_.distance2((c + a) * 0.5)});
   }
 
-  /// The corners of the triangles that are farthest, ascending.
+  /// The corners of the farthest triangles, ascending.
   std::vector<std::uint32_t> far_vertices() const {
     const std::vector<WorkMesh::Row>& rows = mesh_.triangles();
     std::vector<double> distance(rows.size());

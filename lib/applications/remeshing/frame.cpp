@@ -15,7 +15,6 @@ Frame frame_of(std::span<const double> vertices, std::span<const std::uint32_t> 
     }
   const Vec a{low[0], low[1], low[2]}, b{high[0], high[1], high[2]};
   const double length = norm(b - a);
-  // A power of two: scaling rounds nothing.
   return {(a + b) * 0.5, length > 0 ? std::exp2(std::ceil(std::log2(length))) : 1};
 }
 

@@ -20,15 +20,16 @@ LocalDiagram::Ring LocalDiagram::ring_of(std::uint32_t triangle) const {
   return ring;
 }
 
-/// Keeps of the ring what is seed i's rather than j's (docs/mathematics.md (3)); false if nothing is.
+/// Clips the ring by the bisector of seeds i and j, (3), keeping the side of i.
+/// \return false if nothing is left
 bool LocalDiagram::cut(Ring& ring, std::uint32_t i, std::uint32_t j) {
   const Seed& own = seeds_[i];
   const Vec q = seeds_[j].at - own.at;
-  const double level = norm2(q) + own.weight - seeds_[j].weight;
+  const double offset = norm2(q) + own.weight - seeds_[j].weight;
   side_.resize(ring.size());
   bool inside = false, outside = false;
   for (std::size_t v = 0; v < ring.size(); ++v) {
-    side_[v] = 2 * dot(q, ring[v].at - own.at) - level;
+    side_[v] = 2 * dot(q, ring[v].at - own.at) - offset;
     (side_[v] > 0 ? outside : inside) = true;
   }
   if (!outside) return true;
@@ -39,7 +40,8 @@ bool LocalDiagram::cut(Ring& ring, std::uint32_t i, std::uint32_t j) {
     const bool here = side_[v] <= 0, there = side_[next] <= 0;
     if (here) scratch_.push_back(ring[v]);
     if (here == there) continue;
-    // From the kept end, so that both cells of an edge of the surface compute the same point.
+    // Interpolated from the kept end, so that the pieces on both sides of an edge of the surface get the same
+    // point.
     const std::size_t in = here ? v : next, out = here ? next : v;
     const double share = side_[in] / (side_[in] - side_[out]);
     const Vec at = ring[in].at + (ring[out].at - ring[in].at) * share;
@@ -68,7 +70,7 @@ void LocalDiagram::add_piece(std::uint32_t seed, std::uint32_t triangle, const R
 }
 
 void LocalDiagram::drop_piece(std::uint32_t piece) {
-  // Of one triangle there are few pieces, of one seed as many as the surface has triangles.
+  // A triangle has few pieces, while a seed may have as many as the surface has triangles.
   std::vector<std::uint32_t>& owners = owners_[pieces_[piece].triangle];
   *std::find(owners.begin(), owners.end(), piece) = owners.back();
   owners.pop_back();
@@ -86,7 +88,7 @@ void LocalDiagram::mark_changed(std::uint32_t seed) {
   changed_.push_back(seed);
 }
 
-/// Measures the changed cells again.
+/// Updates the reach of the changed cells.
 void LocalDiagram::finish() {
   for (const std::uint32_t i : changed_) {
     is_changed_[i] = 0;
@@ -96,7 +98,7 @@ void LocalDiagram::finish() {
       for (const Corner& corner : pieces_[p].ring) cell.reach = std::max(cell.reach, power(i, corner.at));
     most_reach_ = std::max(most_reach_, cell.reach);
   }
-  // The bound only grows; taken afresh now and then it stays near.
+  // The bound only grows, so it is recomputed from time to time.
   if (++since_measured_ < std::max<std::size_t>(alive() / 4, 1)) return;
   since_measured_ = 0;
   most_reach_ = -infinity;
@@ -137,8 +139,8 @@ std::uint32_t LocalDiagram::insert(Vec at, double weight, double size) {
     for (std::uint32_t t = 0; t < surface_.size(); ++t) add_piece(id, t, ring_of(t));
   } else {
     std::vector<std::uint32_t> affected;
-    // A point of cell i that becomes the new seed's is within sqrt(reach_i + w_i) of seed i and within
-    // sqrt(reach_i + w) of the new one.
+    // A point that cell i loses to the new seed is within sqrt(reach_i + w_i) of seed i and within
+    // sqrt(reach_i + w) of the new seed.
     grid_.near(
         at, [&](double w) { return root(most_reach_ + w) + root(most_reach_ + weight); },
         [&](std::uint32_t i) {
@@ -160,7 +162,7 @@ std::uint32_t LocalDiagram::insert(Vec at, double weight, double size) {
   return id;
 }
 
-/// Cuts the affected pieces by the new seed and gives it what they lose.
+/// Clips the affected pieces by the new seed and gives it the parts that they lose.
 void LocalDiagram::take_from(std::uint32_t seed, std::vector<std::uint32_t>& affected) {
   std::vector<std::uint32_t> triangles;
   for (const std::uint32_t p : affected) triangles.push_back(pieces_[p].triangle);
@@ -196,12 +198,13 @@ void LocalDiagram::remove(std::uint32_t seed) {
   finish();
 }
 
-/// All seeds that can own a point of the cell of `seed` once that is gone: a point x of it is within
-/// b + w_j, b the largest of the least power distances to the neighbours, of its new owner j.
+/// All seeds that can own a point of the cell of `seed` after its removal. The squared distance of such a
+/// point to its new owner j is at most b + w_j, where b is the largest over the corners of the least power
+/// distance to the neighbours.
 std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
                                                const std::vector<std::uint32_t>& pieces) const {
   const std::vector<std::uint32_t> beside = neighbors(seed);
-  std::vector<std::uint32_t> result = beside;  // whatever rounding makes of their distances
+  std::vector<std::uint32_t> result = beside;  // included whatever the rounding of their distances
   Vec low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   double bound = -infinity;
   for (const std::uint32_t p : pieces)
@@ -223,17 +226,17 @@ std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
         const double distance = radius + std::sqrt(most);
         if (norm2(seeds_[j].at - centre) <= distance * distance) result.push_back(j);
       });
-  std::sort(result.begin(), result.end());  // the same order every time
+  std::sort(result.begin(), result.end());  // for a deterministic order
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
-/// Gives the piece of a seed that goes to its heirs.
+/// Divides a piece of the removed seed among the heirs.
 void LocalDiagram::share_out(std::uint32_t seed, std::uint32_t piece,
                              const std::vector<std::uint32_t>& heirs) {
   const Ring freed = pieces_[piece].ring;
   const std::uint32_t t = pieces_[piece].triangle;
-  std::vector<std::uint32_t> best;  // the heirs that own a corner
+  std::vector<std::uint32_t> best;  // heirs that own a corner
   for (const Corner& corner : freed) {
     double least = infinity;
     std::uint32_t at_least = heirs.front();
@@ -246,7 +249,7 @@ void LocalDiagram::share_out(std::uint32_t seed, std::uint32_t piece,
     }
     if (std::find(best.begin(), best.end(), at_least) == best.end()) best.push_back(at_least);
   }
-  // Whoever one of those beats at every corner gets nothing (docs/mathematics.md (11)).
+  // An heir to which one of these is preferable at every corner gets nothing, (11).
   std::vector<std::uint32_t> left;
   for (const std::uint32_t j : heirs) {
     const bool beaten = std::any_of(best.begin(), best.end(), [&](std::uint32_t k) {
@@ -264,7 +267,7 @@ void LocalDiagram::share_out(std::uint32_t seed, std::uint32_t piece,
       if (left[k] != j) any = cut(ring, j, left[k]);
     if (any) gainers.push_back(j);
   }
-  // What borders on the freed piece grows, the other heirs come in new.
+  // Pieces adjacent to the freed one grow; the other heirs get new pieces.
   std::vector<std::uint32_t> owners, again = gainers;
   for (const std::uint32_t p : owners_[t]) {
     const std::uint32_t j = pieces_[p].seed;

@@ -1,5 +1,5 @@
 /// \file
-/// The power diagram of seeds restricted to a surface, kept up to date while seeds come and go.
+/// The power diagram of seeds restricted to a surface, under insertion and removal of seeds. Internal.
 #pragma once
 
 #include <cstdint>
@@ -10,52 +10,54 @@
 
 namespace powercell::remeshing {
 
-/// A corner of a piece and what lies behind the edge that starts there.
+/// A corner of a piece, and the neighbour across the edge that starts there.
 struct Corner {
   Vec at;
   std::int32_t behind;  ///< a seed, or ~k for edge k of the triangle
 };
 
-/// The part of a triangle that a seed owns: a convex polygon, counter-clockwise as the triangle.
+/// The intersection of a cell and a triangle: a convex polygon, oriented as the triangle.
 struct Piece {
   std::uint32_t seed, triangle;
-  std::uint32_t rank;  ///< in the list of its seed
+  std::uint32_t rank;  ///< in the list of its cell
   std::vector<Corner> ring;
 };
 
 struct Seed {
   Vec at;
   double weight = 0;
-  double size = 1;  ///< the edge length wanted there: for the search only
+  double size = 1;  ///< target edge length, used by the search only
   bool alive = false;
 };
 
-/// Cells are the same as those of powercell::Diagram for the same seeds, but for rounding. A seed comes
-/// or goes in a time that depends on its neighbours only: the new cell is cut out of the cells that it
-/// reaches, and the cell of a seed that goes is shared out among those that reach into it. Seeds in special
-/// position (four on one circle, a bisector along an edge) are the caller's to avoid.
+/// The cells agree with those of powercell::Diagram up to rounding. Insertion and removal take a time that
+/// depends on the neighbours only: a new cell is cut out of the cells that it reaches, and a removed cell is
+/// divided among the seeds that can reach into it (docs/mathematics.md, "Remeshing"). The caller must avoid
+/// degenerate positions (four seeds on a circle, a bisector along an edge).
 class LocalDiagram {
  public:
+  /// \param surface  kept by reference
   explicit LocalDiagram(const Surface& surface) : surface_(surface), owners_(surface.size()) {}
 
-  /// Adds a seed and returns its number, that of a removed one if there is any.
+  /// Adds a seed.
+  /// \return its index, which is that of a removed seed if there is one
   std::uint32_t insert(Vec at, double weight, double size);
   void remove(std::uint32_t seed);
 
   const Surface& surface() const { return surface_; }
-  std::size_t size() const { return seeds_.size(); }  ///< numbers in use, of removed seeds too
+  std::size_t size() const { return seeds_.size(); }  ///< indices in use, including removed seeds
   std::size_t alive() const { return seeds_.size() - free_seeds_.size(); }
   const Seed& seed(std::uint32_t i) const { return seeds_[i]; }
   const std::vector<std::uint32_t>& pieces(std::uint32_t i) const { return cells_[i].pieces; }
   const std::vector<std::uint32_t>& pieces_in(std::uint32_t triangle) const { return owners_[triangle]; }
   const Piece& piece(std::uint32_t p) const { return pieces_[p]; }
-  /// The seeds whose cells the last call changed, each once, with the seed itself.
+  /// The seeds whose cells the last insertion or removal changed, including the seed itself; distinct.
   const std::vector<std::uint32_t>& changed() const { return changed_; }
-  /// |x - p_i|^2 - w_i
+  /// (1): |x - p_i|^2 - w_i
   double power(std::uint32_t i, Vec x) const { return norm2(x - seeds_[i].at) - seeds_[i].weight; }
-  /// Largest power distance of a point of the cell to its own seed; -infinity where the cell is empty.
+  /// The largest power distance from a point of the cell to its seed; -infinity if the cell is empty.
   double reach(std::uint32_t i) const { return cells_[i].reach; }
-  /// The seeds across the walls of a cell, ascending.
+  /// The neighbours of a cell, ascending.
   std::vector<std::uint32_t> neighbors(std::uint32_t i) const;
 
  private:
@@ -80,13 +82,13 @@ class LocalDiagram {
   std::vector<Seed> seeds_;
   std::vector<Cell> cells_;
   std::vector<Piece> pieces_;
-  std::vector<std::vector<std::uint32_t>> owners_;  ///< per triangle: its pieces
+  std::vector<std::vector<std::uint32_t>> owners_;  // per triangle: its pieces
   std::vector<std::uint32_t> free_seeds_, free_pieces_, changed_;
   std::vector<char> is_changed_;
   std::vector<double> side_;
   Ring scratch_;
   SeedGrid grid_;
-  double most_reach_ = 0;  ///< no cell's reach is above it
+  double most_reach_ = 0;  // upper bound of the reach of all cells
   std::size_t since_measured_ = 0;
 };
 

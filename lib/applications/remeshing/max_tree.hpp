@@ -1,5 +1,5 @@
 /// \file
-/// A heap whose entries change in place.
+/// A priority queue whose entries change in place. Internal.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace powercell::remeshing {
 
-/// The largest of n values, each of which may change: a tournament, O(log n) a change.
+/// The largest of n values that change: a tournament tree, O(log n) per change.
 class MaxTree {
  public:
   void set(std::uint32_t i, double value) {
@@ -19,7 +19,8 @@ class MaxTree {
     for (node /= 2; node > 0; node /= 2) value_[node] = std::max(value_[2 * node], value_[2 * node + 1]);
   }
   double top() const { return leaves_ == 0 ? lowest : value_[1]; }
-  /// An entry with that value; leaves_ must not be 0.
+  /// An entry with that value.
+  /// \pre an entry was set
   std::uint32_t top_index() const {
     std::size_t node = 1;
     while (node < leaves_) node = value_[2 * node] >= value_[2 * node + 1] ? 2 * node : 2 * node + 1;

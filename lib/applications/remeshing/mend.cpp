@@ -11,10 +11,11 @@ namespace {
 [[noreturn]] void too_few(std::size_t most) {
   throw Error(ErrorCode::invalid_argument,
               "too few points for the topology of the surface: its parts lie so close together that " +
-                  std::to_string(most) + " do not tell them apart; ask for more");
+                  std::to_string(most) + " points do not separate them; ask for more");
 }
 
-/// The longest chord at a seed, as a curve and a rank; false if it is on none.
+/// The longest chord at a seed, as a curve and a rank.
+/// \return false if the seed is not on a curve
 bool longest_chord(const Sampling& sampling, std::uint32_t seed,
                    std::pair<std::uint32_t, std::size_t>& chord) {
   double longest = 0;
@@ -32,7 +33,7 @@ bool longest_chord(const Sampling& sampling, std::uint32_t seed,
   return longest > 0;
 }
 
-/// A seed more in a cell.
+/// Adds a seed in a cell, on a chord of its seed or in a neighbouring cell.
 void add_in_cell(Sampling& sampling, std::uint32_t seed) {
   const FarPoint far = sampling.farthest_of(seed);
   if (far.place.triangle != nothing) {
@@ -51,8 +52,8 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
     }
 }
 
-/// What two cells that meet twice go around together, or a cell on its own, gets seeds around it. At a tip
-/// seeds at the farthest vertices would go nearer and nearer to it instead.
+/// Adds seeds on loops around what a cell that is not a disc, or two cells that share several walls,
+/// surround. At a tip, seeds at farthest vertices would only converge to it.
 void add_around(Sampling& sampling, const Defects& defects, Progress& progress) {
   const LocalDiagram& diagram = sampling.diagram();
   for (const std::uint32_t i : defects.not_discs)
@@ -68,7 +69,7 @@ void add_around(Sampling& sampling, const Defects& defects, Progress& progress) 
   }
 }
 
-/// One seed for a defect that several cells share; the next round tells what is left.
+/// Adds one seed for a defect that several cells share. Remaining defects are found in the next round.
 void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds, Progress& progress) {
   std::vector<char> treated(sampling.diagram().size(), 0);
   for (const std::uint32_t i : seeds) {
@@ -81,8 +82,8 @@ void add_in_cells(Sampling& sampling, const std::vector<std::uint32_t>& seeds, P
   }
 }
 
-/// Treats the defects of the first kind that there is: those of later kinds may be gone with them. Returns
-/// whether anything changed.
+/// Treats the defects of the first kind present, as those of later kinds may vanish with them.
+/// \return whether anything changed
 bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   const std::size_t before = sampling.diagram().alive();
   bool changed = false;
@@ -91,7 +92,8 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
     changed |= sampling.give_cell(i);
   }
   if (changed) return true;
-  // Later ranks of a curve first: they do not move the earlier ones.
+  // Later ranks of a curve first, so that earlier ones stay valid.
+  // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the reversed view of libstdc++ 12.
   for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
     sampling.split(chord->first, chord->second);
   for (const Place& fragment : defects.fragments) {
@@ -115,7 +117,7 @@ DualMesh mend(Sampling& sampling, std::size_t most, Progress progress) {
     if (defects.none()) {
       const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
       if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))
-        throw Error(ErrorCode::internal, "the dual is a manifold of another topology than the surface");
+        throw Error(ErrorCode::internal, "the dual is a manifold, but not of the topology of the surface");
       return dual;
     }
     if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) too_few(most);

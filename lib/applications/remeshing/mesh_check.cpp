@@ -11,14 +11,10 @@
 namespace powercell::remeshing {
 namespace {
 
-std::uint64_t key(std::uint32_t from, std::uint32_t to) {
-  return std::uint64_t{from} << 32 | to;
-}
-
-/// Per vertex its triangles; a vertex of one fan is walked once round from the start of that fan. A closed
-/// fan of fewer than three triangles is flat: two triangles on the same three corners.
+/// Checks that the triangles of each vertex form one fan by walking around the vertex. A closed fan of fewer
+/// than three triangles is degenerate: two triangles with the same corners.
 void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshCheck& check) {
-  // Leaving vertex v: from its next corner the fan goes on to the one after.
+  // A triangle at vertex v: the fan goes on from its next corner to the one after.
   struct Step {
     std::uint32_t v, from, to;
     auto operator<=>(const Step&) const = default;
@@ -37,7 +33,7 @@ void find_fans(std::span<const std::array<std::uint32_t, 3>> triangles, MeshChec
           std::lower_bound(first, last, from, [](const Step& s, std::uint32_t x) { return s.from < x; });
       return at != last && at->from == from ? at : last;
     };
-    // An open fan starts where nothing leads to.
+    // An open fan starts at the corner that no triangle leads to.
     std::vector<std::uint32_t> led_to;
     std::transform(first, last, std::back_inserter(led_to), [](const Step& s) { return s.to; });
     std::sort(led_to.begin(), led_to.end());
@@ -69,7 +65,7 @@ void check_triangles(std::span<const double> vertices, std::span<const std::uint
 }
 
 bool MeshCheck::has_edge(std::uint32_t from, std::uint32_t to) const {
-  return std::binary_search(edges.begin(), edges.end(), key(from, to));
+  return std::binary_search(edges.begin(), edges.end(), edge_key(from, to));
 }
 
 MeshCheck check_mesh(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices) {
@@ -78,7 +74,7 @@ MeshCheck check_mesh(std::span<const std::array<std::uint32_t, 3>> triangles, st
   for (const auto& row : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       check.used[row[k]] = true;
-      check.edges.push_back(key(row[k], row[(k + 1) % 3]));
+      check.edges.push_back(edge_key(row[k], row[(k + 1) % 3]));
       if (row[k] == row[(k + 1) % 3]) check.not_manifold.push_back(row[k]);
     }
   std::sort(check.edges.begin(), check.edges.end());

@@ -62,7 +62,7 @@ double NearestPoint::distance2(Vec x) const {
     std::uint32_t node;
     double distance;
   };
-  std::array<Entry, 128> stack;  // two a level of a tree halved at each
+  std::array<Entry, 128> stack;  // two per level; a balanced tree has at most 32 levels
   std::size_t size = 0;
   stack[size++] = {0, distance2(node_[0].box, x)};
   while (size > 0) {

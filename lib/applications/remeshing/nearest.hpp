@@ -1,5 +1,5 @@
 /// \file
-/// The nearest point of a triangle mesh.
+/// Distances from a triangle mesh. Internal.
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@
 
 namespace powercell::remeshing {
 
-/// A tree of boxes over triangles.
+/// A bounding volume hierarchy of triangles: axis-aligned boxes, halved at the median of the longest axis.
 class NearestPoint {
  public:
+  /// \param triangles  at least one
   explicit NearestPoint(std::vector<std::array<Vec, 3>> triangles);
   /// Squared distance of x from the nearest triangle.
   double distance2(Vec x) const;
@@ -23,8 +24,8 @@ class NearestPoint {
   };
   struct Node {
     Box box;
-    std::uint32_t begin = 0, end = 0;  ///< triangles below
-    std::uint32_t second = 0;          ///< its second child; the first follows it. 0: a leaf
+    std::uint32_t begin = 0, end = 0;  ///< its triangles
+    std::uint32_t second = 0;  ///< index of the second child; the first is the next node. 0 for a leaf
   };
   void build(std::uint32_t begin, std::uint32_t end);
   static double distance2(const Box& box, Vec x);

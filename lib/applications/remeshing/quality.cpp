@@ -32,13 +32,13 @@ std::array<Vec, 3> corners(std::span<const double> vertices, const std::array<st
   return corner;
 }
 
-/// The share of vertices with about the degree of a regular mesh.
+/// The share of vertices whose degree differs from that of a regular mesh by at most 1.
 double regular_share(const std::vector<std::array<std::uint32_t, 3>>& rows, const MeshCheck& check) {
   std::vector<int> degree(check.used.size(), 0), excess(check.used.size(), -6);
   for (const auto& row : rows)
     for (const std::uint32_t v : row) ++degree[v];
   for (const auto& [from, to] : check.boundary_edges) {
-    ++degree[from];  // one edge more than triangles
+    ++degree[from];  // a boundary vertex has one more edge than triangles
     excess[from] = -4;
   }
   std::size_t used = 0, regular = 0;
@@ -50,7 +50,7 @@ double regular_share(const std::vector<std::array<std::uint32_t, 3>>& rows, cons
   return static_cast<double>(regular) / static_cast<double>(used);
 }
 
-/// Coordinates in which both surfaces have about the size 1, as areas are squared.
+/// A frame in which both surfaces together have a size of about 1, as areas are squared.
 Frame common_frame(const TriangleMesh& a, const TriangleMesh& b) {
   std::vector<double> vertices = a.vertices;
   vertices.insert(vertices.end(), b.vertices.begin(), b.vertices.end());
@@ -65,7 +65,7 @@ Frame common_frame(const TriangleMesh& a, const TriangleMesh& b) {
 MeshQuality mesh_quality(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
   const auto rows = rows_of(vertices, triangles);
   const MeshCheck check = check_mesh(rows, vertices.size() / 3);
-  // Areas are squared: beyond 10^77 and below 10^-77 that is no number.
+  // Squared areas overflow for coordinates beyond 10^77 and underflow below 10^-77.
   const std::vector<double> scaled = frame_of(vertices, triangles).to(vertices);
   MeshQuality quality;
   quality.vertices = static_cast<std::size_t>(std::count(check.used.begin(), check.used.end(), true));
@@ -112,7 +112,7 @@ double farthest_from(const TriangleMesh& a, const TriangleMesh& b, std::size_t s
   const double share = area / static_cast<double>(std::max<std::size_t>(samples, 1));
   for (const auto& row : rows_a) {
     const auto [p, q, r] = corners(vertices_a, row);
-    // A grid of n^2 small triangles has (n+1)(n+2)/2 corners.
+    // A triangle divided into n^2 equal ones has (n+1)(n+2)/2 grid points.
     const double wanted = share > 0 ? norm(normal_of(p, q, r)) / 2 / share : 0;
     const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(2 * wanted))));
     for (int i = 0; i <= n; ++i)

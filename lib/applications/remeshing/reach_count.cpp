@@ -12,11 +12,12 @@ namespace {
 
 using Row = WorkMesh::Row;
 
+/// The length of an edge in units of h.
 double relative_length(const WorkMesh& mesh, std::uint32_t a, std::uint32_t b) {
   return norm(mesh.at(a) - mesh.at(b)) * 2 / (mesh.vertex(a).h + mesh.vertex(b).h);
 }
 
-/// Whether the triangles that vertex a leaves behind when it goes into b keep their side.
+/// Whether no remaining triangle turns over when vertex a is collapsed into b.
 bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, std::uint32_t b) {
   for (const std::uint32_t t : mesh.around(a)) {
     const Row& row = mesh.triangle(t);
@@ -28,7 +29,8 @@ bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, 
   return true;
 }
 
-/// Collapses edges, the relatively shortest first, until `count` vertices are left or none may be.
+/// Collapses edges, the relatively shortest first, until `count` vertices are left or no collapse is
+/// possible.
 void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count, Progress progress) {
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -48,7 +50,7 @@ void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count
     const auto [length, a, b] = queue.top();
     queue.pop();
     progress.tick();
-    // What was collapsed or could not be then is left; a collapse near by offers it again.
+    // Skips entries that are outdated or impossible; a later collapse nearby offers the edge again.
     if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b) ||
         !keeps_sides(mesh, surface, a, b))
       continue;
@@ -57,6 +59,7 @@ void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count
   }
 }
 
+/// Splits the relatively longest edge that is not kept.
 bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress) {
   double longest = 0;
   std::optional<WorkMesh::Edge> found;
@@ -82,7 +85,7 @@ bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing,
 
 void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
                  Progress progress) {
-  // Vertices that crowd make shapes that cannot be collapsed: flips in between help.
+  // Crowded vertices form shapes that cannot be collapsed; flips in between resolve them.
   for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
     before = mesh.alive();
     collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2, progress);
@@ -91,7 +94,8 @@ void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   if (mesh.alive() > count)
     throw Error(ErrorCode::invalid_argument,
                 "too few points for the topology of the surface: " + std::to_string(count) +
-                    " could not be reached from a mesh of " + std::to_string(mesh.alive()) + " points");
+                    " could not be reached by collapsing a mesh of " + std::to_string(mesh.alive()) +
+                    " points");
   while (mesh.alive() < count) {
     if (!split_longest(mesh, surface, sizing, progress))
       throw Error(ErrorCode::invalid_argument, "too many points: there is no edge left to split");

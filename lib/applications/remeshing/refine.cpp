@@ -1,41 +1,23 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
+#include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/surface.hpp"
 
 namespace powercell::remeshing {
 namespace {
 
-std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+std::uint64_t undirected_key(std::uint32_t a, std::uint32_t b) {
+  return edge_key(std::min(a, b), std::max(a, b));
 }
 
-/// A directed edge as a number: triangle and side.
-using Sides = std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>>;
-
-/// Neighbours of a surface known to be an oriented manifold; `kept` by the vertices of edges.
-void connect(Surface& surface, const std::unordered_map<std::uint64_t, bool>& kept) {
-  Sides first;
-  first.reserve(2 * surface.size());
-  surface.across.assign(surface.size(), {nothing, nothing, nothing});
-  surface.kept.assign(surface.size(), {false, false, false});
-  for (std::uint32_t t = 0; t < surface.size(); ++t)
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint64_t key = edge_key(surface.triangle[t][k], surface.triangle[t][(k + 1) % 3]);
-      surface.kept[t][k] = kept.contains(key);
-      const auto [at, added] = first.try_emplace(key, t, k);
-      if (added) continue;
-      surface.across[t][k] = at->second.first;
-      surface.across[at->second.first][at->second.second] = t;
-    }
-}
-
-/// Cuts triangle `row` where `middle` names the new vertex of an edge.
+/// Cuts a triangle at the new vertices in the middle of its edges, `nothing` where an edge is not cut.
 void cut(const Surface& surface, const std::array<std::uint32_t, 3>& row,
          const std::array<std::uint32_t, 3>& middle, std::vector<std::array<std::uint32_t, 3>>& out) {
   const auto count = 3 - std::count(middle.begin(), middle.end(), nothing);
-  std::size_t k = 0;  // turn the triangle so that the cases below are the only ones
+  std::size_t k = 0;  // rotation of the triangle that leaves only the cases below
   if (count == 1)
     while (middle[k] == nothing) ++k;
   if (count == 2)
@@ -78,12 +60,12 @@ Surface refined(const Surface& surface, double longest, std::vector<double>& val
   Surface result = surface;
   while (true) {
     std::unordered_map<std::uint64_t, std::uint32_t> middle;
-    std::unordered_map<std::uint64_t, bool> kept;
+    std::unordered_set<std::uint64_t> kept;
     for (std::uint32_t t = 0; t < result.size(); ++t)
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t a = result.triangle[t][k], b = result.triangle[t][(k + 1) % 3];
-        const std::uint64_t key = edge_key(a, b);
-        if (result.kept[t][k]) kept[key] = true;
+        const std::uint64_t key = undirected_key(a, b);
+        if (result.kept[t][k]) kept.insert(key);
         if (norm2(result.vertex[a] - result.vertex[b]) <= longest * longest) continue;
         const auto [at, added] = middle.try_emplace(key, static_cast<std::uint32_t>(result.vertex.size()));
         if (!added) continue;
@@ -93,20 +75,25 @@ Surface refined(const Surface& surface, double longest, std::vector<double>& val
     if (middle.empty()) return result;
     for (const auto& [key, at] : middle)
       if (kept.erase(key) > 0) {
-        kept[edge_key(static_cast<std::uint32_t>(key >> 32), at)] = true;
-        kept[edge_key(static_cast<std::uint32_t>(key), at)] = true;
+        kept.insert(undirected_key(static_cast<std::uint32_t>(key >> 32), at));
+        kept.insert(undirected_key(static_cast<std::uint32_t>(key), at));
       }
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (const auto& row : result.triangle) {
       std::array<std::uint32_t, 3> middles{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = middle.find(edge_key(row[k], row[(k + 1) % 3]));
+        const auto at = middle.find(undirected_key(row[k], row[(k + 1) % 3]));
         middles[k] = at == middle.end() ? nothing : at->second;
       }
       cut(result, row, middles, triangles);
     }
     result.triangle = std::move(triangles);
-    connect(result, kept);
+    connect(result);
+    result.kept.assign(result.size(), {false, false, false});
+    for (std::uint32_t t = 0; t < result.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        result.kept[t][k] =
+            kept.contains(undirected_key(result.triangle[t][k], result.triangle[t][(k + 1) % 3]));
   }
 }
 

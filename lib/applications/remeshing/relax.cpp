@@ -12,14 +12,14 @@ namespace {
 
 using Row = WorkMesh::Row;
 
-using Cost = double (*)(Vec, Vec, Vec);  ///< of the corners of a triangle
+using Cost = double (*)(Vec, Vec, Vec);  ///< cost of a triangle by its corners, lower is better
 
-/// Above 1 where the last steps work on a triangle.
+/// Above 1 for a triangle that mend_worst() works on.
 double shape_cost(Vec a, Vec b, Vec c) {
   return misshape(a, b, c, 0.7);
 }
 
-/// The larger cost of the two triangles of an edge after a flip; `worst` where they would fold.
+/// The larger cost of the two triangles of an edge after a flip; `worst` if the flip would fold the surface.
 double cost_flipped(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Edge& e, Cost cost) {
   const Vec a = mesh.at(e.a), b = mesh.at(e.b), c = mesh.at(e.c), d = mesh.at(e.d);
   const Vec left = unit(normal_of(a, d, c)), right = unit(normal_of(d, b, c));
@@ -42,7 +42,7 @@ int regular(const WorkMesh& mesh, std::uint32_t v) {
   return mesh.vertex(v).boundary ? 4 : 6;
 }
 
-/// Change of the sum of squared excess degrees by a flip.
+/// The decrease of the sum of squared excess degrees by a flip.
 int degree_gain(const WorkMesh& mesh, const WorkMesh::Edge& e) {
   int gain = 0;
   for (const auto& [v, step] : {std::pair{e.a, -1}, {e.b, -1}, {e.c, 1}, {e.d, 1}}) {
@@ -67,6 +67,7 @@ Vec centroid_around(const WorkMesh& mesh, std::uint32_t v) {
   return sum * (1 / weight);
 }
 
+/// Moves a vertex to the projection of a point if the cost around it is then below `most`.
 bool try_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v, Vec to,
               double most, Cost cost) {
   const Place place = project(surface, mesh.vertex(v).place, to);
@@ -75,18 +76,19 @@ bool try_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std:
   return true;
 }
 
+/// Moves each free vertex to the centroid around it, unless that makes a bad angle worse.
 void smooth(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress) {
-  const double well = std::cos(40 * std::numbers::pi / 180);
+  const double good = std::cos(40 * std::numbers::pi / 180);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
     progress.tick();
     const double before = cost_around(mesh, surface, v, mesh.vertex(v).place, largest_cosine);
-    try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, well),
+    try_move(mesh, surface, sizing, v, centroid_around(mesh, v), std::max(before + 0.01, good),
              largest_cosine);
   }
 }
 
-/// Moves a vertex in its tangent plane where that makes the worst triangle around it better.
+/// Moves a vertex in its tangent plane if that improves the worst triangle around it.
 bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::uint32_t v) {
   const double before = cost_around(mesh, surface, v, mesh.vertex(v).place, shape_cost);
   const auto cost = [&](const Place& to) { return cost_around(mesh, surface, v, to, shape_cost); };
@@ -97,8 +99,8 @@ bool search_move(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, s
   return false;
 }
 
-/// Sum over the triangles around v, with v at `to`, of (a^2 + b^2 + c^2) / (4 sqrt(3) area), which is 1 where
-/// they are equilateral; infinity where one turns over.
+/// Sum over the triangles around v, with v at `to`, of the square of (a^2 + b^2 + c^2) / (2 area), which is
+/// least if they are equilateral; infinity if one turns over.
 double distortion_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, const Place& to) {
   double sum = 0;
   for (const std::uint32_t t : mesh.around(v)) {
@@ -113,7 +115,8 @@ double distortion_around(const WorkMesh& mesh, const Surface& surface, std::uint
   return sum;
 }
 
-/// Moves each vertex where that makes the distortion around it less.
+/// Moves each free vertex in its tangent plane if that decreases the distortion around it.
+/// \param step  length of the move in units of h
 void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progress progress, double step) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive(v) || mesh.vertex(v).kind != Hold::Kind::free) continue;
@@ -127,7 +130,7 @@ void improve(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, Progr
   }
 }
 
-/// Works on the vertices of the triangles whose shape cost is above 1.
+/// Flips edges and moves vertices at the triangles whose shape cost is above 1.
 void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int passes, Progress progress) {
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<std::uint32_t> bad;
@@ -155,7 +158,7 @@ void mend_worst(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, in
 }  // namespace
 
 std::size_t flip_edges(WorkMesh& mesh, const Surface& surface, Progress progress) {
-  const double well = std::cos(30 * std::numbers::pi / 180);
+  const double good = std::cos(30 * std::numbers::pi / 180);
   std::size_t flips = 0;
   for (std::uint32_t a = 0; a < mesh.vertex_count(); ++a) {
     if (!mesh.is_alive(a)) continue;
@@ -167,8 +170,8 @@ std::size_t flip_edges(WorkMesh& mesh, const Surface& surface, Progress progress
       const double before = cost_of(mesh, *e, largest_cosine);
       const double after = cost_flipped(mesh, surface, *e, largest_cosine);
       const int gain = degree_gain(mesh, *e);
-      const bool better = after < before - 0.01 && (gain >= 0 || before > well);
-      if (!better && !(gain >= 2 && after < well)) continue;
+      const bool better = after < before - 0.01 && (gain >= 0 || before > good);
+      if (!better && !(gain >= 2 && after < good)) continue;
       mesh.flip(*e);
       ++flips;
     }
@@ -177,12 +180,12 @@ std::size_t flip_edges(WorkMesh& mesh, const Surface& surface, Progress progress
 }
 
 void relax(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, int rounds, Progress progress) {
-  constexpr int spreading = 5;  // first rounds, which even out sizes; the others see to shapes
-  constexpr std::array<double, 3> steps = {0.1, 0.05, 0.025};  // of h
+  constexpr int smoothing = 5;  // first rounds, which even out sizes; the others improve shapes
+  constexpr std::array<double, 3> steps = {0.1, 0.05, 0.025};  // in units of h
   for (int round = 0; round < rounds; ++round) {
     progress.at(round / (rounds + 1.0));
     flip_edges(mesh, surface, progress);
-    if (round < spreading)
+    if (round < smoothing)
       smooth(mesh, surface, sizing, progress);
     else
       improve(mesh, surface, sizing, progress, steps[static_cast<std::size_t>(round) % steps.size()]);

@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "lib/applications/remeshing/dual.hpp"
-#include "lib/applications/remeshing/even_mass.hpp"
+#include "lib/applications/remeshing/equal_mass.hpp"
 #include "lib/applications/remeshing/farthest.hpp"
-#include "lib/applications/remeshing/fit.hpp"
 #include "lib/applications/remeshing/frame.hpp"
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/relax.hpp"
@@ -20,7 +19,7 @@
 namespace powercell {
 namespace {
 
-/// More of them come nearer still and cost shape (docs/applications.md).
+// More passes bring the mesh closer to the surface at the cost of shape (docs/applications.md).
 constexpr int fit_passes = 2;
 
 using namespace remeshing;
@@ -38,8 +37,8 @@ void check(const RemeshOptions& o) {
   require(o.rounds >= 0 && o.relaxations >= 0, "rounds must not be negative");
 }
 
-/// Triangles are cut to the length of the new edges first. Of those far longer than wide that makes numbers
-/// out of all proportion to the mesh asked for, up to no end.
+/// Refuses surfaces whose triangles, cut to the length of the new edges, would be far more than the new mesh
+/// has: without a limit for triangles far longer than wide.
 void check_thinness(const Surface& input, double spacing, std::size_t count) {
   const double triangles = refined_size(input, spacing);
   if (triangles <= 1e5 + 400 * static_cast<double>(count + input.size())) return;
@@ -50,6 +49,7 @@ void check_thinness(const Surface& input, double spacing, std::size_t count) {
 
 class Watch {
  public:
+  /// Seconds since the last call.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
@@ -85,7 +85,7 @@ std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing, c
     return sampling;
   }
   const Device device = options.device ? *options.device : Device::choose();
-  const std::vector<Place> places = spread_evenly(*sampling, sizing, device, options.rounds, progress);
+  const std::vector<Place> places = equalise_masses(*sampling, sizing, device, options.rounds, progress);
   sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
   sampling->place_on_curves(options.count);
   progress.at(1);

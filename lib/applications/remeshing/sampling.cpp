@@ -5,7 +5,15 @@
 #include <powercell/error.hpp>
 #include <string>
 
+#include "lib/base/random.hpp"
+
 namespace powercell::remeshing {
+namespace {
+
+// Relative random change of weights, which brings the seeds into general position.
+constexpr double jitter = 1e-7;
+
+}  // namespace
 
 Sampling::Sampling(const Surface& surface, const Sizing& sizing, std::vector<Curve> curves,
                    std::uint64_t random_seed)
@@ -19,7 +27,7 @@ Sampling::Sampling(const Surface& surface, const Sizing& sizing, std::vector<Cur
 
 std::uint32_t Sampling::add(const Hold& hold) {
   const double h = sizing_at(hold.place);
-  return add(hold, weight_share * h * h * (1 + 1e-7 * jitter()), h);
+  return add(hold, weight_share * h * h * (1 + jitter * uniform(random_)), h);
 }
 
 std::uint32_t Sampling::add(const Hold& hold, double weight, double h) {
@@ -35,28 +43,24 @@ std::uint32_t Sampling::add(const Hold& hold, double weight, double h) {
 }
 
 std::uint32_t Sampling::add_between(const Hold& hold) {
-  constexpr double least_share = 1e-13;  // of a weight: a bisector is off by some 1e-16 of it
+  constexpr double least_share = 1e-13;  // of a weight; rounding moves a bisector by some 1e-16 of it
   const std::uint32_t in = owner(hold.place);
-  if (in == nothing) return add(hold);  // rounding left nobody the triangle
+  if (in == nothing) return add(hold);  // because of rounding no seed has the triangle
   const Seed of = diagram_.seed(in);
   const double distance2 = norm2(of.at - hold.place.at);
   if (!(distance2 > least_share * of.weight))
-    throw Error(
-        ErrorCode::invalid_argument,
-        "the surface is too sharp or too thin for so few points: to tell its sides apart some would be as "
-        "near to each other as rounding errors; ask for more, or cut the tip or the thin part off");
-  // The distance is what tells the two apart, however small it is beside the weight.
-  return add(hold, of.weight + 1e-7 * jitter() * distance2, of.size);
-}
-
-double Sampling::jitter() {
-  return static_cast<double>(random_() >> 11) * 0x1p-53;
+    throw Error(ErrorCode::invalid_argument,
+                "the surface is too sharp or too thin for so few points: to separate its sides, some would "
+                "have to be as "
+                "close as rounding errors; ask for more points, or cut off the tip or the thin part");
+  // The jitter is relative to the distance, which may be small compared with the weight.
+  return add(hold, of.weight + jitter * uniform(random_) * distance2, of.size);
 }
 
 bool Sampling::give_cell(std::uint32_t seed) {
   const Hold hold = hold_[seed];
   remove(seed);
-  add_between(hold);  // under the same number, that of the last to go
+  add_between(hold);  // gets the index just freed
   return owner(hold.place) == seed;
 }
 
@@ -72,8 +76,8 @@ void Sampling::measure_changed() {
   }
 }
 
-/// Whether x is in the ball over the chord from a seed to a neighbour on a curve: a seed there would come
-/// between them.
+/// Whether x is in the ball whose diameter is a chord from a seed to its neighbour on a curve. A seed there
+/// would separate their cells.
 bool Sampling::in_curve_ball(std::uint32_t seed, Vec x) const {
   const Vec to = diagram_.seed(seed).at - x;
   return std::any_of(chord_[seed].begin(), chord_[seed].end(),
@@ -90,7 +94,7 @@ FarPoint Sampling::farthest_of(std::uint32_t seed) const {
       const double priority = diagram_.power(seed, corner.at) * scale;
       if (priority <= far.priority) continue;
       const Corner& before = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1];
-      // What lies on a kept edge is for the seeds of its curve.
+      // Points on kept edges are left to the seeds of the curve.
       const auto on_kept = [&](const Corner& c) {
         return c.behind < 0 && surface_.kept[piece.triangle][static_cast<std::size_t>(~c.behind)];
       };
@@ -117,7 +121,7 @@ std::uint32_t Sampling::corner_seed(std::uint32_t vertex, const Place& place) {
 }
 
 void Sampling::place_on_curves(std::size_t most) {
-  // Curves between the same corners need a seed between them each, or their edges would be one.
+  // Several curves between the same two corners need an inner seed each, else they would share one edge.
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> same_ends;
   const auto ends = [&](const Curve& c) { return std::minmax(c.vertex.front(), c.vertex.back()); };
   for (const Curve& c : curves_)
@@ -137,8 +141,8 @@ void Sampling::place_on_curves(std::size_t most) {
   count += static_cast<std::size_t>(std::unique(corners.begin(), corners.end()) - corners.begin());
   if (count > most)
     throw Error(ErrorCode::invalid_argument,
-                "too few points: the corners, boundaries and sharp edges alone need " +
-                    std::to_string(count) + "; ask for more, or keep fewer edges by a larger sharp angle");
+                "too few points: corners, boundaries and sharp edges alone need " + std::to_string(count) +
+                    "; ask for more, or keep fewer edges by a larger sharp angle");
   for (std::uint32_t c = 0; c < curves_.size(); ++c) {
     const Curve& curve = curves_[c];
     for (std::size_t k = 0; k < along[c].size(); ++k) {
@@ -152,14 +156,14 @@ void Sampling::place_on_curves(std::size_t most) {
   }
 }
 
-/// Chords of a curve whose seeds are new.
+/// Records the chords of a curve whose seeds were just added.
 void Sampling::link_curve(std::uint32_t c) {
   const std::vector<std::uint32_t>& seeds = on_curve_[c];
   for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
     chord_[seeds[k]].push_back(seeds[k + 1]);
     chord_[seeds[k + 1]].push_back(seeds[k]);
   }
-  // What was measured before the chords were there is measured again with them.
+  // The farthest vertices depend on the chords.
   for (const std::uint32_t i : seeds) {
     far_[i] = farthest_of(i);
     heap_.set(i, far_[i].priority);

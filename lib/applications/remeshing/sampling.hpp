@@ -1,5 +1,5 @@
 /// \file
-/// Seeds on a surface with their diagram: corners, seeds on kept curves, free ones.
+/// Seeds on a surface with their power diagram: at corners, on kept curves, and free. Internal.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace powercell::remeshing {
 
-constexpr double weight_share =
-    1.0 / 3;  ///< w = h^2/3: the vertices of a regular mesh of edge h have power 0
+/// w = h^2/3: the cell vertices of a regular mesh then have power 0.
+constexpr double weight_share = 1.0 / 3;
 
-/// Where a seed may be.
+/// The position of a seed and how it is constrained: free on the surface, on a curve, or at a corner.
 struct Hold {
   enum class Kind : std::uint8_t { free, curve, corner };
   Kind kind = Kind::free;
-  std::uint32_t curve = nothing;  ///< of kind curve
+  std::uint32_t curve = nothing;  ///< for kind curve
   double along = 0;               ///< length along that curve
   Place place;
 };
@@ -32,42 +32,47 @@ struct FarPoint {
   double priority = -1e300;  ///< (|v - p_i|^2 - w_i) / h_i^2
 };
 
-/// Seeds and their cells. All weights follow from the sizing; each is moved by a random 10^-7 of itself, so
-/// that seeds are in general position.
+/// Seeds and their cells. The weights follow from the sizing; each is changed by a random 10^-7 of itself,
+/// which brings the seeds into general position.
 class Sampling {
  public:
+  /// Surface and sizing are kept by reference.
   Sampling(const Surface& surface, const Sizing& sizing, std::vector<Curve> curves,
            std::uint64_t random_seed);
 
-  /// Sets seeds on corners and curves. \throw Error invalid_argument if they are more than `most`
+  /// Places seeds at corners and along curves.
+  /// \throw Error invalid_argument if they are more than `most`
   void place_on_curves(std::size_t most);
 
+  /// Adds a free seed with the weight of the sizing. Like the functions below, returns its index.
   std::uint32_t add_free(const Place& place) { return add({Hold::Kind::free, nothing, 0, place}); }
-  /// With the weight of the seed whose cell the place is in: neither hides the other, however near they are.
+  /// Adds a free seed with the weight of the seed whose cell contains the place, so that neither hides the
+  /// other however close they are.
   std::uint32_t add_between(const Place& place) { return add_between({Hold::Kind::free, nothing, 0, place}); }
-  /// Gives a seed that is outside its own cell the weight of the seed in whose cell it is. Returns whether it
-  /// is in its own then.
+  /// Gives a seed outside its own cell the weight of the seed whose cell contains it.
+  /// \return whether it is in its own cell now
   bool give_cell(std::uint32_t seed);
   void remove(std::uint32_t seed);
-  /// A seed in the middle between two neighbours on a curve (by rank in `on_curve`), weighed as add_between.
+  /// Adds a seed halfway between two neighbours on a curve, the first of rank `rank` in on_curve(), with a
+  /// weight as in add_between().
   std::uint32_t split(std::uint32_t curve, std::size_t rank);
 
-  /// The vertex of the cells that is farthest from its seed, of those outside the balls around neighbours
-  /// on curves; priority -1e300 if there is none.
+  /// The cell vertex with the highest priority, excluding those in the balls over chords of curves; triangle
+  /// `nothing` if there is none.
   FarPoint farthest() const;
-  /// That of one cell.
+  /// The same for one cell.
   FarPoint farthest_of(std::uint32_t seed) const;
 
   const LocalDiagram& diagram() const { return diagram_; }
   const Hold& hold(std::uint32_t seed) const { return hold_[seed]; }
   std::size_t curve_count() const { return curves_.size(); }
   const Curve& curve(std::uint32_t c) const { return curves_[c]; }
-  /// Seeds along a curve, in order; those at its ends too, of a closed one the first again at the end.
+  /// Seeds along a curve, in order, including both ends; if it is closed, the first is repeated at the end.
   const std::vector<std::uint32_t>& on_curve(std::uint32_t c) const { return on_curve_[c]; }
   std::vector<std::uint32_t> free_seeds() const;
-  /// The seed whose cell the place is in.
+  /// The seed whose cell contains the place.
   std::uint32_t owner(const Place& place) const;
-  /// Least distance to a neighbour over h, of all seeds.
+  /// Least distance between neighbours in units of h.
   double least_spacing() const;
   double sizing_at(const Place& place) const { return sizing_.at(surface_, place); }
   std::mt19937_64& random() { return random_; }
@@ -76,7 +81,6 @@ class Sampling {
   std::uint32_t add(const Hold& hold);
   std::uint32_t add(const Hold& hold, double weight, double h);
   std::uint32_t add_between(const Hold& hold);
-  double jitter();  ///< random, from 0 to 1
   std::uint32_t corner_seed(std::uint32_t vertex, const Place& place);
   void measure_changed();
   void link_curve(std::uint32_t c);
@@ -88,7 +92,7 @@ class Sampling {
   LocalDiagram diagram_;
   std::vector<Hold> hold_;
   std::vector<std::vector<std::uint32_t>> on_curve_;
-  std::vector<std::vector<std::uint32_t>> chord_;  ///< per seed: its neighbours on curves
+  std::vector<std::vector<std::uint32_t>> chord_;  // per seed: its neighbours on curves
   std::vector<std::uint32_t> corner_of_vertex_;
   std::vector<FarPoint> far_;
   MaxTree heap_;

@@ -1,5 +1,5 @@
 /// \file
-/// Seeds found by place while they come and go: the incremental neighbour structure.
+/// A search structure for seeds that supports insertion and removal. Internal.
 #pragma once
 
 #include <cmath>
@@ -11,16 +11,18 @@
 
 namespace powercell::remeshing {
 
-/// A grid of cubes for each size class of seeds. A seed of size h is in the grid whose cubes have a side in
-/// (2h, 4h], so that a cube holds few seeds where their spacing is about h, whatever the contrast.
+/// One grid of cubes per size class of seeds. A seed of size h is in the grid with cubes of a side in (2h,
+/// 4h], so a cube holds few seeds if their spacing is about h, whatever the range of sizes.
 class SeedGrid {
  public:
-  /// \param size  its spacing from others, positive   \param weight  its largest counts in queries
+  /// \param size    spacing from other seeds, positive
+  /// \param weight  the largest of a size class bounds its queries
   void insert(std::uint32_t id, Vec at, double size, double weight);
+  /// \param at, size  as inserted
   void remove(std::uint32_t id, Vec at, double size);
 
-  /// Calls `found(id)` for every seed within `radius(w)` of `centre`, and some beyond; w is the largest
-  /// weight that a seed of its size class ever had.
+  /// Calls `found(id)` for every seed within `radius(w)` of `centre` and some beyond, where w is the largest
+  /// weight ever inserted in its size class.
   template <class Radius, class Found>
   void near(Vec centre, const Radius& radius, const Found& found) const {
     for (const auto& [exponent, level] : levels_)
@@ -45,7 +47,7 @@ class SeedGrid {
   static void near_in(const Level& level, Vec centre, double radius, const Found& found) {
     if (!(radius >= 0)) return;
     const double cubes = std::pow(2 * radius / level.side + 2, 3);
-    if (!(cubes < static_cast<double>(level.cube.size()))) {  // all of them are fewer
+    if (!(cubes < static_cast<double>(level.cube.size()))) {  // visiting all is cheaper
       for (const auto& [key, ids] : level.cube)
         for (const std::uint32_t id : ids) found(id);
       return;

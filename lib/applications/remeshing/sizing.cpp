@@ -8,7 +8,7 @@
 namespace powercell::remeshing {
 namespace {
 
-/// Vertices on kept edges.
+/// For each vertex, whether it is on a kept edge.
 std::vector<bool> on_kept_edge(const Surface& surface) {
   std::vector<bool> kept(surface.vertex.size(), false);
   for (std::uint32_t t = 0; t < surface.size(); ++t)
@@ -25,8 +25,8 @@ std::vector<double> vertex_areas(const Surface& surface) {
   return area;
 }
 
-/// The part of the surface nearer to each vertex than to others, in obtuse triangles a half or a quarter of
-/// them (Meyer, Desbrun, Schröder, Barr 2003).
+/// Mixed areas (Meyer, Desbrun, Schröder, Barr 2003): the part of the surface nearer to a vertex than to
+/// others, except that obtuse triangles are divided into a half and two quarters.
 std::vector<double> mixed_areas(const Surface& surface) {
   std::vector<double> area(surface.vertex.size(), 0);
   for (std::uint32_t t = 0; t < surface.size(); ++t) {
@@ -51,8 +51,8 @@ std::vector<double> mixed_areas(const Surface& surface) {
   return area;
 }
 
-/// Vertices that are not known but have known neighbours take the mean of those and become known. Returns
-/// whether there were any.
+/// Gives unknown vertices the mean of their known neighbours, and marks them as known.
+/// \return whether there were any
 bool spread(const Surface& surface, std::vector<double>& value, std::vector<bool>& known) {
   std::vector<double> sum(value.size(), 0), count(value.size(), 0);
   for (const auto& row : surface.triangle)
@@ -80,14 +80,14 @@ void smooth(const Surface& surface, const std::vector<double>& area, std::vector
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t c = 1; c < 3; ++c) {
         const std::uint32_t u = row[(k + c) % 3];
-        sum[row[k]] += area[u] * value[u] / 2;  // each neighbour is met from two triangles
+        sum[row[k]] += area[u] * value[u] / 2;  // each neighbour is in two triangles
         weight[row[k]] += area[u] / 2;
       }
   for (std::size_t v = 0; v < value.size(); ++v)
     if (weight[v] > 0) value[v] = sum[v] / weight[v];
 }
 
-/// Values below which the shares `low` and `high` of the area lie.
+/// The values below which the shares `low` and `high` of the area lie.
 std::pair<double, double> percentiles(const std::vector<double>& value, const std::vector<double>& area,
                                       double low, double high) {
   std::vector<std::size_t> order(value.size());
@@ -117,8 +117,8 @@ double mean_edge(const Surface& surface) {
   return sum / (3.0 * static_cast<double>(surface.size()));
 }
 
-/// h(v) <= h(u) + gradation |u - v| along edges, by Dijkstra's algorithm from the smallest values.
-void limit(const Surface& surface, double gradation, std::vector<double>& h) {
+/// Enforces h(v) <= h(u) + gradation |u - v| along edges, by Dijkstra's algorithm from the smallest values.
+void limit_gradient(const Surface& surface, double gradation, std::vector<double>& h) {
   std::vector<std::uint32_t> offset(surface.vertex.size() + 1, 0), neighbor(6 * surface.size());
   for (const auto& row : surface.triangle)
     for (const std::uint32_t v : row) offset[v + 1] += 2;
@@ -170,10 +170,7 @@ Curvature curvature(const Surface& surface) {
     const double gauss = defect[v] / area[v], mean = result.mean[v];
     result.largest[v] = mean + std::sqrt(std::max(0.0, mean * mean - gauss));
   }
-  std::vector<bool> also_known = known;
-  while (spread(surface, result.mean, known)) {
-  }
-  while (spread(surface, result.largest, also_known)) {
+  while (spread(surface, result.largest, known)) {
   }
   return result;
 }
@@ -182,7 +179,7 @@ std::vector<double> relative_sizing(const Surface& surface, double reach, double
                                     Progress progress) {
   std::vector<double> value = curvature(surface).largest;
   const std::vector<double> area = vertex_areas(surface);
-  // Diffusion over k steps reaches about sqrt(k) edges.
+  // k steps of diffusion reach about sqrt(k) edges.
   const double edges = reach / mean_edge(surface);
   const int steps = static_cast<int>(std::clamp(edges * edges, 3.0, 60.0));
   for (int step = 0; step < steps; ++step) {
@@ -191,7 +188,7 @@ std::vector<double> relative_sizing(const Surface& surface, double reach, double
   }
   auto [low, high] = percentiles(value, area, 0.05, 0.95);
   low = std::max(low, high / (contrast * contrast));
-  // What is flat to rounding has no curvature to follow.
+  // Curvatures as small as rounding errors give a uniform sizing.
   const double flat = 1e-6 / std::sqrt(std::accumulate(area.begin(), area.end(), 0.0));
   for (double& v : value) v = high > flat ? 1 / std::sqrt(std::clamp(v, low, high)) : 1;
   const double least = *std::min_element(value.begin(), value.end());
@@ -223,10 +220,10 @@ double even_spacing(const Surface& surface, std::size_t count) {
       if (!surface.kept[t][edge]) continue;
       const double length = norm(surface.corner(t, (k + 1) % 3) - surface.corner(t, k));
       const bool at_boundary = surface.across[t][edge] == nothing;
-      kept += at_boundary ? length : length / 2;  // others are met from two triangles
+      kept += at_boundary ? length : length / 2;  // inner edges are in two triangles
       boundary += at_boundary ? length : 0;
     }
-  // wanted h^2 = 2 area/sqrt(3) + boundary h/2
+  // Solves wanted h^2 = 2 area/sqrt(3) + boundary h/2.
   const double half = boundary / (4 * wanted);
   return std::max(half + std::sqrt(half * half + surface.area() / (wanted * std::sqrt(3.0) / 2)),
                   kept / wanted);
@@ -244,15 +241,17 @@ Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, d
   const double wanted = static_cast<double>(count);
   Sizing sizing{shape, gradation};
   double factor = even_spacing(surface, count), low = 0, high = 0;
-  // The number of vertices falls with the factor; limiting h makes it fall more slowly.
-  for (int step = 0; step < 40; ++step) {
-    progress.at(step / 40.0);
+  // Bracketed search: the number of vertices decreases with the factor, as its square without the limit.
+  constexpr int most_steps = 40;
+  constexpr double tolerance = 0.002;  // of the number of vertices
+  for (int step = 0; step < most_steps; ++step) {
+    progress.at(static_cast<double>(step) / most_steps);
     for (std::size_t v = 0; v < shape.size(); ++v) sizing.h[v] = factor * shape[v];
-    limit(surface, gradation, sizing.h);
-    const double got = vertices_for(surface, sizing.h);
-    if (std::fabs(got - wanted) <= 0.002 * wanted) break;
-    (got > wanted ? low : high) = factor;
-    const double guess = factor * std::sqrt(std::max(got, 1.0) / wanted);
+    limit_gradient(surface, gradation, sizing.h);
+    const double found = vertices_for(surface, sizing.h);
+    if (std::fabs(found - wanted) <= tolerance * wanted) break;
+    (found > wanted ? low : high) = factor;
+    const double guess = factor * std::sqrt(std::max(found, 1.0) / wanted);
     factor = high == 0 || (guess > low && guess < high) ? guess : (low + high) / 2;
   }
   return sizing;

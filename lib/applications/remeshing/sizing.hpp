@@ -1,47 +1,52 @@
 /// \file
-/// How long the edges of the new mesh shall be, by place.
+/// The sizing field: target edge lengths of the new mesh. Internal.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "lib/applications/remeshing/interrupt.hpp"
+#include "lib/applications/remeshing/progress.hpp"
 #include "lib/applications/remeshing/surface.hpp"
 
 namespace powercell::remeshing {
 
-/// Curvatures at each vertex (docs/mathematics.md (60)). Vertices on kept edges, where they mean nothing,
-/// take the mean of their neighbours.
+/// Discrete curvatures at each vertex, (60).
 struct Curvature {
-  std::vector<double> mean;     ///< |H|, by the cotangent Laplacian
-  std::vector<double> largest;  ///< |H| + sqrt(H^2 - K), K by the angle defect: the larger principal one
+  std::vector<double> mean;  ///< |H| by the cotangent Laplacian; 0 on kept edges, where it is not defined
+  /// The larger principal curvature, |H| + sqrt(H^2 - K), with K by the angle defect. On kept edges the mean
+  /// of the neighbours.
+  std::vector<double> largest;
 };
 Curvature curvature(const Surface& surface);
 
-/// The shape of the sizing, up to a factor: the larger principal curvature, smoothed over `reach`, clamped at
-/// its 5th and 95th percentile by area, to the power -1/2, which makes chords miss the surface by the same
-/// everywhere. |H| alone is blind to saddles. `contrast` is the largest ratio of two values.
+/// The sizing up to a factor, (61): the larger principal curvature to the power -1/2, which makes the
+/// distance of chords from the surface uniform. (|H| would be small at saddles.)
+/// \param reach     the curvature is smoothed over this distance and clamped at its 5th and 95th percentile
+///   by area
+/// \param contrast  largest ratio of two values
+/// \return per vertex, with the minimum 1
 std::vector<double> relative_sizing(const Surface& surface, double reach, double contrast,
                                     Progress progress = {});
 
-/// Edge lengths h at the vertices of a surface.
+/// Target edge lengths h at the vertices of a surface.
 struct Sizing {
   std::vector<double> h;
   double gradation = 0;
 
+  /// Interpolates linearly.
   double at(const Surface& surface, const Place& place) const;
 };
 
-/// The edge length of a mesh of `count` vertices and even spacing: h of docs/mathematics.md (62), and no less
-/// than at which the kept edges alone have as many.
+/// The edge length of a uniform mesh of `count` vertices, h of (62), at least such that the kept edges alone
+/// do not need more vertices.
 double even_spacing(const Surface& surface, std::size_t count);
 
-/// The factor on `shape` with which a mesh of edge length h has `count` vertices (docs/mathematics.md (62)),
-/// h limited to grow by `gradation` a unit of length. \throw Error invalid_argument
+/// Scales `shape` such that a mesh with these edge lengths has `count` vertices, (62), with the gradient of h
+/// limited to `gradation`.
 Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, double gradation,
                      std::size_t count, Progress progress = {});
 
-/// Number of vertices that a mesh of edge length h has.
+/// The number of vertices of a mesh with edge lengths h, (62).
 double vertices_for(const Surface& surface, const std::vector<double>& h);
 
 }  // namespace powercell::remeshing

@@ -1,5 +1,5 @@
 /// \file
-/// The triangles around a vertex of the new mesh, with the vertex moved. Internal.
+/// Costs of the triangles around a vertex of the new mesh when the vertex moves. Internal.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace powercell::remeshing {
 
-constexpr double worst = std::numeric_limits<double>::infinity();  ///< cost of a triangle that must not be
+constexpr double worst = std::numeric_limits<double>::infinity();  ///< cost of a forbidden triangle
 
-/// Whether a triangle, with its corner v at `to`, faces away from where the surface does at its free corners.
-/// Kept corners are left out: they lie on edges and may count to either side.
+/// Whether a triangle, with its corner v at `to`, faces against the surface normals at its free corners. Kept
+/// corners are ignored, as they lie on edges between two sides.
 inline bool faces_inwards(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Row& row,
                           std::uint32_t v = nothing, const Place& to = {}) {
   std::array<Vec, 3> corner;
@@ -30,8 +30,8 @@ inline bool faces_inwards(const WorkMesh& mesh, const Surface& surface, const Wo
   return !(dot(normal_of(corner[0], corner[1], corner[2]), outwards) > 0);
 }
 
-/// Whether a triangle turns over when it becomes `after`, with corner v at `to`: by much at once, or, as many
-/// small turns add up, away from the surface.
+/// Whether a triangle turns over when it becomes `after`, with corner v at `to`: by a large angle at once,
+/// or, since small ones add up, against the surface.
 inline bool turns_over(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Row& row,
                        const WorkMesh::Row& after, std::uint32_t v = nothing, const Place& to = {}) {
   const auto at = [&](std::size_t k) { return after[k] == v ? to.at : mesh.at(after[k]); };
@@ -41,7 +41,7 @@ inline bool turns_over(const WorkMesh& mesh, const Surface& surface, const WorkM
   return faces_inwards(mesh, surface, after, v, to) && !faces_inwards(mesh, surface, row);
 }
 
-/// Whether a flip makes a triangle that faces inwards of two that do not.
+/// Whether a flip of two triangles that face outwards makes one that faces inwards.
 inline bool flips_inwards(const WorkMesh& mesh, const Surface& surface, const WorkMesh::Edge& e) {
   const auto inwards = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return faces_inwards(mesh, surface, {a, b, c});
@@ -50,7 +50,7 @@ inline bool flips_inwards(const WorkMesh& mesh, const Surface& surface, const Wo
          !inwards(e.b, e.a, e.d);
 }
 
-/// Largest cost(a, b, c) of the triangles around v with v at `to`; `worst` where one turns over.
+/// The largest cost(a, b, c) of the triangles around v with v at `to`; `worst` if one turns over.
 template <class Cost>
 double cost_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, const Place& to,
                    const Cost& cost) {
@@ -67,8 +67,9 @@ double cost_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v
   return most;
 }
 
-/// Of eight points at `length` around vertex v in its tangent plane the one of least cost, if below `least`.
-/// \param cost  of v at a place, which is on the surface only if it is projected
+/// The point of least cost among eight points at the distance `length` from vertex v in its tangent plane, if
+/// that cost is below `least`.
+/// \param cost  cost of v at a place, which need not be on the surface
 template <class CostAt>
 std::optional<Vec> best_around(const WorkMesh& mesh, const Surface& surface, std::uint32_t v, double length,
                                double least, const CostAt& cost) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 #include <powercell/error.hpp>
 #include <string>
-#include <tuple>
 #include <utility>
+
+#include "lib/base/positions.hpp"
 
 namespace powercell::remeshing {
 namespace {
@@ -15,7 +15,7 @@ namespace {
   throw Error(ErrorCode::invalid_domain, message);
 }
 
-/// A side of a triangle, found by its two vertices.
+/// An edge of a triangle, sorted by its vertices.
 struct Side {
   std::uint32_t low, high, triangle, edge;
   friend auto operator<=>(const Side&, const Side&) = default;
@@ -33,32 +33,18 @@ std::vector<Side> sides_of(const Surface& surface) {
   return sides;
 }
 
-/// For each vertex the first one at its position.
-std::vector<std::uint32_t> weld(const std::vector<Vec>& vertex) {
-  std::vector<std::uint32_t> order(vertex.size()), same(vertex.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t v) {
-    return std::tuple(vertex[v].x + 0.0, vertex[v].y + 0.0, vertex[v].z + 0.0);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  for (std::size_t k = 0; k < order.size(); ++k)
-    same[order[k]] = k > 0 && key(order[k]) == key(order[k - 1]) ? same[order[k - 1]] : order[k];
-  return same;
-}
-
 Surface read(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
   Surface surface;
   for (std::size_t k = 0; k < vertices.size(); k += 3)
     surface.vertex.push_back({vertices[k], vertices[k + 1], vertices[k + 2]});
-  const std::vector<std::uint32_t> same = weld(surface.vertex);
+  const std::vector<std::uint32_t> same = first_at_position(vertices, 3);
   for (std::size_t k = 0; k < triangles.size(); k += 3) {
     std::array<std::uint32_t, 3> row{};
     for (std::size_t c = 0; c < 3; ++c) row[c] = same[triangles[k + c]];
     const Vec a = surface.vertex[row[0]], b = surface.vertex[row[1]], c = surface.vertex[row[2]];
     const double longest = std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
     if (!(norm(normal_of(a, b, c)) > 1e-12 * longest))
-      refuse("triangle " + std::to_string(k / 3) + " has no area; remove it and join what is beside it");
+      refuse("triangle " + std::to_string(k / 3) + " has no area; remove it and join its neighbours");
     surface.triangle.push_back(row);
   }
   return surface;
@@ -68,31 +54,13 @@ std::string edge_name(std::uint32_t a, std::uint32_t b) {
   return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b);
 }
 
-/// Fills in `across`, whatever the orientation.
-void connect(Surface& surface) {
-  surface.across.assign(surface.size(), {nothing, nothing, nothing});
-  const std::vector<Side> sides = sides_of(surface);
-  for (std::size_t k = 0; k < sides.size();) {
-    std::size_t end = k + 1;
-    while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high) ++end;
-    if (end - k > 2)
-      refuse("the surface is not a manifold: " + edge_name(sides[k].low, sides[k].high) + " belongs to " +
-             std::to_string(end - k) + " triangles");
-    if (end - k == 2) {
-      surface.across[sides[k].triangle][sides[k].edge] = sides[k + 1].triangle;
-      surface.across[sides[k + 1].triangle][sides[k + 1].edge] = sides[k].triangle;
-    }
-    k = end;
-  }
-}
-
 bool has_directed(const std::array<std::uint32_t, 3>& row, std::uint32_t a, std::uint32_t b) {
   for (std::size_t k = 0; k < 3; ++k)
     if (row[k] == a && row[(k + 1) % 3] == b) return true;
   return false;
 }
 
-/// Turns triangles so that neighbours run along their common edge in opposite directions.
+/// Turns triangles so that neighbours have their common edge in opposite directions.
 void orient(Surface& surface) {
   std::vector<bool> seen(surface.size(), false);
   std::vector<std::uint32_t> stack;
@@ -109,7 +77,7 @@ void orient(Surface& surface) {
         const std::uint32_t a = surface.triangle[t][k], b = surface.triangle[t][(k + 1) % 3];
         const bool agrees = !has_directed(surface.triangle[next], a, b);
         if (!agrees && seen[next])
-          refuse("the surface cannot be oriented: its sides change along " +
+          refuse("the surface cannot be oriented: its orientation changes across " +
                  edge_name(std::min(a, b), std::max(a, b)));
         if (seen[next]) continue;
         if (!agrees) {
@@ -123,14 +91,14 @@ void orient(Surface& surface) {
   }
 }
 
-/// A vertex whose triangles are not one fan around it joins sheets in a point.
+/// Refuses a vertex whose triangles do not form one fan: sheets of the surface touch there.
 void require_single_fans(const Surface& surface) {
   std::vector<std::uint32_t> count(surface.vertex.size(), 0), start(surface.vertex.size(), nothing);
   for (std::uint32_t t = 0; t < surface.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.triangle[t][k];
       ++count[v];
-      // A fan at the boundary is walked from its first triangle.
+      // A fan at the boundary is walked from its first triangle on.
       if (start[v] == nothing || surface.across[t][k] == nothing) start[v] = t;
     }
   for (std::uint32_t v = 0; v < surface.vertex.size(); ++v) {
@@ -143,7 +111,7 @@ void require_single_fans(const Surface& surface) {
       if (t == start[v]) break;
     }
     if (walked != count[v])
-      refuse("the surface is not a manifold: sheets touch in vertex " + std::to_string(v));
+      refuse("the surface is not a manifold: sheets touch at vertex " + std::to_string(v));
   }
 }
 
@@ -151,8 +119,7 @@ void keep_sharp_edges(Surface& surface, double sharp_angle) {
   const double least_cosine = std::cos(sharp_angle * std::numbers::pi / 180);
   surface.kept.assign(surface.size(), {false, false, false});
   std::vector<Vec> normal(surface.size());
-  for (std::uint32_t t = 0; t < surface.size(); ++t)
-    normal[t] = unit(normal_of(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)));
+  for (std::uint32_t t = 0; t < surface.size(); ++t) normal[t] = surface.normal(t);
   for (std::uint32_t t = 0; t < surface.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = surface.across[t][k];
@@ -161,6 +128,23 @@ void keep_sharp_edges(Surface& surface, double sharp_angle) {
 }
 
 }  // namespace
+
+void connect(Surface& surface) {
+  surface.across.assign(surface.size(), {nothing, nothing, nothing});
+  const std::vector<Side> sides = sides_of(surface);
+  for (std::size_t k = 0; k < sides.size();) {
+    std::size_t end = k + 1;
+    while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high) ++end;
+    if (end - k > 2)
+      refuse("the surface is not a manifold: " + edge_name(sides[k].low, sides[k].high) + " belongs to " +
+             std::to_string(end - k) + " triangles");
+    if (end - k == 2) {
+      surface.across[sides[k].triangle][sides[k].edge] = sides[k + 1].triangle;
+      surface.across[sides[k + 1].triangle][sides[k + 1].edge] = sides[k].triangle;
+    }
+    k = end;
+  }
+}
 
 int Surface::edge_towards(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
   for (int k = 0; k < 3; ++k) {

@@ -4,7 +4,7 @@
 
 namespace powercell::remeshing {
 
-// By the Voronoi regions of corners, edges and face (Ericson, Real-Time Collision Detection, 5.1.5).
+// By the Voronoi regions of corners, edges and face (Ericson, Real-Time Collision Detection, section 5.1.5).
 Vec nearest_in_triangle(Vec x, Vec a, Vec b, Vec c) {
   const Vec ab = b - a, ac = c - a, ax = x - a;
   const double d1 = dot(ab, ax), d2 = dot(ac, ax);

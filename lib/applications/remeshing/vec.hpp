@@ -1,5 +1,5 @@
 /// \file
-/// Points and directions in space.
+/// Points and directions in space, by their coordinates x, y, z and 0 by default. Internal.
 #pragma once
 
 #include <array>
@@ -33,11 +33,11 @@ inline Vec unit(Vec a) {
   const double size = norm(a);
   return size > 0 ? a * (1 / size) : a;
 }
-/// Normal of a triangle, as long as twice its area.
+/// The normal of a triangle, with the length of twice its area.
 inline Vec normal_of(Vec a, Vec b, Vec c) {
   return cross(b - a, c - a);
 }
-/// Shares of the corners at a point in the triangle's plane.
+/// Barycentric coordinates of a point in the plane of a triangle.
 inline std::array<double, 3> barycentric(Vec p, Vec a, Vec b, Vec c) {
   const Vec n = normal_of(a, b, c);
   const double squared = norm2(n);

@@ -127,7 +127,7 @@ bool WorkMesh::can_collapse(std::uint32_t a, std::uint32_t b) const {
   if (vertex_[a].kind != Hold::Kind::free || vertex_[a].boundary) return false;
   const auto e = edge(a, b);
   if (!e) return false;
-  // The two ends may share no neighbours but those opposite to the edge, which must be left enough.
+  // The ends may share no neighbours but those opposite to the edge, whose degrees must stay large enough.
   const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
   std::vector<std::uint32_t> common;
   std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));

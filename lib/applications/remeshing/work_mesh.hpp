@@ -1,5 +1,5 @@
 /// \file
-/// The new mesh while it is edited: vertices on the surface, flips, collapses and splits of edges.
+/// The new mesh while it is edited: vertices on the surface; flips, collapses and splits of edges. Internal.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace powercell::remeshing {
 
-/// An oriented manifold that no operation makes into anything else.
+/// An oriented manifold. All operations keep it one.
 class WorkMesh {
  public:
   using Row = std::array<std::uint32_t, 3>;
@@ -21,7 +21,7 @@ class WorkMesh {
 
   struct Vertex {
     Place place;
-    double h = 0;  ///< edge length wanted here
+    double h = 0;  ///< target edge length
     Hold::Kind kind = Hold::Kind::free;
     bool boundary = false;
   };
@@ -31,28 +31,29 @@ class WorkMesh {
   const Vertex& vertex(std::uint32_t v) const { return vertex_[v]; }
   Vec at(std::uint32_t v) const { return vertex_[v].place.at; }
   void move(std::uint32_t v, const Place& place, double h);
-  const std::vector<Row>& triangles() const { return triangle_; }  ///< removed ones are all zeros
+  const std::vector<Row>& triangles() const { return triangle_; }  ///< removed ones are {0, 0, 0}
   const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[v]; }  ///< triangles
   const Row& triangle(std::uint32_t t) const { return triangle_[t]; }
   std::size_t degree(std::uint32_t v) const { return around_[v].size() + (vertex_[v].boundary ? 1 : 0); }
-  bool kept(std::uint32_t a, std::uint32_t b) const;  ///< the edge is part of a kept curve
+  bool kept(std::uint32_t a, std::uint32_t b) const;  ///< whether the edge is part of a kept curve
   /// Vertices that share an edge with v, ascending.
   std::vector<std::uint32_t> neighbors(std::uint32_t v) const;
 
-  /// An edge inside the surface with the corners opposite to it: triangles (a, b, c) and (b, a, d).
+  /// An inner edge with its two triangles: left (a, b, c) and right (b, a, d).
   struct Edge {
     std::uint32_t a, b, c, d, left, right;
   };
-  /// The edge from a to b; nothing at the boundary or where there is none.
+  /// The inner edge from a to b, if there is one.
   std::optional<Edge> edge(std::uint32_t a, std::uint32_t b) const;
 
-  /// Whether edge c-d may take the place of a-b: neither kept nor there already.
+  /// Whether edge c-d may replace a-b: a-b is not kept, c-d does not exist, and no degree falls below 3.
   bool can_flip(const Edge& edge) const;
   void flip(const Edge& edge);
-  /// Whether free vertex a may go into its neighbour b (the link condition).
+  /// Whether a is a free vertex that can be collapsed into its neighbour b (link condition).
   bool can_collapse(std::uint32_t a, std::uint32_t b) const;
   void collapse(std::uint32_t a, std::uint32_t b);
-  /// A free vertex in the middle of an inner edge that is not kept.
+  /// Adds a free vertex on an inner edge that is not kept.
+  /// \return its index
   std::uint32_t split(const Edge& edge, const Place& place, double h);
 
  private:
@@ -65,7 +66,8 @@ class WorkMesh {
   std::size_t alive_ = 0;
 };
 
-/// The point of the surface nearest to x among those that connect to `from` within |x - from|.
+/// The point of the surface nearest to x, among the triangles connected to `from` within the distance |x -
+/// from|.
 Place project(const Surface& surface, const Place& from, Vec x);
 
 }  // namespace powercell::remeshing

@@ -1,17 +1,21 @@
+#include "lib/applications/sampling/lbfgs.hpp"
+
 #include <cmath>
 #include <numeric>
 
-#include "lib/applications/sampling/state.hpp"
-
 namespace powercell {
 namespace {
+
+// Curvature relative to the lengths of step and change below which a pair is mostly rounding errors.
+constexpr double least_curvature = 1e-12;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-void add_times(std::vector<double>& to, double factor, const std::vector<double>& what) {
-  for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * what[k];
+/// a += factor b
+void add_scaled(std::vector<double>& a, double factor, const std::vector<double>& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * b[k];
 }
 
 }  // namespace
@@ -21,19 +25,19 @@ std::vector<double> LbfgsMemory::direction(const std::vector<double>& gradient,
   std::vector<double> q = gradient, along(pairs_.size());
   for (std::size_t k = pairs_.size(); k-- > 0;) {
     along[k] = dot(pairs_[k].step, q) / pairs_[k].curvature;
-    add_times(q, -along[k], pairs_[k].change);
+    add_scaled(q, -along[k], pairs_[k].change);
   }
   for (std::size_t k = 0; k < q.size(); ++k) q[k] *= inverse_diagonal[k];
   for (std::size_t k = 0; k < pairs_.size(); ++k)
-    add_times(q, along[k] - dot(pairs_[k].change, q) / pairs_[k].curvature, pairs_[k].step);
+    add_scaled(q, along[k] - dot(pairs_[k].change, q) / pairs_[k].curvature, pairs_[k].step);
   for (double& x : q) x = -x;
   return q;
 }
 
 void LbfgsMemory::add(std::vector<double> step, std::vector<double> change) {
   const double curvature = dot(step, change);
-  if (!(curvature > 1e-12 * std::sqrt(dot(step, step) * dot(change, change)))) return;
-  if (pairs_.size() == kept) pairs_.erase(pairs_.begin());
+  if (!(curvature > least_curvature * std::sqrt(dot(step, step) * dot(change, change)))) return;
+  if (pairs_.size() == most_pairs) pairs_.erase(pairs_.begin());
   pairs_.push_back({std::move(step), std::move(change), curvature});
 }
 

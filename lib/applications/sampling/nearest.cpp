@@ -11,14 +11,11 @@ namespace {
 
 using Vec = Vector3<double>;
 
-Vec along(const Vec& from, double t, const Vec& way) {
-  return {from[0] + t * way[0], from[1] + t * way[1], from[2] + t * way[2]};
-}
-/// The nearest so far.
+/// The nearest of the points considered so far.
 struct Nearest {
   Vec to, point{};
   double squared = std::numeric_limits<double>::infinity();
-  void see(const Vec& x) {
+  void consider(const Vec& x) {
     const double d = dot(x - to, x - to);
     if (d < squared) {
       squared = d;
@@ -31,12 +28,12 @@ struct Nearest {
 Vec area_vector(const std::vector<Vec>& polygon) {
   Vec sum{};
   for (std::size_t k = 2; k < polygon.size(); ++k)
-    sum = along(sum, 1, cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]));
+    sum = sum + cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
   return sum;
 }
 
-/// A convex polygon in space or in the plane, counter-clockwise about `normal`.
-void see_polygon(const std::vector<Vec>& polygon, Nearest& nearest) {
+/// Considers the nearest point of a convex polygon in space or in the plane.
+void consider_polygon(const std::vector<Vec>& polygon, Nearest& nearest) {
   const Vec normal = area_vector(polygon);
   const double squared = dot(normal, normal);
   bool inside = squared > 0;
@@ -46,9 +43,9 @@ void see_polygon(const std::vector<Vec>& polygon, Nearest& nearest) {
     if (dot(cross(normal, edge), nearest.to - a) < 0) inside = false;
     const double length2 = dot(edge, edge);
     const double t = length2 > 0 ? std::clamp(dot(nearest.to - a, edge) / length2, 0.0, 1.0) : 0.0;
-    nearest.see(along(a, t, edge));
+    nearest.consider(a + t * edge);
   }
-  if (inside) nearest.see(along(nearest.to, -dot(nearest.to - polygon[0], normal) / squared, normal));
+  if (inside) nearest.consider(nearest.to + -dot(nearest.to - polygon[0], normal) / squared * normal);
 }
 
 class CellView {
@@ -84,14 +81,14 @@ std::array<double, 3> nearest_in_cell(const Cells& cells, std::size_t cell, cons
   Nearest nearest{x};
   for (std::uint64_t p = cells.cell_offset[cell]; p < cells.cell_offset[cell + 1]; ++p) {
     if (cells.cell_dimension == 2) {
-      see_polygon(view.polygon(p), nearest);
+      consider_polygon(view.polygon(p), nearest);
       continue;
     }
     bool inside = true;
     for (std::uint64_t f = cells.face_offset[p]; f < cells.face_offset[p + 1]; ++f) {
       const std::vector<Vec> face = view.face(p, f);
       if (dot(area_vector(face), x - face[0]) > 0) inside = false;
-      see_polygon(face, nearest);
+      consider_polygon(face, nearest);
     }
     if (inside) return x;
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <powercell/point_sets.hpp>
 
+#include "lib/applications/sampling/lbfgs.hpp"
 #include "lib/applications/sampling/state.hpp"
 
 namespace powercell {
@@ -12,14 +13,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of the capacities while points still move; the last solve has the caller's. A tenth costs energy in the
-// end, less than 3 % nothing.
+// Tolerances of the capacities while points still move; the last solve has the caller's. For Lloyd's method
+// 0.1 costs energy in the end, and less than 0.03 gains nothing.
 constexpr double lloyd_tolerance = 3e-2, lbfgs_tolerance = 1e-5;
-constexpr double sufficient_decrease = 1e-4;
-constexpr int most_halvings = 10;
+constexpr double sufficient_decrease = 1e-4;  // of the energy, relative to the slope (Armijo)
+constexpr int most_halvings = 10;             // of a step
+// Iterations of blue noise where the hexatic order is not meaningful: points in the plane have six neighbours
+// on average, and fewer if most are at the boundary, as in a row. The order of few points is not meaningful
+// either.
 constexpr int iterations_without_order = 20;
-/// Points have six neighbours in the plane, and fewer where most are at its boundary. The order of points in
-/// a row, or of a few in all, says nothing.
 constexpr double neighbours_with_order = 5;
 constexpr std::size_t points_with_order = 50;
 
@@ -38,23 +40,23 @@ class Sampler {
   SamplingResult run() {
     const int most = iterations();
     state_.move_to(start_, tolerance());
-    refuse_copies();
+    refuse_duplicates();
     record(0);
     while (!at_end() && result_.steps.back().iteration < most) {
       const int iteration = result_.steps.back().iteration + 1;
       if (options_.descent == SamplingDescent::lloyd) {
         state_.move_to(state_.centroids(), tolerance());
       } else if (!lbfgs_move()) {
-        as_low_as_rounding_allows_ = true;
+        no_descent_left_ = true;
         break;
       }
       record(iteration);
     }
-    const int moves = result_.steps.back().iteration;
-    const bool moved_enough = at_end() || (fixed_count_ && (moves == most || as_low_as_rounding_allows_));
-    const bool at_centroids = moves > 0 && options_.descent == SamplingDescent::lloyd;
+    const int iterations_done = result_.steps.back().iteration;
+    const bool done = at_end() || (fixed_count_ && (iterations_done == most || no_descent_left_));
+    const bool at_centroids = iterations_done > 0 && options_.descent == SamplingDescent::lloyd;
     state_.move_to(state_.in_domain(at_centroids), options_.capacity_tolerance);
-    finish(moved_enough);
+    finish(done);
     return std::move(result_);
   }
 
@@ -73,7 +75,7 @@ class Sampler {
     const SamplingStep& step = result_.steps.back();
     const bool at_rest = step.gradient <= options_.movement * spacing_;
     if (!until_hexatic_) return options_.mode == SamplingMode::quantise && at_rest;
-    if (step.iteration == 0) return false;  // where the points come from is not asked
+    if (step.iteration == 0) return false;  // initial points may meet the criterion by chance
     if (at_rest) return true;
     if (neighbours_ >= neighbours_with_order && state_.size() >= points_with_order)
       return step.hexatic >= options_.hexatic;
@@ -87,7 +89,7 @@ class Sampler {
     step.gradient = state_.distance_to_centroids();
     step.hexatic = std::numeric_limits<double>::quiet_NaN();
     if (until_hexatic_) {
-      const Surroundings found = state_.surroundings();
+      const NeighbourStatistics found = state_.neighbour_statistics();
       step.hexatic = found.spacing.hexatic;
       neighbours_ = found.neighbours;
     }
@@ -101,17 +103,19 @@ class Sampler {
       throw Error(ErrorCode::interrupted, "stopped by the progress callback");
   }
 
-  /// Points at one place would stay together. \throw Error invalid_argument
-  void refuse_copies() const {
+  /// Points at the same position would stay together.
+  /// \throw Error invalid_argument
+  void refuse_duplicates() const {
     const std::vector<std::uint32_t>& first = state_.cells().merged_with;
     for (std::size_t i = 0; i < first.size(); ++i)
       if (first[i] != i)
         throw Error(ErrorCode::invalid_argument,
                     "points " + std::to_string(first[i]) + " and " + std::to_string(i) +
-                        " are at one place: their cells could not be told apart");
+                        " are at the same position, so they cannot have cells of their own");
   }
 
-  /// One step with backtracking. False if there is no descent along the gradient either.
+  /// One step with backtracking.
+  /// \return false if no step along the gradient decreases the energy either
   bool lbfgs_move() {
     const std::vector<double> from = state_.positions(), gradient = state_.energy_gradient();
     const double energy = state_.energy();
@@ -141,9 +145,9 @@ class Sampler {
     }
   }
 
-  void finish(bool moved_enough) {
+  void finish(bool done) {
     const TransportResult& cells = state_.cells();
-    result_.converged = moved_enough && cells.converged && cells.merged == 0;
+    result_.converged = done && cells.converged && cells.merged == 0;
     result_.positions = state_.wrapped();
     result_.weights = cells.weights;
     result_.mass = cells.mass;
@@ -154,13 +158,14 @@ class Sampler {
   }
 
   const SamplingOptions& options_;
-  bool until_hexatic_, fixed_count_;
+  bool until_hexatic_;  // the criterion is the hexatic order
+  bool fixed_count_;    // the criterion is the number of iterations
   std::vector<double> start_;
   SamplingState state_;
   double spacing_;
   LbfgsMemory memory_;
-  double neighbours_ = 0;  // of a point on average, after the last iteration of blue in the plane
-  bool as_low_as_rounding_allows_ = false;
+  double neighbours_ = 0;         // per point on average, after the last iteration of blue in the plane
+  bool no_descent_left_ = false;  // rounding allows none
   SamplingResult result_;
   Clock::time_point before_ = Clock::now();
 };
@@ -190,8 +195,8 @@ SamplingResult sample(const Device& device, const Domain& domain, std::span<cons
   check(options);
   if (positions.empty() || positions.size() % static_cast<std::size_t>(domain.dimension()) != 0)
     throw Error(ErrorCode::invalid_argument, std::to_string(positions.size()) +
-                                                 " coordinates are no points of " +
-                                                 std::to_string(domain.dimension()) + " coordinates");
+                                                 " coordinates are not a whole number of points with " +
+                                                 std::to_string(domain.dimension()) + " each");
   return Sampler(device, domain, options, {positions.begin(), positions.end()}).run();
 }
 

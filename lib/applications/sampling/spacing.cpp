@@ -9,17 +9,19 @@
 namespace powercell {
 namespace {
 
-/// The largest distance that neighbours can all have, with cells of this measure.
+/// The distance of neighbours in the densest lattice with cells of this measure: hexagonal, or face-centred
+/// cubic.
 double lattice_distance(double measure, int cell_dimension) {
   return cell_dimension == 2 ? std::sqrt(2 * measure / std::sqrt(3.0)) : std::cbrt(std::sqrt(2.0) * measure);
 }
 
-/// What neighbours say, point by point in order.
-class Neighbours {
+/// Accumulates the statistics: add() for each neighbour of a point, then finish_point().
+class Accumulator {
  public:
-  explicit Neighbours(bool flat) : flat_(flat) {}
+  explicit Accumulator(bool flat) : flat_(flat) {}
 
-  void meet(const std::array<double, 3>& step) {
+  /// \param step  from the point to its neighbour
+  void add(const std::array<double, 3>& step) {
     const double distance2 = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
     nearest2_ = std::min(nearest2_, distance2);
     ++count_;
@@ -28,35 +30,35 @@ class Neighbours {
     re_ += std::cos(angle);
     im_ += std::sin(angle);
   }
-  /// \param largest  what the distance is taken over
-  void finish_point(double largest) {
+  /// \param unit  of the distance
+  void finish_point(double unit) {
     ++points_;
     if (count_ == 0) return;
-    const double distance = std::sqrt(nearest2_) / largest;
+    const double distance = std::sqrt(nearest2_) / unit;
     least_ = std::min(least_, distance);
     sum_ += distance;
     order_ += std::hypot(re_, im_) / static_cast<double>(count_);
-    ++neighbourly_;
-    met_ += count_;
+    ++with_neighbours_;
+    neighbours_ += count_;
     nearest2_ = std::numeric_limits<double>::infinity();
     re_ = im_ = 0;
     count_ = 0;
   }
-  Surroundings result() const {
+  NeighbourStatistics result() const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    Surroundings result{{nan, nan, nan}, 0};
-    if (neighbourly_ == 0) return result;
-    const auto n = static_cast<double>(neighbourly_);
+    NeighbourStatistics result{{nan, nan, nan}, 0};
+    if (with_neighbours_ == 0) return result;
+    const auto n = static_cast<double>(with_neighbours_);
     result.spacing = {least_, sum_ / n, flat_ ? order_ / n : nan};
-    result.neighbours = static_cast<double>(met_) / static_cast<double>(points_);
+    result.neighbours = static_cast<double>(neighbours_) / static_cast<double>(points_);
     return result;
   }
 
  private:
   bool flat_;
   double nearest2_ = std::numeric_limits<double>::infinity(), re_ = 0, im_ = 0;
-  std::size_t count_ = 0;                               // of the point
-  std::size_t points_ = 0, neighbourly_ = 0, met_ = 0;  // neighbourly: points that have a neighbour
+  std::size_t count_ = 0;  // neighbours of the current point
+  std::size_t points_ = 0, with_neighbours_ = 0, neighbours_ = 0;
   double least_ = std::numeric_limits<double>::infinity(), sum_ = 0, order_ = 0;
 };
 
@@ -71,54 +73,56 @@ void require_cells(const Measures& measures) {
 
 using Step = std::array<double, 3>;
 
-/// `check(measures)` first, then the neighbours of all points that have a cell.
+/// Calls `check(measures)`, then accumulates the neighbours of all points that have a cell.
 template <class Check>
-Surroundings study(const Device& device, const Domain& domain, std::span<const double> positions,
-                   bool periodic, bool uniform, const Options& options, const Check& check) {
+NeighbourStatistics measure_neighbours(const Device& device, const Domain& domain,
+                                       std::span<const double> positions, bool periodic, bool uniform,
+                                       const Options& options, const Check& check) {
   const auto d = static_cast<std::size_t>(domain.dimension());
   const std::size_t n = positions.size() / d;
-  Neighbours neighbours(d == 2);
-  const auto see = [&](const Measures& measures, const std::vector<std::uint64_t>& offset,
-                       const auto& step_of) {
+  Accumulator statistics(d == 2);
+  const auto accumulate = [&](const Measures& measures, const std::vector<std::uint64_t>& offset,
+                              const auto& step_of) {
     check(measures);
     for (std::size_t i = 0; i < n; ++i) {
       if (measures.status[i] != SeedStatus::ok) continue;
-      for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) neighbours.meet(step_of(i, k));
-      const double mass = uniform ? domain.measure() / static_cast<double>(n) : measures.mass[i];
-      neighbours.finish_point(lattice_distance(mass, domain.cell_dimension()));
+      for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) statistics.add(step_of(i, k));
+      const double measure = uniform ? domain.measure() / static_cast<double>(n) : measures.mass[i];
+      statistics.finish_point(lattice_distance(measure, domain.cell_dimension()));
     }
   };
   if (periodic) {
     PeriodicDiagram diagram(device, domain, options);
     diagram.set_seeds(positions, {});
     const std::vector<PeriodicDiagram::Wall>& walls = diagram.walls();
-    see(diagram.measures(), diagram.wall_offset(), [&](std::size_t, std::uint64_t k) {
+    accumulate(diagram.measures(), diagram.wall_offset(), [&](std::size_t, std::uint64_t k) {
       return Step{walls[k].step[0], walls[k].step[1], 0};
     });
-    return neighbours.result();
+    return statistics.result();
   }
   Diagram diagram(device, domain, options);
   diagram.set_seeds({domain.dimension(), positions, {}});
   const Adjacency& adjacency = diagram.adjacency();
-  see(diagram.measures(), adjacency.offset, [&](std::size_t i, std::uint64_t k) {
+  accumulate(diagram.measures(), adjacency.offset, [&](std::size_t i, std::uint64_t k) {
     Step step{};
     for (std::size_t c = 0; c < d; ++c)
       step[c] = positions[adjacency.neighbor[k] * d + c] - positions[i * d + c];
     return step;
   });
-  return neighbours.result();
+  return statistics.result();
 }
 
 }  // namespace
 
-Surroundings surroundings(const Device& device, const Domain& domain, std::span<const double> positions,
-                          bool periodic, bool uniform, const Options& options) {
-  return study(device, domain, positions, periodic, uniform, options, [](const Measures&) {});
+NeighbourStatistics neighbour_statistics(const Device& device, const Domain& domain,
+                                         std::span<const double> positions, bool periodic, bool uniform,
+                                         const Options& options) {
+  return measure_neighbours(device, domain, positions, periodic, uniform, options, [](const Measures&) {});
 }
 
 Spacing spacing(const Device& device, const Domain& domain, std::span<const double> positions, bool periodic,
                 bool uniform, const Options& options) {
-  return study(device, domain, positions, periodic, uniform, options, require_cells).spacing;
+  return measure_neighbours(device, domain, positions, periodic, uniform, options, require_cells).spacing;
 }
 
 }  // namespace powercell

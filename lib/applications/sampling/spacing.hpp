@@ -1,19 +1,20 @@
 /// \file
-/// What the neighbours of points say. Internal.
+/// Statistics of Voronoi neighbours. Internal.
 #pragma once
 
 #include <powercell/point_sets.hpp>
 
 namespace powercell {
 
-struct Surroundings {
-  Spacing spacing;        ///< of the points that have neighbours; NaN where none has
-  double neighbours = 0;  ///< per point with a cell, on average
+struct NeighbourStatistics {
+  Spacing spacing;        ///< over the points with neighbours; NaN if there are none
+  double neighbours = 0;  ///< mean number over the points with a cell
 };
 
-/// Points without a Voronoi cell, outside the domain or given twice, are left out. \param positions  n x d
+/// As spacing(), but leaves out points without a Voronoi cell (outside the domain or given twice).
 /// \throw as Diagram
-Surroundings surroundings(const Device& device, const Domain& domain, std::span<const double> positions,
-                          bool periodic, bool uniform, const Options& options);
+NeighbourStatistics neighbour_statistics(const Device& device, const Domain& domain,
+                                         std::span<const double> positions, bool periodic, bool uniform,
+                                         const Options& options);
 
 }  // namespace powercell

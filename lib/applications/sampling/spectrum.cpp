@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <powercell/point_sets.hpp>
 
 #include "lib/base/threads.hpp"
@@ -6,23 +7,23 @@
 namespace powercell {
 namespace {
 
-/// exp(-2 pi i k t) for k = 0 .. highest, real and imaginary parts apart.
+/// exp(-2 pi i k t) for k = 0 .. highest, as real and imaginary parts.
 struct Waves {
   std::vector<double> re, im;
   void set(double t, int highest) {
     re.resize(static_cast<std::size_t>(highest) + 1);
     im.resize(re.size());
     for (std::size_t k = 0; k < re.size(); ++k) {
-      // Whole turns are taken off first: the argument stays exact.
+      // Whole turns are subtracted first, which keeps the argument of sine and cosine small and accurate.
       const double turns = static_cast<double>(k) * t;
-      const double angle = -2 * 3.14159265358979323846 * (turns - std::floor(turns));
+      const double angle = -2 * std::numbers::pi * (turns - std::floor(turns));
       re[k] = std::cos(angle);
       im[k] = std::sin(angle);
     }
   }
 };
 
-/// Sums over points for f_x = 0 .. F and f_y = -F .. F; the others are their conjugates.
+/// Sums over points for f_x = 0 .. F and f_y = -F .. F. Those for -f_x are complex conjugates.
 struct Sums {
   std::size_t columns, rows;
   std::vector<double> re, im;
@@ -46,7 +47,8 @@ struct Sums {
   }
 };
 
-constexpr std::size_t shares = 8;  // sums of points in a fixed order, whatever the threads
+// The points are summed in this many shares, in a fixed order for any number of threads.
+constexpr std::size_t shares = 8;
 
 }  // namespace
 
@@ -123,7 +125,7 @@ Spectrum::Radial Spectrum::radial() const {
   for (std::size_t k = 1; k < rings; ++k) {
     const double mean = sum[k] / count[k];
     result.mean.push_back(mean);
-    // f and -f have the same power: half as many values are independent.
+    // f and -f have the same power, so only half the values are independent.
     result.anisotropy.push_back(mean > 0 ? squares[k] / (count[k] - 2) / (mean * mean) : 0);
   }
   return result;

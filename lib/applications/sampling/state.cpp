@@ -58,8 +58,9 @@ double SamplingState::distance_to_centroids() const {
   return std::sqrt(sum / static_cast<double>(size()));
 }
 
-Surroundings SamplingState::surroundings() const {
-  return powercell::surroundings(device_, domain_, wrapped(), options_.periodic, true, options_.diagram);
+NeighbourStatistics SamplingState::neighbour_statistics() const {
+  return powercell::neighbour_statistics(device_, domain_, wrapped(), options_.periodic, true,
+                                         options_.diagram);
 }
 
 double SamplingState::capacity_error() const {
@@ -82,7 +83,7 @@ std::vector<double> SamplingState::wrapped() const {
 
 std::vector<double> SamplingState::in_domain(bool at_centroids) {
   std::vector<double> result = positions_;
-  // Centroids of convex cells are in them.
+  // The cells of a convex domain are convex and contain their centroids.
   if (options_.periodic || (at_centroids && domain_.region_count() == 1)) return result;
   const Cells& geometry = solver_.diagram().cells();
   for (std::size_t i = 0; i < size(); ++i) {
@@ -95,9 +96,10 @@ std::vector<double> SamplingState::in_domain(bool at_centroids) {
   return result;
 }
 
-double SamplingState::relative_energy() const {
+double SamplingState::relative_energy() {
   const int d = domain_.cell_dimension();
-  // The energy of a lattice's cell over its mass and its measure^(2/d): hexagonal, or body-centred cubic.
+  // kappa of (38): the energy of a cell of the hexagonal or body-centred cubic lattice, over mass and
+  // measure^(2/d).
   const double lattice = d == 2 ? 5 / (18 * std::sqrt(3.0)) : 3 * 19 / (192 * std::cbrt(2.0));
   double sum = 0;
   if (options_.density.is_constant()) {

@@ -1,5 +1,5 @@
 /// \file
-/// What the descents of sampling share. Internal.
+/// Points with their cells of equal mass, for the descent methods of sampling. Internal.
 #pragma once
 
 #include <powercell/sampling.hpp>
@@ -9,32 +9,34 @@
 
 namespace powercell {
 
-/// Points, and the cells of equal mass that they have. Evaluating is the expensive part.
+/// Points and their cells of equal mass. Moving the points is the expensive operation: it solves a transport.
 class SamplingState {
  public:
+  /// Device, domain and options are kept by reference.
   /// \param positions  n x d
   SamplingState(const Device& device, const Domain& domain, const SamplingOptions& options,
                 std::vector<double> positions);
 
-  /// Moves the points and finds the weights again. \param tolerance  of the capacities
+  /// Moves the points and solves for the weights.
+  /// \param tolerance  of the capacities
   void move_to(std::vector<double> positions, double tolerance);
-  /// Where each point's cell has its centroid, n x d; the point itself where a cell is empty.
+  /// Centroids of the cells, n x d; for an empty cell the point itself.
   std::vector<double> centroids() const;
-  /// dE/dp = 2 m_i (p_i - c_i), n x d (mathematics, (36)).
+  /// dE/dp_i = 2 m_i (p_i - c_i), n x d, (36).
   std::vector<double> energy_gradient() const;
   /// Root mean square of |c_i - p_i|.
   double distance_to_centroids() const;
-  /// In the plane.
-  Surroundings surroundings() const;
+  /// \pre the domain is in the plane
+  NeighbourStatistics neighbour_statistics() const;
   /// max |m_i / (M/n) - 1|
   double capacity_error() const;
-  /// Points outside the domain go to the nearest place of their own cell, on surfaces all points.
-  /// \param at_centroids  of the cells that they have
+  /// The points, each projected to its own cell.
+  /// \param at_centroids  the points are centroids of cells, which needs no projection for convex cells
   std::vector<double> in_domain(bool at_centroids);
-  /// The points again, in the box where that is periodic.
+  /// The points, in a periodic domain moved to their copies inside the box.
   std::vector<double> wrapped() const;
-  /// Energy over that of the best lattice.
-  double relative_energy() const;
+  /// Energy relative to that of the best lattice, (38).
+  double relative_energy();
 
   std::size_t size() const { return positions_.size() / dimension_; }
   std::size_t dimension() const { return dimension_; }
@@ -48,27 +50,7 @@ class SamplingState {
   const SamplingOptions& options_;
   std::size_t dimension_;
   std::vector<double> positions_;
-  mutable TransportSolver solver_;
-};
-
-/// One iteration by L-BFGS keeps this much.
-class LbfgsMemory {
- public:
-  /// The direction from gradient g, -H g, with H0 = 1 / (2 m_i) (mathematics, (37)).
-  std::vector<double> direction(const std::vector<double>& gradient,
-                                const std::vector<double>& inverse_diagonal) const;
-  /// A step and the change of the gradient over it; left out where it has no positive curvature.
-  void add(std::vector<double> step, std::vector<double> change);
-  void forget() { pairs_.clear(); }
-  bool empty() const { return pairs_.empty(); }
-
- private:
-  static constexpr std::size_t kept = 7;
-  struct Pair {
-    std::vector<double> step, change;
-    double curvature;  // their product
-  };
-  std::vector<Pair> pairs_;  // oldest first
+  TransportSolver solver_;
 };
 
 }  // namespace powercell

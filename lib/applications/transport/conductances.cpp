@@ -3,7 +3,7 @@
 #include <cmath>
 #include <powercell/regions.hpp>
 
-#include "lib/applications/transport/iterate.hpp"
+#include "lib/applications/transport/evaluator.hpp"
 
 namespace powercell {
 namespace {
@@ -14,6 +14,7 @@ Vec3 point(const double* x) {
   return {x[0], x[1], x[2]};
 }
 
+/// (15) for a wall in a plane.
 std::vector<double> flat(const Adjacency& walls, std::span<const double> positions, std::size_t d) {
   std::vector<double> result(walls.wall.size());
   for (std::size_t i = 0; i + 1 < walls.offset.size(); ++i)
@@ -41,9 +42,10 @@ std::vector<Vec3> normals(const RegionsView& mesh) {
   return result;
 }
 
-/// Lengths of a wall, and lengths by twice the speed that its seeds give it.
+/// Sums over the edges of a wall, one per triangle. In a triangle's plane the wall moves with the weight at
+/// the speed 1 / (2 |q|), where q is the difference of the seeds projected to the plane.
 struct WallSums {
-  double length = 0, by_speed = 0;
+  double length = 0, length_by_speed = 0;  ///< the latter: length times speed
 };
 
 /// Adds the edges of cell i to the sums of its row.
@@ -59,19 +61,19 @@ void add_edges(const Cells& cells, const std::vector<Vec3>& normal, const Adjace
       const Border& border = cells.border[cells.face_offset[p] + k];
       if (border.kind != Border::Kind::wall) continue;
       const auto found = std::lower_bound(first, last, border.index);
-      if (found == last || *found != border.index) continue;  // below rounding: the adjacency has it not
+      if (found == last || *found != border.index) continue;  // too short for the adjacency to list it
       const Vec3 edge =
           point(&cells.vertices[3 * (vertex + (k + 1) % count)]) - point(&cells.vertices[3 * (vertex + k)]);
       const Vec3 q = point(&positions[3 * std::size_t{border.index}]) - point(&positions[3 * i]);
       const double in_plane = (q - q.dot(up) * up).norm(), length = edge.norm();
       WallSums& sum = sums[static_cast<std::size_t>(found - row)];
       sum.length += length;
-      if (in_plane > 0) sum.by_speed += length / (2 * in_plane);
+      if (in_plane > 0) sum.length_by_speed += length / (2 * in_plane);
     }
   }
 }
 
-/// The density of the walls is taken as the mean of each.
+/// Conductances with the mean density of each wall.
 std::vector<double> on_surface(Diagram& diagram, const Adjacency& walls, std::span<const double> positions) {
   const Cells& cells = diagram.cells();
   const std::vector<Vec3> normal = normals(diagram.domain().regions());
@@ -80,7 +82,7 @@ std::vector<double> on_surface(Diagram& diagram, const Adjacency& walls, std::sp
   std::vector<double> result(walls.wall.size());
   for (std::size_t i = 0; i < cells.cell_count(); ++i)
     for (std::uint64_t k = walls.offset[i]; k < walls.offset[i + 1]; ++k) {
-      // Each side has its own rounding; the mean of both makes the matrix symmetric.
+      // The two sides differ by rounding; their mean makes the matrix symmetric.
       const std::uint32_t j = walls.neighbor[k];
       const auto row = walls.neighbor.begin();
       const auto back = std::lower_bound(row + static_cast<std::ptrdiff_t>(walls.offset[j]),
@@ -89,7 +91,7 @@ std::vector<double> on_surface(Diagram& diagram, const Adjacency& walls, std::sp
                         row;
       const WallSums &here = sums[k], &there = sums[static_cast<std::size_t>(back)];
       const double length = here.length + there.length;
-      if (length > 0) result[k] = walls.wall[k] * (here.by_speed + there.by_speed) / length;
+      if (length > 0) result[k] = walls.wall[k] * (here.length_by_speed + there.length_by_speed) / length;
     }
   return result;
 }

@@ -1,7 +1,7 @@
-#include "lib/applications/transport/periodic_evaluator.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "lib/applications/transport/evaluator.hpp"
 
 namespace powercell {
 namespace {
@@ -11,7 +11,7 @@ struct Entry {
   double wall, conductance;
 };
 
-/// Row of i: one entry for each seed that it meets copies of.
+/// Joins the walls of a seed with several copies of another into one entry.
 std::vector<Entry> row_of(std::span<const PeriodicDiagram::Wall> walls) {
   std::vector<Entry> row;
   for (const PeriodicDiagram::Wall& wall : walls)
@@ -29,7 +29,8 @@ std::vector<Entry> row_of(std::span<const PeriodicDiagram::Wall> walls) {
   return joined;
 }
 
-/// Both sides of a wall are computed from different copies; the lower side's value serves both.
+/// Makes the rows symmetric: the two sides of a wall are computed from different copies, and the side of the
+/// lower index gives the value for both.
 void make_rows(const std::vector<std::vector<Entry>>& rows, double density, Iterate& at) {
   Adjacency& walls = at.cells.walls;
   walls.offset = {0};
@@ -38,7 +39,7 @@ void make_rows(const std::vector<std::vector<Entry>>& rows, double density, Iter
       const std::vector<Entry>& other = rows[here.seed];
       const auto back = std::lower_bound(other.begin(), other.end(), i,
                                          [](const Entry& entry, std::uint32_t j) { return entry.seed < j; });
-      if (back == other.end() || back->seed != i) continue;  // a wall at the limit of rounding
+      if (back == other.end() || back->seed != i) continue;  // a wall as short as rounding errors
       const Entry& taken = i < here.seed ? here : *back;
       walls.neighbor.push_back(here.seed);
       walls.wall.push_back(density * taken.wall);

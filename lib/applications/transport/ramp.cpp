@@ -1,14 +1,14 @@
 #include <cmath>
 
-#include "lib/applications/transport/course.hpp"
+#include "lib/applications/transport/phases.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr double rough = 0.1;  // tolerance of what is not the last target
-constexpr double smallest_stride = 1.0 / 64;
+constexpr double intermediate_tolerance = 0.1;  // of the masses for exponents below 1
+constexpr double smallest_stride = 1.0 / 64;    // of the exponent
 
-/// Proportional to a power of the target, with its sum. Logarithms, so that nothing overflows.
+/// Masses proportional to a power of the target, with the same sum. Computed by logarithms to avoid overflow.
 Vector power_of(const Vector& target, double exponent) {
   Vector result = (exponent * (target.array() / target.maxCoeff()).log()).exp();
   return result * (target.sum() / result.sum());
@@ -16,15 +16,15 @@ Vector power_of(const Vector& target, double exponent) {
 
 }  // namespace
 
-PhaseEnd ramp(Course& course, Iterate& at) {
+PhaseEnd ramp(SolveContext& context, Iterate& at) {
   double reached = 0, stride = 0.5;
   bool started = false;
   while (true) {
     const double exponent = started ? std::min(1.0, reached + stride) : 0;
     const bool last = exponent == 1;
-    const Vector target = last ? course.target() : power_of(course.target(), exponent);
+    const Vector target = last ? context.target() : power_of(context.target(), exponent);
     Iterate trial = at;
-    const PhaseEnd end = newton(course, trial, target, last ? course.tolerance() : rough,
+    const PhaseEnd end = newton(context, trial, target, last ? context.tolerance() : intermediate_tolerance,
                                 last ? TransportPhase::newton : TransportPhase::ramp, exponent);
     if (end == PhaseEnd::step_limit || (end == PhaseEnd::converged && last)) {
       at = std::move(trial);

@@ -2,16 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/applications/transport/course.hpp"
+#include "lib/applications/transport/phases.hpp"
 
 namespace powercell {
 namespace {
 
-constexpr double smallest_fraction = 1.0 / 16;  // of given weights that is tried
-constexpr double room = 0.9;                    // of the domain's box that seeds are moved into
-// Of the way of moved seeds from the mean of the density, from one attempt to the next.
-constexpr double nearer = 0.8;
-constexpr int most_nearer = 4;
+constexpr double smallest_fraction = 1.0 / 16;  // of the given weights that is tried
+constexpr double room = 0.9;                    // part of the domain's box into which seeds are moved
+// Contraction of the moved seeds towards the mean of the density from one attempt to the next, and attempts.
+constexpr double contraction = 0.8;
+constexpr int most_attempts = 4;
 
 using Place = Eigen::Vector3d;  // third coordinate 0 in 2D
 
@@ -21,14 +21,14 @@ Place place(std::span<const double> positions, std::size_t i, std::size_t d) {
   return p;
 }
 
-/// Seeds p = middle + u at which their cells are to be about y = center + A u.
+/// The affine map from seeds p = middle + u to y = center + A u, about which their cells are wanted.
 struct Move {
   Place middle = Place::Zero(), center = Place::Zero();
-  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  // A: symmetric, positive
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  ///< A: symmetric, positive definite
 };
 
-/// (31a), less the square of the way from the center to the middle, which is that of all and would leave no
-/// digits to seeds far away.
+/// (31a) without the squared distance from the center to the middle: that constant would take all digits of
+/// the weights of seeds far away.
 Vector weights_of_moved_seeds(std::span<const double> positions, std::size_t d, const Move& move) {
   Vector weights(static_cast<Eigen::Index>(positions.size() / d));
   const Eigen::Matrix3d shrunk = Eigen::Matrix3d::Identity() - move.linear;
@@ -40,7 +40,7 @@ Vector weights_of_moved_seeds(std::span<const double> positions, std::size_t d, 
   return weights;
 }
 
-/// All y in the domain's box.
+/// Maps the bounding box of the seeds into that of the domain, keeping proportions.
 Move into_box(const Domain& domain, std::span<const double> positions) {
   const auto d = static_cast<std::size_t>(domain.dimension());
   const std::size_t n = positions.size() / d;
@@ -62,7 +62,7 @@ Move into_box(const Domain& domain, std::span<const double> positions) {
   return move;
 }
 
-/// The normal distribution of the same mean and covariance.
+/// Mean and covariance of a distribution.
 struct Normal {
   Place mean = Place::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -82,8 +82,8 @@ Normal normal_of(std::span<const double> positions, std::size_t d, const Vector&
   return normal;
 }
 
-/// Of the density: the centroids of cells, and about them what the second moments about the seeds leave, as
-/// much along each axis.
+/// Mean and covariance of the density: from the centroids of the cells, plus the second moments about these,
+/// spread evenly over the axes.
 Normal normal_of(const Iterate& at, std::span<const double> positions, std::size_t d) {
   Normal normal = normal_of(at.cells.centroid, d, at.mass());
   double within = 0;
@@ -101,7 +101,7 @@ Normal normal_of(const Iterate& at, std::span<const double> positions, std::size
 
 Eigen::Matrix3d power_of(const Eigen::Matrix3d& symmetric, double exponent) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(symmetric);
-  // Along what the seeds do not span nothing is moved.
+  // Directions that the seeds do not span are left out.
   const double least = 1e-12 * of.eigenvalues().cwiseAbs().maxCoeff();
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   for (Eigen::Index k = 0; k < 3; ++k)
@@ -109,8 +109,8 @@ Eigen::Matrix3d power_of(const Eigen::Matrix3d& symmetric, double exponent) {
   return of.eigenvectors() * value.asDiagonal() * of.eigenvectors().transpose();
 }
 
-/// The mean and the covariance of the y, by their masses, are those of the density: (31b), the transport
-/// between normal distributions.
+/// Maps the seeds, weighted by their masses, to the mean and covariance of the density: (31b), the optimal
+/// transport between normal distributions.
 Move onto_density(const Normal& seeds, const Normal& density) {
   const Eigen::Matrix3d root = power_of(seeds.covariance, 0.5), inverse = power_of(seeds.covariance, -0.5);
   return {seeds.mean, density.mean, inverse * power_of(root * density.covariance * root, 0.5) * inverse};
@@ -123,15 +123,15 @@ bool some_outside_box(const Domain& domain, std::span<const double> positions) {
   return false;
 }
 
-/// Keeps what is better. Where a density ends at an edge, seeds of another outline than its own lie beyond
-/// until they are moved nearer to its mean.
+/// Tries weights as if the seeds were moved onto the density, and keeps the best. If the density has an edge,
+/// seeds spread in another shape lie beyond it until they are contracted towards the mean.
 void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
   const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
   const std::span<const double> positions = evaluator.positions();
   Move move = onto_density(normal_of(positions, d, target), normal_of(best, positions, d));
-  for (int k = 0; k < most_nearer && best.least(target) < poor_share; ++k, move.linear *= nearer) {
+  for (int k = 0; k < most_attempts && best.least(target) < poor_share; ++k, move.linear *= contraction) {
     const Vector weights = weights_of_moved_seeds(positions, d, move);
-    if (!weights.allFinite()) return;  // the cells have no mass at all, or squares are beyond range
+    if (!weights.allFinite()) return;  // no cell has mass, or squares overflow
     Iterate found = evaluator.evaluate(weights);
     const bool better =
         found.empty < best.empty || (found.empty == best.empty && found.least(target) > best.least(target));
@@ -141,9 +141,9 @@ void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
 
 }  // namespace
 
-Iterate find_start(Course& course, const Vector& weights) {
-  Evaluator& evaluator = course.evaluator();
-  const Vector& target = course.target();
+Iterate find_start(SolveContext& context, const Vector& weights) {
+  Evaluator& evaluator = context.evaluator();
+  const Vector& target = context.target();
   const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
   Iterate best = evaluator.evaluate(weights);
   const auto attempt = [&](const Vector& trial) {
@@ -163,10 +163,10 @@ Iterate find_start(Course& course, const Vector& weights) {
       attempt(weights_of_moved_seeds(evaluator.positions(), d, into_box(domain, evaluator.positions())));
   };
   search();
-  if (evaluator.uneven() && best.least(target) < poor_share) try_on_density(evaluator, target, best);
+  if (evaluator.density_varies() && best.least(target) < poor_share) try_on_density(evaluator, target, best);
   TransportStep step;
   step.phase = TransportPhase::start;
-  course.accept(step, best, target);
+  context.record(step, best, target);
   return best;
 }
 

@@ -5,17 +5,18 @@
 #include <limits>
 #include <numeric>
 
-#include "lib/applications/transport/course.hpp"
-#include "lib/applications/transport/merge.hpp"
-#include "lib/applications/transport/periodic_evaluator.hpp"
+#include "lib/applications/transport/phases.hpp"
+#include "lib/base/positions.hpp"
 #include "lib/base/text.hpp"
 
 namespace powercell {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double sum_tolerance = 1e-9;  // of the masses' sum, relative
-/// Rows of `width` values, those of `kept`.
+// Largest relative difference of the sum of the masses from the domain's mass, without rescaling.
+constexpr double sum_tolerance = 1e-9;
+
+/// The rows with the indices `kept`, each of `width` values.
 std::vector<double> rows(std::span<const double> values, const std::vector<std::uint32_t>& kept,
                          std::size_t width) {
   std::vector<double> result(kept.size() * width);
@@ -59,19 +60,19 @@ std::vector<double> TransportSolver::State::targets(double total) const {
   if (masses.empty()) {
     result.assign(size(), total / static_cast<double>(size()));
   } else {
-    // The largest first: sums of masses may be beyond the range of doubles.
+    // Relative to the largest mass, as the sum of masses may overflow.
     const double largest = vector_of(masses).maxCoeff(), sum = (vector_of(masses) / largest).sum();
     if (!options.rescale && !(std::abs(sum * largest - total) <= sum_tolerance * total))
-      throw Error(ErrorCode::invalid_argument,
-                  "the masses sum to " + digits(sum * largest, 12) + ", the domain's mass is " +
-                      digits(total, 12) + "; let them be rescaled (--rescale) if their ratios are meant");
+      throw Error(ErrorCode::invalid_argument, "the masses sum to " + digits(sum * largest, 12) +
+                                                   ", the domain's mass is " + digits(total, 12) +
+                                                   "; to use their ratios, let them be rescaled (--rescale)");
     for (double& m : result) m = m / largest * (total / sum);
   }
   for (std::size_t i = 0; i < size(); ++i)
     if (!(result[i] >= std::numeric_limits<double>::min()))
       throw Error(ErrorCode::invalid_argument, "seed " + std::to_string(i) + ": its mass is " +
                                                    digits(result[i]) + " of the domain's " + digits(total) +
-                                                   ", less than numbers tell");
+                                                   ", too small for a double");
   return result;
 }
 
@@ -106,18 +107,18 @@ const TransportResult& TransportSolver::State::solve() {
   next.target = target;
   const Vector kept_target = vector_of(rows(joined, kept, 1));
   const std::unique_ptr<Evaluator> cells = evaluator(kept_positions, kept_target);
-  Course course(*cells, options, next.tolerance, kept_target);
-  const Iterate at = run_course(course, vector_of(kept_weights));
-  next.steps = course.steps();
-  next.diagrams = cells->count();
-  next.error = at.error(course.target());
-  next.quadrature_error = at.quadrature_error(course.target());
+  SolveContext context(*cells, options, next.tolerance, kept_target);
+  const Iterate at = run_phases(context, vector_of(kept_weights));
+  next.steps = context.steps();
+  next.diagrams = cells->diagrams();
+  next.error = at.error(kept_target);
+  next.quadrature_error = at.quadrature_error(kept_target);
   next.converged = next.error < next.tolerance && next.quadrature_error < next.tolerance;
   next.primal = at.primal();
-  next.dual = at.dual(course.target());
+  next.dual = at.dual(kept_target);
   result = std::move(next);
   fill_result(at, kept);
-  diagram_has_weights = cells->last() == at.weights;
+  diagram_has_weights = cells->last_weights() == at.weights;
   solved = true;
   return result;
 }

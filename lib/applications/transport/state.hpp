@@ -1,27 +1,26 @@
 /// \file
-/// What a TransportSolver keeps between calls. Internal.
+/// The state of a TransportSolver between calls. Internal.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <powercell/transport.hpp>
 
-#include "lib/applications/periodic/periodic_diagram.hpp"
-#include "lib/applications/transport/iterate.hpp"
+#include "lib/applications/transport/evaluator.hpp"
 
 namespace powercell {
 
 struct TransportSolver::State {
   TransportOptions options;
-  double tolerance = 0;  // as in TransportOptions
+  double tolerance = 0;  ///< as in TransportOptions
   Diagram diagram;
-  std::optional<PeriodicDiagram> periodic;  // has the cells where the options ask for it
-  bool diagram_has_all = false;             // of the seeds; else those that are not merged
-  bool diagram_has_weights = false;         // of the result; else of a step that was tried
+  std::optional<PeriodicDiagram> periodic;  ///< used instead of `diagram` if the options are periodic
+  bool diagram_has_all = false;             ///< the diagram has all seeds; else those that are not merged
+  bool diagram_has_weights = false;  ///< the diagram has the weights of the result; else of a trial step
 
-  std::vector<double> positions, weights, masses;  // of all seeds; no masses: equal ones
+  std::vector<double> positions, weights, masses;  ///< of all seeds; masses may be empty: equal
   TransportResult result;
-  bool solved = false;  // since the seeds were set or moved
+  bool solved = false;  ///< the result is for the current seeds
 
   State(Device device, Domain domain, TransportOptions options);
 
@@ -33,10 +32,12 @@ struct TransportSolver::State {
   const TransportResult& solve();
 
  private:
-  /// \param target  of the kept seeds, kept by reference
+  /// The arguments are kept by reference. They are those of the seeds that are not merged.
   std::unique_ptr<Evaluator> evaluator(std::span<const double> kept_positions, const Vector& target);
-  /// Masses asked for, rescaled to the sum `total`. \throw Error invalid_argument
+  /// The target masses of all seeds, with the sum `total`.
+  /// \throw Error invalid_argument
   std::vector<double> targets(double total) const;
+  /// \param kept  indices of the seeds that are not merged, those of `at`
   void fill_result(const Iterate& at, const std::vector<std::uint32_t>& kept);
 };
 

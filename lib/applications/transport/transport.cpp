@@ -20,20 +20,6 @@ void check(const TransportOptions& options) {
 
 }  // namespace
 
-const char* name(LinearSolver solver) noexcept {
-  switch (solver) {
-    case LinearSolver::automatic:
-      return "automatic";
-    case LinearSolver::dense:
-      return "dense";
-    case LinearSolver::direct:
-      return "direct";
-    case LinearSolver::multilevel:
-      return "multilevel";
-  }
-  return "unknown";
-}
-
 const char* name(TransportPhase phase) noexcept {
   switch (phase) {
     case TransportPhase::start:
@@ -130,7 +116,7 @@ const TransportResult& TransportSolver::result() const {
 Diagram& TransportSolver::diagram() {
   State& s = *state_;
   if (!s.solved) refuse("diagram before solve: there are no weights for these seeds yet");
-  if (s.periodic) throw Error(ErrorCode::unsupported, "there is no diagram of a periodic box to hand out");
+  if (s.periodic) throw Error(ErrorCode::unsupported, "a periodic transport has no diagram of its seeds");
   if (!s.diagram_has_all) {
     s.diagram.set_seeds({s.diagram.domain().dimension(), s.positions, s.result.weights});
     s.diagram_has_all = true;

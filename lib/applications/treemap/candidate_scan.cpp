@@ -6,9 +6,10 @@ namespace powercell::treemap_detail {
 
 namespace {
 
-constexpr std::size_t lanes = 16;
+constexpr std::size_t lanes = 16;  // seeds per block, two vectors of the widest kind
 
-// excess[k] > 0 where seed k may cut; whether any may.
+/// Computes excess[k], which is above 0 if seed k may cut the cell.
+/// \return whether any may
 [[gnu::always_inline]] inline bool excesses(std::size_t count, const double* x, const double* y,
                                             const double* weight, const ScanBox& box, double* excess) {
   const double px = box.x, py = box.y, own = box.weight;

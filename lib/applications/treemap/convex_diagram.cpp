@@ -8,7 +8,8 @@
 namespace powercell::treemap_detail {
 namespace {
 
-// A bisector that removes less than this of the terms of (3) is not cut: rounding, or tried before.
+// A bisector that exceeds a cell by less than this, relative to the terms of (3), is not cut: it is rounding
+// error, or was tried before.
 constexpr double cut_tolerance = 0x1p-50;
 
 }  // namespace
@@ -53,17 +54,18 @@ void ConvexDiagram::start_cell(double x, double y) {
   }
 }
 
-// Sutherland and Hodgman's rule for one half-plane, mathematics (3). Where rounding gives a convex ring more
-// than one run of vertices outside, it still leaves a closed ring whose extra edges have no length to speak
-// of.
+/// Clips the cell by one half-plane, (3), by the algorithm of Sutherland and Hodgman. If rounding puts more
+/// than one run of vertices of a convex ring outside, the result is still a closed ring, with extra edges of
+/// negligible length.
+/// \return whether anything was cut off
 bool ConvexDiagram::cut(std::size_t i, std::size_t j, std::span<const double> weights) {
   const double qx = seeds_.x[j] - seeds_.x[i], qy = seeds_.y[j] - seeds_.y[i];
-  const double level = qx * qx + qy * qy + (weights[i] - weights[j]);
-  const double tolerance = cut_tolerance * (std::fabs(level) + (std::fabs(qx) + std::fabs(qy)) * extent_);
+  const double offset = qx * qx + qy * qy + (weights[i] - weights[j]);
+  const double tolerance = cut_tolerance * (std::fabs(offset) + (std::fabs(qx) + std::fabs(qy)) * extent_);
   const std::size_t count = cell_.count;
   double most = -1;
   for (std::size_t v = 0; v < count; ++v) {
-    cell_.side[v] = 2 * (qx * cell_.x[v] + qy * cell_.y[v]) - level;
+    cell_.side[v] = 2 * (qx * cell_.x[v] + qy * cell_.y[v]) - offset;
     most = std::max(most, cell_.side[v]);
   }
   if (most <= tolerance) return false;
@@ -102,8 +104,8 @@ ConvexDiagram::Box ConvexDiagram::box() const {
   return box;
 }
 
-// All seeds against the box of the cell, a block at a time: mathematics (10). What is found cuts at once, so
-// that later blocks meet a smaller box.
+/// Tests all seeds against the box of the cell, (10), a block at a time. Those found clip the cell at once,
+/// so that later blocks are tested against a smaller box.
 void ConvexDiagram::search(std::size_t i, std::span<const double> weights) {
   constexpr std::size_t block = 128;
   const std::size_t n = size();
@@ -137,7 +139,7 @@ void ConvexDiagram::clip(std::size_t i, std::span<const double> weights) {
   if (cell_.count > 0) search(i, weights);
 }
 
-// Mathematics (13), from the first vertex.
+/// Area and centroid by (13), relative to the first vertex, and the walls.
 void ConvexDiagram::measure(std::size_t i) {
   double twice = 0, sum_x = 0, sum_y = 0;
   const std::size_t count = cell_.count;
@@ -189,7 +191,7 @@ void ConvexDiagram::compute_vertices(std::span<const double> weights, std::vecto
   vertices.clear();
   for (std::size_t i = 0; i < size(); ++i) {
     clip(i, weights);
-    // A cell thinner than rounding may be left with the one or two corners that lie on a wall.
+    // A cell thinner than rounding errors may be left with one or two corners.
     const std::size_t count = cell_.count < 3 ? 0 : cell_.count;
     for (std::size_t v = 0; v < count; ++v) {
       vertices.push_back(seeds_.x[i] + cell_.x[v]);

@@ -1,6 +1,5 @@
-/// \file
-/// The power diagram of a few seeds in a convex polygon, on the host: what a group of siblings needs some
-/// twenty times, where a launch on a device takes longer than all of them. Internal.
+/// \file The power diagram of a few seeds in a convex polygon, on the host. A group of siblings needs some
+/// twenty of them, which together take less time than one launch on a device. Internal.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +20,22 @@ struct Columns {
   }
 };
 
-/// Keeps its memory between groups, and the neighbours of a cell between diagrams of one group: they are the
-/// first to cut the next time.
+/// Reuses its memory between groups. Within a group it keeps the neighbours of each cell, which are the first
+/// to clip the cell in the next diagram.
 class ConvexDiagram {
  public:
   /// \param outline  convex, counter-clockwise
   void set_outline(const Columns& outline);
-  /// Forgets the neighbours when the number of seeds changes or `keep_neighbors` is false.
+  /// \param keep_neighbors  false to forget the neighbours, as happens if the number of seeds changes
   void set_seeds(const Columns& seeds, bool keep_neighbors);
 
-  /// The cells for these weights: measures and walls, not the vertices.
-  /// \param least  per seed the area its cell must have; may be empty (any cell that is not empty)
-  /// \return false as soon as a cell has less, or none at all; the results are then those of no diagram
+  /// Computes areas, centroids and walls of the cells.
+  /// \param least  per seed: the least area of its cell; empty to accept all cells that are not empty
+  /// \return false as soon as a cell is smaller or empty; the results are then invalid
   bool compute(std::span<const double> weights, std::span<const double> least);
-  /// The same with the vertices of every cell, which may be empty, relative to the outline's origin.
+  /// Computes the vertices of all cells, which may be empty, in the coordinates of the outline.
+  /// \param offset    output, n + 1
+  /// \param vertices  output, x, y pairs
   void compute_vertices(std::span<const double> weights, std::vector<std::uint64_t>& offset,
                         std::vector<double>& vertices);
 
@@ -45,8 +46,8 @@ class ConvexDiagram {
   Walls walls() const { return {seeds_.x, seeds_.y, wall_offset_, neighbor_, wall_}; }
 
  private:
-  /// A convex polygon about the seed; edge v goes from vertex v to the next and has border[v] behind it: a
-  /// seed, or -1 for the outline.
+  /// A convex polygon relative to the seed. Edge v goes from vertex v to the next; border[v] is the seed
+  /// across it, or -1 for the outline.
   struct Cell {
     std::vector<double> x, y, side;
     std::vector<std::int32_t> border;
@@ -69,7 +70,7 @@ class ConvexDiagram {
   std::vector<double> mass_, wall_, last_wall_;
   std::vector<std::uint32_t> neighbor_, last_neighbor_, candidate_;
   std::vector<std::uint64_t> wall_offset_, last_offset_;
-  std::vector<std::uint64_t> tried_;  // per seed: the cell it was last tried on, as a running number
+  std::vector<std::uint64_t> tried_;  // per seed: number of the cell that it was last tried on
   std::uint64_t cell_number_ = 0;
   Cell cell_, other_;
 };

@@ -12,14 +12,14 @@
 namespace powercell::treemap_detail {
 namespace {
 
-// An angle whose sine is below this is straight: corners of outlines are read from decimals.
+// A corner is straight if the sine of its angle is below this: outlines are rounded to decimals.
 constexpr double straight = 1e-12;
 
-// Moments are fourth powers of lengths.
+// Limits within which moments, fourth powers of lengths, stay in the range of doubles.
 constexpr double largest_coordinate = 1e60, least_area = 1e-120;
 
-// Rounding its corners may move the area of an outline by this part of it.
-constexpr double area_in_doubt = 1e-6;
+// Largest relative change of the area of an outline by rounding its corners.
+constexpr double largest_area_error = 1e-6;
 
 double cross(double ax, double ay, double bx, double by) {
   return ax * by - ay * bx;
@@ -46,18 +46,19 @@ std::vector<double> without_repeated(const Ring& ring) {
   return points;
 }
 
-// How the boundary turns at corner k: the sine, by the corners beside it.
+/// The sine of the angle by which the boundary turns at corner k; -2 if it turns back.
 double turn(const std::vector<double>& p, std::size_t k) {
   const std::size_t n = p.size() / 2, before = (k + n - 1) % n, after = (k + 1) % n;
   const double ax = p[2 * k] - p[2 * before], ay = p[2 * k + 1] - p[2 * before + 1];
   const double bx = p[2 * after] - p[2 * k], by = p[2 * after + 1] - p[2 * k + 1];
   const double sine = cross(ax, ay, bx, by) / (std::hypot(ax, ay) * std::hypot(bx, by));
-  if (std::fabs(sine) <= straight && ax * bx + ay * by < 0) return -2;  // back on itself
+  if (std::fabs(sine) <= straight && ax * bx + ay * by < 0) return -2;
   return sine;
 }
 
-// Of an outline, at least three corners.
-void require_sure_area(const std::vector<double>& corners) {
+/// \param corners  at least three
+/// \throw Error invalid_domain if the area is too small or too uncertain
+void require_certain_area(const std::vector<double>& corners) {
   const std::size_t n = corners.size() / 2;
   double perimeter = 0, largest = 0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -68,11 +69,11 @@ void require_sure_area(const std::vector<double>& corners) {
   const double area = moments(corners).area;
   if (!(area >= least_area))
     throw Error(ErrorCode::invalid_domain, "the outline has an area below 1e-120; scale it");
-  if (!(std::numeric_limits<double>::epsilon() * largest * perimeter <= area_in_doubt * area))
-    throw Error(
-        ErrorCode::invalid_domain,
-        "the outline is so thin, or so far from the origin, that rounding its corners moves its area by more "
-        "than a millionth; move it to the origin, or take another shape");
+  if (!(std::numeric_limits<double>::epsilon() * largest * perimeter <= largest_area_error * area))
+    throw Error(ErrorCode::invalid_domain,
+                "the outline is so thin, or so far from the origin, that rounding its corners changes its "
+                "area by more "
+                "than a millionth; move it to the origin, or choose another shape");
 }
 
 }  // namespace
@@ -105,8 +106,9 @@ PolygonMoments moments(std::span<const double> vertices) {
 }
 
 double aspect(const PolygonMoments& m) {
-  // Of a thin cell the lesser moment is lost in the difference to the greater; the product of both is not:
-  // over the fourth power of the area, of convex cells, it is between that of ellipses and of triangles.
+  // For a thin cell the lesser principal moment is lost in a difference, but the product of both is bounded:
+  // divided by the fourth power of the area, it lies between those of ellipses and triangles for convex
+  // cells.
   constexpr double least = 1 / (16 * std::numbers::pi * std::numbers::pi), most = 1.0 / 108;
   const double unit = m.area * m.area;
   const double xx = m.xx / unit, yy = m.yy / unit, xy = m.xy / unit;
@@ -130,7 +132,7 @@ std::vector<double> convex_outline(const Ring& ring) {
     if (sine < -straight)
       throw Error(ErrorCode::invalid_domain, "the outline is not convex at " +
                                                  at(points[2 * k], points[2 * k + 1]) +
-                                                 "; take its convex hull or another shape");
+                                                 "; use its convex hull or another shape");
     if (sine <= straight) continue;
     corners.insert(corners.end(), {points[2 * k], points[2 * k + 1]});
   }
@@ -145,7 +147,7 @@ std::vector<double> convex_outline(const Ring& ring) {
     throw Error(ErrorCode::invalid_domain, "the outline has no area");
   if (round > 3 * std::numbers::pi)
     throw Error(ErrorCode::invalid_domain, "the outline crosses itself: it goes around more than once");
-  require_sure_area(corners);
+  require_certain_area(corners);
   return corners;
 }
 
@@ -175,8 +177,7 @@ Columns spread_points(const Columns& polygon, std::size_t n, std::uint64_t rando
   std::vector<double> corners;
   for (std::size_t v = 0; v < polygon.size(); ++v)
     corners.insert(corners.end(), {polygon.x[v], polygon.y[v]});
-  // In a box along the principal axes at least a few tenths of the points lie inside, however thin the
-  // polygon.
+  // Of a box along the principal axes, a polygon covers at least some tenths, however thin it is.
   const PolygonMoments m = moments(corners);
   const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy), c = std::cos(angle), s = std::sin(angle);
   double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
@@ -187,13 +188,13 @@ Columns spread_points(const Columns& polygon, std::size_t n, std::uint64_t rando
       high[k] = std::max(high[k], along[k]);
     }
   }
-  // The plastic number and its square: the two-dimensional golden ratio.
+  // Reciprocals of the plastic number and its square, the two-dimensional analogue of the golden ratio.
   constexpr double step[2] = {0.7548776662466927, 0.5698402909980532};
   double u = unit_from_bits(mixed_bits(random_seed)),
          v = unit_from_bits(mixed_bits(random_seed ^ 0x5851f42d4c957f2du));
   Columns points;
   for (std::size_t tries = 0; points.size() < n; ++tries) {
-    if (tries > 100 * (n + 10)) {  // a sliver whose width is rounding: nothing is surely inside of it
+    if (tries > 100 * (n + 10)) {  // a sliver as wide as rounding errors: places the points along its middle
       const double t = unit_from_bits(mixed_bits(random_seed + tries));
       points.x.push_back(c * (low[0] + t * (high[0] - low[0])) - s * (low[1] + high[1]) / 2);
       points.y.push_back(s * (low[0] + t * (high[0] - low[0])) + c * (low[1] + high[1]) / 2);

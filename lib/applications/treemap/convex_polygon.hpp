@@ -1,5 +1,5 @@
 /// \file
-/// Convex polygons in the plane: measures, tests and frames. Internal.
+/// Convex polygons in the plane: moments, validation, containment, coordinates. Internal.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,23 @@
 
 namespace powercell::treemap_detail {
 
-/// Area, centroid and the second moments about it (integrals of x², xy and y²).
+/// Area, centroid, and the second moments about the centroid (integrals of x², xy and y²).
 struct PolygonMoments {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
-/// \param vertices  x, y pairs, counter-clockwise
+/// \param vertices  x, y pairs, counter-clockwise; all 0 for fewer than three
 PolygonMoments moments(std::span<const double> vertices);
 
-/// Ratio of the longer to the shorter principal axis of a convex polygon with an area: 1 for a square and a
-/// regular hexagon. Above 10^7 off by up to a tenth where the axes are not those of x and y.
+/// The ratio of the longer to the shorter principal axis of a convex polygon with an area: 1 for a square and
+/// a regular hexagon. Above 10^7 accurate to a tenth only, unless the axes are those of x and y.
 double aspect(const PolygonMoments& moments);
 
 /// The outline as x, y pairs, counter-clockwise, without repeated and collinear points.
-/// \throw Error invalid_domain if it is not convex (where), crosses itself, or has no area
+/// \throw Error invalid_domain if it is not convex (where), crosses itself, has no area, or an area that
+///   rounding may change by a millionth
 std::vector<double> convex_outline(const Ring& ring);
 
-/// The coordinates of a group: its polygon has area 1 and its centroid at 0 there.
+/// The coordinates of a group, in which its polygon has the area 1 and its centroid at the origin.
 struct GroupFrame {
   double x, y, size;
   explicit GroupFrame(const PolygonMoments& of);
@@ -34,10 +35,11 @@ struct GroupFrame {
   double outside_y(double local) const { return y + size * local; }
 };
 
-/// Whether the point is inside by more than rounding.
+/// Whether the point is inside by more than rounding errors.
 bool contains(const Columns& polygon, double x, double y);
 
-/// n points spread evenly in a convex polygon about 0 (Roberts's sequence from a random start).
+/// n points evenly spread in a convex polygon with its centroid at the origin: Roberts's sequence with a
+/// random start.
 Columns spread_points(const Columns& polygon, std::size_t n, std::uint64_t random_seed);
 
 }  // namespace powercell::treemap_detail

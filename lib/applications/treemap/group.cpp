@@ -1,34 +1,32 @@
 #include "lib/applications/treemap/group.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <tuple>
 
 #include "lib/applications/treemap/convex_polygon.hpp"
-#include "lib/applications/treemap/laplacian.hpp"
 #include "lib/applications/treemap/newton.hpp"
 #include "lib/applications/treemap/relax.hpp"
+#include "lib/base/positions.hpp"
 
 namespace powercell::treemap_detail {
-namespace {
 
-// Diagrams, Newton's method and linear systems of small groups, all on the calling thread.
-struct HostSolver {
+/// The solver of relax() for small groups, on the calling thread.
+struct GroupSolver::HostSolver {
   ConvexDiagram diagram;
   LaplacianSolver laplacian;
   std::vector<double> weights;
   std::span<const double> target;
   std::uint64_t diagrams = 0, newton_steps = 0;
-  bool lost = false;
+  bool lost_cells = false;
 
   void start(const Columns& seeds) {
     diagram.set_seeds(seeds, true);
     weights.assign(seeds.size(), 0);
   }
-  bool voronoi() { return evaluate(weights, {}); }
-  bool has_lost_cells() const { return lost; }
+  bool voronoi() {
+    ++diagrams;
+    return diagram.compute(weights, {});
+  }
+  bool has_lost_cells() const { return lost_cells; }
   void move(const Columns& seeds) {
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const double x = seeds.x[i] - diagram.seeds().x[i], y = seeds.y[i] - diagram.seeds().y[i];
@@ -37,47 +35,18 @@ struct HostSolver {
     diagram.set_seeds(seeds, true);
   }
   bool solve(double tolerance) {
-    DampedNewton newton(*this, target, weights);
-    const NewtonOutcome outcome = newton.solve({tolerance});
+    const NewtonOutcome outcome = damped_newton(diagram, laplacian, target, weights, tolerance);
+    diagrams += static_cast<std::uint64_t>(outcome.diagrams);
     newton_steps += static_cast<std::uint64_t>(outcome.steps);
-    lost = !std::isfinite(outcome.error);
+    lost_cells = !std::isfinite(outcome.error);
     return outcome.converged;
   }
   const Columns& centroid() const { return diagram.centroid(); }
-
-  // For DampedNewton.
-  bool evaluate(std::span<const double> at, std::span<const double> least) {
-    ++diagrams;
-    return diagram.compute(at, least);
-  }
-  const std::vector<double>& mass() const { return diagram.mass(); }
-  bool step(std::span<const double> residual, std::vector<double>& delta) {
-    return laplacian.solve(diagram.walls(), residual, delta);
-  }
 };
-
-// Of seeds at one place all but one go to their fresh places: together they would have one cell.
-void part_equal(Columns& seeds, const Columns& fresh) {
-  std::vector<std::size_t> order(seeds.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto place = [&](std::size_t i) { return std::tuple(seeds.x[i], seeds.y[i], i); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  double x = std::numeric_limits<double>::quiet_NaN(), y = x;
-  for (const std::size_t i : order) {
-    const bool taken = seeds.x[i] == x && seeds.y[i] == y;
-    x = seeds.x[i];
-    y = seeds.y[i];
-    if (!taken) continue;
-    seeds.x[i] = fresh.x[i];
-    seeds.y[i] = fresh.y[i];
-  }
-}
-
-}  // namespace
 
 Columns starting_seeds(const Group& group) {
   const std::size_t n = group.share.size();
-  const Columns fresh = spread_points(group.outline, n, group.random_seed);
+  Columns fresh = spread_points(group.outline, n, group.random_seed);
   if (group.start.size() == 0) return fresh;
   Columns seeds = group.start;
   for (std::size_t i = 0; i < n; ++i) {
@@ -85,7 +54,7 @@ Columns starting_seeds(const Group& group) {
       seeds.x[i] = fresh.x[i];
       seeds.y[i] = fresh.y[i];
     }
-    // The parent's polygon has another shape now; its centroid, 0, is inside (unless it is a sliver).
+    // The polygon has another shape now. Its centroid, the origin, is inside (unless it is a sliver).
     for (double t = 1; t > 1e-3 && !contains(group.outline, seeds.x[i], seeds.y[i]); t *= 0.9) {
       seeds.x[i] *= t;
       seeds.y[i] *= t;
@@ -95,21 +64,25 @@ Columns starting_seeds(const Group& group) {
       seeds.y[i] = fresh.y[i];
     }
   }
-  part_equal(seeds, fresh);
+  // Seeds at the same position would share one cell: all but the first get fresh positions.
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < n; ++i) rows.insert(rows.end(), {seeds.x[i], seeds.y[i]});
+  const std::vector<std::uint32_t> first = first_at_position(rows, 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (first[i] == i) continue;
+    seeds.x[i] = fresh.x[i];
+    seeds.y[i] = fresh.y[i];
+  }
   return seeds;
 }
 
-struct GroupSolver::Parts {
-  HostSolver solver;
-};
-
-GroupSolver::GroupSolver() : parts_(std::make_unique<Parts>()) {}
+GroupSolver::GroupSolver() : solver_(std::make_unique<HostSolver>()) {}
 GroupSolver::~GroupSolver() = default;
 GroupSolver::GroupSolver(GroupSolver&&) noexcept = default;
 
 GroupLayout GroupSolver::lay_out(const Group& group, const GroupSettings& settings) {
   GroupLayout layout;
-  HostSolver& solver = parts_->solver;
+  HostSolver& solver = *solver_;
   solver.diagram.set_outline(group.outline);
   solver.diagram.set_seeds({}, false);
   solver.target = group.share;

@@ -12,18 +12,19 @@
 
 namespace powercell::treemap_detail {
 
-/// What is to be laid out, in the group's frame (GroupFrame): area 1, centroid at 0.
+/// The input of a layout, in the coordinates of GroupFrame: area 1, centroid at the origin.
 struct Group {
   Columns outline;            ///< convex, counter-clockwise
-  std::vector<double> share;  ///< per child, above 0, of sum 1; two at least
-  Columns start;              ///< per child; NaN where the child is new. Empty: all are
+  std::vector<double> share;  ///< per child: its area, above 0; sum 1; at least two children
+  Columns start;              ///< per child: earlier seed, NaN for a new child; empty if all are new
   std::uint64_t random_seed = 0;
 };
 
+/// The result, in the same coordinates.
 struct GroupLayout {
-  std::vector<std::uint64_t> offset;  ///< children + 1
+  std::vector<std::uint64_t> offset;  ///< children + 1: polygon i has the vertices [offset[i], offset[i+1])
   std::vector<double> vertices;       ///< x, y pairs
-  Columns seeds;                      ///< children
+  Columns seeds;                      ///< per child
   bool converged = false;
   std::uint64_t diagrams = 0, newton_steps = 0;
 };
@@ -33,7 +34,7 @@ struct GroupSettings {
   double tolerance = 1e-6;
 };
 
-/// Lays out groups one after the other on the calling thread; keeps its memory. Not thread-safe.
+/// Lays out groups one after the other on the calling thread, reusing its memory. Not thread-safe.
 class GroupSolver {
  public:
   GroupSolver();
@@ -42,12 +43,12 @@ class GroupSolver {
   GroupLayout lay_out(const Group& group, const GroupSettings& settings);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct HostSolver;
+  std::unique_ptr<HostSolver> solver_;
 };
 
-/// The same for any number of siblings, by TransportSolver on a device.
-/// \param go_on  asked after each step; false stops with Error interrupted
+/// The same by TransportSolver on a device, for any number of siblings.
+/// \param go_on  called after each step; returning false stops with Error interrupted
 GroupLayout lay_out_large(const Group& group, const GroupSettings& settings, const Device& device,
                           int threads, const std::function<bool()>& go_on);
 

@@ -9,8 +9,7 @@
 namespace powercell::treemap_detail {
 namespace {
 
-// A cell of a smaller share of the whole is so small beside its coordinates that rounding them moves its area
-// by more than 1e-7 of it.
+// Smallest share of the whole: rounding the coordinates of a smaller cell changes its area by more than 1e-7.
 constexpr double least_share = 1e-16;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -23,18 +22,19 @@ std::size_t find_root(const TreeView& tree, const NodeName& name) {
   for (std::size_t i = 0; i < tree.parent.size(); ++i) {
     const std::int64_t parent = tree.parent[i];
     if (parent != TreeView::no_parent && (parent < 0 || parent >= n))
-      refuse(name(i) + " has the parent " + std::to_string(parent) + ", which is none of the " +
-             std::to_string(n) + " nodes");
+      refuse(name(i) + " has the parent " + std::to_string(parent) + ", but there are " + std::to_string(n) +
+             " nodes");
     if (!std::isfinite(tree.value[i])) refuse("the value of " + name(i) + " is not finite");
     if (parent != TreeView::no_parent) continue;
     if (root < tree.parent.size())
-      refuse(name(root) + " and " + name(i) + " are both without a parent; a tree has one root");
+      refuse(name(root) + " and " + name(i) + " both have no parent; a tree has one root");
     root = i;
   }
   if (root == tree.parent.size()) refuse("every node has a parent, so there is no root");
   return root;
 }
 
+/// Lists the children of each node that are not dropped.
 void list_children(const TreeView& tree, const std::vector<TreeNode>& kind, std::vector<std::size_t>& offset,
                    std::vector<std::uint32_t>& child) {
   const std::size_t n = tree.parent.size();
@@ -51,7 +51,7 @@ void list_children(const TreeView& tree, const std::vector<TreeNode>& kind, std:
     if (listed(i)) child[next[static_cast<std::size_t>(tree.parent[i])]++] = static_cast<std::uint32_t>(i);
 }
 
-// Breadth first from the root: parents before children, levels together.
+/// Orders the nodes breadth first from the root.
 void order_by_level(Hierarchy& h) {
   h.order.assign(1, static_cast<std::uint32_t>(h.root));
   h.level.assign(1, 0);
@@ -119,7 +119,7 @@ Hierarchy make_hierarchy(const TreeView& tree, const NodeName& given) {
   const std::vector<std::uint32_t> depth = h.depth;
   list_children(tree, h.kind, h.child_offset, h.child);
   order_by_level(h);
-  h.depth = depth;  // of dropped nodes too
+  h.depth = depth;  // includes dropped nodes
   return h;
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The tree of a treemap: checked, summed up, in order of levels. Internal.
+/// The tree of a treemap: validated, with sums of values, in the order of levels. Internal.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,14 @@ namespace powercell::treemap_detail {
 
 struct Hierarchy {
   std::vector<TreeNode> kind;
-  std::vector<double> value;  ///< of a group the sum of its leaves; 0 where dropped
+  std::vector<double> value;  ///< for a group the sum of its leaves; 0 if dropped
   std::vector<std::uint32_t> depth;
   std::size_t root = 0;
-  /// Nodes that have a value, by level, and where each level begins (one more at the end).
-  std::vector<std::uint32_t> order;
-  std::vector<std::size_t> level;
+  std::vector<std::uint32_t> order;  ///< the nodes with a value, level by level
+  std::vector<std::size_t> level;    ///< levels + 1: level k is [level[k], level[k+1]) of `order`
 
   std::size_t size() const { return kind.size(); }
-  /// Those with a value, in the order of the nodes.
+  /// The children with a value, ascending.
   std::span<const std::uint32_t> children(std::size_t node) const {
     return std::span(child).subspan(child_offset[node], child_offset[node + 1] - child_offset[node]);
   }
@@ -29,7 +28,7 @@ struct Hierarchy {
   std::vector<std::uint32_t> child;
 };
 
-/// How messages call a node.
+/// Name of a node in error messages.
 using NodeName = std::function<std::string(std::size_t)>;
 
 /// \throw Error invalid_argument as treemap()

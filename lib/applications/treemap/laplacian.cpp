@@ -9,9 +9,10 @@
 namespace powercell::treemap_detail {
 namespace {
 
-constexpr std::size_t dense_unknowns = 64;
+constexpr std::size_t dense_unknowns = 64;  // up to which dense factors are faster
 
-// Calls add(i, j, a_ij / (4 |p_i - p_j|)) for each side of each wall: half of (15), since both sides come.
+/// Calls add(i, j, a_ij / (4 |p_i - p_j|)) for each side of each wall: half of (15), as each wall has two
+/// sides.
 template <class Add>
 void each_wall(const Walls& walls, const Add& add) {
   for (std::size_t i = 0; i < walls.size(); ++i)
@@ -30,7 +31,7 @@ struct LaplacianSolver::Storage {
   std::vector<Eigen::Triplet<double, std::int32_t>> entries;
   Laplacian sparse;
 
-  // The last unknown is 0, so its row and column are left out.
+  /// Fixes the last unknown to 0, so its row and column are left out.
   bool solve_dense(const Walls& walls, std::span<const double> residual) {
     const auto m = static_cast<Eigen::Index>(walls.size() - 1);
     dense.setZero(m, m);
@@ -63,8 +64,8 @@ struct LaplacianSolver::Storage {
     sparse.matrix.resize(n, n);
     sparse.matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::VectorXd right = Eigen::Map<const Eigen::VectorXd>(residual.data(), n);
-    constexpr double unused = 0;  // a tolerance: what is factorised needs none
-    const LinearResult found = solve_laplacian(sparse, right, LinearSolver::direct, unused, 2);
+    constexpr double unused_tolerance = 0;  // a direct solver has none
+    const LinearResult found = solve_laplacian(sparse, right, LinearSolver::direct, unused_tolerance, 2);
     unknown = found.solution;
     return !found.broke_down;
   }

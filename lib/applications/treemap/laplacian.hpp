@@ -1,5 +1,5 @@
 /// \file
-/// Linear systems with the derivative of the measures by the weights. Internal.
+/// Linear systems with the derivatives of the areas with respect to the weights. Internal.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace powercell::treemap_detail {
 
-/// The walls of a diagram in the plane; nothing is owned. Seed i lies at x[i], y[i] and has the walls
-/// [offset[i], offset[i+1]). Each wall stands with both of its seeds; walls of no length may be among them.
+/// A view of the walls of a diagram in the plane. Seed i lies at x[i], y[i] and has the walls [offset[i],
+/// offset[i+1]). Each wall is listed for both of its seeds; its length may be 0.
 struct Walls {
   std::span<const double> x, y;
   std::span<const std::uint64_t> offset;
@@ -19,16 +19,17 @@ struct Walls {
   std::size_t size() const { return offset.size() - 1; }
 };
 
-/// Solves L delta = residual, L of mathematics (15) and (27), up to a constant; the residual sums to 0 up to
-/// rounding. Dense factors up to 64 unknowns, which is most of all groups, sparse ones beyond; memory is
-/// kept.
+/// Solves L delta = residual with the matrix L of (15) and (27), delta up to a constant. The residual must
+/// sum to 0 up to rounding. Dense Cholesky for up to 64 unknowns, which are most groups, sparse beyond.
+/// Reuses its memory.
 class LaplacianSolver {
  public:
   LaplacianSolver();
   ~LaplacianSolver();
   LaplacianSolver(const LaplacianSolver&) = delete;
   LaplacianSolver& operator=(const LaplacianSolver&) = delete;
-  /// \return false if L is not positive definite to rounding: walls of needles may be lost beside others
+  /// \return false if L is not positive definite up to rounding: walls of thin cells may vanish compared with
+  ///   others
   bool solve(const Walls& walls, std::span<const double> residual, std::vector<double>& delta);
 
  private:

@@ -35,6 +35,7 @@ TransportOptions make_options(int threads, const std::function<bool()>& go_on) {
   return options;
 }
 
+/// The solver of relax() for large groups.
 struct DeviceSolver {
   const Device& device;
   const Domain& domain;
@@ -69,7 +70,7 @@ struct DeviceSolver {
     return result.converged;
   }
   const Columns& centroid() const { return centroids; }
-  bool has_lost_cells() const { return false; }  // its weights of seeds without a cell are solved for too
+  bool has_lost_cells() const { return false; }  // TransportSolver recovers empty cells
 };
 
 }  // namespace
@@ -85,7 +86,7 @@ GroupLayout lay_out_large(const Group& group, const GroupSettings& settings, con
   layout.newton_steps = solver.newton_steps;
   const JoinedCells cells = join(domain, solver.transport.diagram().cells());
   layout.offset.assign(1, 0);
-  for (std::size_t i = 0; i < group.share.size(); ++i) {  // a convex cell has one ring, an empty one none
+  for (std::size_t i = 0; i < group.share.size(); ++i) {  // a convex cell has one ring, an empty cell none
     const std::uint64_t ring = cells.face_offset[i];
     if (ring < cells.face_offset[i + 1])
       for (std::uint64_t k = cells.loop_offset[ring]; k < cells.loop_offset[ring + 1]; ++k) {

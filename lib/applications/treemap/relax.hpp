@@ -1,35 +1,38 @@
 /// \file
-/// Where the seeds of a group go: to the centroids of cells of the right areas. Internal.
+/// Iteration of a group's seeds to the centroids of cells with the right areas. Internal.
 #pragma once
 
 #include "lib/applications/treemap/group.hpp"
 
 namespace powercell::treemap_detail {
 
-/// The seeds a group starts with: those of an earlier layout where there are any, pulled into the outline,
-/// the others spread evenly.
+/// Initial seeds of a group: those of an earlier layout if there are any, moved into the outline; the others
+/// evenly spread.
 Columns starting_seeds(const Group& group);
 
-/// Balzer and Deussen's iteration with areas solved for: Voronoi cells to their centroids twice, then,
-/// `rounds` times or until seeds rest, cells of nearly the right areas to theirs, and at last the right
-/// areas. In an update seeds rest already where the root mean square of their distances to the centroids, in
-/// units of the cells' sizes, is below 20 %: a finished layout has 1 % in the mean, so what has changed
-/// little stays where it is. Where values are steep a finished layout leaves cells far smaller than others at
-/// many times their sizes from their seeds. So an update rests at once, too, where that mean, each cell
-/// weighted by its area, is below 15 %: finished layouts had 12 % at worst, of values over 14 orders.
+/// Balzer and Deussen's iteration with exact areas: moves the seeds to the centroids of their Voronoi cells
+/// twice, then to the centroids of cells with nearly the right areas until they rest, and finally solves for
+/// the right areas.
+///
+/// An update counts as at rest sooner, so that groups that changed little stay in place: when the root mean
+/// square distance from the centroids, in units of the cells' sizes, is below 20 %. (A finished layout has 1
+/// % on average.) If values differ by orders of magnitude, a finished layout has tiny cells many times their
+/// sizes from their seeds; so an update also rests at once when that mean, weighted by area, is below 15 %.
+/// (Finished layouts have at most 12 %, with values over 14 orders of magnitude.)
+///
 /// `Solver` has
-///   void start(seeds)         new seeds with weights 0
-///   bool voronoi()            their cells; false if one is empty
-///   void move(seeds)          near the last ones; weights follow (docs/mathematics.md, "Transport")
-///   bool solve(tolerance)     whether the areas came within it
-///   bool has_lost_cells()     whether that left cells empty, which have no centroids
-///   const Columns& centroid() of the last cells
-/// Only rounding leaves a cell empty, in polygons far longer than thick: seeds stay where they are then.
+///   void start(seeds)          sets new seeds with weights 0
+///   bool voronoi()             computes their cells; false if one is empty
+///   void move(seeds)           moves the seeds by little, and the weights with them
+///   bool solve(tolerance)      solves for the weights; whether the areas reached the tolerance
+///   bool has_lost_cells()      whether that left cells empty, hence without centroids
+///   const Columns& centroid()  of the last cells
+/// Cells are lost by rounding only, in polygons much longer than thick; the seeds then stay where they are.
 template <class Solver>
 void relax(Solver& solver, const Group& group, const GroupSettings& settings, GroupLayout& layout) {
   constexpr int voronoi_rounds = 2;
-  constexpr double loose = 1e-2;
-  constexpr double fresh_rest = 1e-3, update_rest = 0.2, unchanged = 0.15;
+  constexpr double loose = 1e-2;  // tolerance of the areas while seeds move
+  constexpr double fresh_rest = 1e-3, update_rest = 0.2, unchanged = 0.15;  // as above
   const bool fresh = group.start.size() == 0;
   const std::size_t n = group.share.size();
   Columns& seeds = layout.seeds;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace treemap_detail;
 
-// Lays a tree out level by level: the groups of a level are independent of each other.
+/// Lays out a tree level by level, as the groups of a level are independent of each other.
 class Layout {
  public:
   Layout(const Hierarchy& tree, const TreemapOptions& options, Treemap& result)
@@ -25,7 +25,7 @@ class Layout {
         threads_(thread_count(options.threads)),
         polygon_(tree.size()),
         device_(options.device) {
-    // Errors of the levels multiply.
+    // The relative errors of the levels add up.
     const auto levels = static_cast<double>(std::max<std::size_t>(tree.level.size(), 3) - 2);
     settings_ = {options.rounds, options.tolerance / levels};
     for (int t = 0; t < threads_; ++t) solvers_.emplace_back();
@@ -58,7 +58,7 @@ class Layout {
       const Group group = make_group(node);
       take(node, lay_out_large(group, settings_, *device_, threads_, [this] { return go_on(); }));
     }
-    // The longest first, so that no thread begins one when the others have ended.
+    // The largest groups first, so that the threads finish at about the same time.
     std::stable_sort(groups.begin(), groups.end(), [this](std::uint32_t a, std::uint32_t b) {
       return tree_.children(a).size() > tree_.children(b).size();
     });
@@ -68,7 +68,7 @@ class Layout {
     });
   }
 
-  /// The children of a node that is thinner than the rounding of its corners have no polygons.
+  /// Leaves the children of a node without polygons: it is thinner than the rounding of its corners.
   void leave_without_place(std::uint32_t node) {
     result_.not_converged.push_back(node);
     done(tree_.children(node).size());
@@ -107,7 +107,7 @@ class Layout {
   void take(std::uint32_t node, const GroupLayout& layout) {
     const GroupFrame frame(moments(polygon_[node]));
     const auto children = tree_.children(node);
-    bool all_have_one = true;  // a tolerance of 1 and more allows areas of 0, of which no polygon is left
+    bool complete = true;  // a tolerance of 1 or more allows empty cells, which have no polygon
     for (std::size_t i = 0; i < children.size(); ++i) {
       set_seed(children[i], frame, layout.seeds.x[i], layout.seeds.y[i]);
       std::vector<double>& polygon = polygon_[children[i]];
@@ -116,12 +116,12 @@ class Layout {
         polygon.push_back(frame.outside_x(layout.vertices[2 * v]));
         polygon.push_back(frame.outside_y(layout.vertices[2 * v + 1]));
       }
-      all_have_one &= !polygon.empty();
+      complete &= !polygon.empty();
     }
     const std::scoped_lock lock(mutex_);
     result_.diagrams += layout.diagrams;
     result_.newton_steps += layout.newton_steps;
-    if (!layout.converged || !all_have_one) result_.not_converged.push_back(node);
+    if (!layout.converged || !complete) result_.not_converged.push_back(node);
     done(children.size());
   }
 
@@ -176,17 +176,17 @@ void measure_leaves(Treemap& map, std::size_t root) {
     aspects += aspect(m);
     ++with_area;
   }
-  map.mean_aspect = aspects / static_cast<double>(with_area);  // some have, as the outline has
+  map.mean_aspect = aspects / static_cast<double>(with_area);  // not 0, as the outline has an area
 }
 
 }  // namespace
 
 Treemap treemap(const TreeView& tree, const Ring& outline, const TreemapOptions& options) {
   if (!options.start.empty() && options.start.size() != 2 * tree.parent.size())
-    throw Error(ErrorCode::invalid_argument, "treemap: the start has to have two numbers for each node");
+    throw Error(ErrorCode::invalid_argument, "treemap: the start must have two numbers for each node");
   if (!(options.tolerance > 0) || options.rounds < 0)
     throw Error(ErrorCode::invalid_argument,
-                "treemap: the tolerance has to be above 0, the rounds at least 0");
+                "treemap: the tolerance must be above 0 and the rounds at least 0");
   Hierarchy hierarchy = make_hierarchy(tree, options.name);
   Treemap result;
   Layout(hierarchy, options, result).run(convex_outline(outline));

@@ -1,4 +1,5 @@
-// Formulas that are a density in the domain and no further: rounding puts vertices of cells beyond it.
+// Formulas that are defined in the domain only, such as sqrt(1 - x - y). Rounding puts vertices of cells
+// beyond the boundary, where the formula is negative or NaN.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,7 +11,8 @@ using namespace powercell::test;
 
 namespace {
 
-/// Integrals of `formula` are those of `beyond`, which is the same in the domain and a density everywhere.
+/// Checks that `formula` has the integrals of `beyond`, which agrees with it in the domain and is a density
+/// everywhere.
 void check_same(const DensityCase& one, const std::string& formula, const std::string& beyond) {
   INFO(one.name, ", ", formula);
   constexpr double tolerance = 1e-6;
@@ -28,8 +30,8 @@ DensityCase seeds_in(const char* name, const Domain& domain, Random& random) {
   return {name, domain, seeds_for(domain, Distribution::white, WeightRange::W1, 200, random)};
 }
 
-/// Seeds `far` times as far from the origin as those of a Voronoi diagram, with weights that give the same
-/// cells: |x - far a|² - w is far (|x - a|² + c(x)) for w = far² |a|² - far |a|².
+/// Scales the positions of a Voronoi diagram by `far`, with weights that give the same cells: |x - far a|² -
+/// w is far (|x - a|² + c(x)) for w = far² |a|² - far |a|².
 SeedArray seen_from_afar(SeedArray seeds, double far) {
   seeds.weights.clear();
   for (std::size_t i = 0; i < seeds.size(); ++i) {
@@ -43,7 +45,7 @@ SeedArray seen_from_afar(SeedArray seeds, double far) {
 
 }  // namespace
 
-TEST_CASE("a density may end at the boundary of the domain") {
+TEST_CASE("a formula may be undefined beyond the boundary of the domain") {
   INFO(replay_hint());
   Random random(test_seed());
   const Parts triangle{{{{0, 0}, {1, 0}, {0, 1}}, {}}};
@@ -63,7 +65,7 @@ TEST_CASE("a density may end at the boundary of the domain") {
              "max(0, 1-x^2-y^2-z^2)");
 }
 
-TEST_CASE("a density may end at the boundary where seeds are far away") {
+TEST_CASE("a formula may be undefined beyond the boundary when seeds are far away") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const int d : {2, 3})
@@ -77,7 +79,7 @@ TEST_CASE("a density may end at the boundary where seeds are far away") {
     }
 }
 
-TEST_CASE("a density that is none within the domain is refused, and infinite at its boundary too") {
+TEST_CASE("a formula that is invalid inside the domain or infinite at its boundary is refused") {
   const Domain square = unit_box(2);
   for (const char* formula : {"x-0.001", "sqrt(x-0.001)", "1/x", "1/sqrt(y)"}) {
     INFO(formula);

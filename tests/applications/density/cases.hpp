@@ -1,5 +1,5 @@
 /// \file
-/// Diagrams that densities are tested on, and the check that walls are the derivatives of the masses.
+/// Domains with seeds for the tests of densities, and a check of walls against derivatives of the masses.
 #pragma once
 
 #include <powercell/density.hpp>
@@ -17,14 +17,15 @@ struct DensityCase {
   SeedArray seeds;
 };
 
-/// A box, a polygon with holes and a mesh of tetrahedra, with n seeds of different weights.
+/// Boxes, a polygon with holes and a mesh of tetrahedra, with n weighted seeds each.
 std::vector<DensityCase> flat_cases(std::size_t n);
 
-/// (15): changes some weights and compares the change of the masses with the walls.
-/// \param density_scale  a typical value of the density
+/// Compares integrals over the walls with finite differences of the masses with respect to some weights,
+/// (15).
+/// \param density_scale  a typical value of the density, for the tolerance
 void check_walls_are_derivatives(const DensityCase& one, const Density& density, double density_scale);
 
-/// \return a diagram with these seeds, on the first device in its best precision
+/// A diagram of these seeds, on the first device in its best precision.
 Diagram diagram_of(const DensityCase& one);
 
 }  // namespace powercell::test

@@ -1,4 +1,4 @@
-// A constant density scales the measures and the walls.
+// Constant densities: measures and walls times the value.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 using namespace powercell;
 using namespace powercell::test;
 
-TEST_CASE("a constant density multiplies measures and walls, and leaves centroids") {
+TEST_CASE("a constant density multiplies masses, second moments and walls") {
   INFO(replay_hint());
   for (const DensityCase& one : flat_cases(60)) {
     INFO(one.name);
@@ -32,7 +32,7 @@ TEST_CASE("a constant density multiplies measures and walls, and leaves centroid
   }
 }
 
-TEST_CASE("a constant density must be positive and not beyond range") {
+TEST_CASE("a constant density must be positive and at most the largest value") {
   for (const double bad : {0.0, -1.0, 1.01e100, std::numeric_limits<double>::infinity(), std::nan("")})
     CHECK_THROWS_AS(Density::constant(bad), Error);
 }

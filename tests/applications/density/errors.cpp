@@ -1,4 +1,4 @@
-// Densities that are none.
+// Invalid densities: each is refused with a message that names the fault and the place.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("what is no formula says so when it is made") {
+TEST_CASE("an invalid formula is refused when it is made") {
   for (const char* text : {"", "1 +", "foo(x)", "x y", "(1", "a"})
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula(text); }), "formula"));
   for (const char* text : {"1,5+x", "x=0.5?1:3", "=1", "x+=1", "x==1=2"})
@@ -44,7 +44,7 @@ TEST_CASE("what is no formula says so when it is made") {
     CHECK(has(message(ErrorCode::invalid_argument, [&] { Density::formula("1", tolerance); }), "tolerance"));
 }
 
-TEST_CASE("a message about a formula is one line that can be read, whatever the formula") {
+TEST_CASE("a message about a formula is one short printable line, whatever the formula") {
   for (const std::string& text : {std::string("8\x1b[31m\n}"), std::string(100000, 'a')}) {
     const std::string said = message(ErrorCode::invalid_argument, [&] { Density::formula(text); });
     INFO(said);
@@ -53,7 +53,7 @@ TEST_CASE("a message about a formula is one line that can be read, whatever the 
   }
 }
 
-TEST_CASE("a formula without a density where it is asked says where") {
+TEST_CASE("a formula with an invalid value is refused with the point") {
   const Domain domain = unit_box(2);
   for (const char* text : {"x - 0.5", "1/(x-x)", "log(-1-x)"})
     CHECK(has(message(ErrorCode::invalid_argument, [&] { (void)Density::formula(text).total(domain); }),
@@ -62,7 +62,7 @@ TEST_CASE("a formula without a density where it is asked says where") {
             "positive somewhere"));
 }
 
-TEST_CASE("a density or an integral beyond range is refused") {
+TEST_CASE("a density or an integral above its limit is refused") {
   const double low[] = {0, 0, 0}, high[] = {1e67, 1e67, 1e67};
   const Domain wide = Domain::box(low, high);
   CHECK(Density::constant(1e98).total(wide) == doctest::Approx(1e299));
@@ -73,7 +73,7 @@ TEST_CASE("a density or an integral beyond range is refused") {
           "x ="));
 }
 
-TEST_CASE("an image must have pixels, a rectangle and something in it") {
+TEST_CASE("an image must have pixels, a rectangle and a positive value") {
   const auto refused = [](const ImageView& image) {
     return message(ErrorCode::invalid_argument, [&] { Density::image(image); });
   };
@@ -92,7 +92,7 @@ TEST_CASE("an image must have pixels, a rectangle and something in it") {
             "polygon"));
 }
 
-TEST_CASE("values at vertices must go with the mesh") {
+TEST_CASE("values at vertices must match the mesh") {
   Random shape(7);
   const std::vector<double> three{1, 2, 3}, blank(3, 0.0), bad{1, std::nan(""), 1};
   const Domain mesh = volume_of(cube_tetrahedra(2, 0.15, shape));

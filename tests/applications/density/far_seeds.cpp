@@ -1,4 +1,4 @@
-// Integrals over cells whose seeds are so far away that little is left of the domain beside the distance.
+// Integrals over cells whose seeds are so far from the domain that distances to them lose its digits.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -13,7 +13,7 @@ using namespace powercell::test;
 
 namespace {
 
-constexpr double beside = 0.25;  // to the wall
+constexpr double near_distance = 0.25;  // of a seed from the wall
 
 Domain square() {
   const Parts outline{{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {}}};
@@ -24,24 +24,25 @@ Domain cube() {
   return Domain::box(low, high);
 }
 
-/// Integrals over the cells of two seeds, at -way and at way.
-DensityIntegrals integrals(const Domain& domain, const Density& density, const std::array<double, 3>& way) {
+/// Integrals over the cells of two seeds, at -offset and at offset.
+DensityIntegrals integrals(const Domain& domain, const Density& density,
+                           const std::array<double, 3>& offset) {
   const auto d = static_cast<std::size_t>(domain.dimension());
   SeedArray seeds{domain.dimension(), {}, {0, 0}};
   for (const double side : {-1.0, 1.0})
-    for (std::size_t k = 0; k < d; ++k) seeds.positions.push_back(side * way[k]);
+    for (std::size_t k = 0; k < d; ++k) seeds.positions.push_back(side * offset[k]);
   Diagram diagram = diagram_of({"", domain, seeds});
   return integrate(diagram, density, true);
 }
 
-/// The cells of far seeds are those of near ones, but for `rounding` of their corners, in units of the
-/// domain. So integrals are alike, and second moments are those about the centroids and what the way from
-/// there to the seed makes.
+/// Compares the integrals over cells of far seeds with those of near seeds, which have the same cells up to
+/// `rounding` of their corners, in units of the domain. The second moments are compared by the parallel axis
+/// theorem.
 void check_like_near(const Domain& domain, const Density& density, double far, double rounding) {
   INFO("seeds at ", far);
   const auto d = static_cast<std::size_t>(domain.dimension());
   const double tolerance = 1e-12 + 10 * rounding;
-  const DensityIntegrals near = integrals(domain, density, {beside}),
+  const DensityIntegrals near = integrals(domain, density, {near_distance}),
                          found = integrals(domain, density, {far});
   for (std::size_t i = 0; i < 2; ++i) {
     REQUIRE(near.mass[i] > 0);
@@ -50,7 +51,7 @@ void check_like_near(const Domain& domain, const Density& density, double far, d
     for (std::size_t k = 0; k < d; ++k) {
       CHECK(std::abs(found.centroid[i * d + k] - near.centroid[i * d + k]) <= tolerance);
       const double side = k > 0 ? 0 : i == 0 ? -1 : 1, c = near.centroid[i * d + k];
-      central -= near.mass[i] * (c - side * beside) * (c - side * beside);
+      central -= near.mass[i] * (c - side * near_distance) * (c - side * near_distance);
       second += near.mass[i] * (c - side * far) * (c - side * far);
     }
     CHECK(std::abs(found.second_moment[i] - central - second) <= tolerance * (central + second));
@@ -60,7 +61,7 @@ void check_like_near(const Domain& domain, const Density& density, double far, d
   CHECK(std::abs(found.walls.wall[0] - near.walls.wall[0]) <= tolerance * near.walls.wall[0]);
 }
 
-/// How often a function is evaluated for these integrals.
+/// Number of evaluations of a density for these integrals.
 std::size_t evaluations(const Domain& domain, double far) {
   std::atomic<std::size_t> count{0};
   const Density density = Density::function(
@@ -69,7 +70,7 @@ std::size_t evaluations(const Domain& domain, double far) {
         return 3 + x[0] * x[0];
       },
       1e-6);
-  const double total = density.total(domain);  // known from here on
+  const double total = density.total(domain);  // cached from here on
   count = 0;
   const DensityIntegrals found = integrals(domain, density, {far, far, far});
   for (std::size_t i = 0; i < 2; ++i) {
@@ -82,7 +83,7 @@ std::size_t evaluations(const Domain& domain, double far) {
 
 }  // namespace
 
-TEST_CASE("far seeds have the integrals of near ones with the same cells") {
+TEST_CASE("far seeds have the integrals of near seeds with the same cells") {
   const std::vector<double> pixels{1, 2, 3, 5, 0, 4};
   ImageView image;
   image.width = 3;
@@ -104,10 +105,10 @@ TEST_CASE("far seeds have the integrals of near ones with the same cells") {
   }
 }
 
-TEST_CASE("cells that rounding leaves nothing of are integrated as fast as others") {
+TEST_CASE("cells distorted by rounding take no more evaluations than others") {
   const Domain domains[] = {square(), cube(), surface_of(icosphere(0)), volume_of(ball_tetrahedra(1))};
   for (const Domain& domain : domains) {
-    const std::size_t near = evaluations(domain, beside);
+    const std::size_t near = evaluations(domain, near_distance);
     CHECK(near > 0);
     for (const double far : {1e15, 3e15, 2.5e29}) {
       INFO("seeds at ", far);

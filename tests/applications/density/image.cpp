@@ -1,4 +1,4 @@
-// Images against diagrams of the same seeds in each pixel.
+// Images: exact integrals, compared with diagrams of the same seeds in each pixel.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ Domain pixel(const Picture& picture, std::size_t column, std::size_t row) {
 
 }  // namespace
 
-TEST_CASE("integrals of an image are those of its pixels") {
+TEST_CASE("the integrals of an image are sums over its pixels, and the walls are derivatives") {
   INFO(replay_hint());
   Random random(test_seed());
   const std::array<double, 2> low{-1, 3}, high{2, 5};
@@ -76,7 +76,7 @@ TEST_CASE("integrals of an image are those of its pixels") {
   check_walls_are_derivatives(one, density, 128);
 }
 
-TEST_CASE("an image is 0 outside its rectangle, and works in polygons with holes") {
+TEST_CASE("an image is 0 outside its rectangle, also in polygons with holes") {
   INFO(replay_hint());
   Random random(test_seed());
   const Domain domain = Domain::polygon(square_with_holes());
@@ -96,7 +96,7 @@ TEST_CASE("an image is 0 outside its rectangle, and works in polygons with holes
     CHECK(std::abs(found.mass[i] - expected.mass[i]) < 1e-4 * domain.measure());
 }
 
-TEST_CASE("an image far smaller than the domain is found, in as little time as another") {
+TEST_CASE("an image far smaller than the domain is integrated; one too small for rounding is refused") {
   INFO(replay_hint());
   Random random(test_seed());
   const DensityCase one{"square", unit_box(2),
@@ -114,7 +114,7 @@ TEST_CASE("an image far smaller than the domain is found, in as little time as a
   CHECK_THROWS_AS((void)Density::image({1, 1, gray, {0, 0}, {1e-15, 1e-15}}).total(one.domain), Error);
 }
 
-TEST_CASE("pixels on the walls: a grid of seeds in step with the image") {
+TEST_CASE("walls on pixel borders: a grid of seeds aligned with the image") {
   // Each cell is one pixel, and every wall lies on the border of pixels.
   const DensityCase one{"grid", unit_box(2), grid(4, 2)};
   std::vector<double> gray;

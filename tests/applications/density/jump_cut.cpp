@@ -1,4 +1,4 @@
-// Densities with jumps: one simplex against closed forms, and whole diagrams.
+// Densities with jumps: cuts of one simplex against closed forms, then whole diagrams.
 #include "lib/applications/density/jump_cut.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ using namespace powercell::test;
 
 namespace {
 
-using Linear = std::array<double, 4>;  // by its values at the corners of a simplex
+using Linear = std::array<double, 4>;  // a linear function, by its values at the corners of a simplex
 
 double at(const Linear& f, const Barycentric& point) {
   double value = 0;
@@ -22,7 +22,7 @@ double at(const Linear& f, const Barycentric& point) {
   return value;
 }
 
-/// The share of a simplex where a linear function is below 0, a sum over the corners where it is.
+/// The share of a simplex where a linear function is negative, as a sum over the corners where it is.
 double share_below(int n, const Linear& f) {
   double share = 0;
   for (int i = 0; i <= n; ++i) {
@@ -61,7 +61,7 @@ double mass_of(const JumpCut& found) {
   return mass;
 }
 
-/// Of where the jump lies, and of the rules.
+/// Error estimate: of the position of the jump and of the rules.
 double error_of(const JumpCut& found) {
   double lower = 0;
   for (const JumpCut::Term& term : found.terms) lower += term.lower;
@@ -76,7 +76,7 @@ double first_of(const JumpCut& found, std::size_t c) {
 
 }  // namespace
 
-TEST_CASE("a flat jump through a simplex is integrated exactly, whichever corners it parts") {
+TEST_CASE("a flat jump through a simplex is integrated exactly, whichever corners it separates") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const int n : {1, 2, 3})
@@ -93,14 +93,14 @@ TEST_CASE("a flat jump through a simplex is integrated exactly, whichever corner
       if (!parted) continue;
       CHECK(std::abs(mass_of(found) - (2 + 3 * below)) < 1e-10);
       CHECK(std::abs(mass_of(found) - (2 + 3 * below)) <= found.error + 1e-14);
-      // The density of each side times a barycentric coordinate: the sum of all is the mass.
+      // First moments in barycentric coordinates sum to the mass.
       double sum = 0;
       for (int c = 0; c <= n; ++c) sum += first_of(found, static_cast<std::size_t>(c));
       CHECK(std::abs(sum - mass_of(found)) < 1e-12);
     }
 }
 
-TEST_CASE("both sides of a jump may vary") {
+TEST_CASE("the density may vary on both sides of a flat jump") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const int n : {1, 2, 3})
@@ -128,14 +128,15 @@ TEST_CASE("both sides of a jump may vary") {
     }
 }
 
-TEST_CASE("what bends between the crossings is found, and what is left is in the error told") {
+TEST_CASE("a curved jump is followed between its crossings, and the error estimate covers the rest") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const int n : {2, 3}) {
     int parted = 0, honest = 0, good = 0;
     double flat = 0, bent = 0;
     for (int k = 0; k < 100; ++k) {
-      // The last coordinate against a function of the others: columns of the simplex have closed forms.
+      // The jump is the graph of a function of the other coordinates; the mass is summed over columns below
+      // it.
       const double a = random.uniform(0.1, 0.6), b = random.uniform(-0.5, 0.5), c = random.uniform(-0.5, 0.5);
       const auto border = [&](double bend, double x, double y) {
         return a + b * x + c * y + bend * (x * x + x * y - y * y);
@@ -175,7 +176,7 @@ TEST_CASE("what bends between the crossings is found, and what is left is in the
   }
 }
 
-TEST_CASE("nothing else is taken for a jump") {
+TEST_CASE("kinks, steep slopes, roots, stripes and tiny steps are not taken for jumps") {
   JumpCut found;
   const auto kink = [](const Barycentric& x) { return std::abs(x[0] - 0.4); };
   const auto steep = [](const Barycentric& x) { return std::tanh(1e4 * (x[0] - 0.4)); };
@@ -186,12 +187,12 @@ TEST_CASE("nothing else is taken for a jump") {
     CHECK_FALSE(cut(n, kink, 1e-10, found));
     CHECK_FALSE(cut(n, steep, 1e-10, found));
     CHECK_FALSE(cut(n, root, 1e-10, found));
-    CHECK_FALSE(cut(n, stripe, 1e-10, found));  // corners of one value
+    CHECK_FALSE(cut(n, stripe, 1e-10, found));  // all corners have the same value
     CHECK_FALSE(cut(n, low, 1e-10, found));
   }
 }
 
-TEST_CASE("discs in a square, cells and total") {
+TEST_CASE("indicator functions of discs are integrated to 1e-6, mostly to 1e-9") {
   INFO(replay_hint());
   Random random(test_seed());
   const Domain square = unit_box(2);
@@ -214,12 +215,12 @@ TEST_CASE("discs in a square, cells and total") {
     worst_total = std::max(worst_total, std::abs(disc.total(square) - expected));
     CHECK(found.quadrature_error < 1e-8);
   }
-  CHECK(worst < 1e-6);  // what passes between all points
+  CHECK(worst < 1e-6);  // a disc may cut a simplex between all points
   CHECK(worst_total < 1e-6);
   CHECK(within >= discs * 3 / 4);
 }
 
-TEST_CASE("a jump with corners, and one in space") {
+TEST_CASE("a jump with corners, and a sphere in space") {
   INFO(replay_hint());
   Random random(test_seed());
   {

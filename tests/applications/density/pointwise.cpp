@@ -1,4 +1,5 @@
-// Formulas, functions and values at vertices against what follows from plain measures.
+// Formulas, functions and values at vertices: integrals against measures of the cells and closed forms;
+// accuracy at peaks, kinks and jumps; determinism.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -16,7 +17,7 @@ double centroid(const std::vector<double>& centroids, int d, std::size_t i, int 
   return k < d ? centroids[i * static_cast<std::size_t>(d) + static_cast<std::size_t>(k)] : 0.0;
 }
 
-/// Masses, and the sums that consistency asks for: of masses and of first moments.
+/// Checks that the masses sum to the total and that statuses and NaN centroids are consistent with them.
 void check_sums(const DensityIntegrals& found, double tolerance) {
   CHECK(found.relative_error() < tolerance);
   CHECK(found.quadrature_error == 0);
@@ -26,7 +27,7 @@ void check_sums(const DensityIntegrals& found, double tolerance) {
   }
 }
 
-/// rho = 1 + 0.3 x + 0.2 y + 0.4 z: the mass of a cell is its measure times rho at its centroid.
+/// Checks the masses of rho = 1 + 0.3 x + 0.2 y + 0.4 z: the measure of a cell times rho at its centroid.
 void check_affine(const DensityCase& one, const Density& density) {
   Diagram diagram = diagram_of(one);
   const DensityIntegrals found = integrate(diagram, density, false);
@@ -44,7 +45,7 @@ void check_affine(const DensityCase& one, const Density& density) {
 
 }  // namespace
 
-TEST_CASE("an affine density gives the measure times its value at the centroid") {
+TEST_CASE("an affine density: the mass is the measure times the value at the centroid") {
   INFO(replay_hint());
   for (const DensityCase& one : flat_cases(60)) {
     INFO(one.name);
@@ -55,7 +56,7 @@ TEST_CASE("an affine density gives the measure times its value at the centroid")
   }
 }
 
-TEST_CASE("a quadratic density gives the second moment, and the walls are derivatives") {
+TEST_CASE("a quadratic density: the mass is a second moment, and the walls are derivatives") {
   INFO(replay_hint());
   for (const DensityCase& one : flat_cases(60)) {
     INFO(one.name);
@@ -81,7 +82,7 @@ TEST_CASE("a quadratic density gives the second moment, and the walls are deriva
   }
 }
 
-TEST_CASE("adaptive rules reach their tolerance where a density has a peak") {
+TEST_CASE("adaptive quadrature reaches its tolerance at a peak") {
   DensityCase one{"square", unit_box(2), {2, {}, {}}};
   Random random(test_seed());
   one.seeds = scatter(Distribution::white, 30, 2, {}, random);
@@ -100,11 +101,11 @@ TEST_CASE("adaptive rules reach their tolerance where a density has a peak") {
     double moment = 0;
     for (std::size_t i = 0; i < found.mass.size(); ++i)
       if (found.mass[i] > 0) moment += found.mass[i] * found.centroid[2 * i];
-    CHECK(std::abs(moment / expected - c[0]) < 10 * tolerance);  // the sides cut off less than 1e-11
+    CHECK(std::abs(moment / expected - c[0]) < 10 * tolerance);  // the boundary cuts off less than 1e-11
   }
 }
 
-TEST_CASE("a peak in cells much larger than it is found, and in columns much longer") {
+TEST_CASE("a peak is found in cells much larger than it, and in columns much longer") {
   const double pi = std::acos(-1.0);
   std::vector<double> columns;
   for (int k = 0; k < 60; ++k) columns.insert(columns.end(), {(k + 0.5) / 60, 0.5});
@@ -138,8 +139,8 @@ TEST_CASE("a peak in cells much larger than it is found, and in columns much lon
   }
 }
 
-TEST_CASE("slivers of a density that ends at an edge are found in cells that reach far beyond") {
-  // Seeds about the middle of a paraboloid on a disc: cells that go on to the sides of the square.
+TEST_CASE("a density on a small disc is integrated in cells that extend far beyond it") {
+  // A paraboloid on a disc, with seeds about its middle: their cells extend to the sides of the square.
   const double radius = 0.1;
   std::vector<double> positions;
   Random random(test_seed());
@@ -155,7 +156,7 @@ TEST_CASE("slivers of a density that ends at an edge are found in cells that rea
   CHECK(std::abs(found.total() / (std::acos(-1.0) * std::pow(radius, 4) / 2) - 1) < 1e-6);
 }
 
-TEST_CASE("a jump nearer to a wall than any point of a rule is in the error that is told") {
+TEST_CASE("the error estimate covers a jump nearer to a wall than all points of the rules") {
   for (const double strip : {1e-3, 1e-5, 1e-7}) {
     CAPTURE(strip);
     const DensityCase one{"square", unit_box(2), {2, {0, 0.5, 0.5, 0.5}, {0, 0}}};  // a wall at x = 0.25
@@ -171,7 +172,7 @@ TEST_CASE("a jump nearer to a wall than any point of a rule is in the error that
   }
 }
 
-TEST_CASE("no rule has more points than are made room for") {
+TEST_CASE("SimplexRules::most_points is the number of points of the largest rule") {
   for (const int n : {1, 2, 3}) CHECK(simplex_rules(n).size.back() <= SimplexRules::most_points);
   CHECK(simplex_rules(3).size.back() == SimplexRules::most_points);
 }
@@ -197,20 +198,22 @@ TEST_CASE("a kink between the points of rules is found") {
   }
 }
 
-TEST_CASE("a jump takes no more simplices than a loose tolerance asks for") {
+TEST_CASE("a jump takes fewer evaluations with a looser tolerance") {
   INFO(replay_hint());
   DensityCase one{"square", unit_box(2), {2, {}, {}}};
   Random random(test_seed());
   one.seeds = scatter(Distribution::white, 30, 2, {}, random);
   Diagram diagram = diagram_of(one);
-  for (const auto& [tolerance, most] : {std::pair{1e-6, 400'000L}, {0.01, 200'000L}, {0.05, 100'000L}}) {
+  for (const auto& bounds : {std::pair{1e-6, 400'000L}, {0.01, 200'000L}, {0.05, 100'000L}}) {
+    const double tolerance = bounds.first;
+    const long most = bounds.second;
     std::atomic<long> evaluations{0};
     const auto disk = [&](const std::array<double, 3>& x) {
       ++evaluations;
       return std::hypot(x[0] - 0.5, x[1] - 0.5) < 0.4 ? 3.0 : 1.0;
     };
     const Density jump = Density::function(disk, tolerance);
-    (void)jump.total(one.domain);  // known from now on
+    (void)jump.total(one.domain);  // cached from here on
     evaluations = 0;
     const DensityIntegrals found = integrate(diagram, jump, false);
     CHECK(std::abs(found.total() / (1 + 2 * 0.16 * std::acos(-1.0)) - 1) < tolerance);
@@ -219,7 +222,7 @@ TEST_CASE("a jump takes no more simplices than a loose tolerance asks for") {
   }
 }
 
-TEST_CASE("values at vertices are integrated exactly on meshes") {
+TEST_CASE("values at vertices are integrated exactly") {
   INFO(replay_hint());
   Random shape(7), random(test_seed());
   struct Meshed {
@@ -258,7 +261,7 @@ TEST_CASE("values at vertices are integrated exactly on meshes") {
   }
 }
 
-TEST_CASE("what says that its integrals are exact does not look at the tolerance") {
+TEST_CASE("an exact density ignores the tolerance") {
   Random shape(7), random(test_seed());
   const Mesh mesh = cube_tetrahedra(2, 0.15, shape);
   std::vector<double> values(mesh.vertex_count());
@@ -276,7 +279,7 @@ TEST_CASE("what says that its integrals are exact does not look at the tolerance
   CHECK(integrate(diagram, nodal, loose).mass == integrate(diagram, nodal, false).mass);
 }
 
-TEST_CASE("integrals in the smallest and largest domains that are taken") {
+TEST_CASE("integrals in the smallest and largest domains") {
   for (const double unit : {1e-95, 1e-78, 1e78, 1e95}) {
     const std::array<double, 2> low{0, 0}, high{unit, unit};
     const Domain box = Domain::box(low, high);
@@ -295,7 +298,7 @@ TEST_CASE("integrals in the smallest and largest domains that are taken") {
   }
 }
 
-TEST_CASE("threads do not change a bit") {
+TEST_CASE("the number of threads does not change the bits") {
   Random random(test_seed());
   const Domain domain = unit_box(3);
   DensityCase one{"cube", domain, seeds_for(domain, Distribution::white, WeightRange::W1, 300, random)};

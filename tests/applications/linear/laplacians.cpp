@@ -1,4 +1,5 @@
-// Solvers of Laplacians against each other, against known solutions, and the growth of the iteration.
+// Laplacians: the assembled matrix, every solver against known solutions, breakdown, and the iteration counts
+// and symmetry of the multilevel preconditioner.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,8 +20,8 @@ struct Graph {
   std::size_t size() const { return offset.size() - 1; }
 };
 
-/// A grid of k^d unknowns; conductances between neighbours spread over a factor `range`, the same from both
-/// sides.
+/// A grid of k^d unknowns. The conductances between neighbours are spread over a factor `range`,
+/// symmetrically.
 Graph grid_graph(std::uint32_t k, int d, double range) {
   Graph graph;
   const auto n = static_cast<std::uint32_t>(std::lround(std::pow(k, d)));
@@ -52,7 +53,7 @@ Vector random_vector(std::size_t n, Random& random) {
   return v;
 }
 
-/// Iterations that the multilevel solver takes to a residual of 1e-4.
+/// Iterations of the multilevel solver to a residual of 1e-4.
 int iterations(std::uint32_t k, int d, double range) {
   Random random(test_seed());
   const Graph graph = grid_graph(k, d, range);
@@ -64,7 +65,7 @@ int iterations(std::uint32_t k, int d, double range) {
 
 }  // namespace
 
-TEST_CASE("rows of a Laplacian are in order and sum to the shift") {
+TEST_CASE("the rows of a Laplacian are sorted and sum to the shift") {
   const Graph graph = grid_graph(4, 3, 10);
   std::vector<double> shift(graph.size());
   for (std::size_t i = 0; i < shift.size(); ++i) shift[i] = static_cast<double>(i % 3);
@@ -85,7 +86,7 @@ TEST_CASE("rows of a Laplacian are in order and sum to the shift") {
   }
 }
 
-TEST_CASE("every solver finds a known solution, of mean 0 where the system is singular") {
+TEST_CASE("every solver finds a known solution, with mean 0 if the system is singular") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const auto& [k, d] : {std::pair<std::uint32_t, int>{1, 2}, {2, 2}, {7, 2}, {40, 2}, {6, 3}, {13, 3}})
@@ -97,7 +98,7 @@ TEST_CASE("every solver finds a known solution, of mean 0 where the system is si
       Vector expected = random_vector(graph.size(), random);
       if (!shifted) expected.array() -= expected.mean();
       Vector right = system.matrix * expected;
-      if (!shifted) right.array() += 0.5;  // a mean is taken off
+      if (!shifted) right.array() += 0.5;  // the solver subtracts the mean
       for (const LinearSolver solver :
            {LinearSolver::dense, LinearSolver::direct, LinearSolver::multilevel}) {
         INFO(points << ", " << name(solver) << (shifted ? " shifted" : ""));
@@ -110,7 +111,7 @@ TEST_CASE("every solver finds a known solution, of mean 0 where the system is si
     }
 }
 
-TEST_CASE("a system with a null space is told, not solved") {
+TEST_CASE("a null space and infinite entries are reported as breakdown") {
   Graph graph = grid_graph(3, 2, 1);
   for (std::size_t i = 0; i < graph.size(); ++i)
     for (std::uint64_t k = graph.offset[i]; k < graph.offset[i + 1]; ++k)
@@ -127,16 +128,16 @@ TEST_CASE("a system with a null space is told, not solved") {
   CHECK(solve_laplacian(system_of(graph, shift), Vector::Ones(9), LinearSolver::dense, 1e-12, 2).broke_down);
 }
 
-TEST_CASE("connected parts are counted by entries that are not 0") {
+TEST_CASE("connected components are those of the nonzero entries") {
   Graph graph = grid_graph(5, 2, 1);
-  CHECK(connected_parts(system_of(graph).matrix) == 1);
+  CHECK(connected_components(system_of(graph).matrix) == 1);
   for (std::size_t i = 0; i < graph.size(); ++i)
     for (std::uint64_t k = graph.offset[i]; k < graph.offset[i + 1]; ++k)
       if (i / 5 != graph.neighbor[k] / 5) graph.conductance[k] = 0;
-  CHECK(connected_parts(system_of(graph).matrix) == 5);
+  CHECK(connected_components(system_of(graph).matrix) == 5);
 }
 
-TEST_CASE("iterations of the multilevel solver grow slowly from 1,000 to 100,000 unknowns") {
+TEST_CASE("the iterations of the multilevel solver grow slowly from 1,000 to 100,000 unknowns") {
   INFO(replay_hint());
   for (const double range : {1.0, 1000.0}) {
     const int plane[] = {iterations(32, 2, range), iterations(100, 2, range), iterations(316, 2, range)};
@@ -150,7 +151,7 @@ TEST_CASE("iterations of the multilevel solver grow slowly from 1,000 to 100,000
   }
 }
 
-TEST_CASE("the preconditioner is symmetric and positive, and its levels cost little more than the first") {
+TEST_CASE("the preconditioner is symmetric and positive definite, and its operator complexity is below 2") {
   INFO(replay_hint());
   Random random(test_seed());
   const Graph graph = grid_graph(60, 2, 100);

@@ -1,4 +1,5 @@
-// Few points for a surface of small parts: the mesh is coarse, and still one of the surface.
+// Coarse meshes, with few points for the parts of the surface: no triangle turns over and no part
+// degenerates.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 using namespace remeshing;
 
-/// A mesh with a ball of 42 vertices more.
+/// Adds a ball of 42 vertices to a mesh.
 void add_ball(TriangleMesh& mesh, Vec centre, double radius, double flat = 1) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
   const Mesh ball = icosphere(1);
@@ -32,7 +33,7 @@ Vec vertex(const TriangleMesh& mesh, std::uint32_t v) {
   return {mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2]};
 }
 
-/// 27 balls, apart.
+/// 27 disjoint balls.
 TriangleMesh many_balls(double flat = 1) {
   TriangleMesh balls;
   for (int k = 0; k < 27; ++k)
@@ -41,6 +42,7 @@ TriangleMesh many_balls(double flat = 1) {
   return balls;
 }
 
+/// The number of triangles that face inwards.
 std::size_t inwards(const WorkMesh& mesh, const Surface& surface) {
   return static_cast<std::size_t>(std::count_if(
       mesh.triangles().begin(), mesh.triangles().end(),
@@ -49,7 +51,7 @@ std::size_t inwards(const WorkMesh& mesh, const Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("collapses turn no triangle inside out, however many add up") {
+TEST_CASE("collapses turn no triangle over, however many accumulate") {
   const TriangleMesh balls = many_balls(0.4);
   const Surface surface = make_surface(balls.vertices, balls.triangles, 180);
   const Sizing sizing{std::vector<double>(surface.vertex.size(), 0.2), 0.2};
@@ -62,8 +64,8 @@ TEST_CASE("collapses turn no triangle inside out, however many add up") {
   CHECK(inwards(mesh, surface) == 0);
 }
 
-TEST_CASE("relaxation turns no triangle of a coarse mesh inside out") {
-  const TriangleMesh balls = many_balls();  // with five or six vertices each in the end
+TEST_CASE("relaxation turns no triangle of a coarse mesh over") {
+  const TriangleMesh balls = many_balls();  // left with five or six vertices each
   RemeshOptions options;
   options.count = 150;
   options.rounds = 3;
@@ -78,7 +80,7 @@ TEST_CASE("relaxation turns no triangle of a coarse mesh inside out") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("a small closed part has a volume") {
+TEST_CASE("a small closed part keeps a volume") {
   TriangleMesh balls;
   add_ball(balls, {0, 0, 0}, 1);
   add_ball(balls, {3, 0, 0}, 0.02);
@@ -92,7 +94,7 @@ TEST_CASE("a small closed part has a volume") {
   std::size_t of_small = 0;
   for (const std::uint32_t v : mesh.triangles)
     if (vertex(mesh, v).x > 2) ++of_small;
-  CHECK(of_small >= 3 * 4);  // a tetrahedron at least
+  CHECK(of_small >= 3 * 4);  // at least a tetrahedron
 }
 
 }  // namespace powercell::test

@@ -1,4 +1,5 @@
-// The surface made of the input: what is refused and how it is told, refinement, sizing, curves.
+// The surface made of the input: refusals and their messages, orientation, refinement, curvature, sizing,
+// curves.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,14 +33,14 @@ bool says(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("surfaces that are no manifolds are refused, and the place is named") {
+TEST_CASE("surfaces that are not manifolds are refused, with the place") {
   const Mesh pages = book(3);
   CHECK(says(refusal({pages.vertices, pages.elements}), "belongs to 3 triangles"));
   CHECK(says(refusal({{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1}, {0, 1, 2, 1, 0, 3, 0, 1, 4}}),
              "the edge between vertices 0 and 1 belongs to 3 triangles"));
-  // Two triangles that share a corner only.
+  // Two triangles that share only a corner.
   CHECK(says(refusal({{0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0}, {0, 1, 2, 0, 3, 4}}),
-             "sheets touch in vertex 0"));
+             "sheets touch at vertex 0"));
   // A band of five triangles with a half turn.
   const double a = 2 * std::numbers::pi / 5;
   TriangleMesh moebius;
@@ -49,7 +50,7 @@ TEST_CASE("surfaces that are no manifolds are refused, and the place is named") 
   CHECK(says(refusal(moebius), "cannot be oriented"));
 }
 
-TEST_CASE("other broken input is refused") {
+TEST_CASE("other invalid input is refused") {
   const std::vector<double> square = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
   CHECK(says(refusal({square, {}}), "no triangles"));
   CHECK(says(refusal({square, {0, 1, 9}}), "triangle 0: vertex index 9 is out of range, there are 4"));
@@ -64,7 +65,7 @@ TEST_CASE("other broken input is refused") {
   CHECK_THROWS_AS(mesh_quality(large, std::vector<std::uint32_t>{0, 1, 2}), Error);
 }
 
-TEST_CASE("triangles are turned to agree, and vertices at one place are one") {
+TEST_CASE("triangles are oriented consistently, and vertices at one position are merged") {
   TriangleMesh mesh = cube_of_12();
   std::swap(mesh.triangles[3], mesh.triangles[4]);
   for (const std::uint32_t v : {0u, 3u}) {
@@ -108,7 +109,7 @@ TEST_CASE("refinement keeps area, topology, sharp edges and linear values") {
   }
 }
 
-TEST_CASE("curvatures of sphere and torus") {
+TEST_CASE("curvatures of sphere and torus agree with the exact ones") {
   const Surface ball = surface_from(sphere(20));
   const Curvature round = curvature(ball);
   for (std::size_t v = 0; v < ball.vertex.size(); ++v) {
@@ -126,7 +127,7 @@ TEST_CASE("curvatures of sphere and torus") {
   }
 }
 
-TEST_CASE("even spacing gives the number of vertices asked for, and room for kept edges") {
+TEST_CASE("even spacing gives the requested number of vertices, and room for kept edges") {
   for (const TriangleMesh& mesh : {sphere(8), wavy_sheet(), tube()}) {
     const Surface surface = surface_from(mesh);
     const std::vector<double> even(surface.vertex.size(), even_spacing(surface, 700));
@@ -136,7 +137,7 @@ TEST_CASE("even spacing gives the number of vertices asked for, and room for kep
   CHECK(even_spacing(cube, 1) == doctest::Approx(12));
 }
 
-TEST_CASE("sizing grows no faster than the gradation and gives the number of vertices asked for") {
+TEST_CASE("the sizing respects the gradation and gives the requested number of vertices") {
   for (const double gradation : {0.05, 0.3}) {
     const Surface surface = surface_from(bumpy_ball());
     const std::vector<double> shape = relative_sizing(surface, 0.1, 4);
@@ -154,7 +155,7 @@ TEST_CASE("sizing grows no faster than the gradation and gives the number of ver
   }
 }
 
-TEST_CASE("curves run from corner to corner or close") {
+TEST_CASE("curves run from corner to corner or are closed") {
   const Surface cube = surface_from(cube_of_12());
   const std::vector<Curve> edges = kept_curves(cube, 45);
   CHECK(edges.size() == 12);

@@ -1,4 +1,4 @@
-// Cells kept up to date against powercell::Diagram, which computes them afresh.
+// LocalDiagram under insertion and removal, compared with powercell::Diagram.
 #include "lib/applications/remeshing/local_diagram.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ struct Trial {
   Surface surface;
   Domain domain;
   LocalDiagram cells;
-  std::vector<double> at;  // of all seeds ever, by number
+  std::vector<double> at;  // positions by seed index, including removed seeds
   std::vector<double> weight;
   Random random{test_seed()};
   double spacing;
@@ -40,7 +40,7 @@ struct Trial {
         cells(surface),
         spacing(std::sqrt(domain.measure() / static_cast<double>(n))) {}
 
-  /// \param range  of the weights, in spacings squared
+  /// \param range  of the weights, in units of the squared spacing
   void insert(double range) {
     const std::vector<double> x = points_in(domain, 1, random);
     const double w = random.uniform(0, range) * spacing * spacing;
@@ -90,7 +90,7 @@ struct Trial {
   }
 };
 
-void come_and_go(const TriangleMesh& mesh, std::size_t n, double range) {
+void insert_and_remove(const TriangleMesh& mesh, std::size_t n, double range) {
   INFO(replay_hint());
   Trial trial(mesh, n);
   Diagram fresh(main_setups().front().device, trial.domain);
@@ -107,28 +107,28 @@ void come_and_go(const TriangleMesh& mesh, std::size_t n, double range) {
 
 }  // namespace
 
-TEST_CASE("cells of seeds that come and go are those of a diagram made afresh") {
+TEST_CASE("cells after insertions and removals agree with a new diagram") {
   SUBCASE("torus, equal weights") {
-    come_and_go(small_torus(), 300, 0);
+    insert_and_remove(small_torus(), 300, 0);
   }
   SUBCASE("torus, weights that hide many seeds") {
-    come_and_go(small_torus(), 300, 4);
+    insert_and_remove(small_torus(), 300, 4);
   }
   SUBCASE("few seeds") {
-    come_and_go(small_torus(), 5, 0.5);
+    insert_and_remove(small_torus(), 5, 0.5);
   }
   SUBCASE("open sheet") {
-    come_and_go(wavy_sheet(), 400, 0.5);
+    insert_and_remove(wavy_sheet(), 400, 0.5);
   }
   SUBCASE("large triangles") {
-    come_and_go(cube_of_12(), 300, 0.5);
+    insert_and_remove(cube_of_12(), 300, 0.5);
   }
   SUBCASE("two sides close together") {
-    come_and_go(plate(0.02), 200, 0.5);
+    insert_and_remove(plate(0.02), 200, 0.5);
   }
 }
 
-TEST_CASE("a diagram survives losing all its seeds") {
+TEST_CASE("a diagram can lose all its seeds and get new ones") {
   const Surface surface = surface_from(cube_of_12());
   LocalDiagram cells(surface);
   const std::uint32_t a = cells.insert({0.1, 0.2, 0.9}, 0, 1), b = cells.insert({0.8, 0.3, 0.1}, 0, 1);

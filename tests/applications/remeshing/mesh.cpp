@@ -1,4 +1,5 @@
-// The dual, the mesh while it is edited, and what is measured of a mesh.
+// Parts of remeshing: manifold check, parts of cells, editing and fitting of the new mesh, projection,
+// quality and distance measures.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 
 #include "lib/applications/remeshing/cell_parts.hpp"
 #include "lib/applications/remeshing/farthest.hpp"
-#include "lib/applications/remeshing/fit.hpp"
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/nearest.hpp"
 #include "lib/applications/remeshing/relax.hpp"
@@ -22,7 +22,7 @@ namespace {
 using namespace remeshing;
 using Rows = std::vector<std::array<std::uint32_t, 3>>;
 
-/// By farthest points, as the dual has it.
+/// The dual of 300 farthest points.
 WorkMesh mesh_of_300(const Surface& surface, const Sizing& sizing) {
   Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
   sampling.place_on_curves(300);
@@ -32,7 +32,7 @@ WorkMesh mesh_of_300(const Surface& surface, const Sizing& sizing) {
 
 }  // namespace
 
-TEST_CASE("lists of triangles that are no manifold are told from those that are") {
+TEST_CASE("check_mesh distinguishes manifolds from other lists of triangles") {
   const Rows ball = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   const MeshCheck closed = check_mesh(ball, 4);
   CHECK(closed.not_manifold.empty());
@@ -43,7 +43,8 @@ TEST_CASE("lists of triangles that are no manifold are told from those that are"
   CHECK(open.euler == 1);
   CHECK(open.loops == 1);
   CHECK(open.boundary_edges.size() == 3);
-  // A triangle turned over, one twice, one and its back, one more at an edge, two fans at a vertex.
+  // A triangle turned over, a repeated triangle, a triangle and its reverse, a third triangle at an edge, two
+  // fans at a vertex.
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4).not_manifold.empty());
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 1, 2}}, 3).not_manifold.empty());
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 2, 1}}, 3).not_manifold.empty());
@@ -51,15 +52,15 @@ TEST_CASE("lists of triangles that are no manifold are told from those that are"
   CHECK_FALSE(check_mesh(Rows{{0, 1, 2}, {0, 3, 4}}, 5).not_manifold.empty());
 }
 
-TEST_CASE("the Euler characteristic of the parts of cells") {
-  // One seed owns all: the surface itself. Two on opposite sides of the tube: two rings.
+TEST_CASE("the Euler characteristics of the components of cells") {
+  // The cell of a single seed is the whole torus; two seeds on opposite sides have annuli.
   const Surface ring = surface_from(small_torus());
   LocalDiagram cells(ring);
   cells.insert({1.01, 0.02, 0.03}, 0, 1);
   CHECK(cell_parts(cells).euler == std::vector<int>{0});
   cells.insert({-1.02, 0.01, -0.02}, 0, 1);
   CHECK(cell_parts(cells).euler == std::vector<int>{0, 0});
-  // A seed just above a thin plate owns a disc on either side, between those of seeds farther off.
+  // A seed just above a thin plate, surrounded by others, has a disc on each side.
   const Surface sheets = surface_from(plate(0.01));
   LocalDiagram on_plate(sheets);
   for (const Vec at :
@@ -71,7 +72,7 @@ TEST_CASE("the Euler characteristic of the parts of cells") {
   CHECK(std::all_of(parts.euler.begin(), parts.euler.end(), [](int euler) { return euler == 1; }));
 }
 
-TEST_CASE("flips, collapses and splits leave a manifold of the same topology") {
+TEST_CASE("flips, collapses and splits keep a manifold of the same topology") {
   Random random(test_seed());
   INFO(replay_hint());
   for (const NamedMesh& shape : smooth_meshes()) {
@@ -114,7 +115,7 @@ TEST_CASE("flips, collapses and splits leave a manifold of the same topology") {
   }
 }
 
-TEST_CASE("a point is projected to the nearest one near by") {
+TEST_CASE("projection and distance queries agree with a search over all triangles") {
   const Surface ball = surface_from(sphere(12));
   Random random(test_seed());
   for (int k = 0; k < 200; ++k) {
@@ -133,7 +134,7 @@ TEST_CASE("a point is projected to the nearest one near by") {
   }
 }
 
-TEST_CASE("fitting brings the farthest triangles nearer and spoils none") {
+TEST_CASE("fitting brings the farthest triangles closer without worse shapes") {
   std::size_t nearer = 0;
   for (const NamedMesh& shape : smooth_meshes()) {
     CAPTURE(shape.name);
@@ -176,7 +177,7 @@ TEST_CASE("fitting brings the farthest triangles nearer and spoils none") {
   CHECK(nearer >= 3);
 }
 
-TEST_CASE("figures of single triangles") {
+TEST_CASE("measures of single triangles") {
   const Vec a{0, 0, 0}, b{1, 0, 0}, c{0.5, std::sqrt(0.75), 0}, d{0, 1, 0};
   CHECK(triangle_quality(a, b, c) == doctest::Approx(1));
   CHECK(largest_cosine(a, b, c) == doctest::Approx(0.5));
@@ -192,7 +193,7 @@ TEST_CASE("figures of single triangles") {
   CHECK(misshape(a, b, blunt, 0.7) > 1);
 }
 
-TEST_CASE("figures of meshes") {
+TEST_CASE("quality measures of known meshes") {
   const TriangleMesh cube = cube_of_12();
   const MeshQuality q = mesh_quality(cube.vertices, cube.triangles);
   CHECK(q.vertices == 8);
@@ -212,7 +213,7 @@ TEST_CASE("figures of meshes") {
   CHECK(mesh_quality(torus.vertices, torus.triangles).regular == 1);
 }
 
-TEST_CASE("figures of a mesh and distances do not depend on its size") {
+TEST_CASE("quality measures and relative distances do not depend on the scale") {
   const TriangleMesh ball = sphere(4);
   const MeshQuality expected = mesh_quality(ball.vertices, ball.triangles);
   for (const double scale : {1e-99, 1e-80, 1e80, 1e99}) {
@@ -234,7 +235,7 @@ TEST_CASE("distances between surfaces") {
   for (std::size_t k = 2; k < high.vertices.size(); k += 3) high.vertices[k] += 0.25;
   CHECK(farthest_from(low, high) == doctest::Approx(0.25));
   CHECK(farthest_from(low, low) < 1e-15);
-  // Of a ball of radius 1 from a smaller one; not the same both ways.
+  // From a ball of radius 1 to one of radius 1/2; then distances that are not symmetric.
   TriangleMesh ball = sphere(24), small = ball;
   for (double& x : small.vertices) x *= 0.5;
   CHECK(farthest_from(ball, small, 20000) == doctest::Approx(0.5).epsilon(0.01));

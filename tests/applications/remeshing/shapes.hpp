@@ -1,5 +1,5 @@
 /// \file
-/// Surfaces for the tests of remeshing.
+/// Meshes for the tests of remeshing.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 namespace powercell::test {
 
 TriangleMesh cube_of_12();                              ///< the unit cube, two triangles a side
-TriangleMesh plate(double thickness);                   ///< the unit square of that thickness, 12 triangles
-TriangleMesh cone(std::uint32_t sides, double radius);  ///< of height 1, closed by its base
-TriangleMesh bumpy_ball();                              ///< closed, an uneven radius
+TriangleMesh plate(double thickness);                   ///< the unit square with a thickness, 12 triangles
+TriangleMesh cone(std::uint32_t sides, double radius);  ///< height 1, closed by its base
+TriangleMesh bumpy_ball();                              ///< closed, with varying radius
 TriangleMesh wavy_sheet();                              ///< open, one boundary loop with four corners
 TriangleMesh tube();                                    ///< open at both ends, two boundary loops
 TriangleMesh small_torus();

@@ -1,4 +1,4 @@
-// Surfaces whose cells reach around a tip or through to another sheet.
+// Cones and thin plates, whose cells reach around a tip or to another sheet, and the repair of such cells.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ double angle_of(const Place& place) {
 
 }  // namespace
 
-TEST_CASE("cones remesh, however sharp their tips and rims") {
+TEST_CASE("cones with sharp tips and rims are remeshed") {
   for (const double radius : {0.1, 0.2, 0.3, 1.0})
     for (const std::size_t count : {50, 300}) {
       CAPTURE(radius);
@@ -45,7 +45,7 @@ TEST_CASE("cones remesh, however sharp their tips and rims") {
     }
 }
 
-TEST_CASE("plates far thinner than the new edges are long remesh") {
+TEST_CASE("plates much thinner than the new edges are remeshed") {
   for (const double thickness : {0.02, 1e-4}) {
     CAPTURE(thickness);
     check_remeshes(plate(thickness), 200);
@@ -66,7 +66,7 @@ TEST_CASE("a plate as thin as rounding errors is refused") {
   }
 }
 
-TEST_CASE("a cell around a tube gets points around it, a disc none") {
+TEST_CASE("a cell around a tube gets points on a loop, a disc none") {
   const Surface surface = surface_from(tube());
   LocalDiagram diagram(surface);
   const Place from{0, (surface.corner(0, 0) + surface.corner(0, 1) + surface.corner(0, 2)) * (1.0 / 3)};
@@ -78,7 +78,7 @@ TEST_CASE("a cell around a tube gets points around it, a disc none") {
     CHECK(std::fabs(std::fabs(turn) - 2 * std::numbers::pi / 3) < 0.2);
     CHECK(std::fabs(place.at.z - from.at.z) < 0.2);
   }
-  // Two cells of half the tube each meet along two walls; between them are the sides.
+  // Two cells of half the tube each share two walls; the loop passes through the sides.
   diagram.insert({-from.at.x, -from.at.y, from.at.z}, 0, 1);
   CHECK(points_around(diagram, 0, from).empty());
   const Place side = point_between(diagram, 0, 1, from);
@@ -87,9 +87,9 @@ TEST_CASE("a cell around a tube gets points around it, a disc none") {
                   std::numbers::pi / 2) < 0.2);
 }
 
-TEST_CASE("a seed between others has a cell, whatever their weights") {
+TEST_CASE("a seed added between others has a cell, whatever their weights") {
   const Surface surface = surface_from(tube());
-  // Edges that grow by ten times the distance: seeds weighed as wanted would hide each other.
+  // With a gradation of 10, seeds with the weights of the sizing would hide each other.
   Sizing sizing{std::vector<double>(surface.vertex.size()), 10};
   for (std::size_t v = 0; v < sizing.h.size(); ++v) sizing.h[v] = 1 + 10 * std::fabs(surface.vertex[v].z);
   Sampling sampling(surface, sizing, {}, 1);

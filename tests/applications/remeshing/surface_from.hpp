@@ -1,5 +1,5 @@
 /// \file
-/// The surface that remeshing makes of an input mesh.
+/// The surface that remeshing makes of an input mesh, with edges above 45 degrees kept.
 #pragma once
 
 #include "lib/applications/remeshing/surface.hpp"

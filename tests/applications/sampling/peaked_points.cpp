@@ -1,4 +1,4 @@
-// Random points of densities that are almost everywhere next to nothing.
+// Random points of densities that are nearly 0 almost everywhere: narrow peaks, tiny spots.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<Place> places(const Domain& domain, const Density& density, std::siz
   return result;
 }
 
-/// Pearson's statistic of counts that are all expected to be the same: near the number of bins.
+/// Pearson's statistic of counts with equal expectations: about the number of bins.
 double chi_square(const std::vector<std::size_t>& bins) {
   const double expected = static_cast<double>(std::accumulate(bins.begin(), bins.end(), std::size_t{0})) /
                           static_cast<double>(bins.size());
@@ -40,8 +40,8 @@ double chi_square(const std::vector<std::size_t>& bins) {
   return sum;
 }
 
-/// A peak about `centre` with the density (1 + r²/s²)^-2 in the plane, ^-5/2 in space: of its mass the part
-/// below is within r.
+/// A peak about `centre` with the density (1 + r²/s²)^-2 in the plane, ^-5/2 in space. within() is the share
+/// of its mass that is nearer to the centre than x.
 struct Peak {
   Place centre;
   double width;
@@ -59,7 +59,8 @@ struct Peak {
   }
 };
 
-/// 10 shells of equal mass, each in the quadrants, or octants, about the centre.
+/// Compares the counts in 10 shells of equal mass, each divided into the quadrants or octants about the
+/// centre.
 void check_peak(const Domain& domain, const Peak& peak, std::uint64_t seed) {
   const std::size_t n = 20000, directions = peak.solid ? 8 : 4;
   std::vector<std::size_t> bins(10 * directions);
@@ -77,12 +78,12 @@ void check_peak(const Domain& domain, const Peak& peak, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("points of narrow peaks, in the plane, in space, and in meshes") {
+TEST_CASE("points follow narrow peaks, in the plane, in space, and in meshes") {
   Random shape(7), random(11);
   const Domain meshed = volume_of(cube_tetrahedra(3, 0.1, shape));
   const Domain holes = Domain::polygon(std::vector<PolygonPart>{
       {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{{0.7, 0.7}, {0.8, 0.7}, {0.8, 0.8}, {0.7, 0.8}}}}});
-  for (const double width : {1e-3, 1e-4}) {  // of wider ones the boundary cuts off too much
+  for (const double width : {1e-3, 1e-4}) {  // the boundary would cut off too much of wider ones
     CAPTURE(width);
     const Place flat{random.uniform(0.3, 0.6), random.uniform(0.3, 0.6), 0};
     const Place centre{flat[0], flat[1], random.uniform(0.3, 0.6)};
@@ -93,7 +94,7 @@ TEST_CASE("points of narrow peaks, in the plane, in space, and in meshes") {
   }
 }
 
-TEST_CASE("points of a narrow peak on a surface") {
+TEST_CASE("points follow a narrow peak on a surface") {
   const TriangleMesh skin = sphere(6);
   const Domain domain = Domain::surface(skin.vertices, skin.triangles);
   Place centre{};
@@ -106,7 +107,7 @@ TEST_CASE("points of a narrow peak on a surface") {
   CHECK(chi_square(bins) < 19 + 5 * std::sqrt(38.0));
 }
 
-TEST_CASE("a Gaussian that is 0 in doubles almost everywhere is found from its flank") {
+TEST_CASE("a Gaussian that underflows to 0 almost everywhere is found by its flank") {
   Random random(3);
   for (const int d : {2, 3})
     for (int trial = 0; trial < 4; ++trial) {
@@ -131,7 +132,7 @@ TEST_CASE("a Gaussian that is 0 in doubles almost everywhere is found from its f
     }
 }
 
-TEST_CASE("two peaks share points by their masses, the same ones for the same random seed") {
+TEST_CASE("two peaks get points in proportion to their masses; the same random seed gives the same points") {
   const Place one{0.21, 0.33, 0}, two{0.68, 0.75, 0};
   const Density both = Density::function([=](const Place& x) {
     const auto peak = [&](const Place& c, double s) {
@@ -148,7 +149,7 @@ TEST_CASE("two peaks share points by their masses, the same ones for the same ra
   CHECK(points != random_points(unit_box(2), both, 100, 10));
 }
 
-TEST_CASE("one dark pixel of a million") {
+TEST_CASE("one positive pixel in a million") {
   std::vector<double> gray(1000 * 1000, 0.0);
   gray[1000 * 411 + 322] = 1;  // from the top
   std::vector<std::size_t> bins(16);
@@ -161,7 +162,7 @@ TEST_CASE("one dark pixel of a million") {
   CHECK(chi_square(bins) < 15 + 5 * std::sqrt(30.0));
 }
 
-TEST_CASE("spots without flanks that are too small are refused with what may be done") {
+TEST_CASE("small spots without flanks are refused, with advice") {
   for (const double radius : {1e-6, 5e-3}) {
     CAPTURE(radius);
     const Density ball = Density::function([radius](const Place& x) {

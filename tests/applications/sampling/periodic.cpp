@@ -1,4 +1,4 @@
-// Periodic boxes: cells against those among all copies, and transport on them.
+// Periodic boxes: cells compared with those among all copies, walls, and transport.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ SeedArray seeds_in_box(std::size_t n, WeightRange range, Random& random) {
   return seeds;
 }
 
-/// Masses and second moments among all nine copies, in a box that is large enough for every cell.
+/// Measures among all nine copies of the box, in a domain large enough for every cell.
 Measures among_all_copies(const SeedArray& seeds) {
   SeedArray copies{2, seeds.positions, seeds.weights};
   for (int a = -1; a <= 1; ++a)
@@ -39,7 +39,7 @@ Measures among_all_copies(const SeedArray& seeds) {
 
 }  // namespace
 
-TEST_CASE("periodic cells are those among all copies") {
+TEST_CASE("periodic cells agree with those among all copies") {
   INFO(replay_hint());
   Random random(test_seed());
   const Setup& setup = main_setups().front();
@@ -59,10 +59,10 @@ TEST_CASE("periodic cells are those among all copies") {
     }
 }
 
-TEST_CASE("one heavy seed: the margin grows until the areas sum to that of the box") {
+TEST_CASE("one heavy seed: the margin grows until the areas sum to the area of the box") {
   Random random(test_seed());
   SeedArray seeds = seeds_in_box(400, WeightRange::W0, random);
-  seeds.weights[0] = 0.8;  // a disc of radius .9: copies farther than three spacings cut
+  seeds.weights[0] = 0.8;  // a disc of radius 0.9, cut by copies farther away than three spacings
   const Setup& setup = main_setups().front();
   PeriodicDiagram diagram(setup.device, box(), setup.options);
   diagram.set_seeds(seeds.positions, seeds.weights);
@@ -72,7 +72,7 @@ TEST_CASE("one heavy seed: the margin grows until the areas sum to that of the b
     CHECK(std::abs(diagram.measures().mass[i] - expected.mass[i]) < 1e-11);
 }
 
-TEST_CASE("single precision: what copies beyond the margin cut off is not lost in rounding") {
+TEST_CASE("single precision: cuts by copies beyond the first margin are not lost in rounding") {
   Random random(5);
   Setup setup = main_setups().front();
   setup.options.precision = Precision::float32;
@@ -80,7 +80,7 @@ TEST_CASE("single precision: what copies beyond the margin cut off is not lost i
   seeds.coordinate(0, 0) = 0.5;
   seeds.coordinate(0, 1) = 3;
   for (int step = 0; step < 20; ++step) {
-    // Discs of radius .933 to .943 in a box of height 2: what they cut off at its other side is 1e-5 of it.
+    // Discs of radius 0.933 to 0.943 in a box of height 2: copies cut off 1e-5 of the cell.
     seeds.weights[0] = 0.87 + 0.001 * step;
     CAPTURE(seeds.weights[0]);
     PeriodicDiagram diagram(setup.device, box(), setup.options);
@@ -94,7 +94,7 @@ TEST_CASE("single precision: what copies beyond the margin cut off is not lost i
   }
 }
 
-TEST_CASE("walls of periodic cells are symmetric, and copies outside the box stand for those inside") {
+TEST_CASE("walls of periodic cells are symmetric, and seeds outside the box stand for their copies inside") {
   INFO(replay_hint());
   Random random(test_seed());
   const SeedArray seeds = seeds_in_box(50, WeightRange::W1, random);
@@ -132,7 +132,7 @@ TEST_CASE("walls of periodic cells are symmetric, and copies outside the box sta
   CHECK(met > 4 * seeds.size());
 }
 
-TEST_CASE("transport on a periodic box: Newton converges, and moving all seeds changes nothing") {
+TEST_CASE("transport in a periodic box converges, and is invariant under translation of the seeds") {
   INFO(replay_hint());
   Random random(test_seed());
   const Setup& setup = main_setups().front();
@@ -156,7 +156,7 @@ TEST_CASE("transport on a periodic box: Newton converges, and moving all seeds c
   }
 }
 
-TEST_CASE("copies of one seed are one, and seeds however far away are inside") {
+TEST_CASE("copies of one seed are merged, and seeds are mapped into the box from any distance") {
   const Setup& setup = main_setups().front();
   TransportOptions options;
   options.diagram = setup.options;
@@ -177,7 +177,7 @@ TEST_CASE("copies of one seed are one, and seeds however far away are inside") {
   }
 }
 
-TEST_CASE("what cannot be periodic is refused") {
+TEST_CASE("domains and densities that cannot be periodic are refused") {
   const Setup& setup = main_setups().front();
   const auto code = [&](const Domain& domain, const Density& density) {
     TransportOptions options;

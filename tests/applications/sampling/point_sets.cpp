@@ -1,4 +1,4 @@
-// Spacing and spectra of points whose figures are known.
+// Spacing and spectra of points with known values, and the distribution of random points.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace powercell::test;
 
 namespace {
 
-/// Rows of a hexagonal lattice of spacing 1 in a box that it fits into.
+/// A hexagonal lattice of spacing 1, periodic in its box.
 struct Lattice {
   Domain box;
   std::vector<double> positions;
@@ -36,7 +36,7 @@ double power_at(const Spectrum& s, int fx, int fy) {
 
 }  // namespace
 
-TEST_CASE("the hexagonal lattice has spacing 1 and order 1") {
+TEST_CASE("the hexagonal lattice has spacing 1 and hexatic order 1") {
   const Lattice lattice = hexagonal(8, 10);
   const Spacing found = spacing(main_setups().front().device, lattice.box, lattice.positions, true);
   CHECK(found.least == doctest::Approx(1));
@@ -44,7 +44,7 @@ TEST_CASE("the hexagonal lattice has spacing 1 and order 1") {
   CHECK(found.hexatic == doctest::Approx(1));
 }
 
-TEST_CASE("random points: order near .37, mean distance as of a Poisson process") {
+TEST_CASE("random points have hexatic order 0.37 and the mean distance of a Poisson process") {
   INFO(replay_hint());
   Random random(test_seed());
   const std::size_t n = 4000;
@@ -60,7 +60,7 @@ TEST_CASE("random points: order near .37, mean distance as of a Poisson process"
   CHECK(in_space.mean < 0.6);
 }
 
-TEST_CASE("a spectrum is the squared sum of waves") {
+TEST_CASE("a spectrum agrees with the direct sum of waves") {
   INFO(replay_hint());
   Random random(test_seed());
   const std::array<double, 2> low{-1, 2}, high{2, 4};
@@ -81,7 +81,7 @@ TEST_CASE("a spectrum is the squared sum of waves") {
     }
 }
 
-TEST_CASE("a lattice has its power in its reciprocal lattice, random points everywhere") {
+TEST_CASE("a lattice has power in its reciprocal lattice only, random points everywhere") {
   INFO(replay_hint());
   const SeedArray points = grid(8, 2);
   const Spectrum peaks = spectrum(unit_box(2), points.positions, 12);
@@ -115,7 +115,7 @@ TEST_CASE("random points follow their density, on every kind of domain") {
     const std::vector<double> points = random_points(domain, Density::formula("3*x^2"), n, test_seed());
     const auto d = static_cast<std::size_t>(domain.dimension());
     REQUIRE(points.size() == n * d);
-    double below = 0;  // x^3 at a half: an eighth of them
+    double below = 0;  // expected: x^3 at 1/2, an eighth of the points
     for (std::size_t i = 0; i < n; ++i) below += points[i * d] < 0.5 ? 1 : 0;
     CHECK(below / n == doctest::Approx(0.125).epsilon(0.1));
   }
@@ -139,7 +139,7 @@ TEST_CASE("points without a neighbour have no spacing") {
   CHECK(std::isnan(found.hexatic));
 }
 
-TEST_CASE("points without a spacing or a spectrum are refused") {
+TEST_CASE("invalid input for spacing, spectrum and mean is refused") {
   const Device& device = main_setups().front().device;
   const std::vector<double> one{0.5, 0.5}, twice{0.5, 0.5, 0.5, 0.5}, solid{0.1, 0.2, 0.3};
   CHECK_THROWS_AS(spacing(device, unit_box(2), one), Error);

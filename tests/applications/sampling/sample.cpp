@@ -1,4 +1,4 @@
-// Blue noise and quantisers: capacities, energies and order that are known.
+// Blue noise and quantisers: equal capacities, known energies and hexatic orders, reproducibility, errors.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ const Device& device() {
   return main_setups().front().device;
 }
 
-/// Masses measured again, by a diagram of the points and weights.
+/// Checks the masses against an independent diagram of the points and weights.
 void check_capacities(const Domain& domain, const Density& density, const SamplingResult& found,
                       std::size_t n) {
   CHECK(found.capacity_error < 1e-6);
@@ -35,7 +35,7 @@ void check_capacities(const Domain& domain, const Density& density, const Sampli
 
 }  // namespace
 
-TEST_CASE("blue noise in a periodic box has the order, spacing and low frequencies of blue noise") {
+TEST_CASE("blue noise in a periodic box has the expected hexatic order, spacing and low frequencies") {
   INFO(replay_hint());
   std::vector<Spectrum> spectra;
   double mean_distance = 0;
@@ -61,7 +61,7 @@ TEST_CASE("blue noise in a periodic box has the order, spacing and low frequenci
   CHECK(mean(spectra).low_frequency(0.5) < 4e-3);
 }
 
-TEST_CASE("capacities are equal on polygons, surfaces and volumes, and points lie in them") {
+TEST_CASE("capacities are equal on polygons, surfaces and volumes, and the points lie in the domain") {
   INFO(replay_hint());
   Random shape(7);
   const Domain domains[] = {unit_box(2), Domain::polygon(square_with_holes()), surface_of(torus(24, 12)),
@@ -75,7 +75,7 @@ TEST_CASE("capacities are equal on polygons, surfaces and volumes, and points li
     const SamplingResult found = sample(device(), domain, 80, options);
     CHECK(found.steps.back().iteration <= 5);
     check_capacities(domain, density, found, 80);
-    // In the domain: each point in the cell that it would have there by itself.
+    // A point is in the domain if it is in its Voronoi cell.
     Diagram voronoi(device(), domain);
     voronoi.set_seeds({domain.dimension(), found.positions, {}});
     const Cells& cells = voronoi.cells();
@@ -89,7 +89,7 @@ TEST_CASE("capacities are equal on polygons, surfaces and volumes, and points li
   }
 }
 
-TEST_CASE("the gradient of the energy is that of its differences") {
+TEST_CASE("the gradient of the energy agrees with finite differences") {
   INFO(replay_hint());
   Random random(test_seed());
   SamplingOptions options;
@@ -111,7 +111,7 @@ TEST_CASE("the gradient of the energy is that of its differences") {
   }
 }
 
-TEST_CASE("quantise reaches low energies, and L-BFGS sooner than Lloyd") {
+TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   INFO(replay_hint());
   SamplingOptions options;
   options.mode = SamplingMode::quantise;
@@ -124,7 +124,7 @@ TEST_CASE("quantise reaches low energies, and L-BFGS sooner than Lloyd") {
   const SamplingResult lbfgs = sample(device(), unit_box(2), 100, options);
   CHECK(lloyd.steps.size() == 31);
   CHECK(lloyd.converged);
-  // Energies are known to the square of the capacity error.
+  // The error of an energy is the square of the capacity error.
   double before = lloyd.steps.front().energy;
   int known = 0;
   for (const SamplingStep& step : lloyd.steps) {
@@ -144,7 +144,7 @@ TEST_CASE("quantise reaches low energies, and L-BFGS sooner than Lloyd") {
   CHECK(rested.steps.back().gradient < 1e-3 / std::sqrt(20.0));
 }
 
-TEST_CASE("the hexagonal lattice stays where it is, with relative energy 1") {
+TEST_CASE("the hexagonal lattice is a fixed point, with relative energy 1") {
   const double height = 6 * std::sqrt(0.75);
   const std::array<double, 2> low{0, 0}, high{6, height};
   std::vector<double> lattice;
@@ -162,7 +162,7 @@ TEST_CASE("the hexagonal lattice stays where it is, with relative energy 1") {
   for (std::size_t k = 0; k < lattice.size(); ++k) CHECK(std::abs(found.positions[k] - lattice[k]) < 1e-9);
 }
 
-TEST_CASE("the same seed gives the same points, and another one others") {
+TEST_CASE("the same random seed gives the same points, another one different points") {
   SamplingOptions options;
   options.iterations = 3;
   const SamplingResult a = sample(device(), unit_box(2), 50, options),
@@ -172,13 +172,13 @@ TEST_CASE("the same seed gives the same points, and another one others") {
   CHECK(sample(device(), unit_box(2), 50, options).positions != a.positions);
 }
 
-TEST_CASE("points in a row, on islands and few in all move, whatever the order of those at the start") {
+TEST_CASE("points in a row, on islands and few points move, whatever the initial hexatic order") {
   const std::array<double, 2> low{0, 0}, high{1000, 1};
   const Domain strip = Domain::box(low, high);
   const SamplingResult row = sample(device(), strip, 100);
   CHECK(row.converged);
   CHECK(row.steps.back().iteration == 20);
-  CHECK(row.relative_energy < 10);  // over 500 at random: squares by 10 x 1 are 5.2
+  CHECK(row.relative_energy < 10);  // above 500 for random points; 5.2 for cells of 10 x 1
   for (const std::size_t n : {1u, 2u, 3u, 4u, 6u, 10u}) {
     INFO(n << " points");
     for (const bool periodic : {false, true}) {
@@ -193,7 +193,7 @@ TEST_CASE("points in a row, on islands and few in all move, whatever the order o
   }
 }
 
-TEST_CASE("points of the caller's outside come into the domain, and copies are refused") {
+TEST_CASE("given points outside move into the domain, and duplicates are refused") {
   for (const SamplingDescent descent : {SamplingDescent::lloyd, SamplingDescent::lbfgs})
     for (const double movement : {1e-4, 1e9}) {
       SamplingOptions options;
@@ -208,7 +208,7 @@ TEST_CASE("points of the caller's outside come into the domain, and copies are r
   CHECK_THROWS_AS(sample(device(), unit_box(2), twice), Error);
 }
 
-TEST_CASE("what cannot be sampled is refused") {
+TEST_CASE("invalid options and domains are refused, and progress may interrupt") {
   const auto code = [](std::size_t n, const SamplingOptions& options, const Domain& domain = unit_box(2)) {
     try {
       sample(device(), domain, n, options);

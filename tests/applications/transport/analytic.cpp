@@ -1,4 +1,4 @@
-// Transports whose weights and cost are known.
+// Transport problems with known weights and cost: moved grids, one and two seeds.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ void check_moved_grid(const MovedGrid& moved, int dimension, TransportOptions op
 
 }  // namespace
 
-TEST_CASE("weights of a grid moved and shrunk about its cells, 1,000 and 10,000 seeds") {
+TEST_CASE("the weights of a grid moved and scaled within the domain, 1,000 and 10,000 seeds") {
   TransportOptions options = transport_options();
   options.tolerance = 1e-9;
   for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::multilevel}) {
@@ -37,7 +37,7 @@ TEST_CASE("weights of a grid moved and shrunk about its cells, 1,000 and 10,000 
   check_moved_grid(MovedGrid(22, 3, 0.8, 0.02), 3, options, 1e-10, 1e-10);
 }
 
-TEST_CASE("weights of a grid moved out of the domain") {
+TEST_CASE("the weights of a grid moved out of the domain") {
   TransportOptions options = transport_options();
   options.tolerance = 1e-9;
   check_moved_grid(MovedGrid(20, 2, 3, 0), 2, options, 1e-9, 1e-9);  // larger costs, larger rounding
@@ -45,14 +45,14 @@ TEST_CASE("weights of a grid moved out of the domain") {
   check_moved_grid(MovedGrid(8, 3, 0.3, -2), 3, options, 1e-9, 1e-9);
 }
 
-TEST_CASE("single precision: masses to one in a thousand, weights to a hundredth of a cell's square") {
+TEST_CASE("single precision: masses to 1e-3, weights to a hundredth of the cell area") {
   const TransportOptions options = transport_options(Precision::float32);
   check_moved_grid(MovedGrid(32, 2, 0.7, 0.03), 2, options, 1e-2 / 1024, 1e-6);
   check_moved_grid(MovedGrid(100, 2, 0.7, 0.03), 2, options, 1e-2 / 10000, 1e-6);
   check_moved_grid(MovedGrid(10, 3, 0.7, 0.03), 3, options, 1e-2 / 100, 1e-6);
 }
 
-TEST_CASE("one seed, and two of which the border is known") {
+TEST_CASE("one seed, and two seeds with a known wall") {
   const Domain square = unit_box(2);
   const std::vector<double> one{0.3, 0.4};
   const TransportResult alone = transport(transport_device(), square, {2, one, {}}, {}, transport_options());
@@ -65,7 +65,7 @@ TEST_CASE("one seed, and two of which the border is known") {
   options.tolerance = 1e-12;
   const TransportResult found = transport(transport_device(), square, {2, two, {}}, masses, options);
   REQUIRE(found.converged);
-  // The border x = 0.9 is 0.65 from one and 0.15 from the other: w_0 - w_1 = 0.65² - 0.15².
+  // The wall x = 0.9 is 0.65 from one seed and 0.15 from the other: w_0 - w_1 = 0.65² - 0.15².
   CHECK(std::abs(found.weights[0] - found.weights[1] - 0.4) < 1e-12);
   CHECK(std::abs(found.weights[0] + found.weights[1]) < 1e-14);
   CHECK(std::abs(found.centroid[0] - 0.45) < 1e-12);

@@ -1,5 +1,5 @@
 /// \file
-/// Transports to try: with a known solution, and on every kind of domain.
+/// Transport problems for the tests: with a known solution, and on every kind of domain.
 #pragma once
 
 #include <powercell/shapes.hpp>
@@ -12,13 +12,13 @@
 
 namespace powercell::test {
 
-/// Seeds z = s y + t for the centres y of a k^d grid on the unit cube about 0, with equal masses. The cells
-/// of the solution are the grid's.
+/// Seeds z = s y + t for the centres y of a k^d grid on the unit cube about the origin, with equal masses.
+/// The cells of the solution are those of the grid.
 struct MovedGrid {
   MovedGrid(int per_axis, int dimension, double scale, double shift);
 
   Domain domain;
-  std::vector<double> positions, weights;  ///< weights of mean 0: |z|² - s |y|² but for a constant
+  std::vector<double> positions, weights;  ///< weights: |z|² - s |y|² up to a constant, with mean 0
   double cost;                             ///< W2²
 };
 
@@ -26,15 +26,15 @@ struct TransportCase {
   std::string name;
   Domain domain;
   SeedArray seeds;
-  std::vector<double> masses;  ///< sum to the domain's
+  std::vector<double> masses;  ///< with the sum of the domain's mass
 };
 
-/// Polygons, surfaces, volumes and boxes with n seeds in or near them; masses over a factor `range`.
+/// Boxes, polygons, volumes and surfaces with n seeds in or near them, and masses over a factor `range`.
 std::vector<TransportCase> transport_cases(std::size_t n, double range);
-/// n masses that sum to `total`, spread evenly in the logarithm over a factor `range`.
+/// n masses with the sum `total`, whose logarithms are uniform over a factor `range`.
 std::vector<double> random_masses(std::size_t n, double range, double total, Random& random);
 
-/// The device of main_setups() in a precision.
+/// Options with a precision, for the first device of main_setups().
 TransportOptions transport_options(Precision precision = Precision::float64);
 const Device& transport_device();
 

@@ -1,5 +1,5 @@
-// What stops other solvers: empty cells, seeds outside, extreme masses, duplicates, no convergence, bad
-// input.
+// Hard cases: empty initial cells, seeds outside the domain, extreme masses, duplicates, failure to converge,
+// interruption, invalid input.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ bool has_phase(const TransportResult& result, TransportPhase phase) {
   return false;
 }
 
-/// No step of damped Newton leaves a cell empty.
+/// Checks that no step of damped Newton has an empty cell.
 void check_no_empty_newton_step(const TransportResult& result) {
   for (const TransportStep& step : result.steps)
     if (step.phase == TransportPhase::newton || step.phase == TransportPhase::ramp) CHECK(step.empty == 0);
@@ -36,13 +36,13 @@ void check_no_empty_newton_step(const TransportResult& result) {
 
 }  // namespace
 
-TEST_CASE("weights to start from that leave cells empty are shrunk") {
+TEST_CASE("initial weights with empty cells are scaled down") {
   INFO(replay_hint());
   SeedArray seeds = white(200);
   const TransportResult cold = solve(unit_box(2), seeds.view());
   REQUIRE(cold.converged);
   seeds.weights = cold.weights;
-  seeds.weights[17] -= 0.02;  // hidden behind its neighbours
+  seeds.weights[17] -= 0.02;  // hidden by its neighbours
   Diagram diagram(transport_device(), unit_box(2), transport_options().diagram);
   diagram.set_seeds(seeds.view());
   REQUIRE(diagram.measures().count(SeedStatus::hidden) > 0);
@@ -54,7 +54,7 @@ TEST_CASE("weights to start from that leave cells empty are shrunk") {
   check_no_empty_newton_step(found);
 }
 
-TEST_CASE("seeds outside the domain, on one side and in a notch") {
+TEST_CASE("seeds outside the domain, beyond one side and in a notch") {
   INFO(replay_hint());
   const Domain letter = Domain::polygon(letter_u());
   SeedArray seeds = white(60);
@@ -67,7 +67,7 @@ TEST_CASE("seeds outside the domain, on one side and in a notch") {
   }
 }
 
-TEST_CASE("cells of islands, which no wall joins") {
+TEST_CASE("disconnected polygons, whose cells share no wall") {
   INFO(replay_hint());
   Random random(test_seed());
   const Domain domain = Domain::polygon(islands());
@@ -89,7 +89,7 @@ TEST_CASE("masses over six orders of magnitude") {
   }
 }
 
-TEST_CASE("seeds at one position are one with the sum of their masses") {
+TEST_CASE("seeds at one position are merged, with the sum of their masses") {
   const std::vector<double> positions{0.2, 0.2, 0.7, 0.7, 0.2, 0.2, 0.7, 0.2};
   const std::vector<double> masses{0.1, 0.3, 0.2, 0.4};
   TransportSolver solver(transport_device(), unit_box(2), transport_options());
@@ -103,14 +103,14 @@ TEST_CASE("seeds at one position are one with the sum of their masses") {
   CHECK(found.mass[2] == 0);
   CHECK(std::isnan(found.centroid[4]));
   CHECK(found.weights[2] == found.weights[0]);
-  // The diagram is that of all seeds, in their order.
+  // The diagram has all seeds, in their order.
   const Measures& cells = solver.diagram().measures();
   REQUIRE(cells.mass.size() == 4);
   CHECK(cells.status[2] == SeedStatus::duplicate);
   CHECK(std::abs(cells.mass[3] - 0.4) < 1e-6);
 }
 
-TEST_CASE("no convergence is said, and the best weights are kept") {
+TEST_CASE("failure to converge is reported, and the best weights are returned") {
   INFO(replay_hint());
   const SeedArray seeds = white(300);
   TransportOptions options = transport_options();
@@ -127,12 +127,12 @@ TEST_CASE("no convergence is said, and the best weights are kept") {
   CHECK(distance(diagram.measures().mass, found.mass) < 1e-14);
 
   options = transport_options();
-  options.tolerance = 1e-17;  // below rounding: the solver must stop by itself
+  options.tolerance = 1e-17;  // below rounding errors: the solver must stop by itself
   CHECK(!solve(unit_box(2), seeds.view(), {}, options).converged);
 }
 
-TEST_CASE("a density that jumps: masses are said to be met no closer than they are integrated") {
-  // 1 to the left of x = 0.37 and 5 to the right, as a function and as an image, whose integrals are exact.
+TEST_CASE("a density with a jump: the reported errors cover the true error of the masses") {
+  // 1 to the left of x = 0.37 and 5 to the right: as a function, and as an image, whose integrals are exact.
   const auto value = [](const std::array<double, 3>& x) { return x[0] < 0.37 ? 1.0 : 5.0; };
   std::vector<double> pixels(100, 5.0);
   std::fill_n(pixels.begin(), 37, 1.0);
@@ -141,7 +141,8 @@ TEST_CASE("a density that jumps: masses are said to be met no closer than they a
   options.max_steps = 20;
   int converged = 0, refused = 0;
   for (const std::uint64_t which : {1u, 3u})
-    for (const auto& [integrals, tolerance] : {std::pair{1e-9, 1e-5}, {1e-2, 1e-5}, {1e-2, 1e-1}}) {
+    for (const auto& bounds : {std::pair{1e-9, 1e-5}, {1e-2, 1e-5}, {1e-2, 1e-1}}) {
+      const double integrals = bounds.first, tolerance = bounds.second;
       INFO("seeds " << which << ", integrals to " << integrals << ", tolerance " << tolerance);
       options.density = Density::function(value, integrals);
       Random random(which);
@@ -154,7 +155,8 @@ TEST_CASE("a density that jumps: masses are said to be met no closer than they a
       double off = 0;
       for (std::size_t i = 0; i < mass.size(); ++i)
         off = std::max(off, std::abs(mass[i] / found.target[i] - 1));
-      INFO("masses are off by " << off << ", said are " << found.error << " and " << found.quadrature_error);
+      INFO("masses are off by " << off << ", reported are " << found.error << " and "
+                                << found.quadrature_error);
       CHECK(off < found.error + found.quadrature_error);
       CHECK(found.converged == (found.error < tolerance && found.quadrature_error < tolerance));
       (found.converged ? converged : refused) += 1;
@@ -186,7 +188,7 @@ TEST_CASE("the diagram is that of the result, whatever was tried last") {
   }
 }
 
-TEST_CASE("a solve that was stopped leaves the diagram of the last one, and seeds that changed have none") {
+TEST_CASE("an interrupted solve leaves the last diagram; changed seeds have none") {
   const SeedArray seeds = white(200);
   TransportOptions options = transport_options();
   bool stop = false;
@@ -211,7 +213,7 @@ TEST_CASE("seeds a million domains away") {
   CHECK(solve(unit_box(2), seeds.view()).converged);
 }
 
-TEST_CASE("masses at the ends of the range of numbers are met, or refused by name") {
+TEST_CASE("masses and densities at the limits of doubles are met or refused") {
   const SeedArray seeds = white(4);
   TransportOptions options = transport_options();
   options.rescale = true;
@@ -230,7 +232,7 @@ TEST_CASE("masses at the ends of the range of numbers are met, or refused by nam
   CHECK_THROWS_AS(solve(Domain::box(low, tiny), seeds.view(), {}, options), Error);
 }
 
-TEST_CASE("a solve continues where seeds moved to their centroids") {
+TEST_CASE("after a move to the centroids a solve takes about two steps") {
   INFO(replay_hint());
   const SeedArray seeds = white(1000);
   TransportOptions options = transport_options();
@@ -248,7 +250,7 @@ TEST_CASE("a solve continues where seeds moved to their centroids") {
   CHECK(steps <= 7 * 2);
 }
 
-TEST_CASE("progress may stop a solve, and the solver can be used again") {
+TEST_CASE("progress may interrupt a solve, and the solver can be used again") {
   TransportOptions options = transport_options();
   bool stop = true;
   options.progress = [&stop](const TransportStep& step) { return !stop || step.step < 2; };
@@ -257,7 +259,7 @@ TEST_CASE("progress may stop a solve, and the solver can be used again") {
   solver.set_seeds(seeds.view());
   try {
     solver.solve();
-    FAIL("was not stopped");
+    FAIL("was not interrupted");
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::interrupted);
   }
@@ -265,7 +267,7 @@ TEST_CASE("progress may stop a solve, and the solver can be used again") {
   CHECK(solver.solve().converged);
 }
 
-TEST_CASE("bad input is refused by name") {
+TEST_CASE("invalid input is refused with a message that names it") {
   const std::vector<double> positions{0.2, 0.2, 0.7, 0.7};
   TransportSolver solver(transport_device(), unit_box(2), transport_options());
   const auto refused = [](const auto& call, const char* says) {

@@ -1,4 +1,5 @@
-// Densities with nearly nothing in most of the domain: cells of which damped Newton gets no hold.
+// Densities that are nearly 0 in most of the domain, so that damped Newton has no useful derivatives at
+// first.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-/// A normal distribution about `middle`, of mass 1 in the plane.
+/// A normal distribution about `middle`, with mass 1 in the plane.
 double bell(const Place& x, const Place& middle, double width) {
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) square += (x[k] - middle[k]) * (x[k] - middle[k]);
@@ -35,7 +36,7 @@ TransportResult solve(std::size_t n, const Density& density, double tolerance = 
   CHECK(found.primal == doctest::Approx(found.dual).epsilon(1e-5));
   REQUIRE(!found.steps.empty());
   CHECK(found.steps.back().spread == 0);
-  // The masses are those of the density, not of a blend.
+  // The masses are those of the density itself, not of a blend.
   const std::vector<double> mass = integrate(solver.diagram(), density, false).mass;
   for (std::size_t i = 0; i < n; ++i)
     CHECK(mass[i] == doctest::Approx(found.target[i]).epsilon(1e-5 + 2 * tolerance));
@@ -49,7 +50,7 @@ bool blended(const TransportResult& result) {
 
 }  // namespace
 
-TEST_CASE("a normal distribution as density: seeds start as if moved onto it") {
+TEST_CASE("a normal distribution: the start moves the seeds onto it") {
   INFO(replay_hint());
   for (const double width : {0.1, 0.03, 0.01})
     for (const std::size_t n : {30u, 400u}) {
@@ -57,11 +58,11 @@ TEST_CASE("a normal distribution as density: seeds start as if moved onto it") {
       const TransportResult found = solve(n, Density::function([width](const Place& x) {
                                             return bell(x, {0.41, 0.63, 0}, width);
                                           }));
-      CHECK(found.diagrams <= 60);  // from weights 0 it took hundreds, or never came to an end
+      CHECK(found.diagrams <= 60);  // from weights 0 it takes hundreds or does not converge
     }
 }
 
-TEST_CASE("a density that ends at an edge: seeds start as if moved inside of it") {
+TEST_CASE("a density with bounded support: the start moves the seeds inside") {
   INFO(replay_hint());
   const auto cone = [](const Place& x) {
     return std::max(0.0, 0.01 - (x[0] - 0.5) * (x[0] - 0.5) - (x[1] - 0.5) * (x[1] - 0.5));
@@ -78,7 +79,7 @@ TEST_CASE("a density that ends at an edge: seeds start as if moved inside of it"
     }
 }
 
-TEST_CASE("a density that ends at a jump, and where integrals over it tell no more") {
+TEST_CASE("a density with a jump at its edge: converges if the integrals are accurate enough, else stops") {
   INFO(replay_hint());
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 100, 2, random);
@@ -98,13 +99,13 @@ TEST_CASE("a density that ends at a jump, and where integrals over it tell no mo
   }
 }
 
-TEST_CASE("two peaks: the density is blended with a constant, less and less") {
+TEST_CASE("two peaks: the density is blended with a uniform one of decreasing share") {
   INFO(replay_hint());
   const TransportResult found = solve(60, Density::function([](const Place& x) {
                                         return bell(x, {0.2, 0.2, 0}, 0.04) + bell(x, {0.8, 0.7, 0}, 0.04);
                                       }));
   CHECK(blended(found));
-  // Of steps with one target the share of the constant falls.
+  // The smallest share must be well below the first.
   double least = 1;
   for (const TransportStep& step : found.steps) {
     CHECK(step.spread >= 0);
@@ -114,7 +115,7 @@ TEST_CASE("two peaks: the density is blended with a constant, less and less") {
   CHECK(least < 0.1);
 }
 
-TEST_CASE("a density that is even enough is not blended") {
+TEST_CASE("a density of moderate variation is not blended") {
   INFO(replay_hint());
   const TransportResult found =
       solve(200, Density::function([](const Place& x) { return 1 + x[0] + 3 * x[1] * x[1]; }));

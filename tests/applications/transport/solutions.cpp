@@ -1,10 +1,11 @@
-// Every kind of domain: what holds of a solution, whatever it is.
+// Properties of every solution, on every kind of domain: derivatives, masses, duality, agreement of linear
+// solvers.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "lib/applications/transport/iterate.hpp"
+#include "lib/applications/transport/evaluator.hpp"
 #include "tests/applications/transport/cases.hpp"
 
 using namespace powercell;
@@ -17,7 +18,8 @@ std::vector<double> masses_at(Diagram& diagram, const std::vector<double>& weigh
   return diagram.measures().mass;
 }
 
-/// Central differences of masses and dual, by the weights of every fifth seed, against (15) and v - m.
+/// Compares central differences of masses and dual, with respect to the weight of every fifth seed, with (15)
+/// and v - m.
 void check_derivatives(const TransportCase& one) {
   const std::size_t n = one.seeds.size();
   Diagram diagram(transport_device(), one.domain, transport_options().diagram);
@@ -54,7 +56,7 @@ void check_derivatives(const TransportCase& one) {
 
 }  // namespace
 
-TEST_CASE("gradient and Hessian against finite differences") {
+TEST_CASE("gradient and Hessian agree with finite differences") {
   INFO(replay_hint());
   for (const TransportCase& one : transport_cases(60, 3)) {
     INFO(one.name);
@@ -62,7 +64,7 @@ TEST_CASE("gradient and Hessian against finite differences") {
   }
 }
 
-TEST_CASE("masses are met and the primal value is the dual one") {
+TEST_CASE("masses are met, and the primal and dual values agree") {
   INFO(replay_hint());
   TransportOptions options = transport_options();
   options.tolerance = 1e-8;
@@ -71,7 +73,7 @@ TEST_CASE("masses are met and the primal value is the dual one") {
     const TransportResult found =
         transport(transport_device(), one.domain, one.seeds.view(), one.masses, options);
     REQUIRE(found.converged);
-    // Measured again by a diagram that knows nothing of the solver.
+    // Measured again by an independent diagram.
     Diagram diagram(transport_device(), one.domain);
     diagram.set_seeds({one.seeds.dimension, one.seeds.positions, found.weights});
     const std::vector<double> mass = masses_at(diagram, found.weights);
@@ -81,13 +83,13 @@ TEST_CASE("masses are met and the primal value is the dual one") {
     }
     CHECK(std::abs(found.primal - found.dual) <= 1e-8 * found.primal);
     CHECK(std::abs(std::accumulate(found.weights.begin(), found.weights.end(), 0.0)) < 1e-10);
-    // A lower bound at any weights, so at those of the first step.
+    // The dual is a lower bound at any weights, hence at those of the first step.
     CHECK(found.steps.front().dual <= found.dual);
-    CHECK(found.newton_steps() <= 120);  // 80 for the U: a fifth of the seeds lies in its notch
+    CHECK(found.newton_steps() <= 120);  // 80 for the letter U: a fifth of the seeds lies in its notch
   }
 }
 
-TEST_CASE("dense, direct and multilevel solves lead to the same weights") {
+TEST_CASE("dense, direct and multilevel solvers give the same weights") {
   INFO(replay_hint());
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 400, 2, random);

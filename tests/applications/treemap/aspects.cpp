@@ -1,4 +1,4 @@
-// How long cells are beside their width.
+// The aspect ratio of cells, also for extremely thin ones.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ using treemap_detail::moments;
 
 namespace {
 
-/// A rectangle turned by an angle.
+/// A rectangle rotated by an angle.
 std::vector<double> rectangle(double length, double width, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   std::vector<double> corners;
@@ -24,7 +24,7 @@ std::vector<double> rectangle(double length, double width, double angle) {
 
 }  // namespace
 
-TEST_CASE("aspects of cells of any width are finite and right") {
+TEST_CASE("aspects of rectangles of any width and rotation are right") {
   for (const double angle : {0.0, 0.3, 0.785, 2.0})
     for (const double ratio : {1.0, 2.0, 1e3, 1e6, 1e9}) {
       CAPTURE(angle);

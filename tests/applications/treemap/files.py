@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""`powercell treemap` from outside: every format in and out, what must be refused, and the written files
-measured again by measure_again.py.
+"""Tests the command `powercell treemap`: every input and output format, updates, and refusals. The written files are
+measured by measure_again.py.
 
 usage: files.py PATH_OF_POWERCELL
-exit:  0 all right, 1 something is wrong, 77 shapely is missing
+exit:  0 passed, 1 failed, 77 shapely is missing
 """
 import json
 import pathlib
@@ -66,9 +66,9 @@ class Treemap(unittest.TestCase):
 
     def test_table_to_every_format(self):
         self.table("t.csv", made_rows(1500))
-        told = json.loads(self.good("t.csv", "-o", "t.json", "-o", "t.svg", "-o", "t.png", "-o", "t.pdf", "--json"))
-        self.assertLess(told["worst_leaf_error"], 1e-6)
-        self.assertGreater(len(told["dropped"]), 10)
+        report = json.loads(self.good("t.csv", "-o", "t.json", "-o", "t.svg", "-o", "t.png", "-o", "t.pdf", "--json"))
+        self.assertLess(report["worst_leaf_error"], 1e-6)
+        self.assertGreater(len(report["dropped"]), 10)
         self.measured_again("t.csv", "t.json", "t.svg")
         self.assertEqual((self.folder / "t.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         self.assertEqual((self.folder / "t.pdf").read_bytes()[:5], b"%PDF-")
@@ -89,7 +89,7 @@ class Treemap(unittest.TestCase):
         self.write("n.json", json.dumps(nested))
         self.assertIn("dropped 1 nodes without a value above 0: top/nothing", self.good("n.json", "-o", "out.json"))
         self.measured_again("n.json", "out.json")
-        # What was written is a list of rows and lays out again.
+        # The output is a list of rows and can be laid out again.
         self.good("out.json", "-o", "again.json")
         self.measured_again("n.json", "again.json")
 
@@ -103,7 +103,7 @@ class Treemap(unittest.TestCase):
         (self.folder / "t.csv").write_bytes(b"id,parent,name,value\nr,,r,\n\xe9,r,caf\xe9,1\n\xe8,r,b,1\n")
         self.refused("t.csv:3: the id is no text in UTF-8; save the table as UTF-8", 1, "t.csv", "-o", "t.svg")
 
-    def test_empty_rows_of_spreadsheets_are_passed_over(self):
+    def test_empty_rows_of_spreadsheets_are_skipped(self):
         self.write("t.csv", 'id,parent,name,value\nr,,root,\n,,,\na,r,"an ""a""",1\nb,r,b,2\n,,,\n')
         self.good("t.csv", "-o", "t.json")
         self.measured_again("t.csv", "t.json")
@@ -165,7 +165,7 @@ class Treemap(unittest.TestCase):
         self.assertEqual({i: second[i] for i in "abd"}, {i: first[i] for i in "abd"})
         self.assertEqual(third, second)
         self.assertEqual(len(set(second.values())), 4)
-        # A layout without them is one of an earlier version.
+        # Layouts of earlier versions have no hues.
         rows = json.loads((self.folder / "first.json").read_text())
         self.assertEqual([row.pop("hue", None) for row in rows], [None, 0, 1, 2, 3])
         self.write("old.json", json.dumps(rows))

@@ -1,5 +1,5 @@
-// Whole layouts: areas, nesting, what is kept and what is dropped. Everything is measured again from the
-// vertices.
+// Whole layouts: areas, nesting, dropped nodes, determinism, large groups, updates. Everything is measured
+// again from the vertices.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::vector<std::array<double, 2>> polygon(const Treemap& map, std::size_t i) {
   return points;
 }
 
-// In extended precision, by another formula than the library's.
+/// The area in extended precision, by another formula than the library's.
 double area(const std::vector<std::array<double, 2>>& p) {
   long double twice = 0;
   for (std::size_t k = 0; k < p.size(); ++k) {
@@ -40,7 +40,7 @@ std::array<double, 2> middle(const std::vector<std::array<double, 2>>& p) {
   return {sum[0] / static_cast<double>(p.size()), sum[1] / static_cast<double>(p.size())};
 }
 
-/// How far the farthest vertex of `inner` is outside `outer`; both counter-clockwise and convex.
+/// The largest distance by which a vertex of `inner` is outside `outer`; both counter-clockwise and convex.
 double excess(const std::vector<std::array<double, 2>>& inner,
               const std::vector<std::array<double, 2>>& outer) {
   double most = 0;
@@ -54,7 +54,7 @@ double excess(const std::vector<std::array<double, 2>>& inner,
   return most;
 }
 
-/// Every node with a value has its share; children lie in their parent and fill it.
+/// Checks that every node with a value has its share, and that children lie in their parent and fill it.
 void check_layout(const MadeTree& tree, const Treemap& map, const Ring& outline, double tolerance = 1e-6) {
   const std::size_t n = tree.parent.size();
   REQUIRE(map.kind.size() == n);
@@ -84,7 +84,7 @@ void check_layout(const MadeTree& tree, const Treemap& map, const Ring& outline,
   CHECK(map.not_converged.empty());
 }
 
-/// How far the leaves of `a` are from where they are in `b`, in the mean.
+/// The mean distance of the leaves of `a` from their positions in `b`.
 double moved(const Treemap& a, const Treemap& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.kind.size(); ++i) {
@@ -97,7 +97,7 @@ double moved(const Treemap& a, const Treemap& b) {
 
 }  // namespace
 
-TEST_CASE("trees of every shape get their areas") {
+TEST_CASE("trees of every shape get the right areas") {
   INFO(replay_hint());
   Random random(test_seed());
   const Ring hexagon = disk(6), circle = disk(128), sliver = {{0, 0}, {100, 30}, {100, 31}, {0, 1}};
@@ -110,7 +110,7 @@ TEST_CASE("trees of every shape get their areas") {
   }
 }
 
-TEST_CASE("values over six orders of magnitude in one group") {
+TEST_CASE("a group with values over six orders of magnitude gets the right areas") {
   Random random(test_seed());
   for (const std::size_t n : {2u, 10u, 100u, 700u}) {
     const MadeTree tree = flat_tree(n, 1e6, random);
@@ -121,7 +121,7 @@ TEST_CASE("values over six orders of magnitude in one group") {
   check_layout(one_giant, treemap(one_giant.view(), square), square);
 }
 
-TEST_CASE("cells are round") {
+TEST_CASE("cells have a small aspect ratio") {
   Random random(test_seed());
   const MadeTree tree = flat_tree(500, 10, random);
   TreemapOptions coarse;
@@ -132,7 +132,7 @@ TEST_CASE("cells are round") {
   CHECK(rough > round + 0.1);
 }
 
-TEST_CASE("one child has the polygon of its parent, through any number of levels") {
+TEST_CASE("an only child gets the polygon of its parent, through any number of levels") {
   MadeTree tree;
   std::size_t at = 0;
   for (int k = 0; k < 5000; ++k) at = tree.add(at, 0);
@@ -144,9 +144,9 @@ TEST_CASE("one child has the polygon of its parent, through any number of levels
   CHECK(map.diagrams == 0);
 }
 
-TEST_CASE("values of zero and below are dropped, and groups that hold nothing else") {
+TEST_CASE("leaves with values of 0 and below are dropped, and groups of only such leaves") {
   MadeTree tree;
-  const std::size_t empty = tree.add(0, 5), full = tree.add(0, 5);  // values of groups are not looked at
+  const std::size_t empty = tree.add(0, 5), full = tree.add(0, 5);  // values of groups are ignored
   const std::size_t zero = tree.add(empty, 0), negative = tree.add(empty, -1e9);
   const std::size_t kept = tree.add(full, 2), other = tree.add(full, -3);
   const Treemap map = treemap(tree.view(), square);
@@ -158,8 +158,8 @@ TEST_CASE("values of zero and below are dropped, and groups that hold nothing el
   check_layout(tree, map, square);
 }
 
-TEST_CASE("nodes thinner than rounding, and what is below them, are told of") {
-  // Of 10^9 by 7, shares of few square roundings at 10^9: a leaf, and a group of groups.
+TEST_CASE("nodes thinner than rounding, and their descendants, are reported") {
+  // In an outline of 10^9 by 7, shares as thin as rounding errors at 10^9: a leaf, and a group of groups.
   const double far = 1e9;
   const Ring needle = {{far, far}, {2 * far, far}, {2 * far, far + 7}, {far, far + 7}};
   const std::vector<std::int64_t> parent{-1, 0, 0, 0, 3, 3, 4, 4};
@@ -187,7 +187,7 @@ TEST_CASE("nodes thinner than rounding, and what is below them, are told of") {
   CHECK(without_place > 0);
 }
 
-TEST_CASE("the same bits with any number of threads, another layout with another random seed") {
+TEST_CASE("threads do not change the bits; another random seed gives another layout") {
   Random random(test_seed());
   const MadeTree tree = random_tree(3000, 200, 100, random);
   TreemapOptions one, four, other;
@@ -199,7 +199,7 @@ TEST_CASE("the same bits with any number of threads, another layout with another
   CHECK(a.vertices != treemap(tree.view(), square, other).vertices);
 }
 
-TEST_CASE("large groups go to the device, with the same areas") {
+TEST_CASE("large groups are laid out on the device, with the right areas") {
   Random random(test_seed());
   const MadeTree tree = flat_tree(1500, 1000, random);
   TreemapOptions options;
@@ -213,7 +213,7 @@ TEST_CASE("large groups go to the device, with the same areas") {
         doctest::Approx(treemap(tree.view(), disk(40), options).mean_aspect).epsilon(0.05));
 }
 
-TEST_CASE("an update stays close to the layout it starts from") {
+TEST_CASE("an update stays close to the earlier layout") {
   Random random(test_seed());
   MadeTree tree = random_tree(400, 60, 10, random);
   const Treemap first = treemap(tree.view(), square);
@@ -223,7 +223,7 @@ TEST_CASE("an update stays close to the layout it starts from") {
   unchanged.start = start;
   CHECK(moved(first, treemap(tree.view(), square, unchanged)) < 1e-3);
   for (double& v : tree.value) v *= random.uniform(0.9, 1.1);
-  tree.add(0, 1);  // a new leaf of the root, without a place yet
+  tree.add(0, 1);  // a new leaf of the root, without an earlier position
   std::vector<double> longer = start;
   longer.resize(2 * tree.parent.size(), std::nan(""));
   TreemapOptions stable;
@@ -233,7 +233,7 @@ TEST_CASE("an update stays close to the layout it starts from") {
   CHECK(moved(first, updated) < 0.1 * moved(first, fresh));
 }
 
-TEST_CASE("an update of an unchanged tree with steep values stays where it is") {
+TEST_CASE("an update of an unchanged tree with values over many orders of magnitude keeps its seeds") {
   for (const double orders : {6, 10, 14})
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       CAPTURE(orders);
@@ -251,14 +251,14 @@ TEST_CASE("an update of an unchanged tree with steep values stays where it is") 
       TreemapOptions again;
       again.start = start;
       const Treemap same = treemap({parent, value}, square, again);
-      double most = 0;  // of seeds: polygons are the same to the tolerance
+      double most = 0;  // displacement of a seed; polygons agree to the tolerance only
       for (std::size_t k = 0; k < first.seeds.size(); ++k)
         most = std::max(most, std::fabs(first.seeds[k] - same.seeds[k]));
       CHECK(most < 1e-12);
     }
 }
 
-TEST_CASE("an update from a layout with all seeds at one place") {
+TEST_CASE("an update from a layout with all seeds at one position") {
   MadeTree tree;
   for (int child = 0; child < 9; ++child) tree.add(0, 1 + child % 3);
   const std::vector<double> start(2 * tree.parent.size(), 0.1);
@@ -267,7 +267,7 @@ TEST_CASE("an update from a layout with all seeds at one place") {
   check_layout(tree, treemap(tree.view(), square, options), square);
 }
 
-TEST_CASE("progress is told and can stop") {
+TEST_CASE("progress is reported and can interrupt") {
   Random random(test_seed());
   const MadeTree tree = random_tree(300, 20, 10, random);
   TreemapOptions options;

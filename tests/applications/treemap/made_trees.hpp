@@ -21,14 +21,14 @@ struct MadeTree {
   TreeView view() const { return {parent, value}; }
 };
 
-/// A root with n children whose values span a factor of `range`, evenly in their logarithm.
+/// A root with n children whose logarithms of values are uniform over a factor `range`.
 inline MadeTree flat_tree(std::size_t n, double range, Random& random) {
   MadeTree tree;
   for (std::size_t i = 0; i < n; ++i) tree.add(0, std::pow(range, random.uniform()));
   return tree;
 }
 
-/// n nodes below the root, each under a random earlier one of the last `breadth`.
+/// n nodes below the root, each a child of a random one of the last `breadth` nodes.
 inline MadeTree random_tree(std::size_t n, std::size_t breadth, double range, Random& random) {
   MadeTree tree;
   for (std::size_t i = 0; i < n; ++i) {

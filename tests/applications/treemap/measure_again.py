@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""Measures a treemap again from the files that `powercell treemap` wrote, by shapely (GEOS), and from the
-tree itself, read here by other code than the tool's. Every leaf with a value must be there with its area;
-children must lie in their parent, not overlap and fill it.
+"""Checks files that `powercell treemap` wrote by shapely (GEOS) against the tree, which is read by code independent
+of the tool. Every leaf with a value must have its area; children must lie in their parent, fill it and not overlap.
 
 usage: measure_again.py TREE LAYOUT.json [PICTURE.svg]   (TREE: a table with a header, or JSON)
-exit:  0 all right, 1 something is wrong, 77 shapely is missing
+exit:  0 passed, 1 failed, 77 shapely is missing
 """
 import csv
 import json
@@ -20,9 +19,9 @@ except ImportError as missing:
     print("skipped:", missing)
     sys.exit(77)
 
-AREA = 1e-6      # relative error allowed of a leaf: 1e-4 %
-TILING = 1e-9    # of the parent's area that children may leave free or cover twice
-ROUNDING = 0.0005 * math.sqrt(2)  # pixels: coordinates of an SVG are whole thousandths
+AREA = 1e-6      # largest relative error of a leaf's area
+TILING = 1e-9    # share of the parent's area that children may leave free or cover twice
+ROUNDING = 0.0005 * math.sqrt(2)  # pixels: coordinates in the SVG are multiples of 1/1000
 
 
 def read_tree(path):

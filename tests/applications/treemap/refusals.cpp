@@ -1,4 +1,5 @@
-// What cannot be laid out is refused, and says where.
+// Invalid trees, values, outlines and options are refused with a message that names the place; unusual
+// outlines are accepted.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -38,18 +39,18 @@ void check_outline(const Ring& outline, const std::string& says) {
 
 }  // namespace
 
-TEST_CASE("trees that are none") {
+TEST_CASE("invalid trees are refused") {
   check_tree({}, {}, "no nodes");
   check_tree({-1, 0}, {1}, "2 parents and 1 values");
   check_tree({-1, 7}, {1, 1}, "node 1 has the parent 7");
   check_tree({-1, -2}, {1, 1}, "node 1 has the parent -2");
-  check_tree({-1, 0, -1}, {1, 1, 1}, "node 0 and node 2 are both without a parent");
+  check_tree({-1, 0, -1}, {1, 1, 1}, "node 0 and node 2 both have no parent");
   check_tree({1, 0}, {1, 1}, "no root");
   check_tree({-1, 0, 3, 4, 2, 4}, {1, 1, 1, 1, 1, 1}, "a cycle");
   check_tree({-1, 1}, {1, 1}, "node 1 is among its own ancestors");
 }
 
-TEST_CASE("values that are none") {
+TEST_CASE("invalid values are refused") {
   check_tree({-1, 0}, {0, std::nan("")}, "value of node 1 is not finite");
   check_tree({-1, 0}, {0, std::numeric_limits<double>::infinity()}, "value of node 1 is not finite");
   check_tree({-1, 0, 0}, {0, 0, -1}, "nothing to lay out");
@@ -57,7 +58,7 @@ TEST_CASE("values that are none") {
   check_tree({-1, 0, 0}, {0, 1, 1e-20}, "node 2");
 }
 
-TEST_CASE("outlines that are not convex") {
+TEST_CASE("outlines that are not convex polygons are refused") {
   check_outline({{0, 0}, {1, 0}}, "fewer than three corners");
   check_outline({{0, 0}, {1, 1}, {2, 2}}, "no");
   check_outline({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}, "not convex at (1, 0.5)");
@@ -66,7 +67,7 @@ TEST_CASE("outlines that are not convex") {
                 "crosses itself");
 }
 
-TEST_CASE("outlines whose area is lost in rounding, or whose moments are beyond doubles") {
+TEST_CASE("outlines whose area is lost in rounding, or whose moments overflow, are refused") {
   check_outline({{0, 0}, {1e12, 0}, {1e12, 1e-3}, {0, 1e-3}}, "rounding its corners");
   check_outline({{1e12, 0}, {1e12 + 1, 0}, {1e12 + 1, 1}, {1e12, 1}}, "rounding its corners");
   check_outline({{0, 0}, {1e70, 0}, {1e70, 1e70}}, "1e60");
@@ -79,7 +80,7 @@ TEST_CASE("outlines whose area is lost in rounding, or whose moments are beyond 
   }
 }
 
-TEST_CASE("positions of polygons that are none") {
+TEST_CASE("relative_positions refuses invalid offsets") {
   const std::vector<std::int64_t> parent = {-1, 0};
   const std::vector<double> seeds(4, 0.0), vertices(6, 0.0);
   for (const std::vector<std::uint64_t>& offset :
@@ -87,7 +88,7 @@ TEST_CASE("positions of polygons that are none") {
     CHECK_THROWS_AS((void)relative_positions(parent, seeds, offset, vertices), Error);
 }
 
-TEST_CASE("outlines with repeated and collinear points, in either orientation, are taken") {
+TEST_CASE("outlines with repeated and collinear points, in either orientation, are accepted") {
   MadeTree tree;
   tree.add(0, 1);
   tree.add(0, 3);
@@ -99,7 +100,7 @@ TEST_CASE("outlines with repeated and collinear points, in either orientation, a
   }
 }
 
-TEST_CASE("options out of range") {
+TEST_CASE("options out of range are refused") {
   MadeTree tree;
   tree.add(0, 1);
   TreemapOptions options;

@@ -1,4 +1,5 @@
-// The diagrams of small groups against the library's own, which share nothing with them but the definition.
+// ConvexDiagram, the diagram of small groups, compared with powercell::Diagram, an independent
+// implementation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -62,7 +63,7 @@ void check_same(ConvexDiagram& own, Diagram& twin, double scale) {
   }
 }
 
-/// Weights low enough that no cell of these seeds is empty: no seed is inside another's disc.
+/// Scales the weights so that no cell is empty: no seed is inside the disc of another.
 void shrink_weights(SeedArray& seeds) {
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     double nearest = 1e300;
@@ -85,7 +86,7 @@ void compare(const Ring& outline, SeedArray seeds, const Setup& setup, double sc
   own.set_seeds(columns(seeds), false);
   REQUIRE(own.compute(seeds.weights, {}));
   check_same(own, twin, scale);
-  // Again from the neighbours of the first, with other weights.
+  // Again with other weights, starting from the neighbours of the first diagram.
   for (double& w : seeds.weights) w *= 0.3;
   twin.set_weights(seeds.weights);
   REQUIRE(own.compute(seeds.weights, {}));
@@ -103,7 +104,7 @@ Ring in_unit_square(const Ring& ring) {
 
 }  // namespace
 
-TEST_CASE("random seeds with weights, in a square, a kite and a circle") {
+TEST_CASE("weighted random seeds in a square, a kite and a circle agree with Diagram") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const Setup& setup : main_setups())
@@ -117,11 +118,11 @@ TEST_CASE("random seeds with weights, in a square, a kite and a circle") {
       }
 }
 
-TEST_CASE("grids, where four cells meet in a point") {
+TEST_CASE("grids, where four cells meet in a point, agree with Diagram") {
   for (const int per_axis : {2, 5, 16}) compare(square, grid(per_axis, 2), main_setups().front());
 }
 
-TEST_CASE("one seed among many small ones has a neighbour for each") {
+TEST_CASE("a cell with 400 neighbours agrees with Diagram") {
   Random random(test_seed());
   SeedArray seeds{2, {0.5, 0.5}, {0.16}};
   for (int k = 0; k < 400; ++k) {
@@ -131,7 +132,7 @@ TEST_CASE("one seed among many small ones has a neighbour for each") {
   compare(square, seeds, main_setups().front());
 }
 
-TEST_CASE("far from the origin, and very small") {
+TEST_CASE("very small and very large outlines agree with Diagram") {
   Random random(test_seed());
   for (const double size : {1e-6, 1e6}) {
     SeedArray seeds = scatter(Distribution::white, 50, 2, {}, random);
@@ -142,7 +143,7 @@ TEST_CASE("far from the origin, and very small") {
   }
 }
 
-TEST_CASE("a cell that is empty or too small is told at once") {
+TEST_CASE("a cell that is empty or too small is reported") {
   ConvexDiagram diagram;
   diagram.set_outline(columns(square));
   const Columns seeds{{0.25, 0.75}, {0.5, 0.5}};
@@ -155,7 +156,7 @@ TEST_CASE("a cell that is empty or too small is told at once") {
   CHECK(walls_of(diagram, 1).at(0) == doctest::Approx(1).epsilon(1e-15));
 }
 
-TEST_CASE("vertices of cells go around areas that are the masses") {
+TEST_CASE("the polygons of the vertices have the areas of the cells") {
   Random random(test_seed());
   ConvexDiagram diagram;
   diagram.set_outline(columns(kite));
@@ -176,7 +177,7 @@ TEST_CASE("vertices of cells go around areas that are the masses") {
   }
 }
 
-TEST_CASE("cells that are a corner or an edge of the outline have no vertices") {
+TEST_CASE("cells that degenerate to a corner or an edge of the outline have no vertices") {
   for (const double y : {1.5, 0.5}) {  // the bisector meets the square in (1, 1), or in its right edge
     ConvexDiagram diagram;
     diagram.set_outline(columns(square));

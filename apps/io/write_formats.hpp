@@ -1,0 +1,40 @@
+/// \file
+/// The writers of geometry behind `write_output`. Each throws Error write_failed.
+#pragma once
+
+#include <string>
+
+#include "apps/io/output.hpp"
+
+namespace powercell::io {
+
+/// VTK unstructured grid of the convex pieces of the cells, one for each region a cell meets: VTK_POLYGON on
+/// polygons and surfaces, VTK_POLYHEDRON in volumes. Cell data: `seed`, `region`, `weight`, `measure` (of the
+/// whole cell), `piece_measure`. In volumes ordered by the number of vertices.
+void write_vtu(const std::string& path, const DiagramOutput& output);
+
+/// VTK polygons: the convex pieces of the cells, in volumes the faces of the joined cells. Cell data: `seed`,
+/// `weight`, `measure` (of the whole cell), in volumes `neighbor` (-1 at the domain's boundary).
+void write_vtp(const std::string& path, const DiagramOutput& output);
+
+/// Polygon soups: cells share no corners, so that other programs can move them apart. OBJ: each cell is a
+/// group `cell_<seed>`.
+void write_obj(const std::string& path, const DiagramOutput& output);
+/// Binary; each face has the property `seed` (int) and a colour.
+void write_ply(const std::string& path, const DiagramOutput& output);
+/// Each face has its cell's colour; its seed follows as a comment on the line.
+void write_off(const std::string& path, const DiagramOutput& output);
+
+/// `{"powercell": version, "domain": {…}, "check": {…}, "borders": how to read them, "cells": […]}`, one cell
+/// a line, in input order. A cell has `seed`, `position`, `weight`, `status`, `measure`, `centroid` (null if
+/// empty), `second_moment`, `vertices`, `faces` (polygon: rings, outer ones counter-clockwise, holes
+/// clockwise; surface: polygons; volume: faces seen from outside; indices into `vertices`) and `borders` (one
+/// for each edge of each face; in volumes one for each face). Numbers read back the same.
+void write_json(const std::string& path, const DiagramOutput& output);
+
+/// A FeatureCollection with a Feature for each seed in input order: a Polygon, a MultiPolygon if the cell has
+/// several parts, or null if it is empty; properties `seed`, `weight`, `status`, `measure`. Coordinates are
+/// those of the domain's file.
+void write_geojson(const std::string& path, const DiagramOutput& output);
+
+}  // namespace powercell::io

@@ -1,0 +1,93 @@
+#include "lib/applications/transport/phases.hpp"
+
+#include <chrono>
+
+namespace powercell {
+namespace {
+
+/// Whether the masses are met within their quadrature error, which exceeds the tolerance: further steps
+/// follow noise, and none would count as converged.
+bool limited_by_quadrature(const SolveContext& context, const Iterate& at) {
+  const double quadrature_error = at.quadrature_error(context.target());
+  return quadrature_error >= context.tolerance() && at.error(context.target()) < quadrature_error;
+}
+
+}  // namespace
+
+SolveContext::SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance,
+                           Vector target)
+    : evaluator_(evaluator), options_(options), tolerance_(tolerance), target_(std::move(target)) {}
+
+double SolveContext::tolerance() const {
+  return evaluator_.spread() > 0 ? blend_tolerance : tolerance_;
+}
+
+Direction SolveContext::solve(const Laplacian& system, const Vector& right) {
+  const auto start = std::chrono::steady_clock::now();
+  Direction result;
+  result.linear = solve_laplacian(system, right, options_.linear, options_.linear_residual,
+                                  evaluator_.diagram().domain().cell_dimension());
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  ++solved_;
+  return result;
+}
+
+void SolveContext::record(TransportStep step, const Iterate& at, const Vector& target) {
+  step.step = static_cast<int>(steps_.size());
+  step.error = at.error(target);
+  step.gradient = at.gradient(target).norm();
+  step.least = at.least(target);
+  step.empty = at.empty;
+  step.dual = at.dual(target);
+  step.diagrams = static_cast<int>(evaluator_.diagrams() - recorded_diagrams_);
+  step.diagram_seconds = evaluator_.seconds() - recorded_seconds_;
+  recorded_diagrams_ = evaluator_.diagrams();
+  recorded_seconds_ = evaluator_.seconds();
+  step.spread = evaluator_.spread();
+  steps_.push_back(step);
+  if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
+  if (step.spread == 0) keep_best(at);
+}
+
+void SolveContext::keep_best(const Iterate& at) {
+  const double error = at.error(target_);
+  if (best_.size() == 0 || at.empty < best_empty_ || (at.empty == best_empty_ && error < best_error_)) {
+    best_ = at.weights;
+    best_empty_ = at.empty;
+    best_error_ = error;
+  }
+}
+
+TransportStep step_along(const Direction& direction, TransportPhase phase, double length) {
+  TransportStep step;
+  step.phase = phase;
+  step.length = length;
+  step.linear = direction.linear.solver;
+  step.linear_iterations = direction.linear.iterations;
+  step.linear_residual = direction.linear.residual;
+  step.linear_seconds = direction.seconds;
+  return step;
+}
+
+PhaseEnd solve_current_density(SolveContext& context, Iterate& at) {
+  PhaseEnd end = PhaseEnd::stalled;
+  if (at.empty > 0) end = ascend(context, at, true);
+  if (end != PhaseEnd::converged && at.empty == 0)
+    end = newton(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
+  if (at.empty == 0 && limited_by_quadrature(context, at)) return end;
+  if (end == PhaseEnd::stalled && at.empty == 0) end = ramp(context, at);
+  if (end == PhaseEnd::stalled || end == PhaseEnd::disconnected) end = ascend(context, at, false);
+  return end;
+}
+
+Iterate run_phases(SolveContext& context, const Vector& weights) {
+  Iterate at = find_start(context, weights);
+  // A cell with almost none of its mass gives no more guidance than an empty one.
+  if (context.evaluator().density_varies() && at.least(context.target()) < hopeless_share)
+    blend(context, weights, at);
+  const PhaseEnd end = solve_current_density(context, at);
+  if (end == PhaseEnd::converged || at.weights == context.best()) return at;
+  return context.evaluator().evaluate(context.best());
+}
+
+}  // namespace powercell

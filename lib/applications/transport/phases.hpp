@@ -1,0 +1,98 @@
+/// \file
+/// The phases of a solve, and the state that they share. Internal.
+#pragma once
+
+#include "lib/applications/transport/evaluator.hpp"
+
+namespace powercell {
+
+/// min m_i / v_i below which a better start is looked for.
+inline constexpr double poor_share = 0.01;
+/// min m_i / v_i below which the density is blended with a uniform one.
+inline constexpr double hopeless_share = 1e-4;
+
+/// How a phase ended.
+enum class PhaseEnd {
+  converged,
+  stalled,       ///< no step is accepted, or only short ones
+  disconnected,  ///< no walls connect some groups of cells: the linear system has no unique solution
+  step_limit,
+};
+
+/// The solution of the linear system of one step.
+struct Direction {
+  LinearResult linear;
+  double seconds = 0;  ///< wall-clock time
+};
+
+/// The state of one solve: steps so far, limits, and the best weights. Phases pass the current iterate along.
+class SolveContext {
+ public:
+  /// Evaluator and options are kept by reference.
+  SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance, Vector target);
+
+  Evaluator& evaluator() { return evaluator_; }
+  const Vector& target() const { return target_; }
+  /// The tolerance of the masses; a loose one while the density is blended.
+  double tolerance() const;
+  bool at_limit() const { return solved_ >= options_.max_steps; }
+  /// Whether the target masses are met. Walls may be missing then.
+  bool reached(const Iterate& at) const { return at.empty == 0 && at.error(target_) < tolerance(); }
+  const std::vector<TransportStep>& steps() const { return steps_; }
+
+  /// Solves system x = right.
+  Direction solve(const Laplacian& system, const Vector& right);
+  /// Records an accepted step: fills in what follows from the iterate, calls the progress callback, and
+  /// updates the best weights.
+  /// \param step    with phase, exponent, length and linear solve
+  /// \param target  of the phase
+  void record(TransportStep step, const Iterate& at, const Vector& target);
+  /// Updates the best weights.
+  /// \param at  evaluated for the density without a blend
+  void keep_best(const Iterate& at);
+
+  /// The best weights so far: those with the fewest empty cells, then the least error.
+  const Vector& best() const { return best_; }
+
+ private:
+  Evaluator& evaluator_;
+  const TransportOptions& options_;
+  double tolerance_;
+  Vector target_;
+  std::vector<TransportStep> steps_;
+  int solved_ = 0;
+  std::size_t recorded_diagrams_ = 0;  // diagrams of the steps so far
+  double recorded_seconds_ = 0;        // and their time
+  Vector best_;
+  std::size_t best_empty_ = 0;
+  double best_error_ = 0;
+};
+
+/// A step of `length` along a direction, for SolveContext::record.
+TransportStep step_along(const Direction& direction, TransportPhase phase, double length);
+
+/// Chooses an iterate to start from: the given weights if no cell is empty; else fractions of them; else 0;
+/// else weights as if all seeds were moved into the domain by one affine map, (31a). Of all tried the one
+/// with the fewest empty cells. If a cell is far below its mass, also weights as if the seeds were moved onto
+/// the density, (31b), if these are better.
+Iterate find_start(SolveContext& context, const Vector& weights);
+/// Damped Newton towards a target of its own, (27)-(29).
+PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
+                TransportPhase phase, double exponent);
+/// Damped Newton for increasing powers of the masses.
+PhaseEnd ramp(SolveContext& context, Iterate& at);
+/// Regularised Newton on the dual, (30).
+/// \param repair  ends as soon as damped Newton can take over
+PhaseEnd ascend(SolveContext& context, Iterate& at, bool repair);
+/// The three phases above as needed, for the evaluator's current blend of the density.
+PhaseEnd solve_current_density(SolveContext& context, Iterate& at);
+/// Continuation for densities with almost no mass in some cells: solves for blends with a uniform density,
+/// (31c), of decreasing share.
+/// \param weights  the given ones, from which the uniform density is solved
+/// \param at       the start; on success an iterate from which damped Newton can take over
+/// \return false on failure, with `at` unchanged
+bool blend(SolveContext& context, const Vector& weights, Iterate& at);
+/// All phases as needed. Whether it converged shows in the error of the returned iterate.
+Iterate run_phases(SolveContext& context, const Vector& weights);
+
+}  // namespace powercell

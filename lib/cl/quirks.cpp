@@ -1,0 +1,66 @@
+#include "lib/cl/quirks.hpp"
+
+// Workarounds that cost nothing apply to every device and have no row in the table below:
+// - PoCL keeps short loops over private arrays rolled up, and so the arrays in memory
+//   (github.com/pocl/pocl/issues/825): UNROLL in kernels/base/real.cl.
+// - Intel's CPU compiler reorders plain sums in scalar code: add_column in kernels/integrate/gather.cl.
+// - OpenCL does not say how dot() and cross() round: kernels/base/lanes.cl has its own.
+// - Compilers fuse a * b + c although told not to (github.com/SixTrack/sixtracklib/issues/131):
+//   lib/cl/self_test.cpp refuses such devices.
+// - Drivers miscompile large kernels (github.com/pocl/pocl/issues/979): lib/clip/golden.cpp refuses those.
+// - NVIDIA's driver allocates a buffer at its first use, too late to try a smaller one
+//   (github.com/arrayfire/arrayfire/issues/2650): lib/cl/buffer.cpp migrates it to the device at once.
+// - Some drivers fill a buffer pattern by pattern: lib/cl/buffer.cpp takes the widest that fits.
+// - Devices of OpenCL 1.1 do not know CL_DEVICE_DOUBLE_FP_CONFIG: lib/cl/enumerate.cpp takes that for a no.
+// - Drivers refuse a binary of their own, or hand out none: lib/cl/program_build.cpp compiles again.
+// - PoCL and NVIDIA's driver read settings from the environment, once: limit_threads in apps/common.cpp,
+//   set_caches_aside in apps/bench.cpp.
+
+namespace powercell::cl {
+namespace {
+
+bool is_gpu(const DeviceInfo& device) {
+  return device.type == DeviceInfo::Type::gpu;
+}
+bool is_cpu(const DeviceInfo& device) {
+  return device.type == DeviceInfo::Type::cpu;
+}
+bool is_pocl(const DeviceInfo& device) {
+  return device.platform_name == "Portable Computing Language";
+}
+
+/// A condition on the device and the change that it makes. Later rows overrule earlier ones.
+struct Row {
+  bool (*applies)(const DeviceInfo&);
+  void (*change)(Quirks&);
+};
+
+constexpr Row table[] = {
+    // GPUs: several warps a group, but few enough to leave each work-item its registers.
+    {is_gpu, [](Quirks& quirks) { quirks.group_size = 128; }},
+
+    // PoCL compiles a kernel once for grids of less than 2^16 work-items and once for larger ones
+    // (github.com/pocl/pocl/pull/738). The limit holds on every CPU, so that chunks are the same with every
+    // driver; the margin is for rounding up to whole groups.
+    {is_cpu, [](Quirks& quirks) { quirks.launch_limit = (std::uint64_t{1} << 16) - 4096; }},
+
+    // PoCL specialises a kernel by its group size when it is launched (github.com/pocl/pocl/issues/1958) and
+    // keeps the result in its own folder; a cache of binaries on top makes it compile a general form besides
+    // (github.com/inducer/pyopencl/issues/731).
+    {is_pocl,
+     [](Quirks& quirks) {
+       quirks.compiles_at_launch = true;
+       quirks.keeps_programs = true;
+     }},
+};
+
+}  // namespace
+
+Quirks quirks_of(const DeviceInfo& device) {
+  Quirks quirks;
+  for (const Row& row : table)
+    if (row.applies(device)) row.change(quirks);
+  return quirks;
+}
+
+}  // namespace powercell::cl

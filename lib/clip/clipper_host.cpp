@@ -1,0 +1,112 @@
+// The host's part of a Clipper: pairs that rounding may have decided, and those that fit no capacity.
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <type_traits>
+
+#include "kernels/layout.h"
+#include "lib/base/threads.hpp"
+#include "lib/clip/clipper.hpp"
+#include "lib/report/log.hpp"
+
+namespace powercell {
+namespace {
+
+/// Pairs of one parallel task.
+constexpr std::size_t pairs_of_task = 64;
+
+const SplitPair* find_split(std::span<const SplitPair> split, std::uint32_t pair) {
+  const auto found = std::lower_bound(split.begin(), split.end(), pair,
+                                      [](const SplitPair& s, std::uint32_t p) { return s.pair < p; });
+  return found != split.end() && found->pair == pair ? &*found : nullptr;
+}
+
+}  // namespace
+
+void Clipper::write_moments(const List& pairs, std::span<const double> moments) {
+  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
+  const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
+  const auto patch = [&](auto& all) {
+    using Real = typename std::remove_reference_t<decltype(all)>::value_type;
+    memory_.moments.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+    // A measure above 0 marks a non-empty cell. In single precision, where devices may flush numbers below
+    // 2^-126 to 0, tiny measures are raised, and the other moments with them.
+    constexpr double least = std::is_same_v<Real, float> ? 0x1p-100 : std::numeric_limits<double>::min();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const double measure = moments[k * count],
+                   factor = measure > 0 && measure < least ? least / measure : 1;
+      for (std::size_t m = 0; m < count; ++m)
+        all[(pairs[k] - first) * count + m] = static_cast<Real>(factor * moments[k * count + m]);
+    }
+    memory_.moments.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+  };
+  if (scene_.float32()) {
+    std::vector<float> all(rows * count);
+    patch(all);
+  } else {
+    std::vector<double> all(rows * count);
+    patch(all);
+  }
+}
+
+int Clipper::clip_split(HostClipper& host, const SplitPair& split, std::span<double> moments,
+                        PieceBatch& rows) const {
+  if (rows.face_offset.empty()) rows.face_offset = rows.vertex_offset = {0};
+  const std::size_t row = rows.face_offset.size() - 1;
+  int status = PIECE_EMPTY;
+  std::fill(moments.begin(), moments.end(), 0.0);
+  std::vector<double> part(moments.size());
+  for (const std::uint32_t region : split.regions) {
+    const int of_part = host.clip(pair_seed_[split.pair], region, part, rows);
+    if (of_part == PIECE_EMPTY) continue;
+    if (status != PIECE_WHOLE) status = of_part;
+    std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
+  }
+  // The rows of the parts become one row of walls; there is no common geometry.
+  rows.repeats = true;
+  rows.face_offset.resize(row + 1);
+  rows.face_offset.push_back(static_cast<std::uint32_t>(rows.border.size()));
+  rows.vertex_offset.resize(row + 1);
+  rows.vertex_offset.push_back(
+      static_cast<std::uint32_t>(rows.vertex.size() / static_cast<std::size_t>(scene_.mesh().dimension)));
+  return status;
+}
+
+int Clipper::clip_on_host(HostClipper& host, std::uint32_t pair, const SplitPair* split,
+                          std::span<double> moments, PieceBatch& rows) const {
+  if (!split) return host.clip(pair_seed_[pair], pair_region_[pair], moments, rows);
+  if (split->regions.size() == 1) return host.clip(pair_seed_[pair], split->regions.front(), moments, rows);
+  return clip_split(host, *split, moments, rows);
+}
+
+const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
+                                        std::span<const SplitPair> split) {
+  if (pairs.empty()) return memory_.pieces;
+  if (!host_scene_) host_scene_ = make_host_scene(scene_);
+  const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
+  const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task,
+                    first_batch = memory_.pieces.used;
+  for (std::size_t task = 0; task < tasks; ++task) memory_.pieces.add_batch().clear();
+  std::vector<double> moments(pairs.size() * count);
+  std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
+  parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
+    std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
+    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0);
+    const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
+    PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t pair = pairs[k];
+      const int status = clip_on_host(*host, pair, find_split(split, pair),
+                                      std::span(moments).subspan(k * count, count), rows);
+      memory_.pieces.status[pair] = static_cast<std::uint32_t>(status);
+      memory_.pieces.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
+      memory_.pieces.row[pair] = static_cast<std::uint32_t>(k - begin);
+    }
+  });
+  write_moments(pairs, moments);
+  statistics_.on_host += pairs.size();
+  write_log(LogLevel::detail, [&] { return "pieces finished on the host: " + std::to_string(pairs.size()); });
+  return memory_.pieces;
+}
+
+}  // namespace powercell

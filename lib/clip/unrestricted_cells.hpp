@@ -1,0 +1,17 @@
+/// \file
+/// Cells clipped in the container around the domain instead of in its regions. Internal.
+#pragma once
+
+#include "lib/neighbors/candidates.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
+
+namespace powercell {
+
+/// Clips the cells of `ranks`, ascending, in the last region of the scene, and reads their neighbours and
+/// vertices.
+/// \pre the last region contains all others (with_container)
+/// \throw Error as Clipper::clip
+CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
+                                  std::span<const std::uint32_t> ranks);
+
+}  // namespace powercell

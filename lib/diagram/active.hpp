@@ -1,0 +1,50 @@
+/// \file
+/// The seeds that may have cells, on the host and on the device. Internal.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lib/diagram/input.hpp"
+#include "lib/diagram/setup.hpp"
+#include "lib/scene/scene.hpp"
+
+namespace powercell {
+
+/// The active seeds in Hilbert order, their tree, and both on the device. Not movable, because scenes and
+/// plans refer to it.
+class Active {
+ public:
+  /// Builds the tree, uploads the seeds, and sets seeds aside that are proved hidden, if they are many.
+  /// \param buffers  receive the seeds; must outlive this
+  /// \param tree     released by earlier active seeds at the same positions; used if those were all seeds
+  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<PackedTree> tree);
+  Active(const Active&) = delete;
+  Active& operator=(const Active&) = delete;
+
+  const SeedSet& seeds() const { return own_ ? *own_ : input_.seeds; }
+  const PackedTree& tree() const { return tree_; }
+  Scene scene() const { return {setup_.on_device, buffers_, seeds(), tree_}; }
+
+  /// Ranks whose cells must be clipped region by region, because it is unclear whether they lie inside the
+  /// domain.
+  std::vector<std::uint32_t> by_region;
+
+  /// Lowers the weights of seeds with exactly flat cells, by rank, until they have no cell anywhere. The
+  /// cells on both sides of a flat cell then share its walls.
+  void exclude_flat_cells(std::span<const std::uint32_t> ranks);
+
+  PackedTree release_tree() && { return std::move(tree_); }
+
+ private:
+  void set_hidden_aside();
+
+  const Setup& setup_;
+  const Input& input_;
+  SeedBuffers& buffers_;
+  std::optional<SeedSet> own_;  // if not all seeds of the input with their weights
+  PackedTree tree_;
+};
+
+}  // namespace powercell

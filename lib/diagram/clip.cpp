@@ -1,0 +1,198 @@
+#include "lib/diagram/clip.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernels/layout.h"
+#include "lib/clip/in_chunks.hpp"
+#include "lib/collect/geometry.hpp"
+#include "lib/diagram/stopwatch.hpp"
+#include "lib/diagram/unrestricted.hpp"
+#include "lib/integrate/moment_sums.hpp"
+
+namespace powercell {
+
+namespace {
+
+/// Pairs of a chunk, unless Options::chunk_pairs is set. A GPU needs many to be busy. A core of a CPU needs a
+/// few groups, and collects the output of a small chunk from its cache.
+constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 14;
+/// PoCL compiles a kernel once for fewer than 2^16 work-items and once for more; this avoids the second.
+constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
+constexpr std::uint64_t least_chunk_pairs = 1024;
+/// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
+constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
+/// Larger buffers are freed after a pass, because other work needs the memory.
+constexpr std::size_t kept_bytes = std::size_t{16} << 20;
+/// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
+constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
+
+int outputs_of(Wanted want) {
+  return OUTPUT_MOMENTS | (want.adjacency ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
+}
+
+/// The number of pairs of a chunk, of `total`.
+std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
+  if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
+  const DeviceInfo& device = setup.device.info();
+  const std::uint64_t most =
+      device.type != DeviceInfo::Type::cpu
+          ? chunk_pairs_gpu
+          : std::min(chunk_pairs_cpu, std::max(1u, device.compute_units) * chunk_pairs_core);
+  // Chunks of equal size, because a small last chunk would not keep all cores busy.
+  return (total - 1) / ((total - 1) / most + 1) + 1;
+}
+
+class Pass {
+ public:
+  Pass(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace)
+      : setup_(setup),
+        active_(active),
+        plan_(plan),
+        want_(want),
+        workspace_(workspace),
+        exact_(setup.options.decisions == Decisions::exact),
+        measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
+        walls_(want.adjacency ? active.seeds().size() : 0, setup.threads, std::exchange(workspace.walls, {})),
+        geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {}
+
+  Clipped run(Timings& timings) {
+    if (!plan_.pairs.region.empty()) clip_all(timings);
+    const Stopwatch watch(setup_.device);
+    Clipped results = finish();
+    keep_wall_memory();
+    timings.collect = collect_seconds_ + watch.seconds();
+    return results;
+  }
+
+ private:
+  void clip_all(Timings& timings);
+  /// Clips and collects the pairs [begin, end).
+  void clip_chunk(std::uint64_t begin, std::uint64_t end);
+  void set_chunk_seeds(std::uint64_t begin, std::uint64_t end);
+  std::uint32_t rank_of(std::uint64_t pair) const;
+  Clipped finish();
+  void keep_wall_memory();
+
+  const Setup& setup_;
+  const Active& active_;
+  const Plan& plan_;
+  const Wanted want_;
+  Workspace& workspace_;
+  const bool exact_;
+  std::optional<Clipper> clipper_;
+  MomentSums measures_;
+  WallCollector walls_;
+  GeometryCollector geometry_;
+  std::vector<std::uint32_t> pair_seed_;  // of a chunk
+  std::vector<std::uint32_t> flat_;       // the rank of each flat piece
+  double collect_seconds_ = 0;
+};
+
+std::uint32_t Pass::rank_of(std::uint64_t pair) const {
+  const auto& offset = plan_.pairs.offset;
+  return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() -
+                                    1);
+}
+
+void Pass::set_chunk_seeds(std::uint64_t begin, std::uint64_t end) {
+  const std::vector<std::uint64_t>& offset = plan_.pairs.offset;
+  pair_seed_.resize(end - begin);
+  for (std::uint32_t rank = rank_of(begin); rank <= rank_of(end - 1); ++rank) {
+    const std::uint64_t from = std::max(begin, offset[rank]), to = std::min(end, offset[rank + 1]);
+    if (to > from) std::fill_n(&pair_seed_[from - begin], to - from, rank);
+  }
+}
+
+void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
+  set_chunk_seeds(begin, end);
+  const std::span pair_region(plan_.pairs.region.data() + begin, end - begin);
+  const std::vector<std::uint32_t> for_host = clipper_->clip_on_device(pair_seed_, pair_region);
+  const PieceSet& pieces =
+      clipper_->finish_on_host(for_host, plan_.split(setup_, active_, pair_seed_, pair_region, for_host));
+  const Stopwatch watch(setup_.device);
+  // This step may run out of device memory, and then adds nothing. No later step uses device memory.
+  measures_.add(plan_.pairs.offset, begin, end, pair_seed_.front(), pair_seed_.back(), clipper_->moments());
+  if (exact_)
+    for (std::size_t k = 0; k < pair_seed_.size(); ++k)
+      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_seed_[k]);
+  if (want_.adjacency) walls_.add(pair_seed_, pieces);
+  if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
+  collect_seconds_ += watch.seconds();
+}
+
+void Pass::clip_all(Timings& timings) {
+  const std::uint64_t total = plan_.pairs.region.size();
+  Candidates& candidates = *plan_.candidates;
+  const auto make_clipper = [&](std::optional<ClipMemory> memory) {
+    clipper_.emplace(active_.scene(), candidates, outputs_of(want_), ClipOptions{exact_, setup_.threads},
+                     std::move(memory));
+  };
+  make_clipper(std::exchange(workspace_.clip, std::nullopt));
+  const double list_seconds_before = candidates.host_seconds();
+  ClipStatistics done, before;  // of discarded clippers; at the beginning of a chunk
+  const Stopwatch watch(setup_.device);
+  in_chunks(
+      total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
+      [&](std::uint64_t begin, std::uint64_t end) {
+        before = clipper_->statistics();
+        clip_chunk(begin, end);
+        write_log(LogLevel::detail,
+                  [&] { return std::to_string(end) + " of " + std::to_string(total) + " pairs clipped"; });
+        const auto& progress = setup_.options.progress;
+        if (progress && !progress(static_cast<double>(end) / static_cast<double>(total)))
+          throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
+      },
+      [&] {
+        done.add(before);
+        make_clipper({});
+      });
+  const double list_seconds = candidates.host_seconds() - list_seconds_before;
+  timings.neighbors += list_seconds;
+  timings.clip = watch.seconds() - collect_seconds_ - list_seconds;
+  done.add(clipper_->statistics());
+  timings.retried = done.retried;
+  timings.on_host = done.on_host;
+  timings.uncertain = done.uncertain;
+  timings.rounds = done.rounds;
+  ClipMemory memory = std::move(*clipper_).release();
+  clipper_.reset();
+  if (memory.bytes() <= kept_bytes) workspace_.clip = std::move(memory);
+}
+
+void Pass::keep_wall_memory() {
+  WallRows::Memory memory = std::move(walls_).release();
+  std::size_t bytes = 0;
+  for (const auto& words : memory) bytes += words.bytes();
+  if (bytes <= kept_bytes) workspace_.walls = std::move(memory);
+}
+
+Clipped Pass::finish() {
+  const SeedSet& seeds = active_.seeds();
+  Clipped results;
+  Measures measures = measures_.finish();
+  flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
+  std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
+  results.flat = std::move(flat_);
+  if (!results.flat.empty()) return results;
+  if (plan_.unrestricted) results.unclear = classify_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
+  if (!results.unclear.empty()) return results;
+  if (want_.adjacency)
+    results.adjacency = walls_.finish(seeds, measures.status,
+                                      setup_.on_device.frame().unit(setup_.domain.cell_dimension() - 1),
+                                      exact_             ? 0
+                                      : setup_.float32() ? negligible_float
+                                                         : negligible_double);
+  if (want_.cells) results.cells = geometry_.finish(measures.status);
+  results.measures = std::move(measures);
+  return results;
+}
+
+}  // namespace
+
+Clipped clip(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace,
+             Timings& timings) {
+  return Pass(setup, active, plan, want, workspace).run(timings);
+}
+
+}  // namespace powercell

@@ -1,0 +1,39 @@
+/// \file
+/// One pass over all pairs of a plan, chunk by chunk: clip, integrate, collect. Internal.
+#pragma once
+
+#include <optional>
+#include <powercell/results.hpp>
+#include <vector>
+
+#include "lib/collect/walls.hpp"
+#include "lib/diagram/plan.hpp"
+
+namespace powercell {
+
+/// The results to compute besides the measures.
+struct Wanted {
+  bool adjacency = false, cells = false;
+};
+
+/// The outcome of a pass: results, or ranks because of which it must be repeated.
+struct Clipped {
+  std::optional<Measures> measures;
+  std::optional<Adjacency> adjacency;
+  std::optional<Cells> cells;
+  std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
+  std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
+};
+
+/// Small buffers that are reused by the next pass.
+struct Workspace {
+  std::optional<ClipMemory> clip;
+  WallRows::Memory walls;
+};
+
+/// \param timings  sets `clip`, `collect` and the counts; adds the time of lists to `neighbors`
+/// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
+Clipped clip(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace,
+             Timings& timings);
+
+}  // namespace powercell

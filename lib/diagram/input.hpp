@@ -1,0 +1,36 @@
+/// \file
+/// The seeds of a Diagram, as given by the caller. Internal.
+#pragma once
+
+#include <powercell/seeds.hpp>
+#include <span>
+#include <vector>
+
+#include "lib/diagram/setup.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+/// Rows of positions and weights.
+struct SeedRows {
+  std::vector<double> positions, weights;
+};
+
+/// Validated seeds in Hilbert order, and the duplicates left out of them.
+struct Input {
+  SeedSet seeds;
+  SeedRows duplicates;  ///< in the order of SeedSet::duplicate
+
+  /// All seeds in the caller's order.
+  SeedRows given() const;
+};
+
+/// \throw Error invalid_argument (sizes); invalid_seed (NaN, infinity or a square that overflows; names seed
+///        and value)
+Input make_input(const Setup& setup, const SeedsView& seeds);
+
+/// The same seeds with new weights, in the caller's order.
+/// \throw Error invalid_argument (size), invalid_seed; `input` is then unchanged
+Input with_weights(const Setup& setup, Input&& input, std::span<const double> weights);
+
+}  // namespace powercell

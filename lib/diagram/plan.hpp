@@ -1,0 +1,42 @@
+/// \file
+/// The strategy by which the cells of the active seeds are computed. Internal.
+#pragma once
+
+#include <memory>
+#include <powercell/results.hpp>
+#include <span>
+#include <vector>
+
+#include "lib/clip/clipper.hpp"
+#include "lib/diagram/active.hpp"
+
+namespace powercell {
+
+/// The results that a plan computes. On surfaces and in domains of one region both kinds are the same.
+enum class PlanKind {
+  integrals,  ///< measures and adjacency: only cells at the boundary are cut by region
+  geometry,   ///< every cell is cut along the regions of the domain
+};
+
+/// The pairs to clip, and their candidates. Refers to the setup and the active seeds it was made for.
+struct Plan {
+  Pairs pairs;
+  std::unique_ptr<Candidates> candidates;
+  bool unrestricted = false;  ///< pairs with the container are cells inside or outside the domain
+  CellWalls walls;            ///< needed by split(); empty if no cell is cut by planes
+
+  /// The pairs that the host must clip region by region: those of cells cut by planes of the boundary.
+  /// \param pair_seed, pair_region  of a chunk of pairs
+  /// \param for_host  indices into these, ascending
+  std::vector<SplitPair> split(const Setup& setup, const Active& active,
+                               std::span<const std::uint32_t> pair_seed,
+                               std::span<const std::uint32_t> pair_region,
+                               std::span<const std::uint32_t> for_host) const;
+};
+
+/// Chooses the strategy, finds the pairs and makes the candidates.
+/// \param timings  sets `pairs`, `neighbors` and `pair_count`
+/// \throw Error interrupted; opencl, out_of_device_memory, build_failed; invalid_argument (options of lists)
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Timings& timings);
+
+}  // namespace powercell

@@ -1,0 +1,52 @@
+#include "lib/diagram/setup.hpp"
+
+#include "lib/base/threads.hpp"
+#include "lib/domain/outline.hpp"
+
+namespace powercell {
+
+Precision choose_precision(const Device& device, Precision asked) {
+  const bool fp64 = device.info().fp64;
+  if (asked == Precision::automatic) return fp64 ? Precision::float64 : Precision::float32;
+  if (asked == Precision::float64 && !fp64)
+    throw Error(ErrorCode::no_fp64, "device \"" + device.info().name +
+                                        "\" has no double precision; use single precision or another device");
+  return asked;
+}
+
+namespace {
+
+Neighbors choose_neighbors(Neighbors asked) {
+#ifndef POWERCELL_HAS_FLANN
+  if (asked == Neighbors::flann)
+    throw Error(ErrorCode::unsupported,
+                "this build does not include FLANN; use the tree, or build with POWERCELL_FLANN=ON");
+#endif
+  return asked == Neighbors::automatic ? Neighbors::tree : asked;
+}
+
+Options checked(Options options) {
+  const auto refuse = [](const char* name, int value) {
+    throw Error(ErrorCode::invalid_argument, std::string(name) + " is " + std::to_string(value) +
+                                                 "; it must not be negative (0 lets the library choose)");
+  };
+  if (options.initial_neighbors < 0) refuse("initial_neighbors", options.initial_neighbors);
+  if (options.threads < 0) refuse("threads", options.threads);
+  return options;
+}
+
+}  // namespace
+
+Setup::Setup(Device device_in, Domain domain_in, Options options_in)
+    : device(std::move(device_in)),
+      domain(std::move(domain_in)),
+      options(checked(std::move(options_in))),
+      precision(choose_precision(device, options.precision)),
+      neighbors(choose_neighbors(options.neighbors)),
+      threads(thread_count(options.threads)),
+      has_inside(powercell::has_inside(domain.mesh())),
+      clip_mesh(has_inside ? with_container(domain.mesh()) : RegionMesh{}),
+      on_device(device.context(), has_inside ? clip_mesh : domain.mesh(), precision == Precision::float32),
+      pairs(domain.mesh(), threads) {}
+
+}  // namespace powercell

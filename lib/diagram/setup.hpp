@@ -1,0 +1,34 @@
+/// \file
+/// The constant part of a Diagram. Internal.
+#pragma once
+
+#include <powercell/device.hpp>
+#include <powercell/domain.hpp>
+#include <powercell/options.hpp>
+
+#include "lib/pairs/pair_finder.hpp"
+#include "lib/scene/domain_buffers.hpp"
+
+namespace powercell {
+
+/// Resolves Precision::automatic for a device. \throw Error no_fp64
+Precision choose_precision(const Device& device, Precision asked);
+
+struct Setup {
+  Device device;
+  Domain domain;
+  Options options;
+  Precision precision;  ///< not automatic
+  Neighbors neighbors;  ///< not automatic
+  int threads;
+  bool has_inside;          ///< whether a cell inside the domain can meet several of its regions
+  RegionMesh clip_mesh;     ///< if has_inside: the regions, then the container
+  DomainBuffers on_device;  ///< of `clip_mesh`, or of the domain
+  PairFinder pairs;
+
+  /// \throw Error no_fp64; invalid_argument, unsupported (options); opencl, out_of_device_memory
+  Setup(Device device, Domain domain, Options options);
+  bool float32() const { return on_device.float32(); }
+};
+
+}  // namespace powercell

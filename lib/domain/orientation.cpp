@@ -1,0 +1,88 @@
+#include "lib/domain/orientation.hpp"
+
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+
+namespace powercell {
+namespace {
+
+/// The exact sign of a sum of 12 doubles: an expansion of non-overlapping terms that grows by one term a
+/// double.
+class ExactSum {
+ public:
+  void add_product(double x, double y) {
+    const double product = x * y;
+    add(std::fma(x, y, -product));
+    add(product);
+  }
+  int sign() const {
+    for (int k = count_ - 1; k >= 0; --k) {
+      if (term_[k] != 0) return term_[k] > 0 ? 1 : -1;
+    }
+    return 0;
+  }
+
+ private:
+  void add(double x) {
+    for (int k = 0; k < count_; ++k) {
+      const double sum = x + term_[k];
+      const double part = sum - x;
+      term_[k] = (x - (sum - part)) + (term_[k] - part);  // the rounding error of `sum`
+      x = sum;
+    }
+    term_[count_++] = x;
+  }
+  std::array<double, 12> term_{};  // in order of growing magnitude
+  int count_ = 0;
+};
+
+int exact_orient2d(const double* a, const double* b, const double* c) {
+  ExactSum sum;  // a×b + b×c + c×a, from the coordinates, since differences would round
+  sum.add_product(a[0], b[1]);
+  sum.add_product(-a[1], b[0]);
+  sum.add_product(b[0], c[1]);
+  sum.add_product(-b[1], c[0]);
+  sum.add_product(c[0], a[1]);
+  sum.add_product(-c[1], a[0]);
+  return sum.sign();
+}
+
+}  // namespace
+
+int orient2d(const double* a, const double* b, const double* c) {
+  const double left = (b[0] - a[0]) * (c[1] - a[1]);
+  const double right = (b[1] - a[1]) * (c[0] - a[0]);
+  const double area = left - right;
+  // Each product carries three roundings and their difference one more.
+  const double bound = 4 * std::numeric_limits<double>::epsilon() * (std::fabs(left) + std::fabs(right));
+  if (std::fabs(area) > bound) return area > 0 ? 1 : -1;
+  return exact_orient2d(a, b, c);
+}
+
+bool strictly_between(const double* a, const double* b, const double* c) {
+  for (int k = 0; k < 2; ++k) {
+    if (a[k] == c[k] ? b[k] != a[k] : (b[k] <= a[k]) == (b[k] <= c[k]) && b[k] != a[k] && b[k] != c[k]) {
+      return false;
+    }
+  }
+  auto equal = [](const double* p, const double* q) { return p[0] == q[0] && p[1] == q[1]; };
+  return !equal(a, b) && !equal(b, c) && orient2d(a, b, c) == 0;
+}
+
+int exact_orientation(std::span<const double> positions, std::span<const std::uint32_t> corners) {
+  using Rational = boost::multiprecision::cpp_rational;
+  const std::size_t d = corners.size() - 1;
+  std::array<std::array<Rational, 3>, 3> e;
+  for (std::size_t r = 0; r < d; ++r)
+    for (std::size_t k = 0; k < d; ++k)
+      e[r][k] = Rational(positions[d * corners[r + 1] + k]) - Rational(positions[d * corners[0] + k]);
+  const auto minor = [&](std::size_t a, std::size_t b) {
+    return Rational(e[0][a] * e[1][b] - e[0][b] * e[1][a]);
+  };
+  if (d == 2) return minor(0, 1).sign();
+  return Rational(e[2][0] * minor(1, 2) - e[2][1] * minor(0, 2) + e[2][2] * minor(0, 1)).sign();
+}
+
+}  // namespace powercell

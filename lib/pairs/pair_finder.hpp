@@ -1,0 +1,100 @@
+/// \file
+/// Finds which seeds can meet which regions of the domain. Internal.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lib/domain/region_mesh.hpp"
+#include "lib/neighbors/cell_bounds.hpp"
+#include "lib/regions/region_locator.hpp"
+#include "lib/seeds/packed_tree.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+/// Candidate pairs by seed: rank i may meet the regions region[offset[i] .. offset[i+1]), ascending. The
+/// number after the last region stands for the container, a region around the whole domain (with_container):
+/// a pair with it is the unrestricted cell.
+struct Pairs {
+  std::vector<std::uint64_t> offset;  ///< seeds + 1
+  std::vector<std::uint32_t> region;
+  /// Per region: all seeds that can meet it, ascending, if they are few, else no seeds. Empty if the domain
+  /// has one region.
+  std::vector<std::uint64_t> list_offset;  ///< regions + 1
+  std::vector<std::uint32_t> list_seed;
+  bool all_listed = false;  ///< every region with a pair has a list
+  /// The unrestricted cells that must be cut by planes of the boundary.
+  CellPlanes planes;
+};
+
+/// Cells that may meet the boundary of the domain.
+struct BoundaryRanks {
+  std::vector<std::uint32_t> ranks;      ///< ascending
+  std::vector<std::uint32_t> by_region;  ///< those of them, ascending, that are clipped region by region
+};
+
+namespace pairs {
+class BoundaryPlanes;
+}
+
+/// Finds pairs for one domain. Structures that depend on the regions only are made once. Thread-safe only
+/// where stated.
+class PairFinder {
+ public:
+  /// Keeps a reference to the mesh. \param threads  0 for all
+  PairFinder(const RegionMesh& mesh, int threads);
+  ~PairFinder();
+
+  /// A close superset of the pairs whose region and cell meet in more than a set of measure 0. Seed i is left
+  /// out for a region only if for each part of the region some j has pow_j < pow_i at all corners (11), with
+  /// a margin so that rounding never loses a pair. In a domain of one region every seed has a pair. Work and
+  /// memory are near-linear for a million seeds in one region and for ten seeds on a million triangles. The
+  /// result does not depend on `threads`.
+  /// \param progress  as Options::progress
+  /// \throw Error interrupted
+  Pairs by_regions(const SeedSet& seeds, const PackedTree& tree,
+                   const std::function<bool(double)>& progress = {}) const;
+
+  /// The ranks whose cells can meet the boundary of the domain, and those of `by_region`.
+  /// \param by_region  in any order
+  /// \param progress   called with 0 only; the expensive stage comes later
+  /// \throw Error interrupted
+  BoundaryRanks at_boundary(const SeedSet& seeds, const PackedTree& tree,
+                            std::span<const std::uint32_t> by_region,
+                            const std::function<bool(double)>& progress = {}) const;
+
+  /// The pairs of cells whose unrestricted walls and vertices are known. A region is left out only if one of
+  /// the walls or one of its facets separates it from the cell. A cell around which the domain is convex has
+  /// one pair, with the container, and planes. There are no lists by region.
+  /// \param ranks   of at_boundary(); all others have one pair, with the container
+  /// \param planes  whether cells may be cut by planes
+  /// \throw Error interrupted
+  Pairs by_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls, bool planes,
+                 const std::function<bool(double)>& progress = {}) const;
+
+  /// The regions of one cell, found as by by_cells() without planes. Thread-safe after by_cells().
+  std::vector<std::uint32_t> regions_of(const SeedSet& seeds, std::uint32_t rank,
+                                        const CellWalls& walls) const;
+
+  /// Point location in the regions; refers to the finder.
+  RegionLocator locator() const;
+
+ private:
+  struct Boundary;
+  const RegionGroups& groups() const;
+  const RegionBlocks& blocks() const;
+  const Boundary& boundary() const;
+
+  const RegionMesh& mesh_;
+  int threads_;
+  // Made when first needed.
+  mutable std::unique_ptr<RegionGroups> groups_;
+  mutable std::unique_ptr<RegionBlocks> blocks_;
+  mutable std::unique_ptr<Boundary> boundary_;
+};
+
+}  // namespace powercell

@@ -1,0 +1,47 @@
+#include "lib/cl/quirks.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace powercell;
+using Type = DeviceInfo::Type;
+
+namespace {
+
+cl::Quirks quirks_of(const std::string& platform, Type type) {
+  DeviceInfo device;
+  device.platform_name = platform;
+  device.type = type;
+  return cl::quirks_of(device);
+}
+
+}  // namespace
+
+TEST_CASE("quirks: GPUs get groups of several warps and launches of any size") {
+  for (const char* platform : {"NVIDIA CUDA", "AMD Accelerated Parallel Processing", "rusticl"}) {
+    const cl::Quirks gpu = quirks_of(platform, Type::gpu);
+    CHECK(gpu.group_size == 128);
+    CHECK(gpu.launch_limit > std::uint64_t{1} << 32);
+    CHECK_FALSE(gpu.compiles_at_launch);
+    CHECK_FALSE(gpu.keeps_programs);
+  }
+}
+
+TEST_CASE("quirks: only PoCL compiles at the launch and keeps programs, on whatever device") {
+  for (const Type type : {Type::cpu, Type::gpu, Type::accelerator, Type::other}) {
+    const cl::Quirks pocl = quirks_of("Portable Computing Language", type);
+    CHECK(pocl.compiles_at_launch);
+    CHECK(pocl.keeps_programs);
+    const cl::Quirks other = quirks_of("Intel(R) OpenCL", type);
+    CHECK_FALSE(other.compiles_at_launch);
+    CHECK_FALSE(other.keeps_programs);
+    CHECK(pocl.group_size == other.group_size);
+    CHECK(pocl.launch_limit == other.launch_limit);
+  }
+}
+
+TEST_CASE("quirks: a launch at a CPU's limit, rounded up to whole groups, stays below 2^16 work-items") {
+  const cl::Quirks cpu = quirks_of("Intel(R) OpenCL", Type::cpu);
+  CHECK(cpu.group_size == 32);
+  CHECK(cpu.launch_limit + cpu.group_size < std::uint64_t{1} << 16);
+  CHECK(cpu.launch_limit > std::uint64_t{1} << 15);
+}

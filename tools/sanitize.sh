@@ -1,0 +1,30 @@
+#!/bin/sh
+# Runs tests under AddressSanitizer and UndefinedBehaviorSanitizer (preset asan, built in build/asan with clang).
+#
+#   tools/sanitize.sh            the host tests, as continuous integration does
+#   tools/sanitize.sh TEST...    folders of tests/, for example exact diagram
+#   tools/sanitize.sh all        every test, the slow ones and the tool's too
+#
+# JOBS: the number of tests at a time (default: all cores).
+set -eu
+cd "$(dirname "$0")/.."
+jobs=${JOBS:-$(nproc)}
+
+# Folders in which most of the time is the host's, and those of the device layer. The others (diagram, device_diagram,
+# transport, sampling, determinism, faults) take twice as long together, most of it in kernels, which are not sanitized.
+host="exact pairs density remeshing treemap fuzz laws neighbors verify domain readers writers linear
+  clip collect hostile primitives seeds cl c_api base report"
+
+cmake --preset asan --log-level=WARNING
+case ${1-} in
+  all)
+    cmake --build --preset asan --parallel "$jobs"
+    # load measures memory, which the sanitizer keeps; oclgrind has a runtime of its own.
+    exec ctest --preset asan --parallel "$jobs" -E '^(load|oclgrind)$' ;;
+  "") tests=$host ;;
+  *) tests=$* ;;
+esac
+# shellcheck disable=SC2046,SC2086 # the lists are meant to be split
+cmake --build --preset asan --parallel "$jobs" --target $(printf ' test_%s' $tests)
+# shellcheck disable=SC2086
+exec ctest --preset asan --parallel "$jobs" -R "^($(echo $tests | tr ' ' '|'))\$"
