@@ -101,7 +101,7 @@ class Treemap(unittest.TestCase):
         self.assertEqual(ids, ["r", "r/x", "r/x#2", "r/x#2#2", "r/x#3", "r/x#2#3"])
         self.good("n.json", "--previous", "out.json", "-o", "again.json")
         (self.folder / "t.csv").write_bytes(b"id,parent,name,value\nr,,r,\n\xe9,r,caf\xe9,1\n\xe8,r,b,1\n")
-        self.refused("t.csv:3: the id is no text in UTF-8; save the table as UTF-8", 1, "t.csv", "-o", "t.svg")
+        self.refused("t.csv:3: the id is not valid UTF-8; save the table as UTF-8", 1, "t.csv", "-o", "t.svg")
 
     def test_empty_rows_of_spreadsheets_are_skipped(self):
         self.write("t.csv", 'id,parent,name,value\nr,,root,\n,,,\na,r,"an ""a""",1\nb,r,b,2\n,,,\n')
@@ -175,11 +175,11 @@ class Treemap(unittest.TestCase):
         head = "id,parent,name,value\nr,,root,\n"
         cases = {
             "t.csv:4: 'b' has the parent 'zz', which has no row": head + "a,r,a,1\nb,zz,b,1\n",
-            "t.csv:4: 's' has no parent, but neither has 'r' of line 2": head + "a,r,a,1\ns,,s,1\n",
+            "t.csv:4: 's' has no parent, and neither has 'r' of line 2": head + "a,r,a,1\ns,,s,1\n",
             "is among its own ancestors": head + "a,b,a,1\nb,a,b,1\n",
             "t.csv:3: the value of 'a': 'ten' is not a number": head + "a,r,a,ten\n",
             "t.csv:3: the value of 'a': 'nan'": head + "a,r,a,nan\n",
-            "t.csv:4: the id 'a' is that of line 3 already": head + "a,r,a,1\na,r,a,2\n",
+            "t.csv:4: the id 'a' is also that of line 3": head + "a,r,a,1\na,r,a,2\n",
             "t.csv:3: 3 fields where 4 are expected": head + "a,r,1\n",
             "t.csv:3: a quote is opened and never closed": head + 'a,r,"a,1\n',
             "t.csv:3: there is text after a closing quote": head + 'a,r,"a"b,1\n',
@@ -193,10 +193,10 @@ class Treemap(unittest.TestCase):
             with self.subTest(says=says):
                 self.write("t.csv", text)
                 self.refused(says, 1, "t.csv", "-o", "t.svg", "-o", "t.json")
-        for says, text in {"is not JSON from here on": '{"name": "a", "children": [',
+        for says, text in {"is not JSON from this line on": '{"name": "a", "children": [',
                            "'a/b': its value \"3\" is not a number": '{"name":"a","children":[{"name":"b","value":"3"}]}',
-                           "'a': its children are no list": '{"name":"a","children":{"name":"b"}}',
-                           "element 2: is no object": '[{"id":1},3]',
+                           "'a': its children are not a list": '{"name":"a","children":{"name":"b"}}',
+                           "element 2: is not an object": '[{"id":1},3]',
                            "the value of '3' (t.json: element 3) is 1e-20":
                            '[{"id":1},{"id":2,"parent":1,"value":1},{"id":3,"parent":1,"value":1e-20}]',
                            "the value of 'a/c' is 1e-20":
@@ -217,10 +217,10 @@ class Treemap(unittest.TestCase):
         self.refused("1 parts, 1 holes", 1, "t.csv", "--shape", "ring.geojson", "-o", "t.svg")
         self.refused("above 0", 1, "t.csv", "--shape", "0:1", "-o", "t.svg")
         self.refused("3 to 10000 corners", 1, "t.csv", "--shape", "circle:2", "-o", "t.svg")
-        self.refused("no format for a treemap", 2, "t.csv", "-o", "t.svg", "-o", "t.xls")
+        self.refused("unknown extension of an output file", 2, "t.csv", "-o", "t.svg", "-o", "t.xls")
         self.refused("", 1, "absent.csv", "-o", "t.svg")
         self.refused("--help", 2, "t.csv", "--rounds", "-1", "-o", "t.svg")
-        self.refused("no list of nodes", 1, "t.csv", "--previous", "arrow.geojson", "-o", "t.svg")
+        self.refused("is not a list of nodes", 1, "t.csv", "--previous", "arrow.geojson", "-o", "t.svg")
 
     def refused(self, says, code, *arguments):
         before = sorted(self.folder.rglob("*"))
