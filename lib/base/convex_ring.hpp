@@ -19,13 +19,13 @@ struct RingCorner {
 template <class Point, class Edge>
 using ConvexRing = std::vector<RingCorner<Point, Edge>>;
 
-/// Keeps of a ring what is not outside a line (Sutherland and Hodgman). How sides are decided is the
-/// caller's: exact ones and rounded ones are cut alike. \param side   per corner: above 0 outside, 0 on the
-/// line \param cut    the edge along the line \param meet   meet(kept, lost, in, out): the point where the
-/// line crosses between the corners with these indices;
-///               `in` and `out` are the edges that end and start there
-/// \param other  memory to work in; holds the ring as it was afterwards
-/// \return how often the ring goes outside: once, but where rounding contradicts itself
+/// Keeps the part of a ring that is not outside a line (Sutherland and Hodgman). The caller decides the
+/// sides, exactly or with rounding. \param side   per corner: above 0 outside, 0 on the line \param cut the
+/// edge along the line \param meet   meet(kept, lost, in, out): the point where the line crosses between two
+/// corners of `other`, the
+///               edge `in` ends and the edge `out` starts
+/// \param other  set to the ring before the cut
+/// \return how often the ring goes outside: once, unless rounding contradicts itself
 template <class Point, class Edge, class Meet>
 int cut_ring(ConvexRing<Point, Edge>& ring, std::span<const double> side, const Edge& cut, const Meet& meet,
              ConvexRing<Point, Edge>& other) {

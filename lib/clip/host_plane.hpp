@@ -75,10 +75,20 @@ inline HostPlane plane_of(const Bisector& b) {
   return {1 / length * q, offset, rounding_unit * (2 * size + std::fabs(offset)) + least_product / size};
 }
 
-/// The plane through y along a and b with the outward normal n = a x b.
-inline HostPlane plane_of_facet(const Point& y, const Point& a, const Point& b, const Point& n,
+/// The vector divided by a power of two that brings its largest coordinate near 1.
+inline Point scaled_to_one(const Point& a) {
+  const double most = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+  return most > 0 ? std::ldexp(1.0, std::min(-std::ilogb(most), 1000)) * a : a;
+}
+
+/// The plane through y along a and b with the outward normal a x b. Where rounding leaves no normal, it is 0
+/// with an infinite error, so that vertices on the plane are placed exactly.
+inline HostPlane plane_of_facet(const Point& y, const Point& along_a, const Point& along_b,
                                 double corner_error) {
-  const double scale = 1 / norm(n);
+  const Point a = scaled_to_one(along_a), b = scaled_to_one(along_b), n = cross(a, b);
+  const double length = norm(n);
+  if (!(length > least_product)) return {{}, 0, std::numeric_limits<double>::infinity()};
+  const double scale = 1 / length;
   const Point normal = scale * n;
   return {normal, dot(normal, y), 8 * corner_error * scale * std::sqrt(dot(a, a) * dot(b, b))};
 }

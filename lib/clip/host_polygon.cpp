@@ -16,12 +16,12 @@ void HostPolygon::start(const HostRegion& region) {
   ground_ = {{0, 0, 1}, 0, 0};
   if (region.on_surface) {
     const Point a = y[1] - y[0], b = y[2] - y[0];
-    ground_ = plane_of_facet(y[0], a, b, cross(a, b), region.corner_error);
+    ground_ = plane_of_facet(y[0], a, b, region.corner_error);
   }
   const Point& n = ground_.normal;
   for (std::size_t k = 0; k < y.size(); ++k) {
     const Point along = y[k + 1 == y.size() ? 0 : k + 1] - y[k];
-    facets_.push_back(plane_of_facet(y[k], along, n, cross(along, n), region.corner_error));
+    facets_.push_back(plane_of_facet(y[k], along, n, region.corner_error));
     ring_.push_back({{y[k], region.corner_error}, {~static_cast<std::int32_t>(k), facets_.back()}});
   }
 }

@@ -15,9 +15,9 @@ void HostPolyhedron::start(const HostRegion& region) {
       links_[v].next[k] = static_cast<std::uint32_t>(next);
       links_[v].face[k] = static_cast<std::uint32_t>(shape.face[k][v]);
       HostPlane& facet = facets_[links_[v].face[k]];
-      if (facet.normal != Point{}) continue;
+      if (facet.error != 0) continue;
       const Point a = y[static_cast<std::size_t>(next)] - y[v], b = y[static_cast<std::size_t>(after)] - y[v];
-      facet = plane_of_facet(y[v], a, b, cross(a, b), region.corner_error);
+      facet = plane_of_facet(y[v], a, b, region.corner_error);
     }
   for (const Point& corner : y) points_.push_back({corner, region.corner_error});
   for (const HostPlane& plane : facets_) faces_.push_back({~static_cast<std::int32_t>(faces_.size()), plane});

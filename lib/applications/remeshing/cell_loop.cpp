@@ -111,8 +111,8 @@ class Cells {
     const Piece& piece = this->piece(p);
     const std::size_t n = piece.ring.size();
     for (std::size_t v = 0; v < n; ++v) {
-      const int before = piece.ring[(v + n - 1) % n].behind, here = piece.ring[v].behind,
-                after = piece.ring[(v + 1) % n].behind;
+      const int before = piece.ring[(v + n - 1) % n].edge, here = piece.ring[v].edge,
+                after = piece.ring[(v + 1) % n].edge;
       const std::array<std::uint64_t, 2> end{vertex_between(piece.triangle, before, here),
                                              vertex_between(piece.triangle, here, after)};
       if (here >= 0 && !is_ours(here)) continue;

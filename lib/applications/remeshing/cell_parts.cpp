@@ -7,7 +7,7 @@ namespace powercell::remeshing {
 namespace {
 
 bool has_edge(const Piece& piece, int k) {
-  return std::any_of(piece.ring.begin(), piece.ring.end(), [&](const Corner& c) { return c.behind == ~k; });
+  return std::any_of(piece.ring.begin(), piece.ring.end(), [&](const Corner& c) { return c.edge == ~k; });
 }
 
 /// Calls `found(p, q)` once for each pair of pieces of a cell that meet at an edge of the surface.
@@ -40,7 +40,7 @@ struct Union {
 
 /// The corner of the triangle at a vertex of a piece, or -1.
 int corner_of_triangle(const Piece& piece, std::size_t v) {
-  const int here = piece.ring[v].behind, before = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1].behind;
+  const int here = piece.ring[v].edge, before = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1].edge;
   return here < 0 && before < 0 && here != before ? ~here : -1;
 }
 

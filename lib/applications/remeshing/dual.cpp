@@ -25,7 +25,7 @@ std::vector<Row> triple_points(const LocalDiagram& diagram, std::vector<std::uin
     for (const std::uint32_t p : diagram.pieces_in(t)) {
       const Piece& piece = diagram.piece(p);
       for (std::size_t v = 0; v < piece.ring.size(); ++v) {
-        const int in = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1].behind, out = piece.ring[v].behind;
+        const int in = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1].edge, out = piece.ring[v].edge;
         if (in < 0 || out < 0) continue;
         Row row{piece.seed, static_cast<std::uint32_t>(in), static_cast<std::uint32_t>(out)};
         std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
@@ -155,7 +155,7 @@ void find_intruders(const Sampling& sampling, Defects& defects) {
       for (const std::uint32_t p : diagram.pieces_in(t)) {
         const Piece& piece = diagram.piece(p);
         for (std::size_t v = 0; v < piece.ring.size(); ++v) {
-          if (piece.ring[v].behind != ~static_cast<int>(k)) continue;
+          if (piece.ring[v].edge != ~static_cast<int>(k)) continue;
           const Vec middle = (piece.ring[v].at + piece.ring[(v + 1) % piece.ring.size()].at) * 0.5;
           const double s = curve.along[on.edge] + norm(middle - surface.vertex[curve.vertex[on.edge]]);
           const std::size_t rank = rank_at(sampling, on.curve, s);

@@ -14,7 +14,7 @@ double root(double square) {
 
 }  // namespace
 
-LocalDiagram::Ring LocalDiagram::ring_of(std::uint32_t triangle) const {
+Ring LocalDiagram::ring_of(std::uint32_t triangle) const {
   Ring ring;
   for (int k = 0; k < 3; ++k) ring.push_back({surface_.corner(triangle, k), ~k});
   return ring;
@@ -31,23 +31,18 @@ bool LocalDiagram::cut(Ring& ring, std::uint32_t i, std::uint32_t j) {
   for (std::size_t v = 0; v < ring.size(); ++v) {
     side_[v] = 2 * dot(q, ring[v].at - own.at) - offset;
     (side_[v] > 0 ? outside : inside) = true;
+    // A corner on the bisector counts as inside it, so that the piece keeps an edge along the bisector.
+    if (side_[v] == 0) side_[v] = -std::numeric_limits<double>::denorm_min();
   }
   if (!outside) return true;
   if (!inside) return false;
-  scratch_.clear();
-  for (std::size_t v = 0; v < ring.size(); ++v) {
-    const std::size_t next = v + 1 < ring.size() ? v + 1 : 0;
-    const bool here = side_[v] <= 0, there = side_[next] <= 0;
-    if (here) scratch_.push_back(ring[v]);
-    if (here == there) continue;
-    // Interpolated from the kept end, so that the pieces on both sides of an edge of the surface get the same
-    // point.
-    const std::size_t in = here ? v : next, out = here ? next : v;
-    const double share = side_[in] / (side_[in] - side_[out]);
-    const Vec at = ring[in].at + (ring[out].at - ring[in].at) * share;
-    scratch_.push_back({at, here ? static_cast<std::int32_t>(j) : ring[v].behind});
-  }
-  ring.swap(scratch_);
+  // Interpolated from the kept end, so that the pieces on both sides of an edge of the surface get the same
+  // point.
+  const auto meet = [&](std::size_t kept, std::size_t lost, std::int32_t, std::int32_t) {
+    const double share = side_[kept] / (side_[kept] - side_[lost]);
+    return scratch_[kept].at + (scratch_[lost].at - scratch_[kept].at) * share;
+  };
+  cut_ring(ring, side_, static_cast<std::int32_t>(j), meet, scratch_);
   return ring.size() >= 3;
 }
 
@@ -115,7 +110,7 @@ std::vector<std::uint32_t> LocalDiagram::neighbors(std::uint32_t i) const {
   std::vector<std::uint32_t> result;
   for (const std::uint32_t p : cells_[i].pieces)
     for (const Corner& corner : pieces_[p].ring)
-      if (corner.behind >= 0) result.push_back(static_cast<std::uint32_t>(corner.behind));
+      if (corner.edge >= 0) result.push_back(static_cast<std::uint32_t>(corner.edge));
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
@@ -274,7 +269,7 @@ void LocalDiagram::share_out(std::uint32_t seed, std::uint32_t piece,
     if (j == seed) continue;
     owners.push_back(j);
     const bool beside = std::any_of(pieces_[p].ring.begin(), pieces_[p].ring.end(), [&](const Corner& c) {
-      return c.behind == static_cast<std::int32_t>(seed);
+      return c.edge == static_cast<std::int32_t>(seed);
     });
     if (beside && std::find(again.begin(), again.end(), j) == again.end()) again.push_back(j);
   }

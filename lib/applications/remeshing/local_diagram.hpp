@@ -7,20 +7,19 @@
 
 #include "lib/applications/remeshing/seed_grid.hpp"
 #include "lib/applications/remeshing/surface.hpp"
+#include "lib/base/convex_ring.hpp"
 
 namespace powercell::remeshing {
 
-/// A corner of a piece, and the neighbour across the edge that starts there.
-struct Corner {
-  Vec at;
-  std::int32_t behind;  ///< a seed, or ~k for edge k of the triangle
-};
+/// A corner of a piece; its edge has the neighbour across it: a seed, or ~k for edge k of the triangle.
+using Corner = RingCorner<Vec, std::int32_t>;
+using Ring = ConvexRing<Vec, std::int32_t>;
 
 /// The intersection of a cell and a triangle: a convex polygon, oriented as the triangle.
 struct Piece {
   std::uint32_t seed, triangle;
   std::uint32_t rank;  ///< in the list of its cell
-  std::vector<Corner> ring;
+  Ring ring;
 };
 
 struct Seed {
@@ -65,7 +64,6 @@ class LocalDiagram {
     std::vector<std::uint32_t> pieces;
     double reach = 0;
   };
-  using Ring = std::vector<Corner>;
 
   Ring ring_of(std::uint32_t triangle) const;
   bool cut(Ring& ring, std::uint32_t i, std::uint32_t j);

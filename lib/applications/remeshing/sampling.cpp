@@ -96,11 +96,11 @@ FarPoint Sampling::farthest_of(std::uint32_t seed) const {
       const Corner& before = piece.ring[v == 0 ? piece.ring.size() - 1 : v - 1];
       // Points on kept edges are left to the seeds of the curve.
       const auto on_kept = [&](const Corner& c) {
-        return c.behind < 0 && surface_.kept[piece.triangle][static_cast<std::size_t>(~c.behind)];
+        return c.edge < 0 && surface_.kept[piece.triangle][static_cast<std::size_t>(~c.edge)];
       };
       if (on_kept(corner) || on_kept(before)) continue;
       const auto near_curve = [&](const Corner& c) {
-        return c.behind >= 0 && in_curve_ball(static_cast<std::uint32_t>(c.behind), corner.at);
+        return c.edge >= 0 && in_curve_ball(static_cast<std::uint32_t>(c.edge), corner.at);
       };
       if (in_curve_ball(seed, corner.at) || near_curve(corner) || near_curve(before)) continue;
       far = {{piece.triangle, corner.at}, priority};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/applications/treemap/laplacian.hpp"
+#include "lib/base/convex_ring.hpp"
 
 namespace powercell::treemap_detail {
 
@@ -46,14 +47,11 @@ class ConvexDiagram {
   Walls walls() const { return {seeds_.x, seeds_.y, wall_offset_, neighbor_, wall_}; }
 
  private:
-  /// A convex polygon relative to the seed. Edge v goes from vertex v to the next; border[v] is the seed
-  /// across it, or -1 for the outline.
-  struct Cell {
-    std::vector<double> x, y, side;
-    std::vector<std::int32_t> border;
-    std::size_t count = 0;
-    void reserve(std::size_t vertices);
+  struct Point {
+    double x, y;
   };
+  /// Relative to the seed. Its edges have the seed across them, or -1 for the outline.
+  using Cell = ConvexRing<Point, std::int32_t>;
   struct Box {
     double low_x, high_x, low_y, high_y;
   };
@@ -73,6 +71,7 @@ class ConvexDiagram {
   std::vector<std::uint64_t> tried_;  // per seed: number of the cell that it was last tried on
   std::uint64_t cell_number_ = 0;
   Cell cell_, other_;
+  std::vector<double> side_;  // of the corners, for cut()
 };
 
 }  // namespace powercell::treemap_detail

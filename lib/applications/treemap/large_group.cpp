@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <powercell/transport.hpp>
 
 #include "lib/applications/treemap/relax.hpp"
@@ -70,7 +72,10 @@ struct DeviceSolver {
     return result.converged;
   }
   const Columns& centroid() const { return centroids; }
-  bool has_lost_cells() const { return false; }  // TransportSolver recovers empty cells
+  /// TransportSolver recovers empty cells, except those thinner than rounding.
+  bool has_lost_cells() const {
+    return std::ranges::any_of(centroids.x, [](double x) { return std::isnan(x); });
+  }
 };
 
 }  // namespace
