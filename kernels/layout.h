@@ -3,7 +3,7 @@
 #define POWERCELL_LAYOUT_H
 
 /* What became of a (region, seed) piece. */
-#define PIECE_WHOLE 0   /* clipped, nothing can cut it any more */
+#define PIECE_DONE 0    /* clipped, nothing can cut it any more */
 #define PIECE_EMPTY 1   /* the seed has no part in the region */
 #define PIECE_FLAT 2    /* touches the region only: walls count, measures do not */
 #define PIECE_MORE 3    /* the neighbour list ended before the stopping rule held */

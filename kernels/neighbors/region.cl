@@ -85,7 +85,7 @@ static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __glob
     const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
-  return PIECE_WHOLE;
+  return PIECE_DONE;
 }
 
 /* The same for longer lists, by the bisector nearest to the centre first, or farthest beyond it. */
@@ -99,7 +99,7 @@ static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint
     const real least = lane_least(best);
     if (!(untagged(least) < reach)) { /* that plane is beyond every vertex, and so are the rest */
       cell->at.gap = fmin(cell->at.gap, SEARCH_MARGIN / 8 * reach);
-      return PIECE_WHOLE;
+      return PIECE_DONE;
     }
     const uint at = tag_of(least), row = at / LANES * LANES;
     store8(with_lane(load8(key + row), at % LANES, LISTED_LAST), key + row);

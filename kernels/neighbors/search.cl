@@ -91,9 +91,9 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
 static inline int clip_by_tree(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   int cut = cut_by_near(cell, tree, blocks, i);
   if (cut > CUT_SHRUNK) return piece_status(cut);
-  if (near_is_enough(cell, tree, blocks, i)) return PIECE_WHOLE;
+  if (near_is_enough(cell, tree, blocks, i)) return PIECE_DONE;
   cut = cut_by_rest(cell, tree, blocks, i);
-  return cut > CUT_SHRUNK ? piece_status(cut) : PIECE_WHOLE;
+  return cut > CUT_SHRUNK ? piece_status(cut) : PIECE_DONE;
 }
 
 #endif
