@@ -149,6 +149,7 @@ constexpr const char* examples =
     "  powercell treemap new.csv --previous old-layout.json -o new.svg -o new-layout.json\n"
     "A table has rows id, parent, name, value; JSON is nested {name, children, value} or a list of such "
     "rows.\n"
+    "Tables without parents: name, value; id, value with paths a/b/c; levels from the top, value.\n"
     "Areas are exact; nodes without a value above 0 are dropped and listed.";
 
 }  // namespace

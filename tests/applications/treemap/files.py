@@ -209,6 +209,41 @@ class Treemap(unittest.TestCase):
                          {"a": ("0", 1), "b": ("0", 2), "c": ("b", 2)})
         self.assertEqual((rows["0"]["name"], rows["0"]["value"]), ("t.csv", 3))
 
+    def areas(self, text, note):
+        self.write("t.csv", text)
+        self.assertIn(note, self.good("t.csv", "-o", "out.json"))
+        rows = json.loads((self.folder / "out.json").read_text())
+        whole = shapely.geometry.Polygon(rows[[r.get("parent") or "" for r in rows].index("")]["polygon"]).area
+        return {r["id"]: (r.get("parent") or "", r["name"],
+                          round(shapely.geometry.Polygon(r["polygon"]).area / whole, 5)) for r in rows}
+
+    def test_tables_without_parents(self):
+        # Names and values, with a comma, a point and a slash in names.
+        got = self.areas('name,value\n"St. Gallen",1\n"A/B",3\n', "2 rows have no parent")
+        self.assertEqual(got, {"St. Gallen": ("0", "St. Gallen", .25), "A/B": ("0", "A/B", .75),
+                               "0": ("", "t.csv", 1)})
+        # Paths as in the examples of d3: points with a row for each group, slashes with or without.
+        flare = {"f": ("", "f", 1), "f.a": ("f", "a", .75), "f.a.x": ("f.a", "x", .25), "f.a.y": ("f.a", "y", .5),
+                 "f.b": ("f", "b", .25)}
+        got = self.areas("id,value\nf,\nf.a,\nf.a.x,1\nf.a.y,2\nf.b,1\n", "ids are taken as paths separated by '.'")
+        self.assertEqual(got, flare)
+        got = self.areas("id,value\nf/a/x,1\nf/a/y,2\nf/b,1\n", "ids are taken as paths separated by '/'")
+        slash = lambda text: text.replace(".", "/")
+        self.assertEqual(got, {slash(i): (slash(p), n, a) for i, (p, n, a) in flare.items()})
+        # Ids with points but without groups are names.
+        got = self.areas("id,value\nx.txt,1\ny.txt,1\n", "2 rows have no parent")
+        self.assertEqual(set(got), {"x.txt", "y.txt", "0"})
+        # Tidy columns, from the top level down.
+        got = self.areas("land,town,value\nI/J,Roma,1\nI/J,Milano,1\nF,Paris,2\n", "from the columns land, town")
+        self.assertEqual(got["I%2FJ"], ("0", "I/J", .5))
+        self.assertEqual(got["I%2FJ/Roma"], ("I%2FJ", "Roma", .25))
+        self.assertEqual(got["F/Paris"], ("F", "Paris", .5))
+
+    def test_a_line_that_announces_the_separator_is_no_row(self):
+        for start in ("", "\ufeff"):
+            got = self.areas(start + "sep=;\r\nid;parent;name;value\r\n0;;r;\r\n1;0;a;1\r\n2;0;b;3\r\n", "")
+            self.assertEqual(got, {"0": ("", "r", 1), "1": ("0", "a", .25), "2": ("0", "b", .75)})
+
     def test_refusals_name_the_place_and_leave_nothing(self):
         head = "id,parent,name,value\nr,,root,\n"
         cases = {
