@@ -116,8 +116,10 @@ int run(const TreemapArguments& arguments) {
   check_writable(arguments.outputs);
   Stopwatch watch;
   Seconds seconds;
-  const Ring outline = treemap_shape(arguments.shape);
-  const io::NamedTree tree = io::read_tree(arguments.tree);
+  std::vector<std::string> notes;
+  const Ring outline = treemap_shape(arguments.shape, notes);
+  io::NamedTree tree = io::read_tree(arguments.tree);
+  tree.notes.insert(tree.notes.end(), notes.begin(), notes.end());
   seconds.read = watch.lap();
   std::vector<std::int64_t> hue;
   const Treemap map = lay_out(arguments, tree, outline, hue);

@@ -6,6 +6,7 @@ usage: files.py PATH_OF_POWERCELL
 exit:  0 passed, 1 failed, 77 shapely is missing
 """
 import json
+import math
 import pathlib
 import random
 import re
@@ -277,6 +278,14 @@ class Treemap(unittest.TestCase):
             with self.subTest(says=says):
                 self.write("t.json", text)
                 self.refused(says, 1, "t.json", "-o", "t.svg")
+
+    def test_an_outline_that_is_concave_by_rounding_only(self):
+        self.table("t.csv", made_rows(50))
+        ring = [[round(8.5 + .004 * math.cos(k * math.pi / 600), 7), round(47.3 + .002 * math.sin(k * math.pi / 600), 7)]
+                for k in range(1200)]
+        self.write("round.geojson", json.dumps({"type": "Polygon", "coordinates": [ring + ring[:1]]}))
+        self.assertIn("its convex hull is used", self.good("t.csv", "--shape", "round.geojson", "-o", "t.json"))
+        self.measured_again("t.csv", "t.json")
 
     def test_shapes_that_are_refused(self):
         self.table("t.csv", made_rows(5))
