@@ -1,4 +1,4 @@
-/* Eight numbers at once: what is done to the eight seeds of a leaf, the eight children of a node or eight
+/* Operations on eight numbers at once: the eight seeds of a leaf, the eight children of a node or eight
    vertices of a cell. Like real.cl it hides the precision behind names. */
 #ifndef POWERCELL_BASE_LANES
 #define POWERCELL_BASE_LANES

@@ -22,7 +22,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 /* UNROLL goes before loops over a few coordinates. Compilers that do not unroll on their own (PoCL's) would
-   keep what is indexed in memory; others may ignore it. */
+   keep indexed arrays in memory; others may ignore it. */
 #define UNROLL _Pragma("unroll")
 
 #ifndef VERTEX_CAPACITY

@@ -15,7 +15,7 @@ typedef struct {
   real4 normal[FACE_CAPACITY];  /* of the bisectors (q, offset) until cell_moments, then of the faces */
   real doubt[FACE_CAPACITY];    /* for cell_certain */
   __global const region_shape_t* shape; /* of the region */
-  int faces;                            /* face numbers given out; some may no longer be in use */
+  int faces;                            /* face numbers assigned; some may be unused */
 } cell_t;
 
 /* The region as the cell of seed `self`. Returns a PIECE status. */
@@ -149,7 +149,7 @@ static inline int list_cut_edges(const cell_t* cell, int w, uchar* edge) {
   return count;
 }
 
-/* Cuts all edges from vertices outside to others, and links what is new. */
+/* Cuts all edges from vertices outside to others, and links the new vertices. */
 static inline int cut_outside(cell_t* cell, int cut) {
   int count = 0, u = 0;
   uchar edge[3 * WORD_BITS];
