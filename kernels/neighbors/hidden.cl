@@ -13,11 +13,11 @@
    of their normals. Nearer ones save steps until they hide that a seed is hidden. */
 #define START_RADIUS ((real)1)
 
-/* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and level_j = |q_j|^2 + w_i - w_j, so that no
-   point p_i + y with q_j.(2y) > level_j is i's. */
+/* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and offset_j = |q_j|^2 + w_i - w_j, so that no
+   point p_i + y with q_j.(2y) > offset_j is i's. */
 typedef struct {
   real q[DIMENSION][RIVALS];
-  real level[RIVALS];
+  real offset[RIVALS];
   real extent; /* no q_j is longer */
   int leaves;
 } rivals_t;
@@ -28,10 +28,10 @@ typedef struct {
 typedef struct {
   real inverse[ROWS][4];
   real q[ROWS][DIMENSION];
-  real level[ROWS];
-  real proof[ROWS]; /* the same of a rival; of a plane of the simplex the least level that all of the box is
+  real offset[ROWS];
+  real proof[ROWS]; /* the same of a rival; of a plane of the simplex the least offset that all of the box is
                        within */
-  real dual[ROWS];  /* (2y, t): the point y at which all of the basis have the same value level - q.(2y), and
+  real dual[ROWS];  /* (2y, t): the point y at which all of the basis have the same value offset - q.(2y), and
                        that */
 } basis_t;
 
@@ -52,11 +52,11 @@ static inline room_t room_of(seed_t seed, __global const seed_t* box) {
   return room;
 }
 
-/* At least the error of 2 q.y - level over the box, as plane_error of clip/certain.cl. */
-static inline real rival_error(const room_t* room, const real* q, real level) {
+/* At least the error of 2 q.y - offset over the box, as plane_error of clip/certain.cl. */
+static inline real rival_error(const room_t* room, const real* q, real offset) {
   real sum = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
-  return REAL_EPSILON * (8 * sum * room->size + 8 * norm2(q) + 4 * fabs(level)) +
+  return REAL_EPSILON * (8 * sum * room->size + 8 * norm2(q) + 4 * fabs(offset)) +
          plane_blur(room->blur, room->size, sum);
 }
 
@@ -67,16 +67,16 @@ static inline bool find_rivals(rivals_t* rivals, blocks_t blocks, const nearest_
   real8 least = ZERO8, most = ZERO8;
   rivals->leaves = near->count;
   for (int k = 0; k < near->count; ++k) {
-    real8 q[DIMENSION], dw, level;
+    real8 q[DIMENSION], dw, offset;
     seed_lanes(blocks, near->leaf[k], &origin, q, &dw);
-    level = ZERO8;
-    UNROLL for (int c = 0; c < DIMENSION; ++c) level = level + q[c] * q[c];
-    most = most8(most, level);
-    level = level + dw;
-    if (near->leaf[k] == i / TREE_FAN) level = with_lane(level, i % TREE_FAN, REAL_MAX / 4);
+    offset = ZERO8;
+    UNROLL for (int c = 0; c < DIMENSION; ++c) offset = offset + q[c] * q[c];
+    most = most8(most, offset);
+    offset = offset + dw;
+    if (near->leaf[k] == i / TREE_FAN) offset = with_lane(offset, i % TREE_FAN, REAL_MAX / 4);
     UNROLL for (int c = 0; c < DIMENSION; ++c) store8(q[c], rivals->q[c] + k * LANES);
-    store8(level, rivals->level + k * LANES);
-    least = least8(least, level);
+    store8(offset, rivals->offset + k * LANES);
+    least = least8(least, offset);
   }
   rivals->extent = sqrt(lane_most(most));
   return lane_least(least) < 0;
@@ -102,7 +102,7 @@ static inline void start_basis(basis_t* basis, const room_t* room, real size) {
   }
   store4(share, basis->inverse[DIMENSION]);
   UNROLL for (int r = 0; r < ROWS; ++r) {
-    basis->level[r] = START_RADIUS * 2 * size * size;
+    basis->offset[r] = START_RADIUS * 2 * size * size;
     basis->proof[r] = 0;
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       basis->q[r][k] = n[k][r];
@@ -113,11 +113,11 @@ static inline void start_basis(basis_t* basis, const room_t* room, real size) {
   basis->dual[DIMENSION] = START_RADIUS * 2 * size * size;
 }
 
-/* The rival whose value level - q.(2y) is least at the present point; below 0 that point is the rival's. */
+/* The rival whose value offset - q.(2y) is least at the present point; below 0 that point is the rival's. */
 static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real* value) {
   real8 worst = all_lanes(REAL_MAX / 4);
   for (int k = 0; k < rivals->leaves; ++k) {
-    real8 left = load8(rivals->level + k * LANES);
+    real8 left = load8(rivals->offset + k * LANES);
     UNROLL for (int c = 0; c < DIMENSION; ++c) left =
         left - load8(rivals->q[c] + k * LANES) * all_lanes(basis->dual[c]);
     worst = least8(worst, tag8(left, (uint)k * LANES));
@@ -159,7 +159,7 @@ static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival
     basis->dual[k] += excess * old * scale;
   }
   UNROLL for (int k = 0; k < DIMENSION; ++k) basis->q[leaving][k] = q[k];
-  basis->level[leaving] = basis->proof[leaving] = rivals->level[rival];
+  basis->offset[leaving] = basis->proof[leaving] = rivals->offset[rival];
   return true;
 }
 

@@ -23,8 +23,9 @@ static inline real8 bisector_keys(const real8* q, real8 dw, real resolution) {
   const real8 taken = all_lanes(TAKEN);
   real8 q2 = ZERO8;
   UNROLL for (int c = 0; c < DIMENSION; ++c) q2 = q2 + q[c] * q[c];
-  const real8 level = q2 * all_lanes(1 - 16 * REAL_EPSILON) + dw;
-  return most8(least8(level * (size8(level) / most8(q2, all_lanes(resolution * resolution))), taken), -taken);
+  const real8 offset = q2 * all_lanes(1 - 16 * REAL_EPSILON) + dw;
+  return most8(least8(offset * (size8(offset) / most8(q2, all_lanes(resolution * resolution))), taken),
+               -taken);
 }
 
 /* Keys of the seeds near i except itself. Where the region is no larger than what is near, seeds that its box

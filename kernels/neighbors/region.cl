@@ -66,8 +66,8 @@ static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint 
       sum += fabs(q[c]);
     }
     const real q2 = norm2(q), dw = weight_difference(seed, lists.seeds[j]);
-    const real level = q2 + dw - 2 * along - plane_error(&cell->at, sum, q2, dw);
-    key[k] = k >= count || j == i ? LISTED_LAST : level / most_of(sqrt(q2), resolution);
+    const real offset = q2 + dw - 2 * along - plane_error(&cell->at, sum, q2, dw);
+    key[k] = k >= count || j == i ? LISTED_LAST : offset / most_of(sqrt(q2), resolution);
   }
   for (int row = 0; row < rows; ++row)
     store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)),

@@ -7,10 +7,11 @@
 #define TESTERS 16
 #define NO_SEED 0xffffffffu
 
-/* 2 q.y <= level with y relative to the seed; `scale` is the size of the terms of level, `sum` that of q. */
+/* 2 q.y <= offset with y relative to the seed; `scale` is the size of the terms of offset, `sum` that of q.
+ */
 typedef struct {
   real q[DIMENSION];
-  real level;
+  real offset;
   real scale, sum;
   blur_t blur; /* of the seed */
 } half_space_t;
@@ -25,7 +26,7 @@ static inline half_space_t half_space_of(seed_t seed, seed_t other) {
   half_space_t h;
   difference(other, seed, h.q);
   const real q2 = norm2(h.q), dw = weight_difference(seed, other);
-  h.level = q2 + dw;
+  h.offset = q2 + dw;
   h.scale = q2 + fabs(dw);
   h.sum = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) h.sum += fabs(h.q[k]);
@@ -33,7 +34,7 @@ static inline half_space_t half_space_of(seed_t seed, seed_t other) {
   return h;
 }
 
-/* At least the error of 2 q.y - level where no |y_k| is above `reach`. */
+/* At least the error of 2 q.y - offset where no |y_k| is above `reach`. */
 static inline real half_space_error(const half_space_t* h, real reach) {
   return 32 * REAL_EPSILON * (h->scale + 2 * h->sum * reach) + plane_blur(h->blur, DIMENSION * reach, h->sum);
 }
@@ -64,7 +65,7 @@ static inline void find_testers(tree_t tree, uint i, stack_t* stack, testers_t* 
 
 /* True if the box [a, b] lies outside the half-space, with a margin for rounding. */
 static inline bool box_is_outside(const half_space_t* h, const real* a, const real* b) {
-  real value = -h->level, reach = 0;
+  real value = -h->offset, reach = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     value += 2 * fmin(h->q[k] * a[k], h->q[k] * b[k]);
     reach = fmax(reach, fmax(fabs(a[k]), fabs(b[k])));
@@ -93,7 +94,7 @@ typedef struct {
 static inline bool region_is_outside(const half_space_t* h, region_corners_t regions, uint region,
                                      seed_t seed) {
   for (uint slot = regions.offset[region]; slot < regions.offset[region + 1]; ++slot) {
-    real y[DIMENSION], value = -h->level, reach = 0;
+    real y[DIMENSION], value = -h->offset, reach = 0;
     difference(regions.corners[regions.vertex[slot]], seed, y);
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       value += 2 * h->q[k] * y[k];
