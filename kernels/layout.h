@@ -69,7 +69,7 @@ typedef struct {
 #define NEAR_MOST 64
 
 /* The part of a cell's radius by which decisions about it must be clear, and within which its vertices are
-   known: a power of one half (SEARCH_MARGIN in base/decide.cl). */
+   known: a power of one half (SEARCH_MARGIN in base/real.cl). */
 #define MARGIN_BITS_DOUBLE 20
 #define MARGIN_BITS_FLOAT 5
 

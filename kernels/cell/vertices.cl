@@ -2,7 +2,6 @@
    have in common. A slot is a vertex or free; free slots of the blocks in use hold 0. */
 #ifndef POWERCELL_CLIP_VERTICES
 #define POWERCELL_CLIP_VERTICES
-#include "base/decide.cl"
 #include "base/lanes.cl"
 #include "base/regions.cl"
 
