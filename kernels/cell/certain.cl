@@ -1,18 +1,28 @@
-/* Proofs that rounding did not change the shape of a cell (docs/mathematics.md, "Certain decisions"): the
-   parts common to polygons and polyhedra. All bounds are lengths, in the units of the cell.
+/* clang-format off */
+/* Proofs that rounding did not change the shape of a cell (docs/mathematics.md, "Certain decisions"): the parts
+   common to polygons and polyhedra. L is the unit of length of the cell; symbols are those of (80)-(84).
 
-   name       meaning                                                          where it is computed symbol
-   blur       error of a position, and of a weight, as stored                  blur_of (base/real.cl)     b,
-   b_w (82a) doubt      error of a plane with unit normal within the radius              unit_plane,
-   facet_plane    delta (80) y.w        error of a vertex solved from its planes meeting_point e_v (80) gap
-   least distance, minus rounding, of a vertex from the planes that cut nothing, without the closest one
-                                                                               note_gap, note_removed gap_j
-   (82) closest_gap  the same of the closest such plane, which is tested again      note_gap gap_j (82) clear
-   the same of the planes that cut                                  note_cut                   min |s_j| (84)
-   rounding   largest error of a vertex in the planes that made it             note_cut                   r
-   (83) drift      rounding of the new vertices of all cuts since the first gap     note_drift drift (82)
-   steep      least squared sine of the angle of a bisector with an edge it cut  set_edge_point kappa^2 (83)
- */
+   name         unit    meaning                                               computed in                   symbol
+   radius       L       no vertex is farther from the seed                    find_radius2                  R
+   blur         L, L^2  errors of a coordinate and of a weight as stored      blur_of (base/real.cl)        b, b_w
+   doubt        L       error of a plane of unit normal within the radius     unit_plane, facet_plane       delta_f
+   y.w, side[]  L       error of a vertex solved from its planes              meeting_point, move_vertex    e_v
+   moved        L       largest error of a vertex as the cuts left it         move_vertex, cell_certain     max |y_v - y*_v|
+   drift        L       rounding of the new vertices of all cuts (floats:     note_drift                    drift
+                        of those since the first gap)
+   gap          L       least distance, minus rounding, of the vertices       note_gap, note_removed        min gap_j
+                        from the planes that cut nothing or whose faces
+                        are gone, except that of `closest`
+   closest_gap  L       the same of the bisector that came nearest            note_gap                      min gap_j
+   clear        L       the same of a vertex or the seed from                 note_cut                      min |s_j|/2|q_j|_1
+                        the planes that cut
+   rounding     L       largest residual of a vertex in a plane through it    note_cut                      r
+                        (quickly_certain adds corner_error and the drift)
+   steep        1       least squared sine of a bisector with an edge it cut  set_edge_point                kappa^2
+
+   Distances from planes are divided by |q|_1, which makes them lower bounds. (84) takes the least of gap,
+   closest_gap and clear; (82) compares moved + drift with gap, and with closest_gap or else vertex by vertex. */
+/* clang-format on */
 #ifndef POWERCELL_CLIP_CERTAIN
 #define POWERCELL_CLIP_CERTAIN
 #include "cell/vertices.cl"
