@@ -9,12 +9,10 @@
 
 #include "apps/common.hpp"
 #include "apps/density_choice.hpp"
+#include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/names.hpp"
 #include "apps/io/output.hpp"
-#include "apps/io/read_domain.hpp"
 #include "apps/io/read_masses.hpp"
-#include "apps/io/read_seeds.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/io/write_transport.hpp"
 #include "apps/number_checks.hpp"
@@ -25,8 +23,8 @@
 namespace powercell::app {
 namespace {
 
-struct TransportArguments : CommonOptions {
-  std::string domain, kind, seeds, masses, mass_column, linear = "auto", table, walls, log;
+struct TransportArguments : CommonOptions, InputArguments {
+  std::string masses, mass_column, linear = "auto", table, walls, log;
   DensityArguments density;
   double tolerance = 0;
   int most_steps = 500;
@@ -99,6 +97,7 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
   return {{"seeds", run.seeds},
           {"cells", run.cells},
           {"hidden", run.hidden},
+          {"outside", run.outside},
           {"merged", result.merged},
           {"converged", result.converged},
           {"error", result.error},
@@ -172,17 +171,18 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 int run(const TransportArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log});
   Stopwatch watch;
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
-  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
+  const Inputs inputs = read_inputs(arguments);
+  const Domain& domain = inputs.domain.domain;
+  const io::SeedTable& table = inputs.seeds;
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
   std::vector<double> masses;
   if (!arguments.masses.empty())
     masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());
-  const TransportOptions options = solver_options(arguments, domain.domain);
+  const TransportOptions options = solver_options(arguments, domain);
   TransportReport report;
   const double read = watch.lap();
 
-  TransportSolver solver(open_device(arguments), domain.domain, options);
+  TransportSolver solver(open_device(arguments), domain, options);
   solver.set_seeds(table.view());
   solver.set_masses(masses);
   watch.lap();
@@ -192,6 +192,7 @@ int run(const TransportArguments& arguments) {
   const SeedsView seeds{table.dimension, table.positions, result.weights};
   report.run = report_of(solver.diagram());
   report.run.read = read;
+  report.run.outside = inputs.outside;
   require_partition(report.run);
   watch.lap();
   write_files(arguments, solver, seeds, report.run);
@@ -201,8 +202,7 @@ int run(const TransportArguments& arguments) {
   if (arguments.json) {
     fmt::print("{}\n", json_text(as_json(report, result)));
   } else if (!arguments.quiet) {
-    fmt::print("{}\n", domain.description);
-    if (!table.note.empty()) fmt::print("{}\n", table.note);
+    for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
     for (const std::string& path : report.run.files) fmt::print("wrote {}\n", path);
     fmt::print("{}\n", result_line(report, result));
   }
@@ -248,7 +248,7 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
 Command add_transport(CLI::App& app) {
   auto arguments = std::make_shared<TransportArguments>();
   CLI::App* command = app.add_subcommand("transport", "Find the weights that give cells prescribed masses");
-  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
+  add_inputs(*command, *arguments, true);
   add_solver_options(*command, *arguments);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   command

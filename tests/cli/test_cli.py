@@ -14,6 +14,13 @@ import unittest
 from tool import DATA, SHAPES, TOOL, ToolTest, interrupt
 
 
+def numbers(state=1):
+    """Numbers from 0 to 1, the same every time."""
+    while True:
+        state = state * 1103515245 + 12345 & 0x7fffffff
+        yield state / 0x80000000
+
+
 class Usage(ToolTest):
     def test_help_has_examples(self):
         for command in ([], ["devices"], ["diagram"], ["verify"], ["demo"], ["bench"], ["treemap"]):
@@ -165,6 +172,45 @@ class Diagram(ToolTest):
         self.assertIn(told, self.good("diagram", "--domain", "square", "--seeds", "t.csv").stdout)
         self.assertIn(told, self.good("verify", "--domain", "square", "--seeds", "t.csv").stdout)
         self.assertEqual(self.report("diagram", "--domain", "square", "--seeds", "t.csv")["cells"], 2)
+
+    def test_seeds_that_miss_the_domain_are_refused_with_the_way_out(self):
+        random = numbers()
+        points = [[f"{next(random):.6f}" for _ in range(3)] for _ in range(300)]
+        ids = self.write("ids.txt", "".join(f"{i + 1} {' '.join(p)}\n" for i, p in enumerate(points)))
+        swapped = self.write("swapped.csv", "".join(f"{40 + float(p[0])},{12 + float(p[1])},0.1\n" for p in points))
+        named = self.write("named.csv", "id,lon,lat,X_m,Y_m\n" + "".join(
+            f"{i},1,2,{12 + float(p[0])},{40 + float(p[1])}\n" for i, p in enumerate(points)))
+        self.write("land.wkt", "POLYGON((12 40,13 40,13 41,12 41,12 40))")
+        cases = (("cube", ids, r"299 of 300 seeds lie outside the domain's box \(x from 0 to 1, y from 0 to 1, z from 0 "
+                               r"to 1\); they were read as x from column 1, .* weight from column 4; with x from column 2, "
+                               r".*: try (--x-column 2 --y-column 3 --z-column 4);"),
+                 ("land.wkt", swapped, "300 of 300 seeds .*: try (--x-column 2 --y-column 1 --weight-column 3);"),
+                 ("land.wkt", named, "300 of 300 .*; they were read as x from 'lon', .*: try (--x-column 'X_m' --y-column 'Y_m');"))
+        for domain, seeds, says in cases:
+            with self.subTest(seeds=seeds):
+                for command in ("diagram", "transport", "verify"):
+                    error = self.bad(1, f"{seeds}: {says}", command, "--domain", domain, "--seeds", seeds).stderr
+                advice = re.search(says, error).group(1).replace("'", "").split()
+                report = self.report("diagram", "--domain", domain, "--seeds", seeds, *advice)
+                self.assertEqual((report["outside"], report["cells"]), (0, 300))
+                allowed = self.report("diagram", "--domain", domain, "--seeds", seeds, "--allow-outside")
+                self.assertGreaterEqual(allowed["outside"], 299)
+
+    def test_units_that_differ_are_named(self):
+        self.write("far.wkt", "POLYGON((5e5 6.9e6,6e5 6.9e6,6e5 7e6,5e5 7e6,5e5 6.9e6))")
+        for seeds, says in (("5.1 52.8\n5.3 52.9\n5.2 52.7\n", "the seeds could be in degrees and the domain in lengths"),
+                            ("510 6910\n530 6950\n550 6990\n", "1000 times their coordinates would lie inside")):
+            self.bad(1, says, "diagram", "--domain", "far.wkt", "--seeds", self.write("s.txt", seeds))
+
+    def test_some_seeds_outside_are_counted(self):
+        seeds = self.write("s.txt", "0.2 0.5\n0.8 0.5\n1.2 0.5\n")
+        self.assertIn("1 of 3 seeds lies outside the domain's box\n",
+                      self.good("diagram", "--domain", "square", "--seeds", seeds).stdout)
+        self.assertEqual(self.report("transport", "--domain", "square", "--seeds", seeds)["outside"], 1)
+        # Seeds may lie off a surface: above a flat one all are outside its box.
+        self.write("flat.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
+        self.write("above.txt", "0.3 0.3 0.1\n0.7 0.6 0.1\n")
+        self.assertEqual(self.report("diagram", "--domain", "flat.off", "--seeds", "above.txt")["outside"], 0)
 
     def test_few_and_equal_seeds(self):
         for text, cells, duplicate in (("# none\n", 0, 0), ("0.5 0.5 0\n", 1, 0), ("0.5 0.5 0\n" * 3, 1, 2),

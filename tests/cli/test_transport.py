@@ -46,7 +46,7 @@ class Transport(ToolTest):
         self.write("s.csv", 'City Name,lon,lat\nNew York,0.2,0.2\n"Rome, ""old""",0.7,0.7\n,,\n')
         self.write("m.csv", 'City Name,mass\nNew York,1\n"Rome, ""old""",3\n,\n')
         done = self.good(*self.square, "s.csv", "--masses", "m.csv", "--rescale", "--table", "t.csv")
-        self.assertIn("seeds: x from 'lon', y from 'lat', no weights; not used: 'city name'\n", done.stdout)
+        self.assertIn("seeds: x from 'lon', y from 'lat', no weights; not used: 'City Name'\n", done.stdout)
         self.assertAlmostEqual(float(self.rows("t.csv")[1]["mass"]), 0.75, delta=1e-6)
 
     def test_density_surface_and_volume(self):
