@@ -21,13 +21,14 @@ struct DiagramArguments : CommonOptions, InputArguments {
   std::vector<std::string> outputs;
 };
 
-void write_files(const DiagramArguments& arguments, Diagram& diagram, const SeedsView& seeds,
+void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
                  RunReport& report) {
+  const SeedsView seeds = inputs.seeds.view();
   Stopwatch watch;
-  write_diagram(arguments.outputs, diagram, seeds);
+  write_diagram(arguments.outputs, diagram, seeds, inputs.view());
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
-    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency());
+    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view());
     report.files.push_back(arguments.table);
   }
   if (!arguments.walls.empty()) {
@@ -64,9 +65,9 @@ int run(const DiagramArguments& arguments) {
       [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
   RunReport report = report_of(diagram);
   report.read = read;
-  report.outside = inputs.outside;
+  describe_inputs(inputs, report);
   require_partition(report);
-  write_files(arguments, diagram, seeds, report);
+  write_files(arguments, diagram, inputs, report);
   report.build = diagram.device().build_seconds();  // writing may have built further kernels
   print(arguments, inputs, report);
   return 0;

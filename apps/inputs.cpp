@@ -37,6 +37,34 @@ void add_columns(CLI::App& command, InputArguments& arguments) {
       ->group("The table of seeds");
 }
 
+template <class Function>
+std::vector<double> map_points(const std::vector<double>& points, const Function& function) {
+  std::vector<double> mapped;
+  mapped.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); i += 2) {
+    const io::MapPoint to = function(io::MapPoint{points[i], points[i + 1]});
+    mapped.insert(mapped.end(), to.begin(), to.end());
+  }
+  return mapped;
+}
+
+/// Checks the seeds of a file in the coordinates of the domain's, and moves them to the plane.
+void move_seeds(Inputs& inputs, const Georeference& place, const SeedBox& box,
+                const InputArguments& arguments) {
+  io::SeedTable& seeds = inputs.seeds;
+  const io::MapPlane* plane = inputs.map.plane.get();
+  std::vector<double> moved = seeds.positions;
+  if (place.seeds) moved = map_points(moved, [&](auto p) { return place.seeds->forward(p); });
+  if (plane) moved = map_points(moved, [&](auto p) { return plane->unwrapped(p); });
+  inputs.outside = count_outside(box, moved);
+  if (!arguments.allow_outside) require_inside(box, moved, seeds, place.seeds != nullptr, arguments.seeds);
+  if (plane) moved = map_points(moved, [&](auto p) { return plane->to_plane(p); });
+  if (place.seeds || plane) {
+    seeds.given = std::move(seeds.positions);
+    seeds.positions = std::move(moved);
+  }
+}
+
 }  // namespace
 
 void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
@@ -58,19 +86,43 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
                   "polygon, surface or volume, for files that can be read as more than one")
       ->check(CLI::IsMember({"polygon", "surface", "volume"}));
   add_columns(command, arguments);
+  add_map_options(command, arguments);
 }
 
 Inputs read_inputs(const InputArguments& arguments) {
-  io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
-  io::SeedTable seeds = io::read_seeds(arguments.seeds, domain.domain, arguments.columns);
-  Inputs inputs{std::move(domain), std::move(seeds), 0, {}};
-  inputs.outside = count_outside(inputs.domain.domain, inputs.seeds);
-  if (!arguments.allow_outside)
-    require_inside(inputs.domain.domain, inputs.seeds, inputs.outside, arguments.seeds);
+  io::DomainArrays arrays = io::read_domain_arrays(arguments.domain, io::domain_kind(arguments.kind));
+  const int dimension = arrays.kind == DomainKind::polygon ? 2 : 3;
+  const bool random = io::is_random_spec(arguments.seeds);
+  io::SeedTable seeds;
+  if (!random) seeds = io::read_seed_file(arguments.seeds, dimension, arguments.columns);
+  Georeference place = georeference(arguments, arguments.domain, arrays, seeds.columns);
+  const io::MapPlane* plane = place.frame.plane.get();
+  const SeedBox map_box = seed_box(plane ? plane->map_parts() : arrays.parts);
+  const std::string description = io::describe(arrays, arguments.domain);
+  if (plane) arrays.parts = plane->parts();
+  io::LoadedDomain domain = io::load_domain(std::move(arrays), arguments.domain);
+  domain.description = description;
+  Inputs inputs{std::move(domain), std::move(seeds), std::move(place.frame), 0, {}};
+  const Domain& made = inputs.domain.domain;
+  if (random) {
+    inputs.seeds = io::read_seeds(arguments.seeds, made, arguments.columns);
+    if (plane)
+      inputs.seeds.given = map_points(inputs.seeds.positions, [&](auto p) { return plane->to_map(p); });
+  } else {
+    move_seeds(inputs, place, made.kind() == DomainKind::polygon ? map_box : seed_box(made), arguments);
+  }
   inputs.notes.push_back(inputs.domain.description);
+  for (std::string& note : place.notes) inputs.notes.push_back(std::move(note));
   if (!inputs.seeds.columns.note.empty()) inputs.notes.push_back(inputs.seeds.columns.note);
   if (inputs.outside > 0) inputs.notes.push_back(outside_line(inputs.outside, inputs.seeds.count()));
   return inputs;
+}
+
+void describe_inputs(const Inputs& inputs, RunReport& report) {
+  report.outside = inputs.outside;
+  report.crs = inputs.map.crs;
+  if (inputs.map.plane) report.projection = inputs.map.plane->definition();
+  report.notes = inputs.notes;
 }
 
 }  // namespace powercell::app

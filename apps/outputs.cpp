@@ -59,12 +59,12 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
 }
 
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   bool weights_as_discs) {
+                   const io::InputView& inputs, bool weights_as_discs) {
   if (files.empty()) return;
   const JoinedCells joined = join(diagram.domain(), diagram.cells());
   for (const std::string& path : files)
     io::write_output(path, {diagram.domain(), seeds, diagram.measures(), diagram.cells(), joined,
-                            diagram.adjacency(), weights_as_discs});
+                            diagram.adjacency(), weights_as_discs, inputs});
 }
 
 }  // namespace powercell::app

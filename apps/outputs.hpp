@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/io/map_frame.hpp"
+
 namespace CLI {
 class App;
 }
@@ -26,6 +28,6 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
 /// Writes the cells to each of the files, by its extension; computes what the diagram has not yet.
 /// \param weights_as_discs  see io::DiagramOutput
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   bool weights_as_discs = true);
+                   const io::InputView& inputs = {}, bool weights_as_discs = true);
 
 }  // namespace powercell::app

@@ -62,6 +62,9 @@ nlohmann::json as_json(const RunReport& report) {
           {"uncertain", t.uncertain},
           {"on_host", t.on_host},
           {"rounds", t.rounds},
+          {"crs", report.crs},
+          {"projection", report.projection},
+          {"notes", report.notes},
           {"files", report.files}};
 }
 

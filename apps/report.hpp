@@ -28,6 +28,8 @@ struct RunReport {
   Timings timings;
   double read = 0, build = 0, write = 0;  ///< seconds beside `timings.total`
   std::vector<std::string> files;
+  std::string crs, projection;     ///< of the inputs and of the plane; empty if nothing names one
+  std::vector<std::string> notes;  ///< how the inputs were read
 };
 
 /// Everything but the seconds of reading and writing and the files. Computes the measures.

@@ -57,7 +57,7 @@ void write_cells(const SampleArguments& arguments, const Device& device, const S
   const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
-  write_diagram(arguments.cells, diagram, seeds, false);
+  write_diagram(arguments.cells, diagram, seeds, {}, false);
 }
 
 std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,

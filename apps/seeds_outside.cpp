@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <powercell/error.hpp>
 #include <vector>
 
@@ -17,29 +18,11 @@ namespace {
 
 constexpr std::size_t most_rows = 2000;   // of the sample on which other columns are tried
 constexpr std::size_t most_columns = 10;  // tried as coordinates
+constexpr double rounding = 1e-9;         // over the diagonal
 constexpr const char* axis_names = "xyz";
 
-struct Box {
-  std::size_t dimension = 2;
-  std::array<double, 3> low{}, high{};
-
-  bool contains(const double* p) const {
-    for (std::size_t k = 0; k < dimension; ++k)
-      if (!(p[k] >= low[k] && p[k] <= high[k])) return false;
-    return true;
-  }
-};
-
-Box box_of(const Domain& domain) {
-  Box box{static_cast<std::size_t>(domain.dimension()), domain.low(), domain.high()};
-  double diagonal = 0;
-  for (std::size_t k = 0; k < box.dimension; ++k) diagonal = std::hypot(diagonal, box.high[k] - box.low[k]);
-  const double margin = (domain.kind() == DomainKind::surface ? 0.5 : 1e-9) * diagonal;
-  for (std::size_t k = 0; k < box.dimension; ++k) {
-    box.low[k] -= margin;
-    box.high[k] += margin;
-  }
-  return box;
+double diagonal(const SeedBox& box) {
+  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
 /// A column of numbers, of a sample of the rows.
@@ -78,7 +61,7 @@ std::vector<Column> numeric_columns(const io::SeedTable& seeds) {
 /// The columns that put the most seeds into the box.
 class BestColumns {
  public:
-  BestColumns(const Box& box, std::vector<Column> columns) : box_(box), columns_(std::move(columns)) {
+  BestColumns(const SeedBox& box, std::vector<Column> columns) : box_(box), columns_(std::move(columns)) {
     std::sort(columns_.begin(), columns_.end(),
               [](const Column& a, const Column& b) { return a.index < b.index; });
     extend(0);
@@ -122,14 +105,14 @@ class BestColumns {
     return inside;
   }
 
-  const Box& box_;
+  const SeedBox& box_;
   std::vector<Column> columns_;
   std::array<std::size_t, 3> tried_{}, best_{};
   std::size_t inside_ = 0;
 };
 
 /// Advice to take other columns; empty if none fit better.
-std::string other_columns(const Box& box, const io::SeedTable& seeds) {
+std::string other_columns(const SeedBox& box, const io::SeedTable& seeds) {
   if (seeds.columns.count == 0) return {};  // not of a table
   const BestColumns best(box, numeric_columns(seeds));
   const std::vector<std::size_t> found = best.found();
@@ -150,20 +133,20 @@ std::string other_columns(const Box& box, const io::SeedTable& seeds) {
 }
 
 /// Whether these could be longitudes and latitudes.
-bool like_degrees(const Box& box) {
+bool like_degrees(const SeedBox& box) {
   return box.low[0] >= -180 && box.high[0] <= 360 && box.low[1] >= -90 && box.high[1] <= 90;
 }
 
 /// Whether these could be metres or the like on a map.
-bool like_lengths(const Box& box) {
+bool like_lengths(const SeedBox& box) {
   constexpr double far = 1000;
   return std::max({-box.low[0], box.high[0], -box.low[1], box.high[1]}) > far;
 }
 
 /// Advice on units; empty if nothing is recognized.
-std::string other_units(const Box& box, const io::SeedTable& seeds) {
+std::string other_units(const SeedBox& box, const io::SeedTable& seeds) {
   const std::size_t d = box.dimension;
-  Box extent{d, {}, {}};
+  SeedBox extent{d, {}, {}, 0};
   for (std::size_t k = 0; k < d; ++k) {
     extent.low[k] = extent.high[k] = seeds.positions[k];
     for (std::size_t i = k; i < seeds.positions.size(); i += d) {
@@ -172,9 +155,13 @@ std::string other_units(const Box& box, const io::SeedTable& seeds) {
     }
   }
   if (d == 2 && like_degrees(box) && like_lengths(extent))
-    return "the domain could be in degrees and the seeds in lengths: give both in one coordinate system";
+    return "the domain could be in degrees and the seeds in lengths: name the system of the seeds with "
+           "--seeds-crs "
+           "EPSG:..., and that of the domain with --crs EPSG:4326";
   if (d == 2 && like_lengths(box) && like_degrees(extent))
-    return "the seeds could be in degrees and the domain in lengths: give both in one coordinate system";
+    return "the seeds could be in degrees and the domain in lengths: say so with --seeds-crs EPSG:4326, and "
+           "name the "
+           "system of the domain with --crs EPSG:... if its file does not";
   for (const double factor : {1e3, 1e-3, 1e2, 1e-2, 1e1, 1e-1}) {
     std::size_t inside = 0;
     for (std::size_t i = 0; i < seeds.count(); ++i) {
@@ -190,11 +177,34 @@ std::string other_units(const Box& box, const io::SeedTable& seeds) {
 
 }  // namespace
 
-std::size_t count_outside(const Domain& domain, const io::SeedTable& seeds) {
-  const Box box = box_of(domain);
+bool SeedBox::contains(const double* point) const {
+  for (std::size_t k = 0; k < dimension; ++k)
+    if (!(point[k] >= low[k] - margin && point[k] <= high[k] + margin)) return false;
+  return true;
+}
+
+SeedBox seed_box(const Domain& domain) {
+  SeedBox box{static_cast<std::size_t>(domain.dimension()), domain.low(), domain.high(), 0};
+  box.margin = (domain.kind() == DomainKind::surface ? 0.5 : rounding) * diagonal(box);
+  return box;
+}
+
+SeedBox seed_box(const std::vector<PolygonPart>& parts) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  SeedBox box{2, {infinity, infinity, 0}, {-infinity, -infinity, 0}, 0};
+  for (const PolygonPart& part : parts)
+    for (const auto& point : part.outer)
+      for (std::size_t k = 0; k < 2; ++k) {
+        box.low[k] = std::min(box.low[k], point[k]);
+        box.high[k] = std::max(box.high[k], point[k]);
+      }
+  box.margin = rounding * diagonal(box);
+  return box;
+}
+
+std::size_t count_outside(const SeedBox& box, const std::vector<double>& positions) {
   std::size_t outside = 0;
-  for (std::size_t i = 0; i < seeds.count(); ++i)
-    outside += !box.contains(&seeds.positions[i * box.dimension]);
+  for (std::size_t i = 0; i < positions.size(); i += box.dimension) outside += !box.contains(&positions[i]);
   return outside;
 }
 
@@ -203,20 +213,24 @@ std::string outside_line(std::size_t outside, std::size_t seeds) {
                      outside == 1 ? "lies" : "lie");
 }
 
-void require_inside(const Domain& domain, const io::SeedTable& seeds, std::size_t outside,
-                    const std::string& name) {
-  const std::size_t n = seeds.count();
+void require_inside(const SeedBox& box, const std::vector<double>& positions, const io::SeedTable& table,
+                    bool transformed, const std::string& name) {
+  const std::size_t n = table.count(), outside = count_outside(box, positions);
   if (outside == 0 || 20 * (n - outside) >= n) return;
-  const Box box = box_of(domain);
   std::string message = name + ": " + outside_line(outside, n) + " (";
   for (std::size_t k = 0; k < box.dimension; ++k)
-    message += fmt::format("{}{} from {:.6g} to {:.6g}", k == 0 ? "" : ", ", axis_names[k], domain.low()[k],
-                           domain.high()[k]);
+    message +=
+        fmt::format("{}{} from {:.6g} to {:.6g}", k == 0 ? "" : ", ", axis_names[k], box.low[k], box.high[k]);
   message += ")";
-  if (!seeds.columns.taken.empty()) message += "; they were read as " + seeds.columns.taken;
-  std::string advice = other_columns(box, seeds);
-  if (advice.empty()) advice = other_units(box, seeds);
-  if (!advice.empty()) message += "; " + advice;
+  if (!table.columns.taken.empty()) message += "; they were read as " + table.columns.taken;
+  if (transformed) {
+    message +=
+        ", and transformed to the domain's coordinate system: check --seeds-crs, and that x is the longitude";
+  } else {
+    std::string advice = other_columns(box, table);
+    if (advice.empty()) advice = other_units(box, table);
+    if (!advice.empty()) message += "; " + advice;
+  }
   throw Error(ErrorCode::invalid_seed, message + "; if they are meant to lie there, give --allow-outside");
 }
 

@@ -3,22 +3,38 @@
 /// beside degrees.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <powercell/domain.hpp>
+#include <string>
+#include <vector>
 
 #include "apps/io/read_seeds.hpp"
 
 namespace powercell::app {
 
-/// Number of seeds outside the domain's box; of a surface, whose seeds may lie off it, the box widened by
-/// half its diagonal.
-std::size_t count_outside(const Domain& domain, const io::SeedTable& seeds);
+/// A box in which seeds are expected.
+struct SeedBox {
+  std::size_t dimension = 2;
+  std::array<double, 3> low{}, high{};
+  double margin = 0;
+  bool contains(const double* point) const;
+};
 
-/// Refuses seeds of which fewer than one in twenty lies in that box.
+/// The box of a domain; of a surface, whose seeds may lie off it, with a margin of half its diagonal.
+SeedBox seed_box(const Domain& domain);
+/// The box of polygons.
+SeedBox seed_box(const std::vector<PolygonPart>& parts);
+
+std::size_t count_outside(const SeedBox& box, const std::vector<double>& positions);
+
+/// Refuses seeds of which fewer than one in twenty lies in the box.
+/// \param positions  in the coordinates of the box
+/// \param table  the seeds as they were read, in other coordinates if `transformed`
 /// \param name  of their file, for the message
 /// \throw Error invalid_seed: how many, the columns they were taken from, and which to try instead
-void require_inside(const Domain& domain, const io::SeedTable& seeds, std::size_t outside,
-                    const std::string& name);
+void require_inside(const SeedBox& box, const std::vector<double>& positions, const io::SeedTable& table,
+                    bool transformed, const std::string& name);
 
 /// "12 of 3,000 seeds lie outside the domain's box".
 std::string outside_line(std::size_t outside, std::size_t seeds);

@@ -68,13 +68,14 @@ struct TransportReport {
   double solve = 0;
 };
 
-void write_files(const TransportArguments& arguments, TransportSolver& solver, const SeedsView& seeds,
+void write_files(const TransportArguments& arguments, TransportSolver& solver, const Inputs& inputs,
                  RunReport& report) {
+  const SeedsView seeds{inputs.seeds.dimension, inputs.seeds.positions, solver.result().weights};
   const auto written = [&report](const std::string& path) { report.files.push_back(path); };
-  write_diagram(arguments.outputs, solver.diagram(), seeds, false);
+  write_diagram(arguments.outputs, solver.diagram(), seeds, inputs.view(), false);
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
-    io::write_transport_table(arguments.table, seeds, solver.result());
+    io::write_transport_table(arguments.table, seeds, solver.result(), inputs.view());
     written(arguments.table);
   }
   if (!arguments.walls.empty()) {
@@ -120,6 +121,9 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
             {"read", run.read},
             {"build", run.build},
             {"write", run.write}}},
+          {"crs", run.crs},
+          {"projection", run.projection},
+          {"notes", run.notes},
           {"files", run.files}};
 }
 
@@ -189,13 +193,12 @@ int run(const TransportArguments& arguments) {
   compute([&] { solver.solve(); });
   report.solve = watch.lap();
   const TransportResult& result = solver.result();
-  const SeedsView seeds{table.dimension, table.positions, result.weights};
   report.run = report_of(solver.diagram());
   report.run.read = read;
-  report.run.outside = inputs.outside;
+  describe_inputs(inputs, report.run);
   require_partition(report.run);
   watch.lap();
-  write_files(arguments, solver, seeds, report.run);
+  write_files(arguments, solver, inputs, report.run);
   report.run.write = watch.lap();
   report.run.build = solver.diagram().device().build_seconds();
 

@@ -25,20 +25,23 @@ bool is_random_spec(const std::string& spec) {
 }
 
 SeedTable read_seeds(const std::string& spec, const Domain& domain, const ColumnChoice& choice) {
-  if (is_random_spec(spec) && choice.any())
+  if (!is_random_spec(spec)) return read_seed_file(spec, domain.dimension(), choice);
+  if (choice.any())
     throw Error(ErrorCode::invalid_argument,
                 spec + ": random seeds have no columns to choose; leave those options out");
-  if (is_random_spec(spec)) return random_seeds(parse_random_spec(spec), domain);
-  const std::string extension = lower_extension(spec);
-  if (extension == ".npz") fail_file(spec, "is an archive of arrays; save a single array as .npy");
-  const std::string bytes = read_file(spec);
-  if (extension == ".npy" || bytes.starts_with("\x93NUMPY")) {
-    if (choice.any())
-      fail_file(spec,
-                "columns of an array are taken by their order; save the columns x, y (, z), weight alone");
-    return parse_seeds_npy(bytes, domain.dimension(), spec);
-  }
-  return parse_seeds_text(bytes, domain.dimension(), spec, choice);
+  return random_seeds(parse_random_spec(spec), domain);
+}
+
+SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".npz") fail_file(path, "is an archive of arrays; save a single array as .npy");
+  const std::string bytes = read_file(path);
+  if (extension != ".npy" && !bytes.starts_with("\x93NUMPY"))
+    return parse_seeds_text(bytes, dimension, path, choice);
+  if (choice.any())
+    fail_file(path,
+              "columns of an array are taken by their order; save the columns x, y (, z), weight alone");
+  return parse_seeds_npy(bytes, dimension, path);
 }
 
 }  // namespace powercell::io

@@ -56,8 +56,9 @@ struct SeedTable {
   int dimension = 0;              ///< coordinates of a seed: 2 or 3
   std::vector<double> positions;  ///< n x dimension, row-major, in the order of the file
   std::vector<double> weights;    ///< n, length^2
-  SeedColumns columns;            ///< of a table; else without any
-  TableText text;                 ///< of a table with a header; else empty
+  std::vector<double> given;  ///< n x dimension, if positions are projected: those of the input; else empty
+  SeedColumns columns;        ///< of a table; else without any
+  TableText text;             ///< of a table with a header; else empty
   std::size_t count() const { return weights.size(); }
   SeedsView view() const { return {dimension, positions, weights}; }
 };
@@ -66,6 +67,9 @@ struct SeedTable {
 /// \param domain  sets the dimension of the seeds, and the positions of random ones
 /// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
 SeedTable read_seeds(const std::string& spec, const Domain& domain, const ColumnChoice& choice = {});
+
+/// The same of a file alone. \param dimension  2 or 3
+SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice);
 
 /// Text or CSV from memory with rows `x y [z] w`. Columns are separated as `number_separator` finds and
 /// quoted as in RFC 4180; `#` begins a comment; rows of empty fields are skipped. The first line may be the

@@ -34,7 +34,8 @@ void write_json(const std::string& path, const DiagramOutput& output);
 
 /// A FeatureCollection with a Feature for each seed in input order: a Polygon, a MultiPolygon if the cell has
 /// several parts, or null if it is empty; properties `seed`, `weight`, `status`, `measure`. Coordinates are
-/// those of the domain's file.
+/// those of the domain's file, and so is the member `crs`. Of a projected domain, walls have vertices added
+/// so that edges that are straight on the map follow them.
 void write_geojson(const std::string& path, const DiagramOutput& output);
 
 }  // namespace powercell::io

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -74,6 +75,15 @@ std::vector<Part> parts_of(const JoinedCells& joined, std::size_t cell) {
   return parts;
 }
 
+/// The ring on the map of the inputs. It begins where it does in the plane.
+Points on_map(const Points& ring, const MapPlane& plane) {
+  Points path;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    plane.trace_to_map(ring[k], ring[(k + 1) % ring.size()], path);
+  std::rotate(path.begin(), path.end() - 1, path.end());
+  return path;
+}
+
 void write_ring(AtomicFile& file, const Points& ring) {
   file.write('[');
   for (std::size_t k = 0; k <= ring.size(); ++k) {
@@ -87,17 +97,17 @@ void write_ring(AtomicFile& file, const Points& ring) {
   file.write(']');
 }
 
-void write_part(AtomicFile& file, const Part& part) {
+void write_part(AtomicFile& file, const Part& part, const MapPlane* plane) {
   file.write('[');
-  write_ring(file, part.outer);
+  write_ring(file, plane ? on_map(part.outer, *plane) : part.outer);
   for (const Points& hole : part.holes) {
     file.write(',');
-    write_ring(file, hole);
+    write_ring(file, plane ? on_map(hole, *plane) : hole);
   }
   file.write(']');
 }
 
-void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
+void write_shape(AtomicFile& file, const std::vector<Part>& parts, const MapPlane* plane) {
   if (parts.empty()) {
     file.write("null");
     return;
@@ -106,7 +116,7 @@ void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
                                : R"({"type":"MultiPolygon","coordinates":[)");
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (k > 0) file.write(',');
-    write_part(file, parts[k]);
+    write_part(file, parts[k], plane);
   }
   file.write(parts.size() == 1 ? "}" : "]}");
 }
@@ -115,7 +125,10 @@ void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
 
 void write_geojson(const std::string& path, const DiagramOutput& output) {
   AtomicFile file(path);
-  file.write("{\"type\":\"FeatureCollection\",\"features\":[\n");
+  const MapFrame* map = output.inputs.map;
+  file.write("{\"type\":\"FeatureCollection\",");
+  if (map && !map->member.empty()) file.write("\"crs\":" + map->member + ",");
+  file.write("\"features\":[\n");
   for (std::size_t i = 0; i < output.seeds.size(); ++i) {
     file.write(i > 0 ? ",\n" : "");
     file.write("{\"type\":\"Feature\",\"id\":");
@@ -129,7 +142,7 @@ void write_geojson(const std::string& path, const DiagramOutput& output) {
     file.write("\",\"measure\":");
     file.number(output.measures.mass[i]);
     file.write("},\"geometry\":");
-    write_shape(file, parts_of(output.joined, i));
+    write_shape(file, parts_of(output.joined, i), output.inputs.plane());
     file.write('}');
   }
   file.write("\n]}\n");

@@ -6,13 +6,20 @@
 #include <powercell/seeds.hpp>
 #include <string>
 
+#include "apps/io/atomic_file.hpp"
+#include "apps/io/map_frame.hpp"
+
 namespace powercell::io {
 
 /// CSV `seed,x,y[,z],weight,status,measure,cx,cy[,cz],second_moment,neighbors`, in input order. Numbers read
 /// back the same; the centroid of an empty cell is left empty; `neighbors` is the number of cells with a
-/// common wall. \throw Error write_failed
+/// common wall. Points are in the coordinates of the inputs. \throw Error write_failed
 void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
-                 const Adjacency& adjacency);
+                 const Adjacency& adjacency, const InputView& inputs = {});
+
+/// Writes `,x,y[,z]`, from the plane to the coordinates of the inputs if there is one; empty fields for
+/// numbers that are not finite.
+void write_point_fields(AtomicFile& file, const double* point, std::size_t dimension, const MapPlane* plane);
 
 /// CSV `seed,neighbor,measure`, both directions of each wall, ascending. \throw Error write_failed
 void write_walls(const std::string& path, const Adjacency& adjacency);

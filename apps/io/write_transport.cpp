@@ -5,6 +5,7 @@
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/names.hpp"
+#include "apps/io/write_table.hpp"
 
 namespace powercell::io {
 namespace {
@@ -35,8 +36,10 @@ nlohmann::ordered_json as_json(const TransportStep& step) {
 
 }  // namespace
 
-void write_transport_table(const std::string& path, const SeedsView& seeds, const TransportResult& result) {
+void write_transport_table(const std::string& path, const SeedsView& seeds, const TransportResult& result,
+                           const InputView& inputs) {
   AtomicFile file(path);
+  const double* positions = inputs.positions(seeds);
   file.write(seeds.dimension == 3
                  ? "seed,x,y,z,weight,status,target,mass,cx,cy,cz,second_moment,merged_with\n"
                  : "seed,x,y,weight,status,target,mass,cx,cy,second_moment,merged_with\n");
@@ -47,13 +50,13 @@ void write_transport_table(const std::string& path, const SeedsView& seeds, cons
   };
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     file.number(std::uint64_t{i});
-    for (std::size_t k = 0; k < d; ++k) number(seeds.positions[i * d + k]);
+    write_point_fields(file, positions + i * d, d, nullptr);
     number(result.weights[i]);
     file.write(',');
     file.write(io::name(status_of(result, i)));
     number(result.target[i]);
     number(result.mass[i]);
-    for (std::size_t k = 0; k < d; ++k) number(result.centroid[i * d + k]);
+    write_point_fields(file, &result.centroid[i * d], d, inputs.plane());
     number(result.second_moment[i]);
     file.write(',');
     if (result.merged_with[i] != i) file.number(std::uint64_t{result.merged_with[i]});
