@@ -32,7 +32,7 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inpu
     report.files.push_back(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, diagram.adjacency());
+    io::write_walls(arguments.walls, diagram.adjacency(), inputs.view());
     report.files.push_back(arguments.walls);
   }
   report.write = watch.lap();

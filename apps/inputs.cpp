@@ -1,9 +1,15 @@
 #include "apps/inputs.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <powercell/error.hpp>
 
 #include "apps/io/names.hpp"
+#include "apps/io/printable.hpp"
+#include "apps/io/read_text.hpp"
 #include "apps/seeds_outside.hpp"
 
 namespace powercell::app {
@@ -19,6 +25,32 @@ std::string wrong_seeds(const std::string& spec) {
   }
 }
 
+std::string wrong_scale(const std::string& text) {
+  double factor = 0;
+  if (text == "auto" || (io::parse_number(text, factor) == io::Parsed::ok && factor > 0)) return {};
+  return fmt::format("'{}' is neither a number above 0 nor 'auto'", io::readable(text));
+}
+
+/// Multiplies the weights as --scale-weights says.
+void scale_weights(Inputs& inputs, const std::string& text) {
+  if (text.empty()) return;
+  std::vector<double>& weights = inputs.seeds.weights;
+  if (weights.empty()) return;
+  double factor = 1;
+  if (text == "auto") {
+    const auto [least, largest] = std::minmax_element(weights.begin(), weights.end());
+    const Domain& domain = inputs.domain.domain;
+    const double spacing =
+        std::pow(domain.measure() / static_cast<double>(weights.size()), 1.0 / domain.cell_dimension());
+    if (*largest > *least) factor = spacing * spacing / 4 / (*largest - *least);
+  } else {
+    io::parse_number(text, factor);
+  }
+  for (double& weight : weights) weight *= factor;
+  inputs.seeds.scaled = true;
+  inputs.notes.push_back(fmt::format("weights: multiplied by {}", factor));
+}
+
 void add_columns(CLI::App& command, InputArguments& arguments) {
   io::ColumnChoice& columns = arguments.columns;
   const auto add = [&](const char* option, std::string& column, const char* help) {
@@ -31,6 +63,15 @@ void add_columns(CLI::App& command, InputArguments& arguments) {
   add("--z-column", columns.position[2], "Likewise of z");
   add("--weight-column", columns.weight, "Likewise of the weights, lengths squared. Default: weight or w");
   add("--radius-column", columns.radius, "Likewise of radii, whose squares are the weights");
+  add("--id-column", columns.id, "Likewise of ids, for GeoJSON and --walls; needs a header");
+  command
+      .add_option(
+          "--scale-weights", arguments.scale_weights,
+          "Multiply the weights by a number, or 'auto': such that their range is the square of half the mean "
+          "distance of the seeds")
+      ->check(wrong_scale)
+      ->type_name("FACTOR")
+      ->group("The table of seeds");
   command
       .add_flag("--allow-outside", arguments.allow_outside,
                 "Go on if fewer than one seed in twenty lies in the domain's box")
@@ -78,7 +119,8 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
       .add_option(
           "--seeds", arguments.seeds,
           "Text or CSV with rows 'x y [z] w', or with columns in any order under a header of these names (or "
-          "lon, lat, weight); an .npy file; or random:N[:LO:HI[:SEED]] with weights from LO to HI")
+          "lon, lat, weight), - for those from standard input; an .npy file; or random:N[:LO:HI[:SEED]] with "
+          "weights from LO to HI")
       ->check(wrong_seeds)
       ->required(required);
   command
@@ -114,6 +156,7 @@ Inputs read_inputs(const InputArguments& arguments) {
   inputs.notes.push_back(inputs.domain.description);
   for (std::string& note : place.notes) inputs.notes.push_back(std::move(note));
   if (!inputs.seeds.columns.note.empty()) inputs.notes.push_back(inputs.seeds.columns.note);
+  scale_weights(inputs, arguments.scale_weights);
   if (inputs.outside > 0) inputs.notes.push_back(outside_line(inputs.outside, inputs.seeds.count()));
   return inputs;
 }

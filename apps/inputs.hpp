@@ -19,6 +19,7 @@ namespace powercell::app {
 struct InputArguments : MapArguments {
   std::string domain, kind, seeds;
   io::ColumnChoice columns;
+  std::string scale_weights;  // a number or "auto"
   bool allow_outside = false;
 };
 

@@ -79,7 +79,7 @@ void write_files(const TransportArguments& arguments, TransportSolver& solver, c
     written(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, solver.diagram().adjacency());
+    io::write_walls(arguments.walls, solver.diagram().adjacency(), inputs.view());
     written(arguments.walls);
   }
   if (!arguments.log.empty()) {
@@ -182,6 +182,8 @@ int run(const TransportArguments& arguments) {
   std::vector<double> masses;
   if (!arguments.masses.empty())
     masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());
+  else if (!arguments.mass_column.empty())
+    masses = io::masses_of_table(table, arguments.mass_column, arguments.seeds);
   const TransportOptions options = solver_options(arguments, domain);
   TransportReport report;
   const double read = watch.lap();
@@ -219,8 +221,8 @@ int run(const TransportArguments& arguments) {
 constexpr const char* examples =
     "Examples:\n"
     "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
-    "  powercell transport --domain italy.geojson --seeds towns.csv --masses people.csv --rescale -o "
-    "map.png\n"
+    "  powercell transport --domain italy.geojson --seeds towns.csv --mass-column people --rescale "
+    "-o map.png\n"
     "  powercell transport --domain part.mesh --seeds grains.txt --masses sizes.csv --table weights.csv\n"
     "  powercell transport --domain square --seeds s.csv --density 'exp(-8*((x-.5)^2+(y-.5)^2))' --log "
     "steps.jsonl\n"
@@ -233,7 +235,8 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
                   "Table with one mass for each seed, in their order: one column, or one named 'mass'. "
                   "Default: equal masses")
       ->type_name("FILE.csv");
-  command.add_option("--mass-column", arguments.mass_column, "Name of that column")->needs("--masses");
+  command.add_option("--mass-column", arguments.mass_column,
+                     "Name of that column; without --masses, of a column of the seeds' table");
   command.add_flag("--rescale", arguments.rescale,
                    "Masses are ratios: scale them to sum to the domain's mass");
   add_density_options(command, arguments.density);

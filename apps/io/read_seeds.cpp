@@ -33,6 +33,7 @@ SeedTable read_seeds(const std::string& spec, const Domain& domain, const Column
 }
 
 SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice) {
+  if (path == "-") return parse_seeds_text(read_file("/dev/stdin"), dimension, "standard input", choice);
   const std::string extension = lower_extension(path);
   if (extension == ".npz") fail_file(path, "is an archive of arrays; save a single array as .npy");
   const std::string bytes = read_file(path);

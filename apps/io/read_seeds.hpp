@@ -30,10 +30,11 @@ struct SeedColumns {
   std::vector<std::string> names;  ///< as in the header; empty without one
   std::array<std::size_t, 3> position{0, 1, 2};
   std::optional<std::size_t> weight, id;
+  bool named = false;    ///< the coordinates were found by their names
   bool radius = false;   ///< the weight is the square of its column
   bool degrees = false;  ///< the names of the coordinates say longitude and latitude
   std::string taken;     ///< for messages: "x from 'lon', y from 'lat', no weights"
-  std::string note;      ///< for a report: `taken` and the columns not used, if the header leaves a doubt
+  std::string note;      ///< for a report: `taken` and the other columns, if the header leaves a doubt
 };
 
 /// The fields of a table with a header, as they are written in it.
@@ -56,6 +57,7 @@ struct SeedTable {
   int dimension = 0;              ///< coordinates of a seed: 2 or 3
   std::vector<double> positions;  ///< n x dimension, row-major, in the order of the file
   std::vector<double> weights;    ///< n, length^2
+  bool scaled = false;            ///< the weights are not those of the table
   std::vector<double> given;  ///< n x dimension, if positions are projected: those of the input; else empty
   SeedColumns columns;        ///< of a table; else without any
   TableText text;             ///< of a table with a header; else empty
@@ -63,7 +65,7 @@ struct SeedTable {
   SeedsView view() const { return {dimension, positions, weights}; }
 };
 
-/// \param spec  text or CSV, `.npy`, or `random:N[:LO:HI[:SEED]]`
+/// \param spec  text or CSV, `-` for those from standard input, `.npy`, or `random:N[:LO:HI[:SEED]]`
 /// \param domain  sets the dimension of the seeds, and the positions of random ones
 /// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
 SeedTable read_seeds(const std::string& spec, const Domain& domain, const ColumnChoice& choice = {});
@@ -72,10 +74,10 @@ SeedTable read_seeds(const std::string& spec, const Domain& domain, const Column
 SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice);
 
 /// Text or CSV from memory with rows `x y [z] w`. Columns are separated as `number_separator` finds and
-/// quoted as in RFC 4180; `#` begins a comment; rows of empty fields are skipped. The first line may be the
-/// number of rows, or a header: then the columns of `choice`, or x, y (, z), or else longitude and latitude
-/// or easting and northing, and weight or w are used in any order. Without a column of weights all weights
-/// are 0.
+/// quoted as in RFC 4180; `#` begins a comment (below a header of separated columns only at the begin of a
+/// line); rows of empty fields are skipped. The first line may be the number of rows, or a header: then the
+/// columns of `choice`, or x, y (, z), or else longitude and latitude or easting and northing, and weight or
+/// w are used in any order. Without a column of weights all weights are 0.
 SeedTable parse_seeds_text(std::string_view text, int dimension, const std::string& name,
                            const ColumnChoice& choice = {});
 

@@ -25,8 +25,40 @@ constexpr std::string_view other_names[] = {"",     "id",    "fid",  "gid",    "
                                             "name", "label", "seed", "status", "mass",     "area"};
 constexpr std::string_view axis_names[] = {"x", "y", "z"};
 
+/// Words that may stand beside x, y or z in the name of a coordinate: x_coord, "pos x [mm]", POINT_X.
+constexpr std::string_view coordinate_words[] = {
+    "coord",    "coords", "coordinate", "pos", "position", "point", "center", "centre", "centroid", "loc",
+    "location", "m",      "mm",         "cm",  "km",       "um",    "nm",     "ft",     "px"};
+
 bool is_one_of(std::string_view name, Names known) {
   return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+/// The words of a name in lower case; marks separate them.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const char c : name) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+/// Whether a name is that of an axis with words that may stand beside it: xcoord, x_coord, "x (m)".
+bool is_axis(std::string_view name, std::string_view axis) {
+  bool found = false;
+  for (const std::string& word : words_of(name)) {
+    const bool joined =
+        word.size() > 1 && (is_one_of(word.substr(1), coordinate_words) && word.starts_with(axis));
+    if ((word == axis || joined) && !found)
+      found = true;
+    else if (!is_one_of(word, coordinate_words))
+      return false;
+  }
+  return found;
 }
 
 std::string row_names(std::size_t dimension) {
@@ -47,7 +79,8 @@ class Chooser {
       names_.push_back(column_name(field));
     }
     const bool chosen = choose();
-    const bool named = chosen || find_coordinates();
+    columns_.named = !chosen && find_coordinates();
+    const bool named = chosen || columns_.named;
     if (!columns_.weight) columns_.weight = find(weight_names);
     if (!named) take_by_order();
     const auto radius = columns_.weight ? std::nullopt : find(radius_names);
@@ -120,12 +153,27 @@ class Chooser {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < names_.size(); ++k) {
       if (!is_one_of(names_[k], known)) continue;
-      if (found)
-        records_.fail(fmt::format("the header has columns {} and {}, which mean the same; rename one",
-                                  shown(*found), shown(k)));
+      if (found) fail_twice(*found, k);
       found = k;
     }
     return found;
+  }
+
+  std::optional<std::size_t> find_axis(std::string_view axis) const {
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      if (!is_axis(names_[k], axis)) continue;
+      if (found) fail_twice(*found, k);
+      found = k;
+    }
+    return found;
+  }
+
+  [[noreturn]] void fail_twice(std::size_t first, std::size_t second) const {
+    records_.fail(
+        fmt::format("the header has columns {} and {}, which mean the same; rename one, or choose with "
+                    "--x-column and so on",
+                    shown(first), shown(second)));
   }
 
   /// By x, y, z, or else by the names used for maps. False if there is neither.
@@ -133,6 +181,8 @@ class Chooser {
     std::array<std::optional<std::size_t>, 3> found;
     for (std::size_t axis = 0; axis < 3; ++axis) found[axis] = find({&axis_names[axis], 1});
     if (!found[0] && !found[1] && !found[2]) found = {find(x_names), find(y_names), std::nullopt};
+    if (!found[0] && !found[1] && !found[2])
+      for (std::size_t axis = 0; axis < dimension_; ++axis) found[axis] = find_axis(axis_names[axis]);
     if (!found[0] && !found[1] && !found[2]) return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (found[axis].has_value() != (axis < dimension_))
@@ -187,16 +237,22 @@ class Chooser {
   }
 
   std::string note(bool named) const {
-    std::string unused;
+    std::string kept;
     std::size_t others = 0;
     for (std::size_t k = 0; k < names_.size(); ++k) {
       if (names_[k].empty() || is_used(k) || ++others > 5) continue;
-      unused += (others > 1 ? ", " : "") + shown(k);
+      kept += (others > 1 ? ", " : "") + shown(k);
     }
-    if (named && others == 0 && columns_.weight && !choice_.any()) return {};
-    if (others > 5) unused += fmt::format(" and {} more", others - 5);
+    if (named && others == 0 && columns_.weight && !choice_.any() && has_plain_names()) return {};
+    if (others > 5) kept += fmt::format(" and {} more", others - 5);
     return fmt::format("seeds: {}{}{}", columns_.taken, named ? "" : " (by their order)",
-                       others > 0 ? "; not used: " + unused : "");
+                       others > 0 ? "; kept: " + kept : "");
+  }
+
+  bool has_plain_names() const {
+    for (std::size_t axis = 0; axis < dimension_ && !names_.empty(); ++axis)
+      if (names_[columns_.position[axis]] != axis_names[axis]) return false;
+    return true;
   }
 
   bool is_used(std::size_t column) const {
@@ -227,6 +283,10 @@ SeedColumns columns_by_header(const Records& records, const Fields& header, std:
 SeedColumns columns_by_order(const Records& records, std::size_t count, std::size_t dimension,
                              const ColumnChoice& choice) {
   return Chooser(records, count, dimension, choice).by_order();
+}
+
+bool is_weight_name(std::string_view name) {
+  return is_one_of(name, weight_names);
 }
 
 std::string seed_row(std::size_t dimension) {

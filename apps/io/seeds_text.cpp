@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
 
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
@@ -30,6 +31,7 @@ class SeedsText {
   void row(Fields& fields);
   double number(std::string_view field, std::size_t column) const;
   double weight(const Fields& fields) const;
+  void require_different_ids() const;
   [[noreturn]] void fail_width(std::size_t columns) const;
 
   Records records_;
@@ -62,6 +64,7 @@ bool SeedsText::first_line(const Fields& fields) {
     header_ = true;
     table_.text.columns = fields.size();
     table_.text.separator = records_.separator();
+    if (records_.separator() != ' ') records_.comment_whole_lines();
     return true;
   }
   double value = 0;
@@ -109,6 +112,20 @@ double SeedsText::weight(const Fields& fields) const {
   return value * value;
 }
 
+void SeedsText::require_different_ids() const {
+  if (!table_.columns.id || !header_) return;
+  std::unordered_map<std::string_view, std::size_t> seed_of;
+  for (std::size_t i = 0; i < table_.count(); ++i) {
+    const std::string_view id = table_.text.field(i, *table_.columns.id);
+    const auto [first, is_new] = seed_of.emplace(id, i);
+    if (!is_new)
+      fail_file(records_.name(),
+                fmt::format("seeds {} and {} (from 0) have the same id '{}'; make ids different, or "
+                            "leave --id-column out",
+                            first->second, i, id));
+  }
+}
+
 SeedTable SeedsText::read() {
   Fields fields;
   for (bool first = true; records_.next(fields); first = false)
@@ -120,6 +137,7 @@ SeedTable SeedsText::read() {
                     *announced_, table_.count()));
   }
   if (columns_) table_.columns = std::move(*columns_);
+  require_different_ids();
   return std::move(table_);
 }
 

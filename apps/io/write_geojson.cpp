@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/kept_columns.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/write_formats.hpp"
 
@@ -121,9 +123,47 @@ void write_shape(AtomicFile& file, const std::vector<Part>& parts, const MapPlan
   file.write(parts.size() == 1 ? "}" : "]}");
 }
 
+nlohmann::json value_of(const KeptColumns& kept, std::size_t row, const KeptColumn& column) {
+  const std::string_view field = kept.field(row, column);
+  if (column.type != KeptColumn::Type::text && field.empty()) return nullptr;
+  if (column.type == KeptColumn::Type::text) return std::string(field);
+  return nlohmann::json::parse(field);
+}
+
+std::string text_of(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Number of the seed, or its field of the column of ids.
+std::string id_of(const DiagramOutput& output, std::size_t seed) {
+  const SeedTable* table = output.inputs.table;
+  if (table == nullptr || !table->columns.id || table->text.columns == 0) return std::to_string(seed);
+  return text_of(std::string(table->text.field(seed, *table->columns.id)));
+}
+
+void write_feature(AtomicFile& file, const DiagramOutput& output, const KeptColumns& kept, std::size_t i) {
+  file.write("{\"type\":\"Feature\",\"id\":" + id_of(output, i) + ",\"properties\":{");
+  for (const KeptColumn& column : kept.columns())
+    file.write(text_of(column.name) + ":" + text_of(value_of(kept, i, column)) + ",");
+  file.write("\"seed\":");
+  file.number(std::uint64_t{i});
+  if (!kept.has_weights()) {
+    file.write(",\"weight\":");
+    file.number(output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
+  }
+  file.write(",\"status\":\"");
+  file.write(name(output.measures.status[i]));
+  file.write("\",\"measure\":");
+  file.number(output.measures.mass[i]);
+  file.write("},\"geometry\":");
+  write_shape(file, parts_of(output.joined, i), output.inputs.plane());
+  file.write('}');
+}
+
 }  // namespace
 
 void write_geojson(const std::string& path, const DiagramOutput& output) {
+  const KeptColumns kept(output.inputs, output.seeds, {"seed", "status", "measure"});
   AtomicFile file(path);
   const MapFrame* map = output.inputs.map;
   file.write("{\"type\":\"FeatureCollection\",");
@@ -131,19 +171,7 @@ void write_geojson(const std::string& path, const DiagramOutput& output) {
   file.write("\"features\":[\n");
   for (std::size_t i = 0; i < output.seeds.size(); ++i) {
     file.write(i > 0 ? ",\n" : "");
-    file.write("{\"type\":\"Feature\",\"id\":");
-    file.number(std::uint64_t{i});
-    file.write(",\"properties\":{\"seed\":");
-    file.number(std::uint64_t{i});
-    file.write(",\"weight\":");
-    file.number(output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
-    file.write(",\"status\":\"");
-    file.write(name(output.measures.status[i]));
-    file.write("\",\"measure\":");
-    file.number(output.measures.mass[i]);
-    file.write("},\"geometry\":");
-    write_shape(file, parts_of(output.joined, i), output.inputs.plane());
-    file.write('}');
+    write_feature(file, output, kept, i);
   }
   file.write("\n]}\n");
   file.commit();

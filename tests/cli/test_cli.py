@@ -4,6 +4,7 @@
 usage: test_cli.py PATH_OF_POWERCELL [unittest options]
 """
 
+import csv
 import json
 import os
 import re
@@ -165,13 +166,85 @@ class Diagram(ToolTest):
 
     def test_columns_of_seeds_are_reported(self):
         self.write("s.csv", "w,lon,lat\n0.01,0.2,0.3\n0,0.6,0.8\n")
-        self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--table", "t.csv")
-        self.assertEqual([(row["x"], row["y"], row["weight"]) for row in self.rows("t.csv")],
+        out = self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--table", "t.csv").stdout
+        self.assertIn("seeds: x from 'lon', y from 'lat', weight from 'w'\n", out)
+        self.assertEqual([(row["lon"], row["lat"], row["w"]) for row in self.rows("t.csv")],
                          [("0.2", "0.3", "0.01"), ("0.6", "0.8", "0")])
-        told = "seeds: x from 'x', y from 'y', weight from 'weight'; not used: 'seed', 'status', 'measure'"
+        told = "seeds: x from 'lon', y from 'lat', weight from 'w'; kept: 'seed', 'status', 'measure'"
         self.assertIn(told, self.good("diagram", "--domain", "square", "--seeds", "t.csv").stdout)
         self.assertIn(told, self.good("verify", "--domain", "square", "--seeds", "t.csv").stdout)
         self.assertEqual(self.report("diagram", "--domain", "square", "--seeds", "t.csv")["cells"], 2)
+
+    shops = ('Code;"Shop; name";x;y;Turnover;r;zip;status\n'
+             'A1;"Rossi; figli";0.2;0.3;120.5;0.3;00184;open\n'
+             'B2;"Café ""Uno""";0.7;0.6;80;0.1;20121;closed\n'
+             'C3;Rue # 5;0.4;0.8;;0.2;50123;open\n')
+
+    def test_columns_of_the_table_go_into_the_files(self):
+        self.write("s.csv", self.shops)
+        out = self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--radius-column", "r", "--id-column", "code",
+                        "--table", "t.csv", "--walls", "w.csv", "-o", "c.geojson", "-o", "c.vtu").stdout
+        self.assertIn("weight from 'r' squared; kept: 'Shop; name', 'Turnover', 'zip', 'status'", out)
+        lines = (self.folder / "t.csv").read_text().splitlines()
+        self.assertEqual(lines[0], 'Code;"Shop; name";x;y;Turnover;r;zip;input_status;seed;weight;status;measure;cx;cy;'
+                                   'second_moment;neighbors')
+        self.assertTrue(lines[1].startswith('A1;"Rossi; figli";0.2;0.3;120.5;0.3;00184;open;0;0.09;ok;'))
+        self.assertTrue(lines[3].startswith('C3;"Rue # 5";0.4;0.8;;0.2;50123;open;2;'))
+        walls = (self.folder / "w.csv").read_text().splitlines()
+        self.assertEqual(walls[0], "seed;neighbor;measure;id;neighbor_id")
+        self.assertRegex(walls[1], r"^0;1;0\.\d+;A1;B2$")
+        features = json.loads((self.folder / "c.geojson").read_text())["features"]
+        self.assertEqual([feature["id"] for feature in features], ["A1", "B2", "C3"])
+        properties = features[1]["properties"]
+        self.assertEqual(list(properties), ["Code", "Shop; name", "x", "y", "Turnover", "r", "zip", "input_status", "seed",
+                                            "weight", "status", "measure"])
+        self.assertEqual((properties["Shop; name"], properties["Turnover"], properties["zip"], properties["input_status"]),
+                         ('Café "Uno"', 80, "20121", "closed"))
+        self.assertIsNone(features[2]["properties"]["Turnover"])
+        vtu = (self.folder / "c.vtu").read_text()
+        self.assertIn('<DataArray type="Float64" Name="Turnover"', vtu)
+        self.assertNotIn("Shop", vtu)
+
+    def test_a_table_that_is_read_again_gives_the_same(self):
+        for text, options in ((self.shops, ("--radius-column", "r")), ("a,b,c,d\n1,.2,.3,4\n2,.6,.5,5\n",
+                              ("--x-column", "b", "--y-column", "c")), ("a,b,c\n.2,.3,.01\n.6,.5,.02\n", ())):
+            self.write("s.csv", text)
+            for command in ("diagram", "transport"):
+                with self.subTest(text=text, command=command):
+                    self.good(command, "--domain", "square", "--seeds", "s.csv", "--table", "t.csv", *options)
+                    self.good("diagram", "--domain", "square", "--seeds", "t.csv", "--table", "t2.csv")
+                    self.good("diagram", "--domain", "square", "--seeds", "t2.csv", "--table", "t3.csv")
+                    self.assertEqual((self.folder / "t2.csv").read_text(), (self.folder / "t3.csv").read_text())
+                    separator = ";" if ";" in text else ","
+                    first, again = (list(csv.DictReader((self.folder / name).read_text().splitlines(), delimiter=separator))
+                                    for name in ("t.csv", "t2.csv"))
+                    for a, b in zip(first, again):
+                        self.assertEqual((a["weight"], a["status"]), (b["weight"], b["status"]))
+                        self.assertAlmostEqual(float(a.get("measure") or a["mass"]), float(b["measure"]), delta=1e-12)
+
+    def test_weights_are_scaled(self):
+        self.write("s.csv", "x,y,people\n.2,.3,1000\n.7,.6,3000\n")
+        out = self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--weight-column", "people",
+                        "--scale-weights", "1e-5", "--table", "t.csv").stdout
+        self.assertIn("weights: multiplied by 1e-05", out)
+        for row, weight in zip(self.rows("t.csv"), (0.01, 0.03)):
+            self.assertAlmostEqual(float(row["weight"]), weight, delta=1e-15)
+        # The range becomes a quarter of the mean area.
+        self.good("diagram", "--domain", "square", "--seeds", "s.csv", "--weight-column", "people",
+                  "--scale-weights", "auto", "--table", "t.csv")
+        low, high = (float(row["weight"]) for row in self.rows("t.csv"))
+        self.assertAlmostEqual(high - low, 0.5 / 4, delta=1e-12)
+        self.assertAlmostEqual(high / low, 3, delta=1e-12)
+        self.bad(2, "neither a number above 0 nor 'auto'", "diagram", "--domain", "square", "--seeds", "s.csv",
+                 "--scale-weights", "-1")
+
+    def test_seeds_from_standard_input(self):
+        done = subprocess.run([TOOL, "diagram", "--domain", "square", "--seeds", "-", "--json"], input="0.2 0.5\n0.8 0.5\n",
+                              text=True, capture_output=True)
+        self.assertEqual(json.loads(done.stdout)["cells"], 2)
+        done = subprocess.run([TOOL, "diagram", "--domain", "square", "--seeds", "-"], input="0.2 nan\n",
+                              text=True, capture_output=True)
+        self.assertIn("standard input:1: seed 0", done.stderr)
 
     def test_seeds_that_miss_the_domain_are_refused_with_the_way_out(self):
         random = numbers()

@@ -80,7 +80,7 @@ class Maps(ToolTest):
                 for row in rows:
                     if row["cx"]:
                         self.assertTrue(6 < float(row["cx"]) < 16 and 45 < float(row["cy"]) < 55)
-                self.assertEqual(rows[7]["x"], "10.5")
+                self.assertEqual(rows[7]["lon"], "10.5")
 
     def test_weights_and_random_seeds_are_of_the_plane(self):
         land = self.domain(box(6, 45, 16, 55), "EPSG:4326")
@@ -152,7 +152,7 @@ class Maps(ToolTest):
         self.assertEqual((report["outside"], report["cells"]), (0, 3))
         self.assertIn("seeds are in OGC:CRS84, as the columns 'lon' and 'lat' say, and were transformed", report["notes"][1])
         rows = self.rows("t.csv")
-        self.assertEqual((rows[0]["x"], rows[0]["y"]), ("14.5", "46"))
+        self.assertEqual((rows[0]["lon"], rows[0]["lat"]), ("14.5", "46"))
         self.assertTrue(4e5 < float(rows[0]["cx"]) < 6e5)
         plain = self.write("d.txt", "14.5 46\n15.5 47\n15 45.5\n")
         self.bad(1, "could be in degrees and the domain in lengths: say so with --seeds-crs EPSG:4326", "diagram",

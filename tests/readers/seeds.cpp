@@ -103,11 +103,12 @@ TEST_CASE("the columns used are reported if the header leaves a doubt") {
   CHECK(note("1 2 3\n") == "");
   CHECK(note("x,y,w\n1,2,3\n") == "");
   CHECK(note("x,y\n1,2\n") == "seeds: x from 'x', y from 'y', no weights");
+  CHECK(note("lon,lat,w\n1,2,3\n") == "seeds: x from 'lon', y from 'lat', weight from 'w'");
   CHECK(note("lat,lon,w,City\n1,2,3,a\n") ==
-        "seeds: x from 'lon', y from 'lat', weight from 'w'; not used: 'City'");
+        "seeds: x from 'lon', y from 'lat', weight from 'w'; kept: 'City'");
   CHECK(note("a,b,c\n1,2,3\n") == "seeds: x from 'a', y from 'b', weight from 'c' (by their order)");
   CHECK(note("x,y,w,a,b,c,d,e,f,g\n1,2,3,4,5,6,7,8,9,10\n") ==
-        "seeds: x from 'x', y from 'y', weight from 'w'; not used: 'a', 'b', 'c', 'd', 'e' and 2 more");
+        "seeds: x from 'x', y from 'y', weight from 'w'; kept: 'a', 'b', 'c', 'd', 'e' and 2 more");
 }
 
 TEST_CASE("columns are chosen by name or number") {
@@ -133,6 +134,31 @@ TEST_CASE("columns are chosen by name or number") {
         std::vector<double>{4, 9});
   CHECK(parse_seeds_text("lng,lat\n1,2\n", 2, "s.csv").columns.degrees);
   CHECK(!parse_seeds_text("easting,northing\n1,2\n", 2, "s.csv").columns.degrees);
+}
+
+TEST_CASE("names like those of coordinates are taken and reported") {
+  for (const char* header : {"x_coord,y_coord,w", "Xcoord,Ycoord,w", "POINT_X,POINT_Y,w", "x (mm),y (mm),w",
+                             "\"pos x [m]\",\"pos y [m]\",w", "centroid.x,centroid.y,w"}) {
+    CAPTURE(header);
+    const SeedTable seeds = parse_seeds_text(std::string(header) + "\n0.25,0.5,3\n1,-2,4\n", 2, "s.csv");
+    CHECK(seeds.positions == positions);
+    CHECK(seeds.columns.named);
+    CHECK(says(seeds.columns.note, "seeds: x from '"));
+  }
+  for (const char* header : {"max,may,w", "taxi,y_coord,w", "x_old,y_old,w", "x1,x2,w"}) {
+    CAPTURE(header);
+    CHECK(says(refusal([&] { parse_seeds_text(std::string(header) + "\n1,2,3\n", 2, "s.csv"); }),
+               "the header names"));
+  }
+  CHECK(says(refusal([] { parse_seeds_text("x_m,x_coord,y_m\n1,2,3\n", 2, "s.csv"); }),
+             "'x_m' and 'x_coord', which mean"));
+}
+
+TEST_CASE("ids must differ") {
+  const ColumnChoice choice{{}, "", "", "Code"};
+  CHECK(parse_seeds_text("code,x,y\na,1,2\nb,1,3\n", 2, "s.csv", choice).columns.id == 0);
+  CHECK(says(refusal([&] { parse_seeds_text("code,x,y\na,1,2\nb,1,3\na,1,4\n", 2, "s.csv", choice); }),
+             "s.csv: seeds 0 and 2 (from 0) have the same id 'a'"));
 }
 
 TEST_CASE("chosen columns that do not fit are refused") {
