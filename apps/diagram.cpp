@@ -49,7 +49,7 @@ void print(const DiagramArguments& arguments, const Inputs& inputs, const RunRep
 }
 
 int run(const DiagramArguments& arguments) {
-  check_writable(arguments.outputs, {arguments.table, arguments.walls});
+  check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
   Stopwatch watch;
   const Inputs inputs = read_inputs(arguments);
   const Domain& domain = inputs.domain.domain;

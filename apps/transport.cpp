@@ -173,7 +173,7 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 }
 
 int run(const TransportArguments& arguments) {
-  check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log});
+  check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log}, arguments.json);
   Stopwatch watch;
   const Inputs inputs = read_inputs(arguments);
   const Domain& domain = inputs.domain.domain;

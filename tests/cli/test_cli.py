@@ -67,6 +67,14 @@ class Devices(ToolTest):
         self.bad(1, re.escape(name), *arguments, env={"POWERCELL_DEVICE": "99:99"})
 
 
+    def test_pocl_without_a_cache_says_what_to_set(self):
+        names = [device["name"] for device in self.report("devices")["devices"]]
+        if len(names) != 1 or "pthread" not in names[0]:
+            self.skipTest("not PoCL's device alone")
+        for arguments in (("devices",), ("diagram", "--domain", "square", "--seeds", "random:10")):
+            self.bad(1, "PoCL is installed but has no device: .* set POCL_CACHE_DIR", *arguments,
+                     env={"POCL_CACHE_DIR": "/proc/nowhere"})
+
     def test_log_on_request_only(self):
         arguments = ("diagram", "--domain", "square", "--seeds", "random:10", "--json")
         self.assertEqual(self.good(*arguments, env={"POWERCELL_LOG": ""}).stderr, "")
@@ -417,6 +425,35 @@ class DiagramErrors(ToolTest):
         self.assertEqual(len((self.folder / "pipe").read_text().splitlines()), 21)
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 0)
+
+    def test_a_dash_is_standard_output(self):
+        for command in ("diagram", "transport"):
+            for option, begin in (("--table", "seed,x,y,weight,status,"), ("--walls", "seed,neighbor,measure\n")):
+                with self.subTest(command=command, option=option):
+                    done = self.good(command, "--domain", "square", "--seeds", "random:20", option, "-")
+                    self.assertTrue(done.stdout.startswith(begin), done.stdout)
+                    self.assertNotIn("cells, ", done.stdout)
+                    self.assertIn("20 cells, ", done.stderr)
+                    self.assertEqual(list(self.folder.iterdir()), [])
+        self.good(*self.diagram("--table", "t.csv"))
+        self.assertEqual(self.good(*self.diagram("--table", "-", "--quiet")).stdout, (self.folder / "t.csv").read_text())
+        self.bad(2, "two files '-' would mix on the standard output; name files", *self.diagram("--table", "-", "--walls", "-"))
+        self.bad(2, "--json and the file '-' would mix", *self.diagram("--table", "-", "--json"))
+        self.bad(1, "no-such.csv", "diagram", "--domain", "square", "--seeds", "no-such.csv", "--table", "-")
+
+    def test_a_reader_that_leaves_early_is_no_error(self):
+        for arguments in (("diagram", "--domain", "square", "--seeds", "random:50000", "--table", "-"),
+                          self.diagram(), ("devices",)):
+            with self.subTest(arguments=arguments):
+                process = subprocess.Popen([TOOL, *arguments], cwd=self.folder, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                if "-" in arguments:
+                    self.assertTrue(process.stdout.readline().startswith("seed,x,y,"))
+                process.stdout.close()
+                error = process.stderr.read()
+                process.stderr.close()
+                self.assertEqual(process.wait(timeout=60), 0, error)
+                self.assertNotIn("error", error)
 
     def test_an_older_file_survives_a_failure(self):
         self.write("a.svg", "older")
