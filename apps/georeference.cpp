@@ -105,7 +105,11 @@ class Placing {
 
   /// Name of the domain's system; empty if its coordinates are just a plane.
   std::string domain_crs() {
-    if (!arguments_.crs.empty()) return arguments_.crs;
+    if (!arguments_.crs.empty()) {
+      if (!domain_.crs.name.empty() && domain_.crs.name != arguments_.crs)
+        source_ = fmt::format(", by --crs (the file says {})", io::readable(domain_.crs.name));
+      return arguments_.crs;
+    }
     if (!domain_.crs.name.empty()) return file_crs();
     if (columns_.degrees && may_be_degrees(domain_)) {
       source_ = fmt::format(", as the columns '{}' and '{}' say",
@@ -236,6 +240,14 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
                                 "Compute in the plane of the coordinates, degrees too");
   project->group(group)->excludes(stay);
   stay->group(group);
+}
+
+bool is_in_degrees(const std::string& crs) {
+  try {
+    return !crs.empty() && io::describe_crs(crs).geographic;
+  } catch (const Error&) {
+    return false;  // not known: a plane
+  }
 }
 
 Georeference georeference(const MapArguments& arguments, const std::string& file,

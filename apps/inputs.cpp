@@ -31,24 +31,44 @@ std::string wrong_scale(const std::string& text) {
   return fmt::format("'{}' is neither a number above 0 nor 'auto'", io::readable(text));
 }
 
+/// Area or volume of the domain for each seed, as the square of a length.
+double squared_spacing(const Inputs& inputs) {
+  const Domain& domain = inputs.domain.domain;
+  return std::pow(domain.measure() / static_cast<double>(inputs.seeds.count()),
+                  2.0 / domain.cell_dimension());
+}
+
+double range(const std::vector<double>& weights) {
+  const auto [least, largest] = std::minmax_element(weights.begin(), weights.end());
+  return *largest - *least;
+}
+
 /// Multiplies the weights as --scale-weights says.
 void scale_weights(Inputs& inputs, const std::string& text) {
-  if (text.empty()) return;
   std::vector<double>& weights = inputs.seeds.weights;
-  if (weights.empty()) return;
+  if (text.empty() || weights.empty()) return;
   double factor = 1;
   if (text == "auto") {
-    const auto [least, largest] = std::minmax_element(weights.begin(), weights.end());
-    const Domain& domain = inputs.domain.domain;
-    const double spacing =
-        std::pow(domain.measure() / static_cast<double>(weights.size()), 1.0 / domain.cell_dimension());
-    if (*largest > *least) factor = spacing * spacing / 4 / (*largest - *least);
+    if (range(weights) > 0) factor = squared_spacing(inputs) / 4 / range(weights);
   } else {
     io::parse_number(text, factor);
   }
   for (double& weight : weights) weight *= factor;
   inputs.seeds.scaled = true;
   inputs.notes.push_back(fmt::format("weights: multiplied by {}", factor));
+}
+
+/// Turnovers taken as weights in m2 would leave a Voronoi diagram without a word.
+void note_small_weights(Inputs& inputs) {
+  constexpr double hardly = 1e-4;
+  const std::vector<double>& weights = inputs.seeds.weights;
+  if (weights.size() < 2 || !inputs.seeds.columns.weight || !(range(weights) > 0)) return;
+  const double share = range(weights) / squared_spacing(inputs);
+  if (share < hardly)
+    inputs.notes.push_back(fmt::format(
+        "weights: their range is {:.1e} of the squared mean distance of the seeds, so they hardly count "
+        "(--scale-weights multiplies them)",
+        share));
 }
 
 void add_columns(CLI::App& command, InputArguments& arguments) {
@@ -89,21 +109,30 @@ std::vector<double> map_points(const std::vector<double>& points, const Function
   return mapped;
 }
 
-/// Checks the seeds of a file in the coordinates of the domain's, and moves them to the plane.
-void move_seeds(Inputs& inputs, const Georeference& place, const SeedBox& box,
-                const InputArguments& arguments) {
+/// Checks the seeds of a file in the coordinates of the domain's, and moves them to the plane. Returns what a
+/// report says of those outside.
+std::string move_seeds(Inputs& inputs, const Georeference& place, const SeedBox& box,
+                       const InputArguments& arguments) {
   io::SeedTable& seeds = inputs.seeds;
   const io::MapPlane* plane = inputs.map.plane.get();
   std::vector<double> moved = seeds.positions;
   if (place.seeds) moved = map_points(moved, [&](auto p) { return place.seeds->forward(p); });
   if (plane) moved = map_points(moved, [&](auto p) { return plane->unwrapped(p); });
   inputs.outside = count_outside(box, moved);
-  if (!arguments.allow_outside) require_inside(box, moved, seeds, place.seeds != nullptr, arguments.seeds);
+  std::string outside = inputs.outside > 0 ? outside_line(inputs.outside, seeds.count()) : "";
+  if (const auto miss = find_miss(box, moved, seeds, place.seeds != nullptr)) {
+    if (miss->refused && !arguments.allow_outside)
+      throw Error(ErrorCode::invalid_seed,
+                  fmt::format("{}: {}; if they are meant to lie there, give --allow-outside", arguments.seeds,
+                              miss->message));
+    outside = miss->message;
+  }
   if (plane) moved = map_points(moved, [&](auto p) { return plane->to_plane(p); });
   if (place.seeds || plane) {
     seeds.given = std::move(seeds.positions);
     seeds.positions = std::move(moved);
   }
+  return outside;
 }
 
 }  // namespace
@@ -146,18 +175,21 @@ Inputs read_inputs(const InputArguments& arguments) {
   domain.description = description;
   Inputs inputs{std::move(domain), std::move(seeds), std::move(place.frame), 0, {}};
   const Domain& made = inputs.domain.domain;
+  std::string outside;
   if (random) {
     inputs.seeds = io::read_seeds(arguments.seeds, made, arguments.columns);
     if (plane)
       inputs.seeds.given = map_points(inputs.seeds.positions, [&](auto p) { return plane->to_map(p); });
   } else {
-    move_seeds(inputs, place, made.kind() == DomainKind::polygon ? map_box : seed_box(made), arguments);
+    outside =
+        move_seeds(inputs, place, made.kind() == DomainKind::polygon ? map_box : seed_box(made), arguments);
   }
   inputs.notes.push_back(inputs.domain.description);
   for (std::string& note : place.notes) inputs.notes.push_back(std::move(note));
   if (!inputs.seeds.columns.note.empty()) inputs.notes.push_back(inputs.seeds.columns.note);
   scale_weights(inputs, arguments.scale_weights);
-  if (inputs.outside > 0) inputs.notes.push_back(outside_line(inputs.outside, inputs.seeds.count()));
+  note_small_weights(inputs);
+  if (!outside.empty()) inputs.notes.push_back(outside);
   return inputs;
 }
 

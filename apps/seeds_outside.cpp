@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <powercell/error.hpp>
+#include <optional>
 #include <vector>
 
 #include "apps/common.hpp"
@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t most_rows = 2000;   // of the sample on which other columns are tried
 constexpr std::size_t most_columns = 10;  // tried as coordinates
-constexpr double rounding = 1e-9;         // over the diagonal
+constexpr std::size_t fewest_refused = 10;
+constexpr double rounding = 1e-9;  // over the diagonal
 constexpr const char* axis_names = "xyz";
 
 double diagonal(const SeedBox& box) {
@@ -213,25 +214,25 @@ std::string outside_line(std::size_t outside, std::size_t seeds) {
                      outside == 1 ? "lies" : "lie");
 }
 
-void require_inside(const SeedBox& box, const std::vector<double>& positions, const io::SeedTable& table,
-                    bool transformed, const std::string& name) {
+std::optional<Miss> find_miss(const SeedBox& box, const std::vector<double>& positions,
+                              const io::SeedTable& table, bool transformed) {
   const std::size_t n = table.count(), outside = count_outside(box, positions);
-  if (outside == 0 || 20 * (n - outside) >= n) return;
-  std::string message = name + ": " + outside_line(outside, n) + " (";
+  if (outside == 0 || 20 * (n - outside) >= n) return std::nullopt;
+  Miss miss{n >= fewest_refused, outside_line(outside, n) + " ("};
   for (std::size_t k = 0; k < box.dimension; ++k)
-    message +=
+    miss.message +=
         fmt::format("{}{} from {:.6g} to {:.6g}", k == 0 ? "" : ", ", axis_names[k], box.low[k], box.high[k]);
-  message += ")";
-  if (!table.columns.taken.empty()) message += "; they were read as " + table.columns.taken;
+  miss.message += ")";
+  if (!table.columns.taken.empty()) miss.message += "; they were read as " + table.columns.taken;
   if (transformed) {
-    message +=
+    miss.message +=
         ", and transformed to the domain's coordinate system: check --seeds-crs, and that x is the longitude";
   } else {
     std::string advice = other_columns(box, table);
     if (advice.empty()) advice = other_units(box, table);
-    if (!advice.empty()) message += "; " + advice;
+    if (!advice.empty()) miss.message += "; " + advice;
   }
-  throw Error(ErrorCode::invalid_seed, message + "; if they are meant to lie there, give --allow-outside");
+  return miss;
 }
 
 }  // namespace powercell::app

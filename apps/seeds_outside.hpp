@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <powercell/domain.hpp>
 #include <string>
 #include <vector>
@@ -28,13 +29,16 @@ SeedBox seed_box(const std::vector<PolygonPart>& parts);
 
 std::size_t count_outside(const SeedBox& box, const std::vector<double>& positions);
 
-/// Refuses seeds of which fewer than one in twenty lies in the box.
-/// \param positions  in the coordinates of the box
+/// Seeds that miss the box.
+struct Miss {
+  bool refused = false;  ///< there are so many that it is hardly meant
+  std::string message;   ///< how many, the columns they were taken from, and which to try instead
+};
+
+/// Whether fewer than one seed in twenty lies in the box. \param positions  in the coordinates of the box
 /// \param table  the seeds as they were read, in other coordinates if `transformed`
-/// \param name  of their file, for the message
-/// \throw Error invalid_seed: how many, the columns they were taken from, and which to try instead
-void require_inside(const SeedBox& box, const std::vector<double>& positions, const io::SeedTable& table,
-                    bool transformed, const std::string& name);
+std::optional<Miss> find_miss(const SeedBox& box, const std::vector<double>& positions,
+                              const io::SeedTable& table, bool transformed);
 
 /// "12 of 3,000 seeds lie outside the domain's box".
 std::string outside_line(std::size_t outside, std::size_t seeds);

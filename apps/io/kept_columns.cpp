@@ -63,7 +63,7 @@ KeptColumns::KeptColumns(const InputView& inputs, const SeedsView& seeds,
     if (again && contains(tool_results, known)) continue;
     if (again && !weights_ && known == "weight") continue;
     const bool misread = !weights_ && is_weight_name(known);
-    if (misread || used.count(known) != 0) name = "input_" + name;
+    if (misread || used.count(known) != 0) name.insert(0, "input_");
     while (used.count(column_name(name)) != 0) name += "_";
     used.insert(column_name(name));
     columns_.push_back({k, std::move(name), type_of(k)});

@@ -104,8 +104,8 @@ LoadedDomain load_domain(DomainArrays arrays, const std::string& spec) {
   try {
     Domain domain = make_domain(arrays, spec);
     std::string description = describe(arrays, spec);
-    return {std::move(domain), std::move(description), std::move(arrays.parts), std::move(arrays.vertices),
-            std::move(arrays.elements)};
+    return {std::move(domain),          std::move(description),     std::move(arrays.parts),
+            std::move(arrays.vertices), std::move(arrays.elements), std::move(arrays.crs)};
   } catch (const Error& error) {
     throw Error(error.code(),
                 fmt::format("{}: {}", spec, error.what()));  // the library does not know the file

@@ -20,6 +20,7 @@ struct LoadedDomain {
   std::vector<PolygonPart> parts;       ///< polygon: its rings; else empty
   std::vector<double> vertices;         ///< surface, volume: nv x 3; else empty
   std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4; else empty
+  NamedCrs crs = {};                    ///< polygon
 };
 
 /// \param spec  a file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt

@@ -279,9 +279,17 @@ class Diagram(ToolTest):
 
     def test_units_that_differ_are_named(self):
         self.write("far.wkt", "POLYGON((5e5 6.9e6,6e5 6.9e6,6e5 7e6,5e5 7e6,5e5 6.9e6))")
-        for seeds, says in (("5.1 52.8\n5.3 52.9\n5.2 52.7\n", "the seeds could be in degrees and the domain in lengths"),
-                            ("510 6910\n530 6950\n550 6990\n", "1000 times their coordinates would lie inside")):
-            self.bad(1, says, "diagram", "--domain", "far.wkt", "--seeds", self.write("s.txt", seeds))
+        for x, y, says in ((5, 52, "the seeds could be in degrees and the domain in lengths"),
+                           (510, 6910, "1000 times their coordinates would lie inside")):
+            rows = "".join(f"{x + i * y / 1000:g} {y + i:g}\n" for i in range(12))
+            self.bad(1, says, "diagram", "--domain", "far.wkt", "--seeds", self.write("s.txt", rows))
+
+    def test_few_seeds_outside_are_taken_with_a_note(self):
+        self.write("land.wkt", "POLYGON((12 40,13 40,13 41,12 41,12 40))")
+        out = self.good("diagram", "--domain", "land.wkt", "--seeds", self.write("s.txt", "40.2 12.4\n40.8 12.6\n")).stdout
+        self.assertIn("2 of 2 seeds lie outside the domain's box (x from 12 to 13, y from 40 to 41); they were read as x "
+                      "from column 1, y from column 2, no weights; with x from column 2, y from column 1 100 % would lie "
+                      "inside: try --x-column 2 --y-column 1\n", out)
 
     def test_some_seeds_outside_are_counted(self):
         seeds = self.write("s.txt", "0.2 0.5\n0.8 0.5\n1.2 0.5\n")

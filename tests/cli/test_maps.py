@@ -114,6 +114,17 @@ class Maps(ToolTest):
                                    delta=3e-6 * box_area(6, 45, 16, 55) / 25)
         self.assertTrue(all(6 < float(row["cx"]) < 16 for row in self.rows("t.csv")))
 
+    def test_weights_that_hardly_count_are_noted(self):
+        land = self.domain(box(6, 45, 16, 55), "EPSG:4326")
+        self.write("s.csv", "lon,lat,turnover\n8,47,100\n12,52,900\n")
+        arguments = ("diagram", "--domain", land, "--seeds", "s.csv", "--weight-column", "turnover")
+        self.assertIn("so they hardly count (--scale-weights", self.good(*arguments).stdout)
+        self.assertNotIn("hardly", self.good(*arguments, "--scale-weights", "auto").stdout)
+
+    def test_sampling_says_that_it_does_not_project(self):
+        out = self.good("sample", "--domain", self.domain(box(6, 45, 16, 55), "EPSG:4326"), "-n", 20).stdout
+        self.assertIn("map: EPSG:4326 is sampled as a plane of degrees; project the file", out)
+
     def test_numbers_that_look_like_degrees_stay_in_the_plane(self):
         for coordinates, measure in ((box(0, 0, 1, 1), 1), (box(6, 45, 16, 55), 100)):
             land = self.domain(coordinates)
@@ -154,12 +165,14 @@ class Maps(ToolTest):
         rows = self.rows("t.csv")
         self.assertEqual((rows[0]["lon"], rows[0]["lat"]), ("14.5", "46"))
         self.assertTrue(4e5 < float(rows[0]["cx"]) < 6e5)
-        plain = self.write("d.txt", "14.5 46\n15.5 47\n15 45.5\n")
+        points = [(14.5, 46), (15.5, 47), (15, 45.5)] + [(14.6 + i / 10, 46.1 + i % 3 / 10) for i in range(9)]
+        plain = self.write("d.txt", "".join(f"{x:g} {y:g}\n" for x, y in points))
         self.bad(1, "could be in degrees and the domain in lengths: say so with --seeds-crs EPSG:4326", "diagram",
                  "--domain", land, "--seeds", plain)
         again = self.report("diagram", "--domain", land, "--seeds", plain, "--seeds-crs", "EPSG:4326")
-        self.assertEqual(again["measure"], report["measure"])
-        self.write("swapped.txt", "46 14.5\n47 15.5\n45.5 15\n")
+        self.assertAlmostEqual(again["measure"], report["measure"], delta=1)
+        self.assertEqual((again["outside"], again["cells"]), (0, 12))
+        self.write("swapped.txt", "".join(f"{y:g} {x:g}\n" for x, y in points))
         self.bad(1, "transformed to the domain's coordinate system: check", "diagram", "--domain", land, "--seeds",
                  "swapped.txt", "--seeds-crs", "EPSG:4326")
 
@@ -183,6 +196,10 @@ class Maps(ToolTest):
         globe = self.domain(box(-180, -90, 180, -60), "EPSG:4326", "globe.geojson")
         self.bad(1, r"globe\.geojson: its polygons reach around a pole .*EPSG:6932.*--no-project", "diagram", "--domain",
                  globe, "--seeds", "random:5")
+        self.assertIn("EPSG:4258 (ETRS89), by --crs (the file says EPSG:4326)", self.report(
+            "diagram", "--domain", self.domain(box(6, 45, 16, 55), "EPSG:4326"), "--seeds", "random:5", "--crs", "EPSG:4258",
+            "-o", "c.geojson")["notes"][1])
+        self.assertIn("urn:ogc:def:crs:EPSG::4258", (self.folder / "c.geojson").read_text())
         odd = self.domain(box(6, 45, 16, 55), "urn:local:grid", "odd.geojson")
         report = self.report("diagram", "--domain", odd, "--seeds", "random:5", "-o", "c.geojson")
         self.assertIn("PROJ does not know the coordinate system 'urn:local:grid'", report["notes"][1])
