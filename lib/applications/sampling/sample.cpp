@@ -14,8 +14,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Tolerances of the capacities while points still move; the last solve has the caller's. For Lloyd's method
-// 0.1 costs energy in the end, and less than 0.03 gains nothing.
+// 0.1 costs energy in the end, and less than 0.03 gains nothing while points move far.
 constexpr double lloyd_tolerance = 3e-2, lbfgs_tolerance = 1e-5;
+// Centroids of cells whose masses are off by 1 % are off by about 1 % of the spacing. To come to rest, points
+// need a tolerance below this fraction of their mean move relative to the spacing.
+constexpr double tolerance_of_move = 0.3;
 constexpr double sufficient_decrease = 1e-4;  // of the energy, relative to the slope (Armijo)
 constexpr int most_halvings = 10;             // of a step
 // Iterations of blue noise where the hexatic order is not meaningful: points in the plane have six neighbours
@@ -30,6 +33,8 @@ class Sampler {
   Sampler(const Device& device, const Domain& domain, const SamplingOptions& options,
           std::vector<double> positions)
       : options_(options),
+        lloyd_(options.descent == SamplingDescent::lloyd ||
+               (options.descent == SamplingDescent::automatic && options.mode == SamplingMode::blue)),
         until_hexatic_(options.mode == SamplingMode::blue && domain.dimension() == 2),
         fixed_count_(options.mode == SamplingMode::blue ? !until_hexatic_ : options.movement == 0),
         start_(std::move(positions)),
@@ -44,7 +49,7 @@ class Sampler {
     record(0);
     while (!at_end() && result_.steps.back().iteration < most) {
       const int iteration = result_.steps.back().iteration + 1;
-      if (options_.descent == SamplingDescent::lloyd) {
+      if (lloyd_) {
         state_.move_to(state_.centroids(), tolerance());
       } else if (!lbfgs_move()) {
         no_descent_left_ = true;
@@ -53,8 +58,8 @@ class Sampler {
       record(iteration);
     }
     const int iterations_done = result_.steps.back().iteration;
-    const bool done = at_end() || (fixed_count_ && (iterations_done == most || no_descent_left_));
-    const bool at_centroids = iterations_done > 0 && options_.descent == SamplingDescent::lloyd;
+    const bool done = at_end() || no_descent_left_ || (fixed_count_ && iterations_done == most);
+    const bool at_centroids = iterations_done > 0 && lloyd_;
     state_.move_to(state_.in_domain(at_centroids), options_.capacity_tolerance);
     finish(done);
     return std::move(result_);
@@ -63,12 +68,15 @@ class Sampler {
  private:
   int iterations() const {
     if (options_.iterations > 0) return options_.iterations;
-    if (options_.mode == SamplingMode::quantise) return 1000;
+    if (options_.mode == SamplingMode::quantise) return 10000;
     return until_hexatic_ ? 100 : iterations_without_order;
   }
 
   double tolerance() const {
-    return options_.descent == SamplingDescent::lloyd ? lloyd_tolerance : lbfgs_tolerance;
+    if (!lloyd_) return lbfgs_tolerance;
+    if (options_.mode == SamplingMode::blue || result_.steps.empty()) return lloyd_tolerance;
+    return std::clamp(tolerance_of_move * result_.steps.back().gradient / spacing_, lbfgs_tolerance,
+                      lloyd_tolerance);
   }
 
   bool at_end() const {
@@ -158,6 +166,7 @@ class Sampler {
   }
 
   const SamplingOptions& options_;
+  bool lloyd_;          // the descent
   bool until_hexatic_;  // the criterion is the hexatic order
   bool fixed_count_;    // the criterion is the number of iterations
   std::vector<double> start_;
@@ -165,7 +174,7 @@ class Sampler {
   double spacing_;
   LbfgsMemory memory_;
   double neighbours_ = 0;         // per point on average, after the last iteration of blue in the plane
-  bool no_descent_left_ = false;  // rounding allows none
+  bool no_descent_left_ = false;  // the points rest as well as rounding allows
   SamplingResult result_;
   Clock::time_point before_ = Clock::now();
 };

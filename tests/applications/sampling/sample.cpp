@@ -119,6 +119,7 @@ TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   options.movement = 0;
   options.iterations = 30;
   options.random_seed = test_seed();
+  options.descent = SamplingDescent::lloyd;
   const SamplingResult lloyd = sample(device(), unit_box(2), 100, options);
   options.descent = SamplingDescent::lbfgs;
   const SamplingResult lbfgs = sample(device(), unit_box(2), 100, options);
@@ -142,6 +143,54 @@ TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   const SamplingResult rested = sample(device(), unit_box(2), 20, options);
   CHECK(rested.converged);
   CHECK(rested.steps.back().gradient < 1e-3 / std::sqrt(20.0));
+}
+
+TEST_CASE(
+    "quantise comes to rest with its defaults, whatever the number of points, the domain and the density") {
+  INFO(replay_hint());
+  struct Case {
+    const char* name;
+    Domain domain;
+    Density density = Density::constant(1);
+  };
+  const Case cases[] = {{"square", unit_box(2)},
+                        {"square with holes", Domain::polygon(square_with_holes())},
+                        {"cube", unit_box(3)},
+                        {"torus", surface_of(torus(24, 12))},
+                        {"slope", unit_box(2), Density::formula("1 + 1000*x^8")},
+                        {"empty half", unit_box(2), Density::image({2, 1, std::vector<double>{1, 0}})}};
+  for (const Case& one : cases)
+    for (const std::size_t n : {1u, 2u, 10u, 50u, 200u}) {
+      CAPTURE(one.name);
+      CAPTURE(n);
+      SamplingOptions options;
+      options.density = one.density;
+      options.mode = SamplingMode::quantise;
+      options.random_seed = test_seed();
+      const SamplingResult found = sample(device(), one.domain, n, options);
+      CHECK(found.converged);
+      CHECK(found.capacity_error < 1e-6);
+      CHECK(found.steps.back().iteration < 400);
+    }
+}
+
+TEST_CASE("Lloyd's method comes to rest too, with about the energy of L-BFGS") {
+  INFO(replay_hint());
+  for (const std::size_t n : {10u, 50u, 200u}) {
+    CAPTURE(n);
+    SamplingOptions options;
+    options.mode = SamplingMode::quantise;
+    options.random_seed = test_seed();
+    const SamplingResult lbfgs = sample(device(), unit_box(2), n, options);
+    options.descent = SamplingDescent::lloyd;
+    const SamplingResult lloyd = sample(device(), unit_box(2), n, options);
+    CHECK(lbfgs.converged);
+    CHECK(lloyd.converged);
+    CHECK(lloyd.steps.back().gradient < 1e-4 / std::sqrt(static_cast<double>(n)));
+    CHECK(lbfgs.steps.size() < lloyd.steps.size());
+    CHECK(lloyd.relative_energy == doctest::Approx(lbfgs.relative_energy).epsilon(0.03));
+    if (n >= 50) CHECK(lbfgs.relative_energy < 1.05);
+  }
 }
 
 TEST_CASE("the hexagonal lattice is a fixed point, with relative energy 1") {
