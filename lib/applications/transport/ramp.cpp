@@ -8,10 +8,24 @@ namespace {
 constexpr double intermediate_tolerance = 0.1;  // of the masses for exponents below 1
 constexpr double smallest_stride = 1.0 / 64;    // of the exponent
 
-/// Masses proportional to a power of the target, with the same sum. Computed by logarithms to avoid overflow.
-Vector power_of(const Vector& target, double exponent) {
-  Vector result = (exponent * (target.array() / target.maxCoeff()).log()).exp();
-  return result * (target.sum() / result.sum());
+/// Masses proportional to a power of these, with the same sum. Computed by logarithms to avoid overflow.
+Vector power_of(const Vector& mass, double exponent) {
+  Vector result = (exponent * (mass.array() / mass.maxCoeff()).log()).exp();  // 0 where there is no mass
+  return result * (mass.sum() / result.sum());
+}
+
+/// The same for the masses in each part of the domain: then none crosses a gap that does not in the end.
+Vector power_of(const SolveContext& context, double exponent) {
+  if (context.shares().empty()) return power_of(context.target(), exponent);
+  Vector sum = Vector::Zero(context.target().size());
+  for (const std::vector<double>& share : context.shares()) {
+    const Eigen::Map<const Vector> mass(share.data(), sum.size());
+    if (!(mass.sum() > 0)) continue;
+    Vector power = (exponent * (mass.array() / mass.maxCoeff()).max(1e-300).log()).exp();
+    power = (mass.array() > 0).select(power, 0);
+    sum += power * (mass.sum() / power.sum());
+  }
+  return sum * (context.target().sum() / sum.sum());
 }
 
 }  // namespace
@@ -22,10 +36,11 @@ PhaseEnd ramp(SolveContext& context, Iterate& at) {
   while (true) {
     const double exponent = started ? std::min(1.0, reached + stride) : 0;
     const bool last = exponent == 1;
-    const Vector target = last ? context.target() : power_of(context.target(), exponent);
+    const Vector target = last ? context.target() : power_of(context, exponent);
     Iterate trial = at;
-    const PhaseEnd end = newton(context, trial, target, last ? context.tolerance() : intermediate_tolerance,
-                                last ? TransportPhase::newton : TransportPhase::ramp, exponent);
+    const PhaseEnd end =
+        newton_across_gaps(context, trial, target, last ? context.tolerance() : intermediate_tolerance,
+                           last ? TransportPhase::newton : TransportPhase::ramp, exponent);
     if (end == PhaseEnd::step_limit || (end == PhaseEnd::converged && last)) {
       at = std::move(trial);
       return end;

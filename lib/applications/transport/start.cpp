@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/applications/transport/domain_parts.hpp"
 #include "lib/applications/transport/phases.hpp"
 
 namespace powercell {
@@ -12,14 +13,6 @@ constexpr double room = 0.9;                    // part of the domain's box into
 // Contraction of the moved seeds towards the mean of the density from one attempt to the next, and attempts.
 constexpr double contraction = 0.8;
 constexpr int most_attempts = 4;
-
-using Place = Eigen::Vector3d;  // third coordinate 0 in 2D
-
-Place place(std::span<const double> positions, std::size_t i, std::size_t d) {
-  Place p = Place::Zero();
-  for (std::size_t c = 0; c < d; ++c) p[static_cast<Eigen::Index>(c)] = positions[i * d + c];
-  return p;
-}
 
 /// The affine map from seeds p = middle + u to y = center + A u, about which their cells are wanted.
 struct Move {
@@ -167,6 +160,7 @@ Iterate find_start(SolveContext& context, const Vector& weights) {
   TransportStep step;
   step.phase = TransportPhase::start;
   context.record(step, best, target);
+  try_on_parts(context, best);
   return best;
 }
 
