@@ -1,4 +1,4 @@
-/* The arguments that clip kernels share, and what is made of them. */
+/* The arguments that all clip kernels share, and the structs made from them. */
 #ifndef POWERCELL_CLIP_ARGUMENTS
 #define POWERCELL_CLIP_ARGUMENTS
 #include "clip/write.cl"

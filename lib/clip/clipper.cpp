@@ -162,7 +162,7 @@ void Clipper::read_statuses(std::span<const std::uint32_t> active, Outcome& outc
   launch_status_.resize(rows);
   memory_.status.download(std::span(launch_status_));
   const auto batch = static_cast<std::uint32_t>(pieces.used);
-  std::uint32_t worst = PIECE_WHOLE;
+  std::uint32_t worst = PIECE_DONE;
   for (std::size_t row = 0; row < rows; ++row) {
     pieces.status[active[row]] = launch_status_[row];
     pieces.batch[active[row]] = batch;
