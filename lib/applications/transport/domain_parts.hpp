@@ -1,45 +1,38 @@
 /// \file
-/// The connected parts of a domain and how their mass lies. Internal.
+/// The connected parts of a domain, and how cells lie in them. Internal.
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <powercell/domain.hpp>
+#include <powercell/results.hpp>
 #include <span>
-#include <utility>
 #include <vector>
+
+#include "lib/applications/transport/normal.hpp"
 
 namespace powercell {
 
-using Place = Eigen::Vector3d;  ///< third coordinate 0 in 2D
-
-Place place(std::span<const double> positions, std::size_t i, std::size_t d);
-
-/// The distribution of a measure along a line.
-class Quantiles {
- public:
-  Quantiles() = default;
-  /// \param atoms  coordinate and measure, in any order
-  explicit Quantiles(std::vector<std::pair<double, double>> atoms);
-  /// The coordinate below which this share of the measure lies; linear between the middles of the atoms.
-  double at(double share) const;
-
- private:
-  std::vector<std::pair<double, double>> knots_;  // share, coordinate
+/// Per region of the domain the part that it lies in: regions that interior facets connect.
+struct DomainParts {
+  std::vector<std::uint32_t> of_region;
+  std::uint32_t count = 0;
 };
 
-/// A part of the domain that interior facets connect.
-struct DomainPart {
-  double measure = 0;
-  Place centroid = Place::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: principal axes, orthonormal
-  std::array<Quantiles, 3> quantiles;                  ///< along each axis, relative to the centroid
+DomainParts domain_parts(const Domain& domain);
+
+/// What a cell has of one part.
+struct PartOfCell {
+  std::uint32_t part;
+  double mass;
+  Normal where;
 };
 
-/// The number of connected parts.
-std::size_t count_parts(const Domain& domain);
-/// The connected parts, at most `most`: smaller ones join the nearest of the largest. Quantiles come from a
-/// sample of a few hundred points a part.
-std::vector<DomainPart> domain_parts(const Domain& domain, std::size_t most);
+/// Per cell its shares of the parts.
+/// \param mass  of each cell; spread evenly over it
+std::vector<std::vector<PartOfCell>> parts_of_cells(const Cells& cells, std::span<const double> mass,
+                                                    const DomainParts& parts);
+
+/// Joins parts, so that at most `most` are left, each to the nearest of the largest.
+/// \param whole  each part as a whole
+void join_small(DomainParts& parts, const std::vector<PartOfCell>& whole, std::uint32_t most);
 
 }  // namespace powercell

@@ -26,7 +26,7 @@ SolveContext::SolveContext(Evaluator& evaluator, const TransportOptions& options
       tolerance_(tolerance),
       tolerance_given_(tolerance_given),
       target_(std::move(target)),
-      several_parts_(count_parts(evaluator.diagram().domain()) > 1) {}
+      several_parts_(domain_parts(evaluator.diagram().domain()).count > 1) {}
 
 double SolveContext::tolerance() const {
   return evaluator_.spread() > 0 ? blend_tolerance : tolerance_;
@@ -40,6 +40,14 @@ Direction SolveContext::solve(const Laplacian& system, const Vector& right) {
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ++solved_;
   return result;
+}
+
+void SolveContext::record_level(TransportStep step) {
+  step.step = static_cast<int>(steps_.size());
+  step.phase = TransportPhase::start;
+  if (step.linear_iterations >= 0 && step.length > 0) ++solved_;
+  steps_.push_back(step);
+  if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
 }
 
 void SolveContext::record(TransportStep step, const Iterate& at, const Vector& target) {

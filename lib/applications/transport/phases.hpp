@@ -16,6 +16,12 @@ inline constexpr double hopeless_share = 1e-4;
 /// min m_i / v_i below which a cell of a domain of several parts counts as empty for connect().
 inline constexpr double starved_share = 1e-3;
 
+/// The mass of a seed in a part of the domain.
+struct PartShare {
+  std::uint32_t part, seed;
+  double mass;
+};
+
 /// How a phase ended.
 enum class PhaseEnd {
   converged,
@@ -44,9 +50,12 @@ class SolveContext {
   double tolerance() const;
   /// Whether the domain has several connected parts.
   bool has_several_parts() const { return several_parts_; }
-  /// Per part the mass that each seed has there by (31d); empty without such a start.
-  const std::vector<std::vector<double>>& shares() const { return shares_; }
-  void set_shares(std::vector<std::vector<double>> shares) { shares_ = std::move(shares); }
+  /// The masses of the seeds in the parts by (31d); empty without such a start.
+  const std::vector<PartShare>& shares() const { return shares_; }
+  void set_shares(std::vector<PartShare> shares) { shares_ = std::move(shares); }
+  const TransportOptions& options() const { return options_; }
+  /// Records a step of a solve for clusters of the seeds.
+  void record_level(TransportStep step);
   bool at_limit() const { return solved_ >= options_.max_steps; }
   /// The tolerance, or if the caller gave none and it is larger, the error to which rounded weights can meet
   /// masses.
@@ -81,7 +90,7 @@ class SolveContext {
   bool tolerance_given_;
   Vector target_;
   bool several_parts_;
-  std::vector<std::vector<double>> shares_;
+  std::vector<PartShare> shares_;
   std::vector<TransportStep> steps_;
   int solved_ = 0;
   std::size_t recorded_diagrams_ = 0;  // diagrams of the steps so far

@@ -17,15 +17,21 @@ Vector power_of(const Vector& mass, double exponent) {
 /// The same for the masses in each part of the domain: then none crosses a gap that does not in the end.
 Vector power_of(const SolveContext& context, double exponent) {
   if (context.shares().empty()) return power_of(context.target(), exponent);
-  Vector sum = Vector::Zero(context.target().size());
-  for (const std::vector<double>& share : context.shares()) {
-    const Eigen::Map<const Vector> mass(share.data(), sum.size());
-    if (!(mass.sum() > 0)) continue;
-    Vector power = (exponent * (mass.array() / mass.maxCoeff()).max(1e-300).log()).exp();
-    power = (mass.array() > 0).select(power, 0);
-    sum += power * (mass.sum() / power.sum());
+  std::vector<double> sum, largest, power;  // per part
+  for (const PartShare& share : context.shares()) {
+    if (share.part >= sum.size())
+      for (auto* values : {&sum, &largest, &power}) values->resize(share.part + 1);
+    sum[share.part] += share.mass;
+    largest[share.part] = std::max(largest[share.part], share.mass);
   }
-  return sum * (context.target().sum() / sum.sum());
+  const auto raised = [&](const PartShare& share) {
+    return std::exp(exponent * std::log(share.mass / largest[share.part]));
+  };
+  for (const PartShare& share : context.shares()) power[share.part] += raised(share);
+  Vector result = Vector::Zero(context.target().size());
+  for (const PartShare& share : context.shares())
+    result[share.seed] += raised(share) * sum[share.part] / power[share.part];
+  return result * (context.target().sum() / result.sum());
 }
 
 }  // namespace
