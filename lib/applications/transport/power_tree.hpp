@@ -1,9 +1,10 @@
 /// \file
-/// The least power distance of a point from a set of seeds. Internal.
+/// Least and soft least power distances of a point from a set of seeds. Internal.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -38,8 +39,17 @@ class PowerTree {
 
   double least(const Point& x) const {
     double best = std::numeric_limits<double>::infinity();
-    visit(0, 0, seeds_.size(), x, best);
+    visit(0, 0, seeds_.size(), x, [&] { return best; },
+          [&](std::uint32_t seed) { best = std::min(best, distance(seed, x)); });
     return best;
+  }
+
+  /// Calls visitor(seed, power distance) for all seeds with a power distance below `most`, and possibly for
+  /// others.
+  template <class Visitor>
+  void near(const Point& x, double most, const Visitor& visitor) const {
+    visit(0, 0, seeds_.size(), x, [&] { return most; },
+          [&](std::uint32_t seed) { visitor(seed, distance(seed, x)); });
   }
 
  private:
@@ -50,6 +60,9 @@ class PowerTree {
     std::size_t right = 0;  ///< of an inner node; its left child follows it
   };
 
+  double distance(std::uint32_t seed, const Point& x) const {
+    return power_distance(positions_, weights_, d_, seed, x);
+  }
   double coordinate(std::uint32_t seed, std::size_t c) const { return positions_[seed * d_ + c]; }
   auto iterator(std::size_t k) { return seeds_.begin() + static_cast<std::ptrdiff_t>(k); }
 
@@ -88,19 +101,20 @@ class PowerTree {
     return square - node.weight;
   }
 
-  void visit(std::size_t at, std::size_t first, std::size_t last, const Point& x, double& best) const {
+  template <class Most, class Visitor>
+  void visit(std::size_t at, std::size_t first, std::size_t last, const Point& x, const Most& most,
+             const Visitor& visitor) const {
     const Node& node = nodes_[at];
-    if (bound(node, x) >= best) return;
+    if (bound(node, x) >= most()) return;
     if (node.right == 0) {
-      for (std::size_t k = first; k < last; ++k)
-        best = std::min(best, power_distance(positions_, weights_, d_, seeds_[k], x));
+      for (std::size_t k = first; k < last; ++k) visitor(seeds_[k]);
       return;
     }
     const std::size_t middle = (first + last) / 2;
     const bool left_first = bound(nodes_[at + 1], x) <= bound(nodes_[node.right], x);
-    if (left_first) visit(at + 1, first, middle, x, best);
-    visit(node.right, middle, last, x, best);
-    if (!left_first) visit(at + 1, first, middle, x, best);
+    if (left_first) visit(at + 1, first, middle, x, most, visitor);
+    visit(node.right, middle, last, x, most, visitor);
+    if (!left_first) visit(at + 1, first, middle, x, most, visitor);
   }
 
   std::span<const double> positions_, weights_;
