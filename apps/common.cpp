@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "apps/interrupt.hpp"
-#include "apps/io/read_seeds.hpp"
 #include "apps/progress.hpp"
 
 namespace powercell::app {
@@ -18,16 +17,6 @@ const std::map<std::string, Precision> precisions = {
     {"auto", Precision::automatic}, {"double", Precision::float64}, {"float", Precision::float32}};
 const std::map<std::string, Neighbors> providers = {
     {"auto", Neighbors::automatic}, {"tree", Neighbors::tree}, {"flann", Neighbors::flann}};
-
-/// The fault of an argument of --seeds, as far as it shows without reading a file; empty if it has none.
-std::string wrong_seeds(const std::string& spec) {
-  try {
-    if (io::is_random_spec(spec)) io::parse_random_spec(spec);
-    return {};
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
 
 }  // namespace
 
@@ -57,26 +46,6 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->check(CLI::IsMember({"auto", "double", "float"}));
   add_engine_options(command, options);
   add_output_options(command, options);
-}
-
-void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,
-                          bool required) {
-  command
-      .add_option(
-          "--domain", domain,
-          "A file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt), or "
-          "square, cube, disk, ball, sphere, torus (with :N for resolution)")
-      ->required(required);
-  command
-      .add_option(
-          "--seeds", seeds,
-          "Text or CSV with rows 'x y [z] w', or with columns in any order under a header of these names (or "
-          "lon, lat, weight); an .npy file; or random:N[:LO:HI[:SEED]] with weights from LO to HI")
-      ->check(wrong_seeds)
-      ->required(required);
-  command
-      .add_option("--kind", kind, "polygon, surface or volume, for files that can be read as more than one")
-      ->check(CLI::IsMember({"polygon", "surface", "volume"}));
 }
 
 Options library_options(const CommonOptions& options, std::string_view label) {

@@ -42,10 +42,6 @@ void add_engine_options(CLI::App& command, CommonOptions& options);
 /// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
-/// Adds --domain, --seeds and --kind.
-void add_domain_and_seeds(CLI::App& command, std::string& domain, std::string& kind, std::string& seeds,
-                          bool required);
-
 /// The library's options for these, with progress and interruption (see interrupt.hpp).
 /// \param label  shown beside the progress bar, e.g. "cells"
 Options library_options(const CommonOptions& options, std::string_view label);

@@ -49,9 +49,7 @@ int run(const CommonOptions& options) {
     fmt::print("{}\n", json_text({{"devices", list}, {"version", version()}}));
     return 0;
   }
-  if (all.empty())
-    throw Error(ErrorCode::device_not_found,
-                "no OpenCL device is installed; on Debian, 'apt-get install pocl-opencl-icd' adds the CPU");
+  if (all.empty()) Device::choose();  // throws, and says why there is none
   fmt::print("{:<8}{:<6}{:<6}{:>6}{:>12}  {}\n", "device", "type", "fp64", "units", "memory", "name");
   for (const DeviceInfo& device : all)
     fmt::print("{:<8}{:<6}{:<6}{:>6}{:>8.1f} GiB  {} ({}, {})\n", device.selector(), type_name(device.type),

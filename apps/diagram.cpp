@@ -6,11 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
+#include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/names.hpp"
 #include "apps/io/output.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/outputs.hpp"
 #include "apps/report.hpp"
@@ -18,49 +16,48 @@
 namespace powercell::app {
 namespace {
 
-struct DiagramArguments : CommonOptions {
-  std::string domain, kind, seeds, table, walls;
+struct DiagramArguments : CommonOptions, InputArguments {
+  std::string table, walls;
   std::vector<std::string> outputs;
 };
 
-void write_files(const DiagramArguments& arguments, Diagram& diagram, const SeedsView& seeds,
+void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
                  RunReport& report) {
+  const SeedsView seeds = inputs.seeds.view();
   Stopwatch watch;
-  write_diagram(arguments.outputs, diagram, seeds);
+  write_diagram(arguments.outputs, diagram, seeds, inputs.view());
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
-    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency());
+    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view());
     report.files.push_back(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, diagram.adjacency());
+    io::write_walls(arguments.walls, diagram.adjacency(), inputs.view());
     report.files.push_back(arguments.walls);
   }
   report.write = watch.lap();
 }
 
-void print(const DiagramArguments& arguments, const io::LoadedDomain& domain, const std::string& note,
-           const RunReport& report) {
+void print(const DiagramArguments& arguments, const Inputs& inputs, const RunReport& report) {
   if (arguments.json) {
     fmt::print("{}\n", json_text(as_json(report)));
   } else if (!arguments.quiet) {
-    fmt::print("{}\n", domain.description);
-    if (!note.empty()) fmt::print("{}\n", note);
+    for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
     for (const std::string& path : report.files) fmt::print("wrote {}\n", path);
     fmt::print("{}\n", self_check_line(report));
   }
 }
 
 int run(const DiagramArguments& arguments) {
-  check_writable(arguments.outputs, {arguments.table, arguments.walls});
+  check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
   Stopwatch watch;
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
-  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
-  const SeedsView seeds = table.view();
+  const Inputs inputs = read_inputs(arguments);
+  const Domain& domain = inputs.domain.domain;
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
+  const SeedsView seeds = inputs.seeds.view();
   const double read = watch.lap();
 
-  Diagram diagram(open_device(arguments), domain.domain, library_options(arguments, "cells"));
+  Diagram diagram(open_device(arguments), domain, library_options(arguments, "cells"));
   diagram.set_seeds(seeds);
   // Everything that the files need, in one pass.
   const bool geometry = !arguments.outputs.empty();
@@ -68,10 +65,11 @@ int run(const DiagramArguments& arguments) {
       [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
   RunReport report = report_of(diagram);
   report.read = read;
+  describe_inputs(inputs, report);
   require_partition(report);
-  write_files(arguments, diagram, seeds, report);
+  write_files(arguments, diagram, inputs, report);
   report.build = diagram.device().build_seconds();  // writing may have built further kernels
-  print(arguments, domain, table.note, report);
+  print(arguments, inputs, report);
   return 0;
 }
 
@@ -88,7 +86,7 @@ constexpr const char* examples =
 Command add_diagram(CLI::App& app) {
   auto arguments = std::make_shared<DiagramArguments>();
   CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
-  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
+  add_inputs(*command, *arguments, true);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   command->add_option("--table", arguments->table, "CSV with one row for each seed")->type_name("FILE.csv");
   command

@@ -1,12 +1,14 @@
 // The command line tool. Each subcommand has a file of its own. Exit codes: 0 done, 1 failed, 2 wrong usage,
-// 130 interrupted.
+// 130 interrupted, 141 if the reader of standard output left before the end.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <map>
 #include <new>
+#include <system_error>
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
@@ -14,7 +16,7 @@
 
 namespace {
 
-enum ExitCode { done = 0, failed = 1, wrong_usage = 2, was_interrupted = 130 };
+enum ExitCode { done = 0, failed = 1, wrong_usage = 2, was_interrupted = 130, closed_pipe = 141 };
 
 int report(int code, std::string message) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
@@ -72,7 +74,9 @@ int run(int argc, char** argv) {
   } catch (const powercell::app::WrongUsage& error) {
     return report_usage(app, error);
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+  errno = 0;
+  const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout);
+  if (!written && errno != EPIPE)  // a reader that has what it wants is no failure
     return report(failed, "not all of standard output could be written");
   return code;
 }
@@ -86,6 +90,9 @@ int main(int argc, char** argv) {
     // Also if the signal made something else fail: a driver's compiler removes its files on a signal.
     if (error.code() == powercell::ErrorCode::interrupted || powercell::app::interrupted())
       return report(was_interrupted, "interrupted");
+    return report(failed, error.what());
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::broken_pipe) return closed_pipe;
     return report(failed, error.what());
   } catch (const std::bad_alloc&) {
     return report(failed, "out of memory; fewer seeds or a smaller domain may fit");

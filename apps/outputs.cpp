@@ -41,11 +41,19 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
       ->take_all();
 }
 
-void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more) {
+void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more, bool json) {
   files.insert(files.end(), more);
   std::map<fs::path, std::string> named;
+  bool piped = false;
   for (const std::string& path : files) {
     if (path.empty()) continue;
+    if (io::is_standard_output(path)) {
+      if (json || piped)
+        throw WrongUsage(fmt::format("{} '-' would mix on the standard output; name files",
+                                     json ? "--json and the file" : "two files"));
+      piped = true;
+      continue;
+    }
     io::check_can_create(path);
     if (is_stream(path)) continue;
     std::error_code ignored;
@@ -56,15 +64,16 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
           "{} and {} are the same file, so one output would overwrite the other; choose another name",
           first->second, path));
   }
+  if (piped) io::reserve_standard_output();
 }
 
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   bool weights_as_discs) {
+                   const io::InputView& inputs, bool weights_as_discs) {
   if (files.empty()) return;
   const JoinedCells joined = join(diagram.domain(), diagram.cells());
   for (const std::string& path : files)
     io::write_output(path, {diagram.domain(), seeds, diagram.measures(), diagram.cells(), joined,
-                            diagram.adjacency(), weights_as_discs});
+                            diagram.adjacency(), weights_as_discs, inputs});
 }
 
 }  // namespace powercell::app

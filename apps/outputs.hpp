@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/io/map_frame.hpp"
+
 namespace CLI {
 class App;
 }
@@ -19,13 +21,14 @@ namespace powercell::app {
 void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds,
                       std::function<void(const std::string&)> check);
 
-/// Refuses files that cannot be created, and two names for one file. \param more  further files; empty names
-/// are ignored \throw Error write_failed; WrongUsage
-void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more = {});
+/// Refuses files that cannot be created, and two names for one file. If one is `-`, reports go to the
+/// standard error from here on. \param more  further files; empty names are ignored \param json  whether a
+/// report in JSON needs the standard output \throw Error write_failed; WrongUsage
+void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more, bool json);
 
 /// Writes the cells to each of the files, by its extension; computes what the diagram has not yet.
 /// \param weights_as_discs  see io::DiagramOutput
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   bool weights_as_discs = true);
+                   const io::InputView& inputs = {}, bool weights_as_discs = true);
 
 }  // namespace powercell::app

@@ -157,7 +157,7 @@ RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& i
 }
 
 int run(const RemeshArguments& arguments) {
-  check_writable(arguments.outputs, {arguments.report});
+  check_writable(arguments.outputs, {arguments.report}, arguments.json);
   Outcome outcome;
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);

@@ -39,6 +39,7 @@ nlohmann::json as_json(const RunReport& report) {
           {"cells", report.cells},
           {"hidden", report.hidden},
           {"duplicate", report.duplicate},
+          {"outside", report.outside},
           {"measure", report.measure},
           {"domain_measure", report.domain_measure},
           {"relative_error", report.relative_error},
@@ -61,6 +62,9 @@ nlohmann::json as_json(const RunReport& report) {
           {"uncertain", t.uncertain},
           {"on_host", t.on_host},
           {"rounds", t.rounds},
+          {"crs", report.crs},
+          {"projection", report.projection},
+          {"notes", report.notes},
           {"files", report.files}};
 }
 

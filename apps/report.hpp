@@ -22,11 +22,14 @@ class Stopwatch {
 /// Figures of a run.
 struct RunReport {
   std::size_t seeds = 0, cells = 0, hidden = 0, duplicate = 0;
+  std::size_t outside = 0;  ///< seeds outside the domain's box
   double measure = 0, domain_measure = 0, relative_error = 0;
   std::string device, precision, neighbors;
   Timings timings;
   double read = 0, build = 0, write = 0;  ///< seconds beside `timings.total`
   std::vector<std::string> files;
+  std::string crs, projection;     ///< of the inputs and of the plane; empty if nothing names one
+  std::vector<std::string> notes;  ///< how the inputs were read
 };
 
 /// Everything but the seconds of reading and writing and the files. Computes the measures.

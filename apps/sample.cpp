@@ -57,7 +57,7 @@ void write_cells(const SampleArguments& arguments, const Device& device, const S
   const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
-  write_diagram(arguments.cells, diagram, seeds, false);
+  write_diagram(arguments.cells, diagram, seeds, {}, false);
 }
 
 std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,
@@ -126,7 +126,7 @@ int run(const SampleArguments& arguments) {
         "--cells or --periodic");
   std::vector<std::string> files = arguments.outputs;
   files.insert(files.end(), arguments.cells.begin(), arguments.cells.end());
-  check_writable(std::move(files), {arguments.analysis});
+  check_writable(std::move(files), {arguments.analysis}, arguments.json);
   const Source source = read_source(arguments.source);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
   for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());

@@ -9,12 +9,10 @@
 
 #include "apps/common.hpp"
 #include "apps/density_choice.hpp"
+#include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/names.hpp"
 #include "apps/io/output.hpp"
-#include "apps/io/read_domain.hpp"
 #include "apps/io/read_masses.hpp"
-#include "apps/io/read_seeds.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/io/write_transport.hpp"
 #include "apps/number_checks.hpp"
@@ -25,8 +23,8 @@
 namespace powercell::app {
 namespace {
 
-struct TransportArguments : CommonOptions {
-  std::string domain, kind, seeds, masses, mass_column, linear = "auto", table, walls, log;
+struct TransportArguments : CommonOptions, InputArguments {
+  std::string masses, mass_column, linear = "auto", table, walls, log;
   DensityArguments density;
   double tolerance = 0;
   int most_steps = 500;
@@ -70,17 +68,18 @@ struct TransportReport {
   double solve = 0;
 };
 
-void write_files(const TransportArguments& arguments, TransportSolver& solver, const SeedsView& seeds,
+void write_files(const TransportArguments& arguments, TransportSolver& solver, const Inputs& inputs,
                  RunReport& report) {
+  const SeedsView seeds{inputs.seeds.dimension, inputs.seeds.positions, solver.result().weights};
   const auto written = [&report](const std::string& path) { report.files.push_back(path); };
-  write_diagram(arguments.outputs, solver.diagram(), seeds, false);
+  write_diagram(arguments.outputs, solver.diagram(), seeds, inputs.view(), false);
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
-    io::write_transport_table(arguments.table, seeds, solver.result());
+    io::write_transport_table(arguments.table, seeds, solver.result(), inputs.view());
     written(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, solver.diagram().adjacency());
+    io::write_walls(arguments.walls, solver.diagram().adjacency(), inputs.view());
     written(arguments.walls);
   }
   if (!arguments.log.empty()) {
@@ -99,6 +98,7 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
   return {{"seeds", run.seeds},
           {"cells", run.cells},
           {"hidden", run.hidden},
+          {"outside", run.outside},
           {"merged", result.merged},
           {"converged", result.converged},
           {"error", result.error},
@@ -122,6 +122,9 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
             {"read", run.read},
             {"build", run.build},
             {"write", run.write}}},
+          {"crs", run.crs},
+          {"projection", run.projection},
+          {"notes", run.notes},
           {"files", run.files}};
 }
 
@@ -173,39 +176,41 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 }
 
 int run(const TransportArguments& arguments) {
-  check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log});
+  check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log}, arguments.json);
   Stopwatch watch;
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
-  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
+  const Inputs inputs = read_inputs(arguments);
+  const Domain& domain = inputs.domain.domain;
+  const io::SeedTable& table = inputs.seeds;
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
   std::vector<double> masses;
   if (!arguments.masses.empty())
     masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());
-  const TransportOptions options = solver_options(arguments, domain.domain);
+  else if (!arguments.mass_column.empty())
+    masses = io::masses_of_table(table, arguments.mass_column, arguments.seeds);
+  const TransportOptions options = solver_options(arguments, domain);
   TransportReport report;
   const double read = watch.lap();
 
-  TransportSolver solver(open_device(arguments), domain.domain, options);
+  TransportSolver solver(open_device(arguments), domain, options);
   solver.set_seeds(table.view());
   solver.set_masses(masses);
   watch.lap();
   compute([&] { solver.solve(); });
   report.solve = watch.lap();
   const TransportResult& result = solver.result();
-  const SeedsView seeds{table.dimension, table.positions, result.weights};
   report.run = report_of(solver.diagram());
   report.run.read = read;
+  describe_inputs(inputs, report.run);
   require_partition(report.run);
   watch.lap();
-  write_files(arguments, solver, seeds, report.run);
+  write_files(arguments, solver, inputs, report.run);
   report.run.write = watch.lap();
   report.run.build = solver.diagram().device().build_seconds();
 
   if (arguments.json) {
     fmt::print("{}\n", json_text(as_json(report, result)));
   } else if (!arguments.quiet) {
-    fmt::print("{}\n", domain.description);
-    if (!table.note.empty()) fmt::print("{}\n", table.note);
+    for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
     for (const std::string& path : report.run.files) fmt::print("wrote {}\n", path);
     fmt::print("{}\n", result_line(report, result));
   }
@@ -219,8 +224,8 @@ int run(const TransportArguments& arguments) {
 constexpr const char* examples =
     "Examples:\n"
     "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
-    "  powercell transport --domain italy.geojson --seeds towns.csv --masses people.csv --rescale -o "
-    "map.png\n"
+    "  powercell transport --domain italy.geojson --seeds towns.csv --mass-column people --rescale "
+    "-o map.png\n"
     "  powercell transport --domain part.mesh --seeds grains.txt --masses sizes.csv --table weights.csv\n"
     "  powercell transport --domain square --seeds s.csv --density 'exp(-8*((x-.5)^2+(y-.5)^2))' --log "
     "steps.jsonl\n"
@@ -233,7 +238,8 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
                   "Table with one mass for each seed, in their order: one column, or one named 'mass'. "
                   "Default: equal masses")
       ->type_name("FILE.csv");
-  command.add_option("--mass-column", arguments.mass_column, "Name of that column")->needs("--masses");
+  command.add_option("--mass-column", arguments.mass_column,
+                     "Name of that column; without --masses, of a column of the seeds' table");
   command.add_flag("--rescale", arguments.rescale,
                    "Masses are ratios: scale them to sum to the domain's mass");
   add_density_options(command, arguments.density);
@@ -251,7 +257,7 @@ void add_solver_options(CLI::App& command, TransportArguments& arguments) {
 Command add_transport(CLI::App& app) {
   auto arguments = std::make_shared<TransportArguments>();
   CLI::App* command = app.add_subcommand("transport", "Find the weights that give cells prescribed masses");
-  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, true);
+  add_inputs(*command, *arguments, true);
   add_solver_options(*command, *arguments);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   command

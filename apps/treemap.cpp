@@ -113,7 +113,7 @@ void print(const io::NamedTree& tree, const Treemap& map, const std::vector<std:
 }
 
 int run(const TreemapArguments& arguments) {
-  check_writable(arguments.outputs);
+  check_writable(arguments.outputs, {}, arguments.json);
   Stopwatch watch;
   Seconds seconds;
   std::vector<std::string> notes;

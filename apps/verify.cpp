@@ -9,10 +9,9 @@
 #include <random>
 
 #include "apps/common.hpp"
+#include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/io/names.hpp"
 #include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/report.hpp"
 #include "apps/saved.hpp"
@@ -20,8 +19,8 @@
 namespace powercell::app {
 namespace {
 
-struct VerifyArguments : CommonOptions {
-  std::string file, domain, seeds, kind;
+struct VerifyArguments : CommonOptions, InputArguments {
+  std::string file;
   std::size_t count = 2000;
   std::size_t samples = 1000;
   std::uint64_t random_seed = 1;
@@ -101,10 +100,10 @@ std::vector<Checked> check_device(const VerifyArguments& arguments, const Device
 }
 
 std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
-  const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
-  const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
-  if (!table.note.empty() && !arguments.quiet && !arguments.json) fmt::print("{}\n", table.note);
-  return {check(arguments, device, domain.domain, table.view(),
+  const Inputs inputs = read_inputs(arguments);
+  if (!arguments.quiet && !arguments.json)
+    for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
+  return {check(arguments, device, inputs.domain.domain, inputs.seeds.view(),
                 fmt::format("{} with {}", arguments.domain, arguments.seeds))};
 }
 
@@ -165,7 +164,7 @@ Command add_verify(CLI::App& app) {
       app.add_subcommand("verify", "Check a device or a saved diagram against the laws of power diagrams");
   command->add_option("FILE", arguments->file,
                       "A diagram saved by 'diagram -o FILE.json'; --precision is that of its computation");
-  add_domain_and_seeds(*command, arguments->domain, arguments->kind, arguments->seeds, false);
+  add_inputs(*command, *arguments, false);
   command
       ->add_option("--count", arguments->count, "Number of random seeds in each diagram that checks a device")
       ->check(above_zero())

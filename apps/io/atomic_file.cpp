@@ -44,6 +44,8 @@ void forget(int slot) {
   slots[static_cast<std::size_t>(slot)].taken = false;
 }
 
+int kept_output = -1;  // the standard output, once reserved
+
 std::string resolve_links(const std::string& path) {
   std::error_code ignored;
   const auto resolved = std::filesystem::weakly_canonical(path, ignored);
@@ -53,6 +55,11 @@ std::string resolve_links(const std::string& path) {
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve_links(path)) {
+  if (is_standard_output(path)) {
+    file_ = fcntl(kept_output >= 0 ? kept_output : STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (file_ < 0) fail("open", errno);
+    return;
+  }
   struct stat old {};
   const bool exists = stat(path.c_str(), &old) == 0;
   if (exists && S_ISDIR(old.st_mode)) fail("open", EISDIR);
@@ -106,6 +113,7 @@ void AtomicFile::flush() {
   while (left > 0) {
     const ssize_t written = ::write(file_, next, left);
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EPIPE && temporary_.empty()) break;  // the reader has what it wants
     if (written < 0) fail("write", errno);
     next += written;
     left -= static_cast<std::size_t>(written);
@@ -133,7 +141,21 @@ void AtomicFile::fail(const char* doing, int error) const {
   throw Error(ErrorCode::write_failed, path_ + ": cannot " + doing + " it: " + std::strerror(error) + hint);
 }
 
+bool is_standard_output(const std::string& path) {
+  return path == "-";
+}
+
+void reserve_standard_output() {
+  if (kept_output >= 0) return;
+  std::fflush(stdout);
+  kept_output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (kept_output < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0)
+    throw Error(ErrorCode::write_failed,
+                std::string("standard output: cannot be written: ") + std::strerror(errno));
+}
+
 void check_can_create(const std::string& path) {
+  if (is_standard_output(path)) return;
   struct stat old {};
   const bool exists = stat(path.c_str(), &old) == 0;
   if (!exists || S_ISREG(old.st_mode) || S_ISDIR(old.st_mode)) AtomicFile{path};

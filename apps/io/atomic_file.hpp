@@ -10,7 +10,8 @@ namespace powercell::io {
 
 /// Writes beside the target and renames on `commit()`, so that a reader never sees half a file and a
 /// failure leaves an older file of that name unchanged. A target that is not a regular file (a pipe, a
-/// terminal, /dev/null) is written directly.
+/// terminal, /dev/null; `-` for the standard output) is written directly, and a reader that closes a pipe
+/// early is no failure.
 class AtomicFile {
  public:
   /// \throw Error write_failed if the file cannot be created
@@ -45,6 +46,13 @@ class AtomicFile {
   int file_ = -1;
   int slot_ = -1;
 };
+
+/// Whether a path means the standard output: "-".
+bool is_standard_output(const std::string& path);
+
+/// Keeps the standard output for the file `-`: what is printed there from now on goes to the standard error.
+/// \throw Error write_failed
+void reserve_standard_output();
 
 /// Checks before a long computation whether an AtomicFile could be created there; leaves no file. Pipes and
 /// terminals are not checked, since the other end would see them opened and closed.

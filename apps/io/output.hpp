@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "apps/io/map_frame.hpp"
+
 namespace powercell::io {
 
 /// A computed diagram of n seeds. Nothing is owned.
@@ -21,6 +23,7 @@ struct DiagramOutput {
   /// Whether flat pictures show a weight w as a disc of radius sqrt(w). It makes no sense for weights that
   /// are determined up to a constant, such as those of a transport.
   bool weights_as_discs = true;
+  InputView inputs = {};
 };
 
 /// Extensions that `write_output` accepts: ".svg .png ...".

@@ -18,7 +18,7 @@ constexpr MeshFormat mesh_formats[] = {{".off", parse_off}, {".obj", parse_obj},
                                        {".stl", parse_stl}, {".mesh", parse_medit}, {".msh", parse_gmsh},
                                        {".vtk", parse_vtk}, {".vtu", parse_vtu},    {".tet", parse_tet}};
 
-DomainArrays polygon_arrays(std::vector<PolygonPart> parts, std::optional<DomainKind> kind,
+DomainArrays polygon_arrays(std::vector<PolygonPart> parts, NamedCrs crs, std::optional<DomainKind> kind,
                             const std::string& name) {
   if (kind.value_or(DomainKind::polygon) != DomainKind::polygon) {
     fail_file(name, fmt::format("holds a polygon, but --kind is {}; choose another domain or kind",
@@ -26,6 +26,7 @@ DomainArrays polygon_arrays(std::vector<PolygonPart> parts, std::optional<Domain
   }
   DomainArrays arrays;
   arrays.parts = std::move(parts);
+  arrays.crs = std::move(crs);
   return arrays;
 }
 
@@ -41,6 +42,8 @@ Domain make_domain(const DomainArrays& arrays, const std::string& spec) {
       return Domain::volume(arrays.vertices, arrays.elements);
   }
 }
+
+}  // namespace
 
 std::string describe(const DomainArrays& arrays, const std::string& spec) {
   if (arrays.kind == DomainKind::polygon) {
@@ -61,19 +64,23 @@ std::string describe(const DomainArrays& arrays, const std::string& spec) {
                      arrays.elements.size() / (volume ? 4 : 3), volume ? "tetrahedra" : "triangles");
 }
 
-}  // namespace
-
 DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
                           std::optional<DomainKind> kind, const std::string& name) {
-  if (extension == ".geojson" || extension == ".json")
-    return polygon_arrays(parse_geojson(bytes, name), kind, name);
-  if (extension == ".wkt") return polygon_arrays(parse_wkt(bytes, name), kind, name);
-  if (extension == ".svg") return polygon_arrays(parse_svg(bytes, name), kind, name);
+  NamedCrs crs;
+  if (extension == ".geojson" || extension == ".json") {
+    std::vector<PolygonPart> parts = parse_geojson(bytes, name, &crs);
+    return polygon_arrays(std::move(parts), std::move(crs), kind, name);
+  }
+  if (extension == ".wkt") {
+    std::vector<PolygonPart> parts = parse_wkt(bytes, name, &crs);
+    return polygon_arrays(std::move(parts), std::move(crs), kind, name);
+  }
+  if (extension == ".svg") return polygon_arrays(parse_svg(bytes, name), {}, kind, name);
   if (extension == ".txt") return parse_plain(bytes, kind, name);
   for (const MeshFormat& format : mesh_formats) {
     if (extension != format.extension) continue;
     MeshArrays mesh = choose_elements(format.parse(bytes, name), kind, name);
-    return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements)};
+    return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements), {}};
   }
   fail_file(name,
             fmt::format(
@@ -83,29 +90,30 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
                 extension));
 }
 
-LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind) {
-  const bool builtin = is_builtin_domain(spec);
-  DomainArrays arrays;
-  if (builtin) {
-    arrays = builtin_domain(spec);
-    if (kind.value_or(arrays.kind) != arrays.kind) {
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("domain {} is a {}, but --kind is {}; choose another domain or kind", spec,
-                              io::name(arrays.kind), io::name(*kind)));
-    }
-  } else {
-    const std::string extension = lower_extension(spec);
-    arrays = parse_domain(read_file(spec), extension, kind, spec);
-  }
+DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKind> kind) {
+  if (!is_builtin_domain(spec)) return parse_domain(read_file(spec), lower_extension(spec), kind, spec);
+  DomainArrays arrays = builtin_domain(spec);
+  if (kind.value_or(arrays.kind) != arrays.kind)
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("domain {} is a {}, but --kind is {}; choose another domain or kind", spec,
+                            io::name(arrays.kind), io::name(*kind)));
+  return arrays;
+}
+
+LoadedDomain load_domain(DomainArrays arrays, const std::string& spec) {
   try {
     Domain domain = make_domain(arrays, spec);
     std::string description = describe(arrays, spec);
-    return {std::move(domain), std::move(description), std::move(arrays.parts), std::move(arrays.vertices),
-            std::move(arrays.elements)};
+    return {std::move(domain),          std::move(description),     std::move(arrays.parts),
+            std::move(arrays.vertices), std::move(arrays.elements), std::move(arrays.crs)};
   } catch (const Error& error) {
     throw Error(error.code(),
                 fmt::format("{}: {}", spec, error.what()));  // the library does not know the file
   }
+}
+
+LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind) {
+  return load_domain(read_domain_arrays(spec, kind), spec);
 }
 
 }  // namespace powercell::io

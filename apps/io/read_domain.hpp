@@ -20,6 +20,7 @@ struct LoadedDomain {
   std::vector<PolygonPart> parts;       ///< polygon: its rings; else empty
   std::vector<double> vertices;         ///< surface, volume: nv x 3; else empty
   std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4; else empty
+  NamedCrs crs = {};                    ///< polygon
 };
 
 /// \param spec  a file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt
@@ -29,7 +30,13 @@ struct LoadedDomain {
 /// \throw Error invalid_file (file and line), invalid_domain (file and element), invalid_argument
 LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind = std::nullopt);
 
-/// The same from memory. \param extension lower case with its dot, e.g. ".off"
+/// The two steps of it: the arrays of a file or a built-in shape, which may be projected
+/// (map_projection.hpp), and the domain that they make.
+DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKind> kind);
+std::string describe(const DomainArrays& arrays, const std::string& spec);
+LoadedDomain load_domain(DomainArrays arrays, const std::string& spec);
+
+/// The arrays from memory. \param extension lower case with its dot, e.g. ".off"
 DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
                           std::optional<DomainKind> kind, const std::string& name);
 

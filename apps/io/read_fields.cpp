@@ -72,6 +72,11 @@ void Records::fail(const std::string& what) const {
   fail_line(name_, line_, what);
 }
 
+void Records::comment_whole_lines() {
+  whole_lines_ = true;
+  if (comment_ != '\0') ends_plain_[static_cast<unsigned char>(comment_)] = false;
+}
+
 bool Records::next(Fields& fields) {
   while (at_ < text_.size()) {
     fields.clear();
@@ -88,6 +93,7 @@ bool Records::record(Fields& fields) {
   while (true) {
     skip_blanks();
     if (separator_ == ' ' && at_end_of_record()) break;
+    if (fields.empty() && comment_ != '\0' && at_ < text_.size() && text_[at_] == comment_) break;
     if (fields.size() == most_columns) fail(fmt::format("more than {} columns", most_columns));
     fields.push_back(at_ < text_.size() && text_[at_] == '"' ? quoted() : plain());
     filled = filled || !fields.back().empty();
@@ -100,7 +106,8 @@ bool Records::record(Fields& fields) {
 }
 
 bool Records::at_end_of_record() const {
-  return at_ == text_.size() || text_[at_] == '\n' || (text_[at_] == comment_ && comment_ != '\0');
+  return at_ == text_.size() || text_[at_] == '\n' ||
+         (text_[at_] == comment_ && comment_ != '\0' && !whole_lines_);
 }
 
 void Records::skip_blanks() {

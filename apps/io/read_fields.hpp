@@ -27,6 +27,9 @@ class Records {
   /// \param comment  character that begins a comment to the end of the line; 0 for no comments
   Records(std::string_view text, std::string name, char separator, char comment = '\0');
 
+  /// From now on only a line that begins with the comment character is one: text such as "No # 5" is a field.
+  void comment_whole_lines();
+
   /// The next record with a field that is not empty; false at the end. Fields are valid until the next call.
   bool next(Fields& fields);
 
@@ -47,6 +50,7 @@ class Records {
   std::string_view text_;
   std::string name_;
   char separator_, comment_;
+  bool whole_lines_ = false;            // whether comments are lines
   std::array<bool, 256> ends_plain_{};  // whether a byte ends a field without quotes
   std::deque<std::string> unescaped_;   // fields of the record that had doubled quotes
   std::size_t at_ = 0, line_ = 1, line_at_ = 1;

@@ -95,9 +95,22 @@ class GeoJson {
   std::string name_;
 };
 
+/// GeoJSON of 2008 names its system in a member; RFC 7946 did away with it, but programs write it where the
+/// coordinates are not longitude and latitude.
+NamedCrs crs_of(const json& document) {
+  NamedCrs crs;
+  if (!document.is_object() || !document.contains("crs")) return crs;
+  const json& member = document["crs"];
+  crs.member = member.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (!member.is_object() || member.value("type", json()) != "name") return crs;
+  const json name = member.value("properties", json::object()).value("name", json());
+  if (name.is_string()) crs.name = name.get<std::string>();
+  return crs;
+}
+
 }  // namespace
 
-std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name) {
+std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name, NamedCrs* crs) {
   json document;
   try {
     document = json::parse(text);
@@ -112,6 +125,7 @@ std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string&
   GeoJson reader(name);
   reader.object(document, "$", 0);
   if (reader.groups.empty()) fail_file(name, "holds no polygon");
+  if (crs != nullptr) *crs = crs_of(document);
   return unite(reader.groups, name);
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_text.hpp"
@@ -83,6 +86,34 @@ std::vector<double> parse_masses(std::string_view text, const std::string& colum
 
 std::vector<double> read_masses(const std::string& path, const std::string& column, std::size_t seeds) {
   return parse_masses(read_file(path), column, seeds, path);
+}
+
+std::vector<double> masses_of_table(const SeedTable& seeds, const std::string& column,
+                                    const std::string& name) {
+  const std::vector<std::string>& names = seeds.columns.names;
+  const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& known) {
+    return column_name(known) == column_name(column);
+  });
+  if (found == names.end())
+    fail_file(name, fmt::format("the table of the seeds has no column '{}'; name one of its header, or give "
+                                "--masses with another table",
+                                column));
+  std::vector<double> masses;
+  for (std::size_t i = 0; i < seeds.count(); ++i) {
+    const std::string_view field = seeds.text.field(i, static_cast<std::size_t>(found - names.begin()));
+    double mass = 0;
+    const Parsed parsed = parse_number(field, mass);
+    if (parsed == Parsed::ok && mass > 0) {
+      masses.push_back(mass);
+      continue;
+    }
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("{}: seed {} (from 0): the mass '{}' is not a number above 0; remove seeds without "
+                    "mass",
+                    name, i, readable(std::string(field))));
+  }
+  return masses;
 }
 
 }  // namespace powercell::io

@@ -1,11 +1,13 @@
 /// \file
-/// The argument of --masses: a column of a table.
+/// The masses of a transport: a column of a table.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "apps/io/read_seeds.hpp"
 
 namespace powercell::io {
 
@@ -18,5 +20,9 @@ std::vector<double> read_masses(const std::string& path, const std::string& colu
 /// The same from memory.
 std::vector<double> parse_masses(std::string_view text, const std::string& column, std::size_t seeds,
                                  const std::string& name);
+
+/// A column of the seeds' own table, which has a header. \param name  of the table, for messages
+std::vector<double> masses_of_table(const SeedTable& seeds, const std::string& column,
+                                    const std::string& name);
 
 }  // namespace powercell::io

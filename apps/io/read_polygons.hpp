@@ -13,13 +13,20 @@
 
 namespace powercell::io {
 
+/// The coordinate reference system that a file of polygons says it is in.
+struct NamedCrs {
+  std::string name;    ///< "EPSG:4326", "urn:ogc:def:crs:EPSG::32633"; empty if it does not say
+  std::string member;  ///< JSON of the member `crs` of a GeoJSON file; empty without one
+};
+
 /// Polygon, MultiPolygon, GeometryCollection, Feature or FeatureCollection. Coordinates are those of the
-/// plane (also longitudes and latitudes). Several geometries are united.
-std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name);
+/// file, whatever its system. Several geometries are united. \param crs  if not null, the file's system
+std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name,
+                                       NamedCrs* crs = nullptr);
 
 /// One or more of POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION, also EMPTY; several are united. An `SRID=n;`
-/// in front is ignored but must be the same for all.
-std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name);
+/// in front must be the same for all. \param crs  if not null, EPSG:n
+std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name, NamedCrs* crs = nullptr);
 
 /// Largest distance between a curve of an SVG file and its polygon, over the diagonal of the drawing.
 inline constexpr double svg_tolerance = 1e-4;
@@ -38,6 +45,7 @@ struct DomainArrays {
   std::vector<PolygonPart> parts;       ///< polygon
   std::vector<double> vertices;         ///< surface, volume: nv x 3
   std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4
+  NamedCrs crs = {};                    ///< polygon
 };
 
 /// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, all with or without their

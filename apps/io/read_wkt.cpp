@@ -26,7 +26,8 @@ class Geometries {
   }
   // The text of the next one, without blanks before it; empty at the end.
   std::string_view next();
-  [[noreturn]] void fail(const std::string& what) const {  // names the last geometry
+  const std::string& reference_system() const { return reference_system_; }  // number; empty without one
+  [[noreturn]] void fail(const std::string& what) const {                    // names the last geometry
     fail_line(name_, line_of(text_, begin_), what);
   }
 
@@ -105,7 +106,7 @@ void require_finite(const std::vector<PolygonPart>& parts, const Geometries& geo
 
 }  // namespace
 
-std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name) {
+std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& name, NamedCrs* crs) {
   Geos geos;
   struct Destroy {
     GEOSContextHandle_t handle;
@@ -128,6 +129,8 @@ std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& nam
     if (!parts.empty()) groups.push_back(std::move(parts));
   }
   if (groups.empty()) fail_file(name, "holds no polygon");
+  const std::string& number = geometries.reference_system();
+  if (crs != nullptr && number.find_first_not_of('0') != std::string::npos) crs->name = "EPSG:" + number;
   return unite(groups, name);
 }
 

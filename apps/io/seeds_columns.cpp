@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <span>
 #include <string_view>
 
@@ -13,62 +14,175 @@ namespace {
 
 using Names = std::span<const std::string_view>;
 
-constexpr std::string_view x_names[] = {"lon", "long", "longitude", "lng", "easting"};
-constexpr std::string_view y_names[] = {"lat", "latitude", "northing"};
+constexpr std::string_view longitude_names[] = {"lon", "long", "longitude", "lng", "decimallongitude"};
+constexpr std::string_view latitude_names[] = {"lat", "latitude", "decimallatitude"};
+constexpr std::string_view x_names[] = {"lon", "long", "longitude", "lng", "decimallongitude", "easting"};
+constexpr std::string_view y_names[] = {"lat", "latitude", "decimallatitude", "northing"};
 constexpr std::string_view weight_names[] = {"w", "weight", "weights"};
 constexpr std::string_view radius_names[] = {"r", "radius", "radii"};
 /// Names of columns that are not coordinates; "" is that of row numbers.
 constexpr std::string_view other_names[] = {"",     "id",    "fid",  "gid",    "objectid", "index", "key",
                                             "name", "label", "seed", "status", "mass",     "area"};
-constexpr const char* axis_names = "xyz";
+constexpr std::string_view axis_names[] = {"x", "y", "z"};
+
+/// Words that may stand beside x, y or z in the name of a coordinate: x_coord, "pos x [mm]", POINT_X.
+constexpr std::string_view coordinate_words[] = {
+    "coord",    "coords", "coordinate", "pos", "position", "point", "center", "centre", "centroid", "loc",
+    "location", "m",      "mm",         "cm",  "km",       "um",    "nm",     "ft",     "px"};
+
+bool is_one_of(std::string_view name, Names known) {
+  return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+/// The words of a name in lower case; marks separate them.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const char c : name) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+/// Whether a name is that of an axis with words that may stand beside it: xcoord, x_coord, "x (m)".
+bool is_axis(std::string_view name, std::string_view axis) {
+  bool found = false;
+  for (const std::string& word : words_of(name)) {
+    const bool joined =
+        word.size() > 1 && (is_one_of(word.substr(1), coordinate_words) && word.starts_with(axis));
+    if ((word == axis || joined) && !found)
+      found = true;
+    else if (!is_one_of(word, coordinate_words))
+      return false;
+  }
+  return found;
+}
 
 std::string row_names(std::size_t dimension) {
   return dimension == 2 ? "x, y, weight" : "x, y, z, weight";
 }
 
-class Header {
+/// Finds the columns of one table.
+class Chooser {
  public:
-  Header(const Records& records, const Fields& fields, std::size_t dimension)
-      : records_(records), dimension_(dimension) {
-    for (const std::string_view field : fields) names_.push_back(column_name(field));
+  Chooser(const Records& records, std::size_t count, std::size_t dimension, const ColumnChoice& choice)
+      : records_(records), dimension_(dimension), choice_(choice) {
+    columns_.count = count;
   }
 
-  SeedColumns columns() {
-    const bool by_name = find_coordinates();
-    columns_.count = names_.size();
-    columns_.weight = find(weight_names);
-    if (!by_name) take_by_order();
-    if (const auto radius = find(radius_names); radius && !columns_.weight)
+  SeedColumns by_header(const Fields& header) {
+    for (const std::string_view field : header) {
+      columns_.names.emplace_back(field);
+      names_.push_back(column_name(field));
+    }
+    const bool chosen = choose();
+    columns_.named = !chosen && find_coordinates();
+    const bool named = chosen || columns_.named;
+    if (!columns_.weight) columns_.weight = find(weight_names);
+    if (!named) take_by_order();
+    const auto radius = columns_.weight ? std::nullopt : find(radius_names);
+    if (radius)
       records_.fail(fmt::format(
-          "the header has a column {} and no column of weights; a weight is a length "
-          "squared: add a column weight with the squared radii (or rename this column if it is not a radius)",
-          quoted(*radius)));
-    columns_.note = note(by_name);
-    return columns_;
+          "the header has a column {} and no column of weights; a weight is a length squared: give "
+          "--radius-column {} to use the squares (or rename this column if it is not a radius)",
+          shown(*radius), columns_.names[*radius]));
+    finish(named);
+    return std::move(columns_);
+  }
+
+  SeedColumns by_order() {
+    if (!choose()) take_by_order();
+    finish(true);
+    if (!choice_.any()) columns_.note.clear();  // the usual rows
+    return std::move(columns_);
   }
 
  private:
+  /// Takes the columns that the user chose; whether the coordinates are among them.
+  bool choose() {
+    std::size_t found = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto column = chosen(choice_.position[axis]);
+      if (!column) continue;
+      if (axis >= dimension_)
+        records_.fail("--z-column is given, but the seeds of this domain have 2 coordinates; leave it out");
+      columns_.position[axis] = *column;
+      ++found;
+    }
+    if (found != 0 && found != dimension_)
+      records_.fail(fmt::format("only {} of the {} coordinates of a seed is chosen; give {} together", found,
+                                dimension_, position_options()));
+    if (!choice_.weight.empty() && !choice_.radius.empty())
+      records_.fail("--weight-column and --radius-column are both given; a weight comes from one of them");
+    columns_.radius = !choice_.radius.empty();
+    columns_.weight = chosen(columns_.radius ? choice_.radius : choice_.weight);
+    columns_.id = chosen(choice_.id);
+    return found != 0;
+  }
+
+  std::optional<std::size_t> chosen(const std::string& wanted) const {
+    if (wanted.empty()) return std::nullopt;
+    const std::string name = column_name(wanted);
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      if (columns_.names[k] == wanted) return k;
+      if (names_[k] != name) continue;
+      if (found) records_.fail(fmt::format("several columns are named '{}'; rename one", readable(wanted)));
+      found = k;
+    }
+    if (found) return found;
+    std::size_t number = 0;
+    const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (code == std::errc() && end == wanted.data() + wanted.size() && number >= 1 &&
+        number <= columns_.count)
+      return number - 1;
+    if (names_.empty())
+      records_.fail(fmt::format("no column '{}': the table has no header; give a number from 1 to {}",
+                                readable(wanted), columns_.count));
+    std::string all;
+    for (std::size_t k = 0; k < names_.size() && k < 12; ++k) all += (k > 0 ? ", " : "") + shown(k);
+    records_.fail(fmt::format("no column '{}'; the header has {}{}", readable(wanted), all,
+                              names_.size() > 12 ? fmt::format(" and {} more", names_.size() - 12) : ""));
+  }
+
   /// The column with one of these names, if any.
   std::optional<std::size_t> find(Names known) const {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < names_.size(); ++k) {
-      if (std::find(known.begin(), known.end(), names_[k]) == known.end()) continue;
-      if (found)
-        records_.fail(fmt::format("the header has columns {} and {}, which mean the same; rename one",
-                                  quoted(*found), quoted(k)));
+      if (!is_one_of(names_[k], known)) continue;
+      if (found) fail_twice(*found, k);
       found = k;
     }
     return found;
   }
 
+  std::optional<std::size_t> find_axis(std::string_view axis) const {
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      if (!is_axis(names_[k], axis)) continue;
+      if (found) fail_twice(*found, k);
+      found = k;
+    }
+    return found;
+  }
+
+  [[noreturn]] void fail_twice(std::size_t first, std::size_t second) const {
+    records_.fail(
+        fmt::format("the header has columns {} and {}, which mean the same; rename one, or choose with "
+                    "--x-column and so on",
+                    shown(first), shown(second)));
+  }
+
   /// By x, y, z, or else by the names used for maps. False if there is neither.
   bool find_coordinates() {
     std::array<std::optional<std::size_t>, 3> found;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string_view name(axis_names + axis, 1);
-      found[axis] = find({&name, 1});
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) found[axis] = find({&axis_names[axis], 1});
     if (!found[0] && !found[1] && !found[2]) found = {find(x_names), find(y_names), std::nullopt};
+    if (!found[0] && !found[1] && !found[2])
+      for (std::size_t axis = 0; axis < dimension_; ++axis) found[axis] = find_axis(axis_names[axis]);
     if (!found[0] && !found[1] && !found[2]) return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (found[axis].has_value() != (axis < dimension_))
@@ -82,61 +196,97 @@ class Header {
   }
 
   void take_by_order() {
-    if (columns_.weight || find_any(other_names))
-      records_.fail(fmt::format("the header names no coordinates; name their columns {}{}",
-                                row_names(dimension_), separated_by(records_.separator())));
-    columns_ = columns_by_order(records_, names_.size(), dimension_);
+    if (!names_.empty() && (columns_.weight || find_any(other_names)))
+      records_.fail(
+          fmt::format("the header names no coordinates; name their columns {}, or choose them with "
+                      "--x-column and so on{}",
+                      row_names(dimension_), separated_by(records_.separator())));
+    if (columns_.weight.value_or(dimension_) < dimension_ || columns_.id.value_or(dimension_) < dimension_)
+      records_.fail(
+          fmt::format("the first {} columns are the coordinates unless others are chosen; give {} too",
+                      dimension_, position_options()));
+    if (columns_.weight) return;
+    if (columns_.count == dimension_ + 1 && columns_.id != dimension_)
+      columns_.weight = dimension_;
+    else if (columns_.count != dimension_ && !columns_.id)
+      records_.fail(fmt::format(
+          "{} columns, but a row of this domain's seeds is {}{}; other tables need a "
+          "header with {}, or --x-column 2 and so on",
+          columns_.count, seed_row(dimension_), separated_by(records_.separator()), row_names(dimension_)));
+  }
+
+  const char* position_options() const {
+    return dimension_ == 2 ? "--x-column and --y-column" : "--x-column, --y-column and --z-column";
   }
 
   bool find_any(Names known) const {
     return std::find_first_of(names_.begin(), names_.end(), known.begin(), known.end()) != names_.end();
   }
 
-  std::string note(bool by_name) const {
-    std::string used, unused;
-    for (std::size_t axis = 0; axis < dimension_; ++axis)
-      used += fmt::format("{} from {}, ", axis_names[axis], quoted(columns_.position[axis]));
-    used += columns_.weight ? "weight from " + quoted(*columns_.weight) : "no weights";
+  void finish(bool named) {
+    const auto& p = columns_.position;
+    for (std::size_t axis = 0; axis < dimension_; ++axis) {
+      if (p[axis] >= columns_.count) records_.fail(fmt::format("there is no column {}", p[axis] + 1));
+      columns_.taken += fmt::format("{} from {}, ", axis_names[axis], shown(p[axis]));
+    }
+    columns_.taken += columns_.weight ? "weight from " + shown(*columns_.weight) : "no weights";
+    if (columns_.radius) columns_.taken += " squared";
+    columns_.degrees = !names_.empty() && is_one_of(names_[p[0]], longitude_names) &&
+                       is_one_of(names_[p[1]], latitude_names);
+    columns_.note = note(named);
+  }
+
+  std::string note(bool named) const {
+    std::string kept;
     std::size_t others = 0;
     for (std::size_t k = 0; k < names_.size(); ++k) {
       if (names_[k].empty() || is_used(k) || ++others > 5) continue;
-      unused += (others > 1 ? ", " : "") + quoted(k);
+      kept += (others > 1 ? ", " : "") + shown(k);
     }
-    if (by_name && others == 0 && columns_.weight) return {};
-    if (others > 5) unused += fmt::format(" and {} more", others - 5);
-    return fmt::format("seeds: {}{}{}", used, by_name ? "" : " (by their order)",
-                       others > 0 ? "; not used: " + unused : "");
+    if (named && others == 0 && columns_.weight && !choice_.any() && has_plain_names()) return {};
+    if (others > 5) kept += fmt::format(" and {} more", others - 5);
+    return fmt::format("seeds: {}{}{}", columns_.taken, named ? "" : " (by their order)",
+                       others > 0 ? "; kept: " + kept : "");
+  }
+
+  bool has_plain_names() const {
+    for (std::size_t axis = 0; axis < dimension_ && !names_.empty(); ++axis)
+      if (names_[columns_.position[axis]] != axis_names[axis]) return false;
+    return true;
   }
 
   bool is_used(std::size_t column) const {
     const auto end = columns_.position.begin() + static_cast<std::ptrdiff_t>(dimension_);
-    return columns_.weight == column || std::find(columns_.position.begin(), end, column) != end;
+    return columns_.weight == column || columns_.id == column ||
+           std::find(columns_.position.begin(), end, column) != end;
   }
 
-  std::string quoted(std::size_t column) const { return fmt::format("'{}'", readable(names_[column])); }
+  std::string shown(std::size_t column) const {
+    if (names_.empty()) return fmt::format("column {}", column + 1);
+    return fmt::format("'{}'", readable(columns_.names[column]));
+  }
 
   const Records& records_;
   std::size_t dimension_;
-  std::vector<std::string> names_;
+  const ColumnChoice& choice_;
+  std::vector<std::string> names_;  // in lower case
   SeedColumns columns_;
 };
 
 }  // namespace
 
-SeedColumns columns_by_header(const Records& records, const Fields& header, std::size_t dimension) {
-  return Header(records, header, dimension).columns();
+SeedColumns columns_by_header(const Records& records, const Fields& header, std::size_t dimension,
+                              const ColumnChoice& choice) {
+  return Chooser(records, header.size(), dimension, choice).by_header(header);
 }
 
-SeedColumns columns_by_order(const Records& records, std::size_t count, std::size_t dimension) {
-  SeedColumns columns;
-  columns.count = count;
-  if (count == dimension + 1)
-    columns.weight = dimension;
-  else if (count != dimension)
-    records.fail(fmt::format(
-        "{} columns, but a row of this domain's seeds is {}{}; other tables need a header with {}", count,
-        seed_row(dimension), separated_by(records.separator()), row_names(dimension)));
-  return columns;
+SeedColumns columns_by_order(const Records& records, std::size_t count, std::size_t dimension,
+                             const ColumnChoice& choice) {
+  return Chooser(records, count, dimension, choice).by_order();
+}
+
+bool is_weight_name(std::string_view name) {
+  return is_one_of(name, weight_names);
 }
 
 std::string seed_row(std::size_t dimension) {

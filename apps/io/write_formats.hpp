@@ -10,11 +10,13 @@ namespace powercell::io {
 
 /// VTK unstructured grid of the convex pieces of the cells, one for each region a cell meets: VTK_POLYGON on
 /// polygons and surfaces, VTK_POLYHEDRON in volumes. Cell data: `seed`, `region`, `weight`, `measure` (of the
-/// whole cell), `piece_measure`. In volumes ordered by the number of vertices.
+/// whole cell), `piece_measure`, and the columns of numbers of the seeds' table. In volumes ordered by the
+/// number of vertices.
 void write_vtu(const std::string& path, const DiagramOutput& output);
 
 /// VTK polygons: the convex pieces of the cells, in volumes the faces of the joined cells. Cell data: `seed`,
-/// `weight`, `measure` (of the whole cell), in volumes `neighbor` (-1 at the domain's boundary).
+/// `weight`, `measure` (of the whole cell), in volumes `neighbor` (-1 at the domain's boundary),
+/// and the columns of numbers of the seeds' table.
 void write_vtp(const std::string& path, const DiagramOutput& output);
 
 /// Polygon soups: cells share no corners, so that other programs can move them apart. OBJ: each cell is a
@@ -33,8 +35,10 @@ void write_off(const std::string& path, const DiagramOutput& output);
 void write_json(const std::string& path, const DiagramOutput& output);
 
 /// A FeatureCollection with a Feature for each seed in input order: a Polygon, a MultiPolygon if the cell has
-/// several parts, or null if it is empty; properties `seed`, `weight`, `status`, `measure`. Coordinates are
-/// those of the domain's file.
+/// several parts, or null if it is empty; properties `seed`, `weight`, `status`, `measure`, after those of
+/// the seeds' table (kept_columns.hpp); `id` is the seed's number, or its id if a column of ids was chosen.
+/// Coordinates are those of the domain's file, and so is the member `crs`. Of a projected domain, walls have
+/// vertices added so that edges that are straight on the map follow them.
 void write_geojson(const std::string& path, const DiagramOutput& output);
 
 }  // namespace powercell::io

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/kept_columns.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/write_formats.hpp"
 
@@ -74,6 +77,15 @@ std::vector<Part> parts_of(const JoinedCells& joined, std::size_t cell) {
   return parts;
 }
 
+/// The ring on the map of the inputs. It begins where it does in the plane.
+Points on_map(const Points& ring, const MapPlane& plane) {
+  Points path;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    plane.trace_to_map(ring[k], ring[(k + 1) % ring.size()], path);
+  std::rotate(path.begin(), path.end() - 1, path.end());
+  return path;
+}
+
 void write_ring(AtomicFile& file, const Points& ring) {
   file.write('[');
   for (std::size_t k = 0; k <= ring.size(); ++k) {
@@ -87,17 +99,17 @@ void write_ring(AtomicFile& file, const Points& ring) {
   file.write(']');
 }
 
-void write_part(AtomicFile& file, const Part& part) {
+void write_part(AtomicFile& file, const Part& part, const MapPlane* plane) {
   file.write('[');
-  write_ring(file, part.outer);
+  write_ring(file, plane ? on_map(part.outer, *plane) : part.outer);
   for (const Points& hole : part.holes) {
     file.write(',');
-    write_ring(file, hole);
+    write_ring(file, plane ? on_map(hole, *plane) : hole);
   }
   file.write(']');
 }
 
-void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
+void write_shape(AtomicFile& file, const std::vector<Part>& parts, const MapPlane* plane) {
   if (parts.empty()) {
     file.write("null");
     return;
@@ -106,31 +118,60 @@ void write_shape(AtomicFile& file, const std::vector<Part>& parts) {
                                : R"({"type":"MultiPolygon","coordinates":[)");
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (k > 0) file.write(',');
-    write_part(file, parts[k]);
+    write_part(file, parts[k], plane);
   }
   file.write(parts.size() == 1 ? "}" : "]}");
+}
+
+nlohmann::json value_of(const KeptColumns& kept, std::size_t row, const KeptColumn& column) {
+  const std::string_view field = kept.field(row, column);
+  if (column.type != KeptColumn::Type::text && field.empty()) return nullptr;
+  if (column.type == KeptColumn::Type::text) return std::string(field);
+  return nlohmann::json::parse(field);
+}
+
+std::string text_of(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Number of the seed, or its field of the column of ids.
+std::string id_of(const DiagramOutput& output, std::size_t seed) {
+  const SeedTable* table = output.inputs.table;
+  if (table == nullptr || !table->columns.id || table->text.columns == 0) return std::to_string(seed);
+  return text_of(std::string(table->text.field(seed, *table->columns.id)));
+}
+
+void write_feature(AtomicFile& file, const DiagramOutput& output, const KeptColumns& kept, std::size_t i) {
+  file.write("{\"type\":\"Feature\",\"id\":" + id_of(output, i) + ",\"properties\":{");
+  for (const KeptColumn& column : kept.columns())
+    file.write(text_of(column.name) + ":" + text_of(value_of(kept, i, column)) + ",");
+  file.write("\"seed\":");
+  file.number(std::uint64_t{i});
+  if (!kept.has_weights()) {
+    file.write(",\"weight\":");
+    file.number(output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
+  }
+  file.write(",\"status\":\"");
+  file.write(name(output.measures.status[i]));
+  file.write("\",\"measure\":");
+  file.number(output.measures.mass[i]);
+  file.write("},\"geometry\":");
+  write_shape(file, parts_of(output.joined, i), output.inputs.plane());
+  file.write('}');
 }
 
 }  // namespace
 
 void write_geojson(const std::string& path, const DiagramOutput& output) {
+  const KeptColumns kept(output.inputs, output.seeds, {"seed", "status", "measure"});
   AtomicFile file(path);
-  file.write("{\"type\":\"FeatureCollection\",\"features\":[\n");
+  const MapFrame* map = output.inputs.map;
+  file.write("{\"type\":\"FeatureCollection\",");
+  if (map && !map->member.empty()) file.write("\"crs\":" + map->member + ",");
+  file.write("\"features\":[\n");
   for (std::size_t i = 0; i < output.seeds.size(); ++i) {
     file.write(i > 0 ? ",\n" : "");
-    file.write("{\"type\":\"Feature\",\"id\":");
-    file.number(std::uint64_t{i});
-    file.write(",\"properties\":{\"seed\":");
-    file.number(std::uint64_t{i});
-    file.write(",\"weight\":");
-    file.number(output.seeds.weights.empty() ? 0.0 : output.seeds.weights[i]);
-    file.write(",\"status\":\"");
-    file.write(name(output.measures.status[i]));
-    file.write("\",\"measure\":");
-    file.number(output.measures.mass[i]);
-    file.write("},\"geometry\":");
-    write_shape(file, parts_of(output.joined, i));
-    file.write('}');
+    write_feature(file, output, kept, i);
   }
   file.write("\n]}\n");
   file.commit();

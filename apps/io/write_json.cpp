@@ -1,4 +1,5 @@
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <powercell/version.hpp>
 
 #include "apps/io/atomic_file.hpp"
@@ -99,12 +100,20 @@ void write_cell(AtomicFile& file, const DiagramOutput& output, std::size_t i) {
   file.write('}');
 }
 
+std::string json_string(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 void write_head(AtomicFile& file, const DiagramOutput& output) {
   const Measures& measures = output.measures;
   file.write(std::string("{\"powercell\":\"") + version() + "\",\n\"domain\":{\"kind\":\"" +
              name(output.domain.kind()) + "\",\"dimension\":" + std::to_string(output.domain.dimension()) +
              ",\"measure\":");
   write_number(file, output.domain.measure());
+  if (output.inputs.map && !output.inputs.map->crs.empty())
+    file.write(",\"crs\":" + json_string(output.inputs.map->crs));
+  if (const MapPlane* plane = output.inputs.plane())
+    file.write(",\"projection\":" + json_string(plane->definition()));
   file.write("},\n\"check\":{\"cells\":" + std::to_string(measures.count(SeedStatus::ok)) +
              ",\"hidden\":" + std::to_string(measures.count(SeedStatus::hidden)) +
              ",\"duplicate\":" + std::to_string(measures.count(SeedStatus::duplicate)) + ",\"measure\":");

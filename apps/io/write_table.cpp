@@ -1,57 +1,44 @@
 #include "apps/io/write_table.hpp"
 
-#include <cmath>
-
-#include "apps/io/atomic_file.hpp"
 #include "apps/io/names.hpp"
+#include "apps/io/seed_rows.hpp"
 
 namespace powercell::io {
 
 void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
-                 const Adjacency& adjacency) {
-  AtomicFile file(path);
-  const bool space = seeds.dimension == 3;
-  file.write(space ? "seed,x,y,z,weight,status,measure,cx,cy,cz,second_moment,neighbors\n"
-                   : "seed,x,y,weight,status,measure,cx,cy,second_moment,neighbors\n");
+                 const Adjacency& adjacency, const InputView& inputs) {
+  SeedRows rows(path, seeds, inputs, {"status", "measure", "centroid", "second_moment", "neighbors"});
   const auto d = static_cast<std::size_t>(seeds.dimension);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    file.number(std::uint64_t{i});
-    for (std::size_t k = 0; k < d; ++k) {
-      file.write(',');
-      file.number(seeds.positions[i * d + k]);
-    }
-    file.write(',');
-    file.number(seeds.weights.empty() ? 0.0 : seeds.weights[i]);
-    file.write(',');
-    file.write(name(measures.status[i]));
-    file.write(',');
-    file.number(measures.mass[i]);
-    for (std::size_t k = 0; k < d; ++k) {
-      file.write(',');
-      const double c = measures.centroid[i * d + k];
-      if (std::isfinite(c)) file.number(c);
-    }
-    file.write(',');
-    file.number(measures.second_moment[i]);
-    file.write(',');
+    rows.begin(i);
+    rows.fields().text(name(measures.status[i]));
+    rows.fields().number(measures.mass[i]);
+    rows.point(&measures.centroid[i * d]);
+    rows.fields().number(measures.second_moment[i]);
     const bool listed = i + 1 < adjacency.offset.size();
-    file.number(listed ? adjacency.offset[i + 1] - adjacency.offset[i] : std::uint64_t{0});
-    file.write('\n');
+    rows.fields().count(listed ? adjacency.offset[i + 1] - adjacency.offset[i] : 0);
+    rows.fields().end_row();
   }
-  file.commit();
+  rows.commit();
 }
 
-void write_walls(const std::string& path, const Adjacency& adjacency) {
-  AtomicFile file(path);
-  file.write("seed,neighbor,measure\n");
+void write_walls(const std::string& path, const Adjacency& adjacency, const InputView& inputs) {
+  const SeedTable* table = inputs.table;
+  const bool ids = table != nullptr && table->columns.id.has_value() && table->text.columns > 0;
+  FieldWriter file(path, table != nullptr && table->text.columns > 0 ? table->text.separator : ',');
+  for (const char* column : {"seed", "neighbor", "measure"}) file.text(column);
+  if (ids)
+    for (const char* column : {"id", "neighbor_id"}) file.text(column);
+  file.end_row();
   for (std::size_t i = 0; i + 1 < adjacency.offset.size(); ++i) {
     for (std::uint64_t e = adjacency.offset[i]; e < adjacency.offset[i + 1]; ++e) {
-      file.number(std::uint64_t{i});
-      file.write(',');
-      file.number(std::uint64_t{adjacency.neighbor[e]});
-      file.write(',');
+      file.count(i);
+      file.count(adjacency.neighbor[e]);
       file.number(adjacency.wall[e]);
-      file.write('\n');
+      if (ids)
+        for (const std::size_t seed : {i, std::size_t{adjacency.neighbor[e]}})
+          file.text(table->text.field(seed, *table->columns.id));
+      file.end_row();
     }
   }
   file.commit();

@@ -1,10 +1,10 @@
 #include "apps/io/write_transport.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/names.hpp"
+#include "apps/io/seed_rows.hpp"
 
 namespace powercell::io {
 namespace {
@@ -35,31 +35,25 @@ nlohmann::ordered_json as_json(const TransportStep& step) {
 
 }  // namespace
 
-void write_transport_table(const std::string& path, const SeedsView& seeds, const TransportResult& result) {
-  AtomicFile file(path);
-  file.write(seeds.dimension == 3
-                 ? "seed,x,y,z,weight,status,target,mass,cx,cy,cz,second_moment,merged_with\n"
-                 : "seed,x,y,weight,status,target,mass,cx,cy,second_moment,merged_with\n");
+void write_transport_table(const std::string& path, const SeedsView& seeds, const TransportResult& result,
+                           const InputView& inputs) {
+  SeedRows rows(path, {seeds.dimension, seeds.positions, result.weights}, inputs,
+                {"status", "target", "mass", "centroid", "second_moment", "merged_with"});
   const auto d = static_cast<std::size_t>(seeds.dimension);
-  const auto number = [&file](double value) {
-    file.write(',');
-    if (std::isfinite(value)) file.number(value);
-  };
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    file.number(std::uint64_t{i});
-    for (std::size_t k = 0; k < d; ++k) number(seeds.positions[i * d + k]);
-    number(result.weights[i]);
-    file.write(',');
-    file.write(io::name(status_of(result, i)));
-    number(result.target[i]);
-    number(result.mass[i]);
-    for (std::size_t k = 0; k < d; ++k) number(result.centroid[i * d + k]);
-    number(result.second_moment[i]);
-    file.write(',');
-    if (result.merged_with[i] != i) file.number(std::uint64_t{result.merged_with[i]});
-    file.write('\n');
+    rows.begin(i);
+    rows.fields().text(io::name(status_of(result, i)));
+    rows.fields().number(result.target[i]);
+    rows.fields().number(result.mass[i]);
+    rows.point(&result.centroid[i * d]);
+    rows.fields().number(result.second_moment[i]);
+    if (result.merged_with[i] != i)
+      rows.fields().count(result.merged_with[i]);
+    else
+      rows.fields().empty();
+    rows.fields().end_row();
   }
-  file.commit();
+  rows.commit();
 }
 
 void write_steps(const std::string& path, const TransportResult& result) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/io/kept_columns.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/write_formats.hpp"
 #include "apps/io/write_polygons.hpp"
 #include "apps/io/write_vtk_file.hpp"
@@ -127,6 +129,33 @@ void write_points(VtkFile& file, const std::vector<double>& points) {
   file.close("Points");
 }
 
+/// The columns of numbers of the seeds' table, for the seeds of the elements. Text is left out: not every
+/// reader accepts arrays of strings.
+void write_kept(VtkFile& file, const DiagramOutput& output, const std::vector<std::uint32_t>& seeds) {
+  const KeptColumns kept(output.inputs, output.seeds,
+                         {"seed", "region", "weight", "measure", "piece_measure", "neighbor"});
+  for (const KeptColumn& column : kept.columns()) {
+    const bool twice = kept.has_weights() && output.inputs.table->columns.weight == column.index;
+    if (column.type == KeptColumn::Type::text || twice) continue;
+    const std::vector<double> numbers = kept.numbers(column);
+    std::vector<double> values;
+    std::vector<std::int64_t> whole;
+    const bool any_empty =
+        std::any_of(numbers.begin(), numbers.end(), [](double v) { return std::isnan(v); });
+    for (const std::uint32_t seed : seeds) {
+      if (column.type == KeptColumn::Type::whole && !any_empty)
+        whole.push_back(static_cast<std::int64_t>(numbers[seed]));
+      else
+        values.push_back(numbers[seed]);
+    }
+    const std::string name = xml_text(printable(column.name));
+    if (values.empty())
+      file.array(name, view(whole));
+    else
+      file.array(name, view(values));
+  }
+}
+
 }  // namespace
 
 void write_vtu(const std::string& path, const DiagramOutput& output) {
@@ -152,6 +181,7 @@ void write_vtu(const std::string& path, const DiagramOutput& output) {
   file.array("weight", view(grid.weight));
   file.array("measure", view(grid.measure));
   file.array("piece_measure", view(grid.piece_measure));
+  write_kept(file, output, grid.seed);
   file.close("CellData");
   file.close("Piece");
   file.finish();
@@ -180,6 +210,7 @@ void write_vtp(const std::string& path, const DiagramOutput& output) {
   file.array("weight", view(weight));
   file.array("measure", view(measure));
   if (output.domain.cell_dimension() == 3) file.array("neighbor", view(soup.neighbor));
+  write_kept(file, output, soup.seed);
   file.close("CellData");
   file.close("Piece");
   file.finish();

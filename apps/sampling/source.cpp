@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "apps/common.hpp"
+#include "apps/georeference.hpp"
 #include "apps/io/names.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/read_domain.hpp"
 
 namespace powercell::app {
@@ -20,6 +22,16 @@ Source paper_source(int dimension) {
           Density::formula(dimension == 2 ? "1/(x^2+y^2+0.1)" : "1/(x^2+y^2+z^2+0.1)"), std::nullopt};
 }
 
+/// The description of a domain; of a map in degrees with a warning, since sampling does not project.
+std::string description_of(const io::LoadedDomain& domain) {
+  if (!is_in_degrees(domain.crs.name)) return domain.description;
+  return domain.description +
+         fmt::format(
+             "\nmap: {} is sampled as a plane of degrees; project the file for points that are "
+             "evenly spaced on the ground",
+             io::readable(domain.crs.name));
+}
+
 Source image_source(const SourceArguments& arguments) {
   const Ink ink = read_ink(arguments);
   std::string description = fmt::format("{}: {} x {} pixels", arguments.image, ink.width, ink.height);
@@ -27,7 +39,7 @@ Source image_source(const SourceArguments& arguments) {
   if (!arguments.domain.empty()) {
     io::LoadedDomain loaded = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
     domain = loaded.domain;
-    description += ", over " + loaded.description;
+    description += ", over " + description_of(loaded);
   } else {
     const std::array<double, 2> low{0, 0};
     domain = Domain::box(low, std::array{static_cast<double>(ink.width), static_cast<double>(ink.height)});
@@ -51,7 +63,7 @@ Source read_source(const SourceArguments& arguments) {
   if (!arguments.image.empty()) return image_source(arguments);
   const std::string spec = arguments.domain.empty() ? "square" : arguments.domain;
   const io::LoadedDomain loaded = io::read_domain(spec, io::domain_kind(arguments.kind));
-  return {loaded.domain, loaded.description, read_density(arguments, loaded.domain), std::nullopt};
+  return {loaded.domain, description_of(loaded), read_density(arguments, loaded.domain), std::nullopt};
 }
 
 std::vector<double> dot_radii(const Device& device, const Source& source, const SamplingResult& points) {

@@ -46,9 +46,7 @@ bool better(const DeviceInfo& a, const DeviceInfo& b) {
 
 std::string not_found_message(std::span<const DeviceInfo> devices, std::string_view selector,
                               std::string_view origin) {
-  if (devices.empty())
-    return "no OpenCL device on this machine; install a driver, for example one that runs on any CPU: "
-           "apt-get install pocl-opencl-icd";
+  if (devices.empty()) return no_device_message();
   std::string message = "no OpenCL device matches \"" + readable(std::string(selector), 100) + "\"" +
                         std::string(origin) + "; there are";
   const char* separator = " ";

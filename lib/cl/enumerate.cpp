@@ -100,6 +100,19 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   return info;
 }
 
+std::string no_device_message() {
+  for (cl_platform_id platform : find_platforms())
+    // PoCL has none if it cannot make the folder of its cache.
+    if (platform_text(platform, CL_PLATFORM_NAME) == "Portable Computing Language" &&
+        devices_of(platform).empty())
+      return "PoCL is installed but has no device: it probably cannot write its cache, as without a home "
+             "folder; set "
+             "POCL_CACHE_DIR to a folder that can be written";
+  return "no OpenCL device on this machine; install a driver, for example one that runs on any CPU: apt-get "
+         "install "
+         "pocl-opencl-icd";
+}
+
 std::vector<FoundDevice> find_devices() {
   std::vector<FoundDevice> found;
   const auto platforms = find_platforms();

@@ -2,6 +2,7 @@
 /// The OpenCL devices of this machine with their handles. Internal.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "lib/cl/context.hpp"
@@ -17,6 +18,9 @@ struct FoundDevice {
 /// As powercell::devices(), with handles. Devices that report themselves not available or that have no
 /// compiler are left out; the others keep their index.
 std::vector<FoundDevice> find_devices();
+
+/// Why there may be no device, and what to do.
+std::string no_device_message();
 
 /// The properties that `device` reports; the indices stay 0.
 DeviceInfo describe(cl_platform_id platform, cl_device_id device);

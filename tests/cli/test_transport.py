@@ -42,11 +42,23 @@ class Transport(ToolTest):
         for i in range(20):
             self.assertAlmostEqual(mass[i] / mass[0], 1 + i, delta=1e-4)
 
+    def test_masses_from_the_table_of_the_seeds(self):
+        self.write("s.csv", "name,x,y,people\na,0.2,0.3,1\nb,0.6,0.8,2\nc,0.7,0.1,5\n")
+        self.good("transport", "--domain", "square", "--seeds", "s.csv", "--mass-column", "People", "--rescale",
+                  "--table", "t.csv")
+        for row, mass in zip(self.rows("t.csv"), (1, 2, 5)):
+            self.assertEqual(float(row["people"]), mass)
+            self.assertAlmostEqual(float(row["mass"]), mass / 8, delta=1e-6)
+        self.bad(1, "s.csv: the table of the seeds has no column 'gold'", "transport", "--domain", "square", "--seeds",
+                 "s.csv", "--mass-column", "gold")
+        self.bad(1, r"seed 0 \(from 0\): the mass 'a' is not a number above 0", "transport", "--domain", "square", "--seeds",
+                 "s.csv", "--mass-column", "name")
+
     def test_tables_as_spreadsheets_write_them(self):
         self.write("s.csv", 'City Name,lon,lat\nNew York,0.2,0.2\n"Rome, ""old""",0.7,0.7\n,,\n')
         self.write("m.csv", 'City Name,mass\nNew York,1\n"Rome, ""old""",3\n,\n')
         done = self.good(*self.square, "s.csv", "--masses", "m.csv", "--rescale", "--table", "t.csv")
-        self.assertIn("seeds: x from 'lon', y from 'lat', no weights; not used: 'city name'\n", done.stdout)
+        self.assertIn("seeds: x from 'lon', y from 'lat', no weights; kept: 'City Name'\n", done.stdout)
         self.assertAlmostEqual(float(self.rows("t.csv")[1]["mass"]), 0.75, delta=1e-6)
 
     def test_density_surface_and_volume(self):

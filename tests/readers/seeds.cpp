@@ -81,7 +81,7 @@ TEST_CASE("ambiguous tables are refused") {
   CHECK(says(message("lon,lat,easting\n1,2,3\n"), "has columns 'lon' and 'easting', which mean the same"));
   CHECK(says(message("x,y,w,weight\n1,2,3,3\n"), "has columns 'w' and 'weight'"));
   CHECK(says(message("x,y,Radius\n1,2,3\n"),
-             "s.csv:1: the header has a column 'radius' and no column of weights"));
+             "s.csv:1: the header has a column 'Radius' and no column of weights"));
   CHECK(parse_seeds_text("x,y,r,w\n1,2,3,9\n", 2, "s.csv").weights == std::vector<double>{9});
   for (const char* text :
        {"0,5;1\n1,5;2\n", "0,5;1,5\n1,5;2,5\n", "x;y\n0,5;1\n", "0,5\t1\n", "\"0,5\",1\n"}) {
@@ -99,15 +99,84 @@ TEST_CASE("ambiguous tables are refused") {
 }
 
 TEST_CASE("the columns used are reported if the header leaves a doubt") {
-  const auto note = [](const std::string& text) { return parse_seeds_text(text, 2, "s.csv").note; };
+  const auto note = [](const std::string& text) { return parse_seeds_text(text, 2, "s.csv").columns.note; };
   CHECK(note("1 2 3\n") == "");
   CHECK(note("x,y,w\n1,2,3\n") == "");
   CHECK(note("x,y\n1,2\n") == "seeds: x from 'x', y from 'y', no weights");
+  CHECK(note("lon,lat,w\n1,2,3\n") == "seeds: x from 'lon', y from 'lat', weight from 'w'");
   CHECK(note("lat,lon,w,City\n1,2,3,a\n") ==
-        "seeds: x from 'lon', y from 'lat', weight from 'w'; not used: 'city'");
+        "seeds: x from 'lon', y from 'lat', weight from 'w'; kept: 'City'");
   CHECK(note("a,b,c\n1,2,3\n") == "seeds: x from 'a', y from 'b', weight from 'c' (by their order)");
   CHECK(note("x,y,w,a,b,c,d,e,f,g\n1,2,3,4,5,6,7,8,9,10\n") ==
-        "seeds: x from 'x', y from 'y', weight from 'w'; not used: 'a', 'b', 'c', 'd', 'e' and 2 more");
+        "seeds: x from 'x', y from 'y', weight from 'w'; kept: 'a', 'b', 'c', 'd', 'e' and 2 more");
+}
+
+TEST_CASE("columns are chosen by name or number") {
+  const auto read = [](const std::string& text, const ColumnChoice& choice, int d = 2) {
+    const SeedTable seeds = parse_seeds_text(text, d, "s.csv", choice);
+    CHECK(seeds.positions == (d == 2 ? positions : std::vector<double>{0.25, 0.5, 1, -2, 3, 4}));
+    return seeds;
+  };
+  const std::string stations = "no,lon,lat,X_m,Y_m,Sales,r\n7,8,9,0.25,0.5,3,2\n8,8,9,1,-2,4,3\n";
+  const SeedTable named = read(stations, {{"X_m", "y_M", ""}, "sales", "", "no"});
+  CHECK(named.weights == std::vector<double>{3, 4});
+  CHECK(named.columns.taken == "x from 'X_m', y from 'Y_m', weight from 'Sales'");
+  CHECK(!named.columns.degrees);
+  CHECK(named.columns.id == 0);
+  CHECK(named.text.rows() == 2);
+  CHECK(named.text.field(1, 5) == "4");
+  CHECK(read(stations, {{"4", "5", ""}, "", "r", ""}).weights == std::vector<double>{4, 9});
+  CHECK(read(stations, {{"4", "5", ""}, "", "r", ""}).columns.taken ==
+        "x from 'X_m', y from 'Y_m', weight from 'r' squared");
+  CHECK(read("0.5 0.25 3\n-2 1 4\n", {{"2", "1", ""}, "3", "", ""}).weights == std::vector<double>{3, 4});
+  CHECK(read("0.5 0.25 3\n-2 1 4\n", {{"2", "1", ""}, "", "", ""}).weights == std::vector<double>{0, 0});
+  CHECK(read("1 0.25 0.5 1 2\n2 -2 3 4 3\n", {{"2", "3", "4"}, "", "5", ""}, 3).weights ==
+        std::vector<double>{4, 9});
+  CHECK(parse_seeds_text("lng,lat\n1,2\n", 2, "s.csv").columns.degrees);
+  CHECK(!parse_seeds_text("easting,northing\n1,2\n", 2, "s.csv").columns.degrees);
+}
+
+TEST_CASE("names like those of coordinates are taken and reported") {
+  for (const char* header : {"x_coord,y_coord,w", "Xcoord,Ycoord,w", "POINT_X,POINT_Y,w", "x (mm),y (mm),w",
+                             "\"pos x [m]\",\"pos y [m]\",w", "centroid.x,centroid.y,w"}) {
+    CAPTURE(header);
+    const SeedTable seeds = parse_seeds_text(std::string(header) + "\n0.25,0.5,3\n1,-2,4\n", 2, "s.csv");
+    CHECK(seeds.positions == positions);
+    CHECK(seeds.columns.named);
+    CHECK(says(seeds.columns.note, "seeds: x from '"));
+  }
+  for (const char* header : {"max,may,w", "taxi,y_coord,w", "x_old,y_old,w", "x1,x2,w"}) {
+    CAPTURE(header);
+    CHECK(says(refusal([&] { parse_seeds_text(std::string(header) + "\n1,2,3\n", 2, "s.csv"); }),
+               "the header names"));
+  }
+  CHECK(says(refusal([] { parse_seeds_text("x_m,x_coord,y_m\n1,2,3\n", 2, "s.csv"); }),
+             "'x_m' and 'x_coord', which mean"));
+}
+
+TEST_CASE("ids must differ") {
+  const ColumnChoice choice{{}, "", "", "Code"};
+  CHECK(parse_seeds_text("code,x,y\na,1,2\nb,1,3\n", 2, "s.csv", choice).columns.id == 0);
+  CHECK(says(refusal([&] { parse_seeds_text("code,x,y\na,1,2\nb,1,3\na,1,4\n", 2, "s.csv", choice); }),
+             "s.csv: seeds 0 and 2 (from 0) have the same id 'a'"));
+}
+
+TEST_CASE("chosen columns that do not fit are refused") {
+  const auto message = [](const std::string& text, const ColumnChoice& choice) {
+    return refusal([&] { parse_seeds_text(text, 2, "s.csv", choice); });
+  };
+  CHECK(says(message("x,y\n1,2\n", {{}, "sales", "", ""}),
+             "s.csv:1: no column 'sales'; the header has 'x', 'y'"));
+  CHECK(says(message("1,2\n", {{"x", "y", ""}, "", "", ""}),
+             "no column 'x': the table has no header; give a number from 1 to 2"));
+  CHECK(says(message("1,2\n", {{"3", "1", ""}, "", "", ""}), "no column '3'"));
+  CHECK(says(message("1,2\n", {{"2", "", ""}, "", "", ""}), "give --x-column and --y-column together"));
+  CHECK(says(message("1,2,3\n", {{"1", "2", "3"}, "", "", ""}), "--z-column is given"));
+  CHECK(says(message("1,2,3\n", {{}, "3", "3", ""}), "are both given"));
+  CHECK(says(message("1,2,3\n", {{}, "1", "", ""}), "the first 2 columns are the coordinates"));
+  CHECK(says(message("1,2,3\n", {{}, "", "", "1"}), "the first 2 columns are the coordinates"));
+  CHECK(says(message("1,2,-3\n", {{}, "", "3", ""}), "column 3: the radius is -3"));
+  CHECK(says(message("a,A,x,y\n1,2,3,4\n", {{}, "", "", "\tA"}), "several columns are named"));
 }
 
 TEST_CASE("NumPy arrays") {

@@ -1,0 +1,45 @@
+/// \file
+/// The domain and the seeds that a command computes with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/georeference.hpp"
+#include "apps/io/read_domain.hpp"
+#include "apps/io/read_seeds.hpp"
+#include "apps/report.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace powercell::app {
+
+struct InputArguments : MapArguments {
+  std::string domain, kind, seeds;
+  io::ColumnChoice columns;
+  std::string scale_weights;  // a number or "auto"
+  bool allow_outside = false;
+};
+
+/// Adds --domain, --kind, --seeds and the options on their columns and maps.
+void add_inputs(CLI::App& command, InputArguments& arguments, bool required);
+
+struct Inputs {
+  io::LoadedDomain domain;
+  io::SeedTable seeds;
+  io::MapFrame map;
+  std::size_t outside = 0;         ///< seeds outside the domain's box
+  std::vector<std::string> notes;  ///< for the report: how the files were read
+
+  io::InputView view() const { return {&seeds, &map}; }
+};
+
+/// \throw Error of the readers; invalid_seed if the seeds miss the domain
+Inputs read_inputs(const InputArguments& arguments);
+
+/// Enters what a report says of them.
+void describe_inputs(const Inputs& inputs, RunReport& report);
+
+}  // namespace powercell::app
