@@ -50,7 +50,7 @@ CellSimplices cut_into_simplices(const Cells& cells, std::span<const double> mas
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
       for (std::uint64_t v = cells.vertex_offset[p]; v < cells.vertex_offset[p + 1]; ++v) all.owner[v] = i;
       cut_piece(cells, p, [&](const std::array<std::uint32_t, 4>& vertex, int corners) {
-        CellSimplex simplex{i, vertex, corners, p, 0};
+        CellSimplex simplex{i, vertex, corners, 0};
         simplex.mass = measure(all, simplex);
         sum += simplex.mass;
         all.simplex.push_back(simplex);

@@ -14,7 +14,6 @@ struct CellSimplex {
   std::uint32_t cell;
   std::array<std::uint32_t, 4> vertex;
   int corners;
-  std::uint64_t piece;
   double mass;
 };
 

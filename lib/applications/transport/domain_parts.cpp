@@ -1,11 +1,11 @@
 #include "lib/applications/transport/domain_parts.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <powercell/regions.hpp>
 
-#include "lib/applications/transport/cell_simplices.hpp"
 #include "lib/base/disjoint_sets.hpp"
 
 namespace powercell {
@@ -25,58 +25,37 @@ DomainParts domain_parts(const Domain& domain) {
   return parts;
 }
 
-std::vector<std::vector<PartOfCell>> parts_of_cells(const Cells& cells, std::span<const double> mass,
-                                                    const DomainParts& parts) {
-  const CellSimplices all = cut_into_simplices(cells, mass);
-  std::vector<std::vector<PartOfCell>> result(cells.cell_count());
-  std::vector<std::pair<std::uint32_t, NormalSum>> sums;
-  for (std::size_t k = 0; k < all.simplex.size();) {
-    const std::uint32_t cell = all.simplex[k].cell;
-    sums.clear();
-    for (; k < all.simplex.size() && all.simplex[k].cell == cell; ++k) {
-      const CellSimplex& s = all.simplex[k];
-      if (!(s.mass > 0)) continue;
-      const std::uint32_t part = parts.of_region[cells.region[s.piece]];
-      auto found = std::ranges::find(sums, part, &std::pair<std::uint32_t, NormalSum>::first);
-      const auto corner = [&](int c) {
-        const auto& x = all.vertex[s.vertex[static_cast<std::size_t>(c)]];
-        return Place(x[0], x[1], x[2]);
-      };
-      if (found == sums.end()) found = sums.emplace(found, part, NormalSum(corner(0)));
-      // The mean of x xᵀ with corners v and their sum t: (Σ v vᵀ + t tᵀ) / (c (c + 1)) for c corners.
-      const Place origin = found->second.origin();
-      Place total = Place::Zero();
-      Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-      for (int c = 0; c < s.corners; ++c) {
-        const Place v = corner(c) - origin;
-        total += v;
-        square += v * v.transpose();
-      }
-      square += total * total.transpose();
-      found->second.add(s.mass, total / s.corners, square / (s.corners * (s.corners + 1)));
-    }
-    for (const auto& [part, sum] : sums) result[cell].push_back({part, sum.mass(), sum.normal()});
+void join_small(DomainParts& parts, const DomainPoints& points, std::uint32_t most) {
+  if (parts.count <= most) return;
+  const std::size_t d = points.points.positions.size() / points.points.size();
+  std::vector<double> mass(parts.count), center(parts.count * d);
+  for (std::size_t k = 0; k < points.points.size(); ++k) {
+    const std::uint32_t part = parts.of_region[points.region[k]];
+    mass[part] += points.points.mass[k];
+    for (std::size_t c = 0; c < d; ++c)
+      center[part * d + c] += points.points.mass[k] * points.points.positions[k * d + c];
   }
-  return result;
-}
-
-void join_small(DomainParts& parts, const std::vector<PartOfCell>& whole, std::uint32_t most) {
-  if (whole.size() <= most) return;
-  std::vector<std::uint32_t> order(whole.size()), number(parts.count);
+  for (std::size_t k = 0; k < center.size(); ++k) center[k] /= mass[k / d];
+  std::vector<std::uint32_t> order(parts.count), number(parts.count);
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::uint32_t k) { return whole[k].mass; });
-  for (std::uint32_t k = 0; k < order.size(); ++k) {
-    std::uint32_t to = k;
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::uint32_t k) { return mass[k]; });
+  const auto nearest = [&](std::uint32_t part) {
+    std::uint32_t to = 0;
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t j = 0; k >= most && j < most; ++j) {
-      const double square = (whole[order[j]].where.mean - whole[order[k]].where.mean).squaredNorm();
+    for (std::uint32_t j = 0; j < most; ++j) {
+      double square = 0;
+      for (std::size_t c = 0; c < d; ++c) {
+        const double q = center[order[j] * d + c] - center[part * d + c];
+        square += q * q;
+      }
       if (square < least) {
         least = square;
         to = j;
       }
     }
-    number[whole[order[k]].part] = to;
-  }
+    return to;
+  };
+  for (std::uint32_t k = 0; k < order.size(); ++k) number[order[k]] = k < most ? k : nearest(order[k]);
   for (std::uint32_t& part : parts.of_region) part = number[part];
   parts.count = most;
 }

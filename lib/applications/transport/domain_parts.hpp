@@ -1,13 +1,12 @@
 /// \file
-/// The connected parts of a domain, and how cells lie in them. Internal.
+/// The connected parts of a domain. Internal.
 #pragma once
 
+#include <cstdint>
 #include <powercell/domain.hpp>
-#include <powercell/results.hpp>
-#include <span>
 #include <vector>
 
-#include "lib/applications/transport/normal.hpp"
+#include "lib/applications/transport/domain_points.hpp"
 
 namespace powercell {
 
@@ -19,20 +18,7 @@ struct DomainParts {
 
 DomainParts domain_parts(const Domain& domain);
 
-/// What a cell has of one part.
-struct PartOfCell {
-  std::uint32_t part;
-  double mass;
-  Normal where;
-};
-
-/// Per cell its shares of the parts.
-/// \param mass  of each cell; spread evenly over it
-std::vector<std::vector<PartOfCell>> parts_of_cells(const Cells& cells, std::span<const double> mass,
-                                                    const DomainParts& parts);
-
 /// Joins parts, so that at most `most` are left, each to the nearest of the largest.
-/// \param whole  each part as a whole
-void join_small(DomainParts& parts, const std::vector<PartOfCell>& whole, std::uint32_t most);
+void join_small(DomainParts& parts, const DomainPoints& points, std::uint32_t most);
 
 }  // namespace powercell

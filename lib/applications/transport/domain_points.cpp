@@ -5,10 +5,16 @@
 #include <cmath>
 #include <powercell/regions.hpp>
 
-#include "lib/applications/transport/normal.hpp"
-
 namespace powercell {
 namespace {
+
+using Place = Eigen::Vector3d;
+
+Place place(std::span<const double> positions, std::size_t i, std::size_t d) {
+  Place p = Place::Zero();
+  for (std::size_t c = 0; c < d; ++c) p[static_cast<Eigen::Index>(c)] = positions[i * d + c];
+  return p;
+}
 
 struct Simplex {
   std::array<Place, 4> corner;
@@ -57,8 +63,9 @@ DomainPoints domain_points(const Domain& domain, std::size_t count) {
       if (!(measure > 0)) continue;
       // A grid with f divisions has about f²/2 or f³/6 points.
       const double wanted = measure / domain.measure() * static_cast<double>(count);
-      const int fine = std::max(1, static_cast<int>(std::lround(simplex.corners == 3 ? std::sqrt(2 * wanted)
-                                                                                     : std::cbrt(6 * wanted))));
+      const int fine =
+          std::max(1, static_cast<int>(
+                          std::lround(simplex.corners == 3 ? std::sqrt(2 * wanted) : std::cbrt(6 * wanted))));
       const std::size_t first = points.size();
       simplex.grid(fine, [&](const Place& x) {
         points.positions.insert(points.positions.end(), x.data(), x.data() + d);

@@ -86,11 +86,6 @@ class Evaluator {
     ++diagrams_;
     return diagram_.cells();
   }
-  /// Counts the diagrams of another evaluator as this one's.
-  void add_work(const Evaluator& other) {
-    diagrams_ += other.diagrams_;
-    seconds_ += other.seconds_;
-  }
   const Vector& last_weights() const { return last_weights_; }  ///< those that the diagram has
   std::size_t diagrams() const { return diagrams_; }            ///< computed so far
   double seconds() const { return seconds_; }                   ///< wall-clock time of these

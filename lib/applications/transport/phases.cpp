@@ -42,14 +42,6 @@ Direction SolveContext::solve(const Laplacian& system, const Vector& right) {
   return result;
 }
 
-void SolveContext::record_level(TransportStep step) {
-  step.step = static_cast<int>(steps_.size());
-  step.phase = TransportPhase::start;
-  if (step.linear_iterations >= 0 && step.length > 0) ++solved_;
-  steps_.push_back(step);
-  if (options_.progress && !options_.progress(step)) throw Error(ErrorCode::interrupted, "interrupted");
-}
-
 void SolveContext::record(TransportStep step, const Iterate& at, const Vector& target) {
   step.step = static_cast<int>(steps_.size());
   step.error = at.error(target);

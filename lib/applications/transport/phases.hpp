@@ -53,9 +53,6 @@ class SolveContext {
   /// The masses of the seeds in the parts by (31d); empty without such a start.
   const std::vector<PartShare>& shares() const { return shares_; }
   void set_shares(std::vector<PartShare> shares) { shares_ = std::move(shares); }
-  const TransportOptions& options() const { return options_; }
-  /// Records a step of a solve for clusters of the seeds.
-  void record_level(TransportStep step);
   bool at_limit() const { return solved_ >= options_.max_steps; }
   /// The tolerance, or if the caller gave none and it is larger, the error to which rounded weights can meet
   /// masses.
@@ -108,8 +105,8 @@ TransportStep step_along(const Direction& direction, TransportPhase phase, doubl
 /// with the fewest empty cells. If a cell is far below its mass, also weights as if the seeds were moved onto
 /// the density, (31b), if these are better.
 Iterate find_start(SolveContext& context, const Vector& weights);
-/// For a domain of several parts and a constant density: weights (31d), which share the seeds among the
-/// parts. Replaces `best` if less mass is misplaced with them.
+/// For a domain of several parts and a constant density: tries weights (31d), which share the seeds among the
+/// parts, unless hardly any mass is misplaced. Replaces `best` if the dual is larger for them.
 void try_on_parts(SolveContext& context, Iterate& best);
 /// Raises the weights of groups of cells that lack mass, where walls connect no cell of the group to others
 /// and of empty cells, until they touch cells of other groups: Newton's method can then pass mass to them.

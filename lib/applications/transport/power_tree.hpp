@@ -39,8 +39,9 @@ class PowerTree {
 
   double least(const Point& x) const {
     double best = std::numeric_limits<double>::infinity();
-    visit(0, 0, seeds_.size(), x, [&] { return best; },
-          [&](std::uint32_t seed) { best = std::min(best, distance(seed, x)); });
+    visit(
+        0, 0, seeds_.size(), x, [&] { return best; },
+        [&](std::uint32_t seed) { best = std::min(best, distance(seed, x)); });
     return best;
   }
 
@@ -48,8 +49,9 @@ class PowerTree {
   /// others.
   template <class Visitor>
   void near(const Point& x, double most, const Visitor& visitor) const {
-    visit(0, 0, seeds_.size(), x, [&] { return most; },
-          [&](std::uint32_t seed) { visitor(seed, distance(seed, x)); });
+    visit(
+        0, 0, seeds_.size(), x, [&] { return most; },
+        [&](std::uint32_t seed) { visitor(seed, distance(seed, x)); });
   }
 
  private:

@@ -1,13 +1,14 @@
 #include "lib/applications/transport/soft_transport.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "lib/applications/transport/power_tree.hpp"
 
 namespace powercell {
 
-double soften(const Weighted& from, Weighted& to, std::size_t d, double heat, const ShareVisitor& each) {
+double soften(const Weighted& from, Weighted& to, std::size_t d, double heat) {
   constexpr double cut = 12;  // exp(-12) is negligible
   std::vector<double> raised(from.size());
   const double total = std::accumulate(from.mass.begin(), from.mass.end(), 0.0);
@@ -30,10 +31,6 @@ double soften(const Weighted& from, Weighted& to, std::size_t d, double heat, co
     to.weights[k] = least - heat * std::log(sum);
     entropy += to.mass[k] * (std::log(sum) - first / sum);
     mass += to.mass[k];
-    if (each)
-      tree.near(x, least + cut * heat, [&](std::uint32_t i, double power) {
-        each(k, i, std::exp((least - power) / heat) / sum);
-      });
   }
   return entropy / mass;
 }

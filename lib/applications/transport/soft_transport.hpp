@@ -2,9 +2,7 @@
 /// Transport with an entropy between seeds and points of the domain. Internal.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
+#include <cstddef>
 #include <vector>
 
 namespace powercell {
@@ -17,11 +15,8 @@ struct Weighted {
   std::size_t size() const { return mass.size(); }
 };
 
-/// Called with the index of a place, that of another with which it shares mass, and its share.
-using ShareVisitor = std::function<void(std::size_t, std::uint32_t, double)>;
-
-/// (31g): sets the weights of `to` from those of `from`, with the temperature `heat`.
+/// (31e): sets the weights of `to` from those of `from`, at the temperature `heat`, a length squared.
 /// \return the mean entropy of the shares of `from` in a place of `to`
-double soften(const Weighted& from, Weighted& to, std::size_t d, double heat, const ShareVisitor& each = {});
+double soften(const Weighted& from, Weighted& to, std::size_t d, double heat);
 
 }  // namespace powercell

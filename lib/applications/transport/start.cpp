@@ -1,7 +1,7 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "lib/applications/transport/normal.hpp"
 #include "lib/applications/transport/phases.hpp"
 
 namespace powercell {
@@ -12,6 +12,14 @@ constexpr double room = 0.9;                    // part of the domain's box into
 // Contraction of the moved seeds towards the mean of the density from one attempt to the next, and attempts.
 constexpr double contraction = 0.8;
 constexpr int most_attempts = 4;
+
+using Place = Eigen::Vector3d;  // third coordinate 0 in 2D
+
+Place place(std::span<const double> positions, std::size_t i, std::size_t d) {
+  Place p = Place::Zero();
+  for (std::size_t c = 0; c < d; ++c) p[static_cast<Eigen::Index>(c)] = positions[i * d + c];
+  return p;
+}
 
 /// The affine map from seeds p = middle + u to y = center + A u, about which their cells are wanted.
 struct Move {
@@ -54,6 +62,12 @@ Move into_box(const Domain& domain, std::span<const double> positions) {
   return move;
 }
 
+/// Mean and covariance of a distribution.
+struct Normal {
+  Place mean = Place::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
 Normal normal_of(std::span<const double> positions, std::size_t d, const Vector& mass) {
   Normal normal;
   const double sum = mass.sum();
@@ -85,10 +99,21 @@ Normal normal_of(const Iterate& at, std::span<const double> positions, std::size
   return normal;
 }
 
+Eigen::Matrix3d power_of(const Eigen::Matrix3d& symmetric, double exponent) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(symmetric);
+  // Directions that the seeds do not span are left out.
+  const double least = 1e-12 * of.eigenvalues().cwiseAbs().maxCoeff();
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (of.eigenvalues()[k] > least) value[k] = std::pow(of.eigenvalues()[k], exponent);
+  return of.eigenvectors() * value.asDiagonal() * of.eigenvectors().transpose();
+}
+
 /// Maps the seeds, weighted by their masses, to the mean and covariance of the density: (31b), the optimal
 /// transport between normal distributions.
 Move onto_density(const Normal& seeds, const Normal& density) {
-  return {seeds.mean, density.mean, linear_transport(seeds, density)};
+  const Eigen::Matrix3d root = power_of(seeds.covariance, 0.5), inverse = power_of(seeds.covariance, -0.5);
+  return {seeds.mean, density.mean, inverse * power_of(root * density.covariance * root, 0.5) * inverse};
 }
 
 bool some_outside_box(const Domain& domain, std::span<const double> positions) {
