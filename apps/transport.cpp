@@ -103,6 +103,7 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
           {"converged", result.converged},
           {"error", result.error},
           {"quadrature_error", result.quadrature_error},
+          {"rounding_error", result.rounding_error},
           {"tolerance", result.tolerance},
           {"steps", result.newton_steps()},
           {"diagrams", result.diagrams},
@@ -136,6 +137,8 @@ std::string result_line(const TransportReport& report, const TransportResult& re
       fmt::format("{} cells, masses met to {:.1e} in {} ({})", with_commas(report.run.cells), result.error,
                   counted(result.newton_steps(), "step"), counted(result.diagrams, "diagram"));
   if (result.merged > 0) line += fmt::format(", {} merged with others", counted(result.merged, "seed"));
+  if (result.converged && result.error >= result.tolerance)
+    line += fmt::format(", as well as weights in double precision allow ({:.1e})", result.rounding_error);
   if (report.run.hidden > 0) line += fmt::format(", {} hidden", with_commas(report.run.hidden));
   return line + fmt::format(
                     "; W2^2 = {:.12g} (dual {:.12g}); {}, {}, {}; {:.3f} s (and {:.3f} s reading, "

@@ -69,13 +69,17 @@ struct TransportOptions {
 
 /// Result of a solve. Arrays are owned and in the order of the seeds.
 struct POWERCELL_API TransportResult {
-  /// error < tolerance and quadrature_error < tolerance. If false, the result is the best iterate: one with
-  /// the fewest empty cells, and of these the one with the least error.
+  /// error < tolerance (if that is the default: or < rounding_error) and quadrature_error < tolerance. If
+  /// false, the result is the best iterate: one with the fewest empty cells, and of these the one with the
+  /// least error.
   bool converged = false;
   double error = 0;  ///< max |m_i / v_i - 1|
   /// The largest estimated quadrature error of m_i, relative to v_i: above 0 where a formula or function has
   /// jumps or kinks. The true masses match v to within `error` plus this.
   double quadrature_error = 0;
+  /// A bound for the error of m_i, relative to v_i, that comes of weights being doubles: above the tolerance
+  /// where parts of the domain, or seeds, are some 10⁴ cells or more apart. Masses cannot be met better.
+  double rounding_error = 0;
   double tolerance = 0;  ///< as used
   /// n, length²: with mean 0 over the seeds that are not merged.
   std::vector<double> weights;

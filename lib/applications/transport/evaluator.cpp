@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace powercell {
 namespace {
@@ -54,6 +55,20 @@ double Iterate::quadrature_error(const Vector& target) const {
   if (cells.mass_error.empty()) return 0;
   return (Eigen::Map<const Vector>(cells.mass_error.data(), target.size()).array() / target.array())
       .maxCoeff();
+}
+
+double Iterate::rounding_error(const Vector& target) const {
+  const Adjacency& walls = cells.walls;
+  double largest = 0;
+  if (conductance.empty()) return largest;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    double sum = 0;
+    const auto row = static_cast<std::size_t>(i);
+    for (std::uint64_t k = walls.offset[row]; k < walls.offset[row + 1]; ++k)
+      sum += conductance[k] * (std::abs(weights[i]) + std::abs(weights[walls.neighbor[k]]));
+    largest = std::max(largest, std::numeric_limits<double>::epsilon() * sum / target[i]);
+  }
+  return largest;
 }
 
 double Iterate::least(const Vector& target) const {

@@ -29,6 +29,9 @@ struct Iterate {
   double error(const Vector& target) const;
   /// The largest quadrature error of a mass relative to v_i.
   double quadrature_error(const Vector& target) const;
+  /// A bound for the error of a mass, relative to v_i, from the rounding of the weights, (31f); 0 without
+  /// conductances.
+  double rounding_error(const Vector& target) const;
   /// min m_i / v_i
   double least(const Vector& target) const;
   /// v - m, the gradient of the dual
@@ -78,6 +81,11 @@ class Evaluator {
   std::size_t size() const { return positions_.size() / dimension_; }
   std::span<const double> positions() const { return positions_; }
   Diagram& diagram() { return diagram_; }
+  /// The geometry of the cells of the last weights; counts as a diagram.
+  const Cells& cells() {
+    ++diagrams_;
+    return diagram_.cells();
+  }
   const Vector& last_weights() const { return last_weights_; }  ///< those that the diagram has
   std::size_t diagrams() const { return diagrams_; }            ///< computed so far
   double seconds() const { return seconds_; }                   ///< wall-clock time of these

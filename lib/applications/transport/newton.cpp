@@ -9,6 +9,7 @@ namespace {
 constexpr double shortest = 1.0 / 4096;  // shortest step tried
 constexpr double short_step = 1.0 / 32;  // a step up to this length counts as short
 constexpr int most_short_steps = 8;      // in a row, before another phase is more promising
+constexpr int few_short_steps = 2;       // the same where ramp() has good intermediate targets
 
 }  // namespace
 
@@ -17,11 +18,13 @@ PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double
   const double least = kept_share(at.least(target));
   // A blend that takes a short step is too far from the one before; the caller tries one between them.
   const double spread = context.evaluator().spread();
-  const int patience = spread > 0 && spread < 1 ? 1 : most_short_steps;
+  const bool blended = spread > 0 && spread < 1, can_ramp = exponent == 1 && !context.shares().empty();
+  const int patience = blended ? 1 : can_ramp ? few_short_steps : most_short_steps;
   int short_steps = 0;
   double longest = 1;
   while (true) {
-    if (at.error(target) < tolerance || context.reached(at)) return PhaseEnd::converged;
+    if (at.error(target) < context.attainable(at, target, tolerance) || context.reached(at))
+      return PhaseEnd::converged;
     if (context.at_limit()) return PhaseEnd::step_limit;
     const Laplacian system = at.laplacian();
     if (connected_components(system.matrix) > 1) return PhaseEnd::disconnected;

@@ -2,8 +2,13 @@
 
 #include <chrono>
 
+#include "lib/applications/transport/domain_parts.hpp"
+
 namespace powercell {
 namespace {
+
+constexpr int most_connections = 60;
+constexpr double uneven_masses = 30;  // ratio of the largest to the least from which a ramp comes first
 
 /// Whether the masses are met within their quadrature error, which exceeds the tolerance: further steps
 /// follow noise, and none would count as converged.
@@ -15,8 +20,13 @@ bool limited_by_quadrature(const SolveContext& context, const Iterate& at) {
 }  // namespace
 
 SolveContext::SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance,
-                           Vector target)
-    : evaluator_(evaluator), options_(options), tolerance_(tolerance), target_(std::move(target)) {}
+                           bool tolerance_given, Vector target)
+    : evaluator_(evaluator),
+      options_(options),
+      tolerance_(tolerance),
+      tolerance_given_(tolerance_given),
+      target_(std::move(target)),
+      several_parts_(domain_parts(evaluator.diagram().domain()).count > 1) {}
 
 double SolveContext::tolerance() const {
   return evaluator_.spread() > 0 ? blend_tolerance : tolerance_;
@@ -69,11 +79,33 @@ TransportStep step_along(const Direction& direction, TransportPhase phase, doubl
   return step;
 }
 
+PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
+                            TransportPhase phase, double exponent) {
+  const auto solve = [&] { return newton(context, at, target, tolerance, phase, exponent); };
+  if (!context.has_several_parts()) return solve();
+  for (int k = 0; k < most_connections; ++k) {
+    if (at.least(target) >= starved_share) {
+      const PhaseEnd end = solve();
+      if (end != PhaseEnd::disconnected) return end;
+    }
+    if (!connect(context, at, target)) break;
+  }
+  return at.empty == 0 ? solve() : PhaseEnd::disconnected;
+}
+
 PhaseEnd solve_current_density(SolveContext& context, Iterate& at) {
   PhaseEnd end = PhaseEnd::stalled;
+  const auto newton_to_target = [&] {
+    return newton_across_gaps(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
+  };
+  if (context.has_several_parts()) {
+    const double ratio = context.target().maxCoeff() / context.target().minCoeff();
+    if (context.shares().empty() || ratio < uneven_masses) end = newton_to_target();
+    if (end == PhaseEnd::stalled && !context.shares().empty()) end = ramp(context, at);
+    if (end == PhaseEnd::converged) return end;
+  }
   if (at.empty > 0) end = ascend(context, at, true);
-  if (end != PhaseEnd::converged && at.empty == 0)
-    end = newton(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
+  if (end != PhaseEnd::converged && at.empty == 0) end = newton_to_target();
   if (at.empty == 0 && limited_by_quadrature(context, at)) return end;
   if (end == PhaseEnd::stalled && at.empty == 0) end = ramp(context, at);
   if (end == PhaseEnd::stalled || end == PhaseEnd::disconnected) end = ascend(context, at, false);

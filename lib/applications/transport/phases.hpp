@@ -2,6 +2,8 @@
 /// The phases of a solve, and the state that they share. Internal.
 #pragma once
 
+#include <algorithm>
+
 #include "lib/applications/transport/evaluator.hpp"
 
 namespace powercell {
@@ -10,6 +12,15 @@ namespace powercell {
 inline constexpr double poor_share = 0.01;
 /// min m_i / v_i below which the density is blended with a uniform one.
 inline constexpr double hopeless_share = 1e-4;
+
+/// min m_i / v_i below which a cell of a domain of several parts counts as empty for connect().
+inline constexpr double starved_share = 1e-3;
+
+/// The mass of a seed in a part of the domain.
+struct PartShare {
+  std::uint32_t part, seed;
+  double mass;
+};
 
 /// How a phase ended.
 enum class PhaseEnd {
@@ -29,15 +40,30 @@ struct Direction {
 class SolveContext {
  public:
   /// Evaluator and options are kept by reference.
-  SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance, Vector target);
+  /// \param tolerance_given  false if it is the default
+  SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance, bool tolerance_given,
+               Vector target);
 
   Evaluator& evaluator() { return evaluator_; }
   const Vector& target() const { return target_; }
   /// The tolerance of the masses; a loose one while the density is blended.
   double tolerance() const;
+  /// Whether the domain has several connected parts.
+  bool has_several_parts() const { return several_parts_; }
+  /// The masses of the seeds in the parts by (31d); empty without such a start.
+  const std::vector<PartShare>& shares() const { return shares_; }
+  void set_shares(std::vector<PartShare> shares) { shares_ = std::move(shares); }
   bool at_limit() const { return solved_ >= options_.max_steps; }
-  /// Whether the target masses are met. Walls may be missing then.
-  bool reached(const Iterate& at) const { return at.empty == 0 && at.error(target_) < tolerance(); }
+  /// The tolerance, or if the caller gave none and it is larger, the error to which rounded weights can meet
+  /// masses.
+  double attainable(const Iterate& at, const Vector& target, double tolerance) const {
+    return tolerance_given_ ? tolerance : std::max(tolerance, at.rounding_error(target));
+  }
+  /// Whether the target masses are met to the tolerance, or as well as the rounding of weights allows. Walls
+  /// may be missing then.
+  bool reached(const Iterate& at) const {
+    return at.empty == 0 && at.error(target_) < attainable(at, target_, tolerance());
+  }
   const std::vector<TransportStep>& steps() const { return steps_; }
 
   /// Solves system x = right.
@@ -58,7 +84,10 @@ class SolveContext {
   Evaluator& evaluator_;
   const TransportOptions& options_;
   double tolerance_;
+  bool tolerance_given_;
   Vector target_;
+  bool several_parts_;
+  std::vector<PartShare> shares_;
   std::vector<TransportStep> steps_;
   int solved_ = 0;
   std::size_t recorded_diagrams_ = 0;  // diagrams of the steps so far
@@ -76,10 +105,20 @@ TransportStep step_along(const Direction& direction, TransportPhase phase, doubl
 /// with the fewest empty cells. If a cell is far below its mass, also weights as if the seeds were moved onto
 /// the density, (31b), if these are better.
 Iterate find_start(SolveContext& context, const Vector& weights);
+/// For a domain of several parts and a constant density: tries weights (31d), which share the seeds among the
+/// parts, unless hardly any mass is misplaced. Replaces `best` if the dual is larger for them.
+void try_on_parts(SolveContext& context, Iterate& best);
+/// Raises the weights of groups of cells that lack mass, where walls connect no cell of the group to others
+/// and of empty cells, until they touch cells of other groups: Newton's method can then pass mass to them.
+/// \return false if there is one group, or none could be raised
+bool connect(SolveContext& context, Iterate& at, const Vector& target);
 /// Damped Newton towards a target of its own, (27)-(29).
 PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
                 TransportPhase phase, double exponent);
-/// Damped Newton for increasing powers of the masses.
+/// Damped Newton towards a target of its own; on domains of several parts in turn with connect().
+PhaseEnd newton_across_gaps(SolveContext& context, Iterate& at, const Vector& target, double tolerance,
+                            TransportPhase phase, double exponent);
+/// newton_across_gaps for increasing powers of the masses.
 PhaseEnd ramp(SolveContext& context, Iterate& at);
 /// Regularised Newton on the dual, (30).
 /// \param repair  ends as soon as damped Newton can take over

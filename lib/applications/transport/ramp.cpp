@@ -8,10 +8,30 @@ namespace {
 constexpr double intermediate_tolerance = 0.1;  // of the masses for exponents below 1
 constexpr double smallest_stride = 1.0 / 64;    // of the exponent
 
-/// Masses proportional to a power of the target, with the same sum. Computed by logarithms to avoid overflow.
-Vector power_of(const Vector& target, double exponent) {
-  Vector result = (exponent * (target.array() / target.maxCoeff()).log()).exp();
-  return result * (target.sum() / result.sum());
+/// Masses proportional to a power of these, with the same sum. Computed by logarithms to avoid overflow.
+Vector power_of(const Vector& mass, double exponent) {
+  Vector result = (exponent * (mass.array() / mass.maxCoeff()).log()).exp();  // 0 where there is no mass
+  return result * (mass.sum() / result.sum());
+}
+
+/// The same for the masses in each part of the domain: then none crosses a gap that does not in the end.
+Vector power_of(const SolveContext& context, double exponent) {
+  if (context.shares().empty()) return power_of(context.target(), exponent);
+  std::vector<double> sum, largest, power;  // per part
+  for (const PartShare& share : context.shares()) {
+    if (share.part >= sum.size())
+      for (auto* values : {&sum, &largest, &power}) values->resize(share.part + 1);
+    sum[share.part] += share.mass;
+    largest[share.part] = std::max(largest[share.part], share.mass);
+  }
+  const auto raised = [&](const PartShare& share) {
+    return std::exp(exponent * std::log(share.mass / largest[share.part]));
+  };
+  for (const PartShare& share : context.shares()) power[share.part] += raised(share);
+  Vector result = Vector::Zero(context.target().size());
+  for (const PartShare& share : context.shares())
+    result[share.seed] += raised(share) * sum[share.part] / power[share.part];
+  return result * (context.target().sum() / result.sum());
 }
 
 }  // namespace
@@ -22,10 +42,11 @@ PhaseEnd ramp(SolveContext& context, Iterate& at) {
   while (true) {
     const double exponent = started ? std::min(1.0, reached + stride) : 0;
     const bool last = exponent == 1;
-    const Vector target = last ? context.target() : power_of(context.target(), exponent);
+    const Vector target = last ? context.target() : power_of(context, exponent);
     Iterate trial = at;
-    const PhaseEnd end = newton(context, trial, target, last ? context.tolerance() : intermediate_tolerance,
-                                last ? TransportPhase::newton : TransportPhase::ramp, exponent);
+    const PhaseEnd end =
+        newton_across_gaps(context, trial, target, last ? context.tolerance() : intermediate_tolerance,
+                           last ? TransportPhase::newton : TransportPhase::ramp, exponent);
     if (end == PhaseEnd::step_limit || (end == PhaseEnd::converged && last)) {
       at = std::move(trial);
       return end;

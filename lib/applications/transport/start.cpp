@@ -167,6 +167,7 @@ Iterate find_start(SolveContext& context, const Vector& weights) {
   TransportStep step;
   step.phase = TransportPhase::start;
   context.record(step, best, target);
+  try_on_parts(context, best);
   return best;
 }
 

@@ -107,13 +107,15 @@ const TransportResult& TransportSolver::State::solve() {
   next.target = target;
   const Vector kept_target = vector_of(rows(joined, kept, 1));
   const std::unique_ptr<Evaluator> cells = evaluator(kept_positions, kept_target);
-  SolveContext context(*cells, options, next.tolerance, kept_target);
+  SolveContext context(*cells, options, next.tolerance, tolerance > 0, kept_target);
   const Iterate at = run_phases(context, vector_of(kept_weights));
   next.steps = context.steps();
   next.diagrams = cells->diagrams();
   next.error = at.error(kept_target);
   next.quadrature_error = at.quadrature_error(kept_target);
-  next.converged = next.error < next.tolerance && next.quadrature_error < next.tolerance;
+  next.rounding_error = at.rounding_error(kept_target);
+  next.converged = next.error < context.attainable(at, kept_target, next.tolerance) &&
+                   next.quadrature_error < next.tolerance;
   next.primal = at.primal();
   next.dual = at.dual(kept_target);
   result = std::move(next);
