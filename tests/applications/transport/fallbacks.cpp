@@ -74,7 +74,7 @@ TEST_CASE("disconnected polygons, whose cells share no wall") {
   const SeedArray seeds = seeds_for(domain, Distribution::white, WeightRange::W0, 50, random);
   const TransportResult found = solve(domain, seeds.view(), random_masses(50, 5, domain.measure(), random));
   CHECK(found.converged);
-  CHECK(has_phase(found, TransportPhase::ascent));
+  CHECK(found.diagrams <= 60);
 }
 
 TEST_CASE("masses over six orders of magnitude") {
