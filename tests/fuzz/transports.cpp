@@ -48,7 +48,8 @@ void check_result(const TransportResult& result, std::size_t n, std::size_t d) {
   }
   for (std::size_t i = 0; i < n; ++i)
     if (result.merged_with[i] == i) worst = std::max(worst, std::fabs(found[i] / wanted[i] - 1));
-  require(worst <= 1.001 * result.tolerance, "converged, with masses off by " + std::to_string(worst));
+  require(worst <= 1.001 * std::max(result.tolerance, result.rounding_error),
+          "converged, with masses off by " + std::to_string(worst));
 }
 
 class Session {
