@@ -55,6 +55,7 @@ int run(const DiagramArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls});
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
+  print_notes(domain.domain.notes(), arguments.domain, arguments);
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.domain.kind());
   const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
   const SeedsView seeds = table.view();

@@ -10,6 +10,8 @@
 
 namespace powercell::app {
 
+struct CommonOptions;
+
 /// Seconds since construction or the last call of lap().
 class Stopwatch {
  public:
@@ -27,7 +29,12 @@ struct RunReport {
   Timings timings;
   double read = 0, build = 0, write = 0;  ///< seconds beside `timings.total`
   std::vector<std::string> files;
+  std::vector<std::string> notes;  ///< Domain::notes()
 };
+
+/// Writes notes about a file to standard error, one a line, unless the options ask for quiet.
+void print_notes(const std::vector<std::string>& notes, const std::string& file,
+                 const CommonOptions& options);
 
 /// Everything but the seconds of reading and writing and the files. Computes the measures.
 RunReport report_of(Diagram& diagram);

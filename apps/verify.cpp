@@ -102,6 +102,7 @@ std::vector<Checked> check_device(const VerifyArguments& arguments, const Device
 
 std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
   const io::LoadedDomain domain = io::read_domain(arguments.domain, io::domain_kind(arguments.kind));
+  print_notes(domain.domain.notes(), arguments.domain, arguments);
   const io::SeedTable table = io::read_seeds(arguments.seeds, domain.domain);
   if (!table.note.empty() && !arguments.quiet && !arguments.json) fmt::print("{}\n", table.note);
   return {check(arguments, device, domain.domain, table.view(),
