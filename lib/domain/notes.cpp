@@ -3,7 +3,6 @@
 #include <string>
 
 #include "lib/base/text.hpp"
-#include "lib/domain/overlap.hpp"
 
 namespace powercell {
 namespace {
@@ -13,15 +12,6 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 }
 
 }  // namespace
-
-std::string place_of(const Overlap& o) {
-  std::string place = "(";
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (k > 0) place += ", ";
-    place += digits(o.at[k], 9);
-  }
-  return place += ")";
-}
 
 std::vector<std::string> Domain::notes() const {
   const bool solid = cell_dimension() == 3;
@@ -43,7 +33,7 @@ std::vector<std::string> Domain::notes() const {
         counted(found.overlaps, "pair of " + many + " overlaps", "pairs of " + many + " overlap") + " and " +
         (found.overlaps == 1 ? "counts" : "count") + " twice " + digits(found.overlap / measure(), 2) +
         " of the " + (solid ? "volume" : "area") + ", most of all " + std::to_string(o.first) + " and " +
-        std::to_string(o.second) + " around " + place_of(o));
+        std::to_string(o.second) + " around " + place_text(o.at.data()));
   }
   return notes;
 }

@@ -8,8 +8,6 @@
 /// has an open facet there. On a surface this holds for the triangles of each plane, with their edges.
 #pragma once
 
-#include <string>
-
 #include "lib/domain/region_mesh.hpp"
 
 namespace powercell {
@@ -22,8 +20,5 @@ double touching_depth(const RegionMesh& mesh);
 /// \pre borders, box and measure are set
 void find_overlapping_tetrahedra(RegionMesh& mesh);
 void find_overlapping_triangles(RegionMesh& mesh);
-
-/// The place of an overlap, for messages.
-std::string place_of(const Overlap& overlap);
 
 }  // namespace powercell

@@ -88,7 +88,7 @@ void refuse_large_overlaps(const RegionMesh& mesh) {
       report.overlaps > 1 ? ", as do " + std::to_string(report.overlaps - 1) + " other pairs" : "";
   throw Error(ErrorCode::invalid_domain,
               "tetrahedra " + std::to_string(o.first) + " and " + std::to_string(o.second) +
-                  " overlap around " + place_of(o) + others + ": " +
+                  " overlap around " + place_text(o.at.data()) + others + ": " +
                   digits(report.overlap / mesh.measure, 2) +
                   " of the volume would count twice; separate the parts, or cut one out of the other");
 }

@@ -16,6 +16,13 @@ struct DualMesh {
   std::vector<std::array<std::uint32_t, 3>> triangle;
 };
 
+struct ChordDefect {
+  std::uint32_t curve;
+  std::size_t rank;        ///< of the seed before the chord
+  std::uint32_t intruder;  ///< a seed whose cell interrupts it, or `nothing`
+  friend auto operator<=>(const ChordDefect&, const ChordDefect&) = default;
+};
+
 /// Reasons why the dual is not a mesh with the topology of the surface (docs/mathematics.md, "Remeshing").
 struct Defects {
   /// Per connected part of a cell without its seed: a place in it, opposite to the seed.
@@ -24,9 +31,8 @@ struct Defects {
   std::vector<std::uint32_t> not_discs;                        ///< seeds whose cells are not discs
   std::vector<std::pair<std::uint32_t, std::uint32_t>> twice;  ///< pairs of cells that share several walls
   std::vector<std::uint32_t> seeds;  ///< vertices where the dual is not a manifold for another reason
-  /// Chords of curves (a curve, and the rank of the seed before the chord) that the cells of other seeds
-  /// interrupt, or that are not edges of the dual.
-  std::vector<std::pair<std::uint32_t, std::size_t>> chords;
+  /// Chords of curves that the cells of other seeds interrupt, or that are not edges of the dual.
+  std::vector<ChordDefect> chords;
 
   bool none() const {
     return fragments.empty() && outside.empty() && not_discs.empty() && twice.empty() && seeds.empty() &&

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <powercell/error.hpp>
 #include <string>
 
@@ -41,8 +43,8 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
     return;
   }
   std::pair<std::uint32_t, std::size_t> chord;
-  if (longest_chord(sampling, seed, chord)) {
-    sampling.split(chord.first, chord.second);
+  if (longest_chord(sampling, seed, chord) && sampling.can_split(chord.first, chord.second)) {
+    sampling.split(chord.first, chord.second, nothing);
     return;
   }
   for (const std::uint32_t j : sampling.diagram().neighbors(seed))
@@ -95,7 +97,8 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   // Later ranks of a curve first, so that earlier ones stay valid.
   // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the reversed view of libstdc++ 12.
   for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
-    sampling.split(chord->first, chord->second);
+    if (sampling.can_split(chord->curve, chord->rank))
+      sampling.split(chord->curve, chord->rank, chord->intruder);
   for (const Place& fragment : defects.fragments) {
     progress.tick();
     sampling.add_between(fragment);
@@ -105,15 +108,34 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   return sampling.diagram().alive() > before;
 }
 
+/// Keeps cells to their sheets as long as that leaves fewer parts without their seed.
+void separate_sheets(Sampling& sampling, Progress progress) {
+  constexpr int patience = 3;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (int without_gain = 0; without_gain < patience;) {
+    const std::size_t stray = sampling.keep_to_sheets();
+    if (getenv("DBG")) fprintf(stderr, "DBG stray %zu\n", stray);
+    if (stray == 0) return;
+    progress.at(0);
+    without_gain = stray < least ? 0 : without_gain + 1;
+    least = std::min(least, stray);
+  }
+}
+
 }  // namespace
 
 DualMesh mend(Sampling& sampling, std::size_t most, Progress progress) {
   const Surface& surface = sampling.diagram().surface();
   while (true) {
     progress.at(0);
+    separate_sheets(sampling, progress);
     Defects defects;
     DualMesh dual = dual_of(sampling, defects, progress);
     progress.at(0);
+    if (getenv("DBG"))
+      fprintf(stderr, "DBG alive %zu frag %zu out %zu notdisc %zu twice %zu seeds %zu chords %zu\n",
+              sampling.diagram().alive(), defects.fragments.size(), defects.outside.size(),
+              defects.not_discs.size(), defects.twice.size(), defects.seeds.size(), defects.chords.size());
     if (defects.none()) {
       const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
       if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))

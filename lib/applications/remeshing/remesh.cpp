@@ -106,9 +106,17 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   Watch watch;
   const Progress all(options.progress);
   all.part(0, 0).at(0);
-  check_triangles(vertices, triangles);
+  RepairedMesh repaired;
+  if (options.repair) {
+    repaired = repair(vertices, triangles);
+    result.repair = repaired.report;
+    vertices = repaired.mesh.vertices;
+    triangles = repaired.mesh.triangles;
+  } else {
+    check_triangles(vertices, triangles);
+  }
   const Frame frame = frame_of(vertices, triangles);
-  const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
+  const Surface input = make_surface(vertices, triangles, options.sharp_angle, frame);
   const double spacing = even_spacing(input, options.count);
   check_thinness(input, spacing, options.count);
   std::vector<double> shape = relative_sizing(input, spacing, options.contrast, all.part(0, 0.01));

@@ -47,14 +47,17 @@ std::uint32_t Sampling::add_between(const Hold& hold) {
   const std::uint32_t in = owner(hold.place);
   if (in == nothing) return add(hold);  // because of rounding no seed has the triangle
   const Seed of = diagram_.seed(in);
-  const double distance2 = norm2(of.at - hold.place.at);
-  if (!(distance2 > least_share * of.weight))
-    throw Error(ErrorCode::invalid_argument,
-                "the surface is too sharp or too thin for so few points: to separate its sides, some would "
-                "have to be as "
-                "close as rounding errors; ask for more points, or cut off the tip or the thin part");
   // The jitter is relative to the distance, which may be small compared with the weight.
+  const double distance2 = std::max(norm2(of.at - hold.place.at), least_share * of.weight);
   return add(hold, of.weight + jitter * uniform(random_) * distance2, of.size);
+}
+
+std::uint32_t Sampling::add_between(const Place& place) {
+  constexpr double least_share = 1e-13;
+  const std::uint32_t in = owner(place);
+  if (in != nothing && norm2(diagram_.seed(in).at - place.at) <= least_share * diagram_.seed(in).weight)
+    return in;
+  return add_between({Hold::Kind::free, nothing, 0, place});
 }
 
 bool Sampling::give_cell(std::uint32_t seed) {
@@ -170,7 +173,35 @@ void Sampling::link_curve(std::uint32_t c) {
   }
 }
 
-std::uint32_t Sampling::split(std::uint32_t c, std::size_t rank) {
+bool Sampling::can_split(std::uint32_t c, std::size_t rank) const {
+  constexpr double least = 1e-5;  // in units of h
+  const Seed &a = diagram_.seed(on_curve_[c][rank]), &b = diagram_.seed(on_curve_[c][rank + 1]);
+  return norm(a.at - b.at) > least * std::min(a.size, b.size);
+}
+
+/// The length along a curve, between two others, opposite a seed: nearest to it, or as far from a corner if
+/// the seed is on a curve that ends in the same corner. So seeds on curves around a corner are at equal
+/// distances from it, and none reaches to the curve of another.
+double Sampling::place_opposite(std::uint32_t c, std::uint32_t seed, double from, double to) const {
+  const Curve& curve = curves_[c];
+  const Vec at = diagram_.seed(seed).at;
+  const Hold& hold = hold_[seed];
+  if (hold.kind == Hold::Kind::curve && !curve.closed && !curves_[hold.curve].closed) {
+    const Curve& other = curves_[hold.curve];
+    const auto ends_there = [&](std::uint32_t v) {
+      return other.vertex.front() == v || other.vertex.back() == v;
+    };
+    const double before = norm(at - surface_.vertex[curve.vertex.front()]),
+                 after = norm(at - surface_.vertex[curve.vertex.back()]);
+    const bool front = ends_there(curve.vertex.front()), back = ends_there(curve.vertex.back());
+    if (front && (before <= after || !back)) return before;
+    if (back) return curve.length() - after;
+  }
+  return curve.nearest(surface_, at, from, to);
+}
+
+std::uint32_t Sampling::split(std::uint32_t c, std::size_t rank, std::uint32_t beside) {
+  constexpr double least_share = 0.01;  // of the chord, between seeds
   std::vector<std::uint32_t>& seeds = on_curve_[c];
   const std::uint32_t a = seeds[rank], b = seeds[rank + 1];
   const auto along = [&](std::uint32_t seed, bool end) {
@@ -178,7 +209,12 @@ std::uint32_t Sampling::split(std::uint32_t c, std::size_t rank) {
       return hold_[seed].along;
     return end ? curves_[c].length() : 0.0;
   };
-  const double s = (along(a, false) + along(b, true)) / 2;
+  const double from = along(a, false), to = along(b, true), least = least_share * (to - from);
+  double s = (from + to) / 2;
+  if (beside != nothing) {
+    const double opposite = place_opposite(c, beside, from, to);
+    if (opposite >= from + least && opposite <= to - least) s = opposite;
+  }
   const std::uint32_t id = add_between({Hold::Kind::curve, c, s, curves_[c].at(surface_, s)});
   seeds.insert(seeds.begin() + static_cast<std::ptrdiff_t>(rank) + 1, id);
   std::replace(chord_[a].begin(), chord_[a].end(), b, id);
