@@ -116,8 +116,10 @@ int run(const TreemapArguments& arguments) {
   check_writable(arguments.outputs);
   Stopwatch watch;
   Seconds seconds;
-  const Ring outline = treemap_shape(arguments.shape);
-  const io::NamedTree tree = io::read_tree(arguments.tree);
+  std::vector<std::string> notes;
+  const Ring outline = treemap_shape(arguments.shape, notes);
+  io::NamedTree tree = io::read_tree(arguments.tree);
+  tree.notes.insert(tree.notes.end(), notes.begin(), notes.end());
   seconds.read = watch.lap();
   std::vector<std::int64_t> hue;
   const Treemap map = lay_out(arguments, tree, outline, hue);
@@ -149,6 +151,7 @@ constexpr const char* examples =
     "  powercell treemap new.csv --previous old-layout.json -o new.svg -o new-layout.json\n"
     "A table has rows id, parent, name, value; JSON is nested {name, children, value} or a list of such "
     "rows.\n"
+    "Tables without parents: name, value; id, value with paths a/b/c; levels from the top, value.\n"
     "Areas are exact; nodes without a value above 0 are dropped and listed.";
 
 }  // namespace

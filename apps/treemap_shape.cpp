@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <powercell/shapes.hpp>
@@ -42,9 +44,61 @@ std::optional<Ring> circle(const std::string& spec) {
   return disk(corners);
 }
 
+using Point = std::array<double, 2>;
+
+double cross(const Point& a, const Point& b, const Point& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// Counter-clockwise (Andrew's monotone chain).
+Ring convex_hull(Ring points) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  Ring hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Point& point : points) {
+      while (hull.size() >= first + 2 && cross(hull[hull.size() - 2], hull.back(), point) <= 0)
+        hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+double area(const Ring& ring) {
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) twice += cross(ring[0], ring[k], ring[k + 1]);
+  return std::abs(twice) / 2;
+}
+
+// The hull of an outline that only the rounding of its coordinates makes concave; any other outline as it is.
+Ring without_rounding(const Ring& ring, std::vector<std::string>& notes) {
+  constexpr double most = 1e-4;  // of the size, far below what a picture shows
+  const Ring hull = convex_hull(ring);
+  const double whole = area(hull), more = whole / area(ring) - 1;
+  if (hull.size() < 3 || !(more > 1e-12) || more > most) return ring;
+  double depth = 0;
+  for (const Point& point : ring) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Point &a = hull[k], &b = hull[(k + 1) % hull.size()];
+      nearest = std::min(nearest, cross(a, b, point) / std::hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    depth = std::max(depth, nearest);
+  }
+  if (depth > most * std::sqrt(whole)) return ring;
+  notes.push_back(fmt::format(
+      "the shape is concave by up to {:.2g}; its convex hull is used, whose area is greater by {:.2g} %",
+      depth, 100 * more));
+  return hull;
+}
+
 }  // namespace
 
-Ring treemap_shape(const std::string& spec) {
+Ring treemap_shape(const std::string& spec, std::vector<std::string>& notes) {
   if (const auto ring = rectangle(spec)) return *ring;
   if (const auto ring = circle(spec)) return *ring;
   if (spec == "hexagon") return disk(6);
@@ -56,7 +110,7 @@ Ring treemap_shape(const std::string& spec) {
         ErrorCode::invalid_domain,
         fmt::format("{}: {} parts, {} holes; a treemap needs one convex polygon", spec, loaded.parts.size(),
                     loaded.parts.empty() ? 0 : loaded.parts.front().holes.size()));
-  return loaded.parts.front().outer;
+  return without_rounding(loaded.parts.front().outer, notes);
 }
 
 }  // namespace powercell::app

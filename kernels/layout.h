@@ -3,7 +3,7 @@
 #define POWERCELL_LAYOUT_H
 
 /* What became of a (region, seed) piece. */
-#define PIECE_WHOLE 0   /* clipped, nothing can cut it any more */
+#define PIECE_DONE 0    /* clipped, nothing can cut it any more */
 #define PIECE_EMPTY 1   /* the seed has no part in the region */
 #define PIECE_FLAT 2    /* touches the region only: walls count, measures do not */
 #define PIECE_MORE 3    /* the neighbour list ended before the stopping rule held */
@@ -69,7 +69,7 @@ typedef struct {
 #define NEAR_MOST 64
 
 /* The part of a cell's radius by which decisions about it must be clear, and within which its vertices are
-   known: a power of one half (SEARCH_MARGIN in base/decide.cl). */
+   known: a power of one half (SEARCH_MARGIN in base/real.cl). */
 #define MARGIN_BITS_DOUBLE 20
 #define MARGIN_BITS_FLOAT 5
 

@@ -40,7 +40,7 @@ done <"$work/all"
 while read -r file; do
   # Paths from the root of the repository, and public headers.
   grep -oE '(^|[ `"(*])(\.ci|apps|bench|cmake|docs|examples|include|kernels|lib|tests|tools)/[A-Za-z0-9_./*-]+' "$file" |
-    sed -e 's/^[ `"(*]//' -e 's/[.,:]*$//' | grep -vE '/[A-Z]{3,}$' >"$work/paths" || true  # TARGET is any one
+    sed -e 's/^[ `"(*]//' -e 's/[.,:]*$//' | grep -vE '/([a-z]+_)?[A-Z]{3,}(\.[a-z]+)?$' >"$work/paths" || true  # TARGET is any one
   grep -oE '`powercell(/[a-z_]+\.hpp|\.h)`' "$file" | sed -e 's/`//g' -e 's|^|include/|' >>"$work/paths" || true
   while read -r path; do
     # shellcheck disable=SC2086 # * stands for several files

@@ -9,7 +9,7 @@
 
 #include "apps/io/picture_scene.hpp"
 
-using cairo_t = struct _cairo;
+using cairo_t = struct _cairo;  // NOLINT(bugprone-reserved-identifier): Cairo's name
 
 namespace powercell::io {
 

@@ -31,7 +31,7 @@ class Direction {
   }
 
   Projected project(Vec3 point) const {
-    constexpr float half = map_size / 2;
+    constexpr float half = map_size / 2.0f;
     return {half + half * dot(point, right_), half + half * dot(point, up_), dot(point, towards)};
   }
 

@@ -189,11 +189,11 @@ void Renderer::resolve(int first_row, int rows, Image& image) const {
     for (int column = 0; column < image.width; ++column) {
       Vec3 sum;
       for (int k = 0; k < fine * fine; ++k) {
-        const std::size_t s =
-            samples.at(column * fine + k % fine, (row - first_row + margin) * fine + k / fine);
+        const int across = k % fine, down = k / fine;
+        const std::size_t s = samples.at(column * fine + across, (row - first_row + margin) * fine + down);
         const std::uint32_t t = samples.triangle[s];
-        const float x = static_cast<float>(column) + (static_cast<float>(k % fine) + 0.5f) / fine;
-        const float y = static_cast<float>(row) + (static_cast<float>(k / fine) + 0.5f) / fine;
+        const float x = static_cast<float>(column) + (static_cast<float>(across) + 0.5f) / fine;
+        const float y = static_cast<float>(row) + (static_cast<float>(down) + 0.5f) / fine;
         const Light& here = light(t, column, row);
         sum = sum + (t == Samples::nothing ? floor(column, row, here) : shade(t, x, y, here, on_line[s]));
       }

@@ -36,9 +36,11 @@ struct NamedTree {
 /// or without
 ///   a header that names the columns in any order. The root has no parent; a parent 0 without a row is the
 ///   root too.
-/// Values of nodes with children are ignored and may be missing.
-/// \throw Error invalid_file for a cycle, an orphan, two roots, a repeated id, or a value that is not a
-/// number (which
+/// A header without a parent column may name other shapes: `name,value`; `id,value` with paths (a/b/c, or
+/// a.b.c if all groups have rows); or the levels from the top down and `value`. A first line "sep=;" is
+/// skipped. Several roots get a root above them. Values of nodes with children are not used and may be
+/// missing; a note tells where they differ from the sum of the leaves. \throw Error invalid_file for a cycle,
+/// an orphan, a repeated id, or a value that is not a number (which
 ///   row)
 NamedTree read_tree(const std::string& path);
 

@@ -42,34 +42,33 @@ class Linker {
     }
   }
 
-  // Tables may refer to a root 0 that has no row.
+  // Tables may refer to a root 0 that has no row, or have several rows without a parent.
   void add_implied_root() {
-    if (at_.count(implied_root) > 0) return;
+    std::size_t roots = 0;
     bool asked = false;
     for (const TreeRow& row : rows_) {
-      if (row.parent.empty()) return;
+      roots += row.parent.empty() ? 1 : 0;
       asked |= row.parent == implied_root;
     }
-    if (!asked) return;
+    if (roots == 1 || (roots == 0 && (!asked || at_.contains(implied_root)))) return;
+    std::string id = implied_root;
+    while (at_.contains(id)) id += "#";
+    for (TreeRow& row : rows_)
+      if (row.parent.empty()) row.parent = id;
+    if (roots > 1) tree_.notes.push_back(fmt::format("{} rows have no parent; a root holds them", roots));
     const std::size_t slash = file_.find_last_of('/');
-    rows_.push_back({implied_root, "", slash == std::string::npos ? file_ : file_.substr(slash + 1), 0, 0});
-    at_.emplace(implied_root, rows_.size() - 1);
+    rows_.push_back({id, "", slash == std::string::npos ? file_ : file_.substr(slash + 1), 0, 0});
+    at_.emplace(id, rows_.size() - 1);
   }
 
   void link() {
-    std::size_t root = rows_.size();
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      TreeRow& row = rows_[k];
+    for (TreeRow& row : rows_) {
       std::int64_t parent = -1;
-      if (row.parent.empty()) {
-        if (root < rows_.size())
-          fail(k, fmt::format("'{}' has no parent, and neither has '{}' of {}; a tree has one root", row.id,
-                              rows_[root].id, place(root)));
-        root = k;
-      } else {
+      if (!row.parent.empty()) {
         const auto known = at_.find(row.parent);
         if (known == at_.end())
-          fail(k, fmt::format("'{}' has the parent '{}', which has no row", row.id, row.parent));
+          fail(static_cast<std::size_t>(&row - rows_.data()),
+               fmt::format("'{}' has the parent '{}', which has no row", row.id, row.parent));
         parent = static_cast<std::int64_t>(known->second);
       }
       tree_.parent.push_back(parent);

@@ -1,9 +1,10 @@
-// Tables of rows id, parent, name, value.
+// Tables of rows id, parent, name, value, and the shapes without parents: names and values, paths, levels.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <unordered_set>
 
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
@@ -21,6 +22,16 @@ constexpr std::array<std::array<std::string_view, 4>, columns> headings = {
      {"parent", "parentid", "parent_id", ""},
      {"name", "label", "title", ""},
      {"value", "weight", "size", "area"}}};
+
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+// Spreadsheets may write a first line "sep=;".
+std::optional<char> announced_separator(std::string_view text) {
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (!text.starts_with("sep=") || text.size() < 5) return std::nullopt;
+  const std::string_view rest = text.substr(0, text.find('\n')).substr(4);
+  return rest.size() == 1 || (rest.size() == 2 && rest[1] == '\r') ? std::optional(rest[0]) : std::nullopt;
+}
 
 // The separator that occurs most often in the first line.
 char find_separator(std::string_view text) {
@@ -42,7 +53,8 @@ std::optional<Places> read_header(const Fields& fields) {
       if (!heading.empty() && std::find(headings[c].begin(), headings[c].end(), heading) != headings[c].end())
         places[c] = f;
   }
-  if (!places[id_column] || !places[parent_column]) return std::nullopt;
+  const bool linked = places[id_column] && places[parent_column];
+  if (!linked && !(places[value_column] && fields.size() > 1 && !places[parent_column])) return std::nullopt;
   return places;
 }
 
@@ -67,14 +79,96 @@ TreeRow read_row(const Fields& fields, const Places& places, const std::string& 
   return row;
 }
 
+// A table without parents: the nodes above the leaves follow from the ids.
+class Paths {
+ public:
+  // \param levels  the columns from the top level down; a single one may hold paths if it is called id
+  Paths(std::vector<std::size_t> levels, bool may_split)
+      : levels_(std::move(levels)), may_split_(may_split) {}
+
+  TreeRow read(const Fields& fields, Places places, const std::string& name, std::size_t line) {
+    places[id_column] = levels_.front();
+    if (!may_split_) places[name_column] = std::nullopt;
+    TreeRow row = read_row(fields, places, name, line);
+    if (levels_.size() == 1) return row;
+    row.name = row.id;
+    row.id = escaped(row.id);
+    for (std::size_t k = 0; k + 1 < levels_.size() && !field_of(fields, levels_[k + 1]).empty(); ++k) {
+      row.name = field_of(fields, levels_[k + 1]);
+      if (printable(row.name) != row.name)
+        fail_line(name, line, "a name is not valid UTF-8; save the table as UTF-8");
+      row.id += "/" + escaped(row.name);
+    }
+    return row;
+  }
+
+  // Gives each row its parent and adds the rows that only paths name. Returns what was taken, for a note.
+  std::string link(std::vector<TreeRow>& rows) const {
+    std::unordered_set<std::string> known;
+    for (const TreeRow& row : rows) known.insert(row.id);
+    const char split = levels_.size() > 1 ? '/' : separator(rows, known);
+    if (split == 0) return {};
+    for (std::size_t k = 0; k < rows.size(); ++k) {  // grows
+      const std::size_t end = rows[k].id.find_last_of(split);
+      if (end == std::string::npos || end == 0) continue;
+      std::string above = rows[k].id.substr(0, end);
+      if (rows[k].name.empty()) rows[k].name = unescaped(rows[k].id.substr(end + 1));
+      rows[k].parent = above;
+      if (known.insert(above).second)
+        rows.push_back({above, "", above.find(split) == std::string::npos ? unescaped(above) : "", 0, 0});
+    }
+    return levels_.size() > 1 ? "" : fmt::format("ids are taken as paths separated by '{}'", split);
+  }
+
+ private:
+  // Slashes of names are no levels.
+  static std::string escaped(std::string text) {
+    for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos;) text.replace(at, 1, "%2F");
+    return text;
+  }
+  std::string unescaped(std::string text) const {
+    if (levels_.size() == 1) return text;
+    for (std::size_t at = 0; (at = text.find("%2F", at)) != std::string::npos;) text.replace(at, 3, "/");
+    return text;
+  }
+
+  // Slashes separate paths; points do if all nodes above have rows, since names hold points too.
+  char separator(const std::vector<TreeRow>& rows, const std::unordered_set<std::string>& known) const {
+    if (!may_split_) return 0;
+    bool points = false, all = true;
+    for (const TreeRow& row : rows) {
+      if (row.id.find('/', 1) != std::string::npos) return '/';
+      const std::size_t end = row.id.find_last_of('.');
+      if (end == std::string::npos) continue;
+      points = true;
+      all &= known.contains(row.id.substr(0, end));
+    }
+    return points && all ? '.' : char{0};
+  }
+
+  std::vector<std::size_t> levels_;
+  bool may_split_;
+};
+
+std::string described(const Fields& header, const std::vector<std::size_t>& levels) {
+  std::string all;
+  for (const std::size_t level : levels)
+    all += (all.empty() ? "" : ", ") + std::string(trimmed(header[level]));
+  return "the levels are taken from the columns " + printable(all);
+}
+
 }  // namespace
 
 NamedTree parse_tree_table(std::string_view text, const std::string& name) {
-  Records records(text, name, find_separator(text));
+  const std::optional<char> announced = announced_separator(text);
+  Records records(text, name, announced ? *announced : find_separator(text));
   Places places = {0, 1, 2, 3};
   std::size_t width = columns;
   Fields fields;
   std::vector<TreeRow> rows;
+  std::optional<Paths> paths;
+  std::vector<std::string> notes;
+  if (announced) records.next(fields);
   for (bool first = true; records.next(fields); first = false) {
     if (first) {
       if (const auto header = read_header(fields)) {
@@ -82,6 +176,13 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name) {
         width = fields.size();
         if (!places[value_column])
           fail_line(name, records.line(), "the header has no column value, weight or size");
+        if (places[parent_column]) continue;
+        std::vector<std::size_t> levels;
+        if (places[id_column]) levels = {*places[id_column]};
+        for (std::size_t f = 0; f < width && !places[id_column]; ++f)
+          if (f != *places[value_column]) levels.push_back(f);
+        if (levels.size() > 1) notes.push_back(described(fields, levels));
+        paths.emplace(std::move(levels), places[id_column].has_value());
         continue;
       }
     }
@@ -90,9 +191,14 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name) {
                 fmt::format(
                     "{} fields where {} are expected (id, parent, name, value; quote fields with separators)",
                     fields.size(), width));
-    rows.push_back(read_row(fields, places, name, records.line()));
+    rows.push_back(paths ? paths->read(fields, places, name, records.line())
+                         : read_row(fields, places, name, records.line()));
   }
-  return link_rows(std::move(rows), name, true);
+  if (paths)
+    if (std::string note = paths->link(rows); !note.empty()) notes.push_back(std::move(note));
+  NamedTree tree = link_rows(std::move(rows), name, true);
+  tree.notes.insert(tree.notes.begin(), notes.begin(), notes.end());
+  return tree;
 }
 
 }  // namespace powercell::io

@@ -15,18 +15,18 @@ namespace {
 // An upper bound of zlib's compression ratio (1032 in its technical notes).
 constexpr std::uint64_t best_compression = 1040;
 
-std::array<signed char, 256> base64_values() {
-  std::array<signed char, 256> values;
+std::array<int, 256> base64_values() {
+  std::array<int, 256> values;
   values.fill(-1);
   const std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (std::size_t k = 0; k < digits.size(); ++k)
-    values[static_cast<unsigned char>(digits[k])] = static_cast<signed char>(k);
+    values[static_cast<unsigned char>(digits[k])] = static_cast<int>(k);
   return values;
 }
 
 // Decodes `text` up to its end or its first padding '=', and removes that part.
 std::string base64(std::string_view& text, std::size_t most_bytes, const std::string& name) {
-  static const std::array<signed char, 256> values = base64_values();
+  static const std::array<int, 256> values = base64_values();
   std::string bytes;
   bytes.reserve(std::min(most_bytes, text.size() / 4 * 3 + 3));
   std::uint32_t bits = 0;
@@ -163,6 +163,7 @@ std::vector<Out> convert(std::string_view bytes, bool swapped, const std::string
                                 sizeof(In)));
   std::vector<Out> values(bytes.size() / sizeof(In));
   for (std::size_t k = 0; k < values.size(); ++k)
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse): In may be Int8
     values[k] = static_cast<Out>(load_number<In>(bytes.data() + k * sizeof(In), swapped));
   return values;
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 #include "apps/io/treemap_scene.hpp"
 
@@ -25,9 +26,16 @@ Colour to_colour(const Lch& lch) {
           to_srgb(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-// In [-0.5, 0.5], from the node's number, so that pictures are reproducible.
-double jitter(std::uint32_t node, std::uint32_t salt) {
-  std::uint32_t x = node * 0x9e3779b9u + salt;
+// FNV-1a. A node keeps its colour when other nodes come, go or change their order.
+std::uint32_t hash_of(std::string_view id) {
+  std::uint32_t hash = 2166136261u;
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
+
+// In [-0.5, 0.5].
+double jitter(std::uint32_t hash, std::uint32_t salt) {
+  std::uint32_t x = hash * 0x9e3779b9u + salt;
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
   return (x ^ (x >> 16)) / 4294967296.0 - 0.5;
@@ -74,9 +82,10 @@ std::vector<Colour> treemap_colours(const TreemapOutput& output) {
     if (map.depth[i] < 2) continue;
     const Lch& above = lch[static_cast<std::size_t>(output.tree.parent[i])];
     const double room = map.depth[i] == 2 ? 1 : 0.55;
-    lch[i] = {std::clamp(above.lightness + 0.11 * room * jitter(i, 1), 0.62, 0.92),
-              std::clamp(above.chroma + 0.05 * room * jitter(i, 2), 0.05, 0.14),
-              above.hue + 0.045 * room * jitter(i, 3)};
+    const std::uint32_t hash = hash_of(output.tree.id[i]);
+    lch[i] = {std::clamp(above.lightness + 0.11 * room * jitter(hash, 1), 0.62, 0.92),
+              std::clamp(above.chroma + 0.05 * room * jitter(hash, 2), 0.05, 0.14),
+              above.hue + 0.045 * room * jitter(hash, 3)};
   }
   std::vector<Colour> colours(n);
   std::transform(lch.begin(), lch.end(), colours.begin(), to_colour);

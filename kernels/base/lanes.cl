@@ -1,4 +1,4 @@
-/* Eight numbers at once: what is done to the eight seeds of a leaf, the eight children of a node or eight
+/* Operations on eight numbers at once: the eight seeds of a leaf, the eight children of a node or eight
    vertices of a cell. Like real.cl it hides the precision behind names. */
 #ifndef POWERCELL_BASE_LANES
 #define POWERCELL_BASE_LANES
@@ -42,7 +42,8 @@ static inline real4 make_real4(real x, real y, real z, real w) {
 static inline real8 all_lanes(real x) {
   return (real8)(x);
 }
-/* Where `yes` holds b, else a. (Not fmin and fmax: no lane is ever NaN.) */
+/* In each lane b where `yes` holds, else a. The functions below need not treat NaN as fmin and fmax do: no
+   lane is ever NaN. */
 static inline real8 choose8(real8 a, real8 b, mask8 yes) {
   return select(a, b, yes);
 }
@@ -56,7 +57,7 @@ static inline real8 size8(real8 a) {
   return fabs(a);
 }
 
-/* Without a branch; b where a is NaN. */
+/* Minimum and maximum without a branch; b where a is NaN. */
 static inline real least_of(real a, real b) {
   return a < b ? a : b;
 }
@@ -117,7 +118,7 @@ static inline void store4(real4 a, real* at) {
   ((loose4_t*)at)->lanes = a;
 }
 
-/* Numbers that carry a small index in their lowest bits, so that the least of many tells whose it is. */
+/* Puts a small index into the lowest bits of numbers, so that the least of many carries its own index. */
 #define TAG_BITS 9
 #define TAG_MASK ((lane_bits_t)((1 << TAG_BITS) - 1))
 static inline real8 tag8(real8 a, uint first) {
@@ -130,8 +131,9 @@ static inline real untagged(real a) {
   return AS_REAL(AS_INDEX(a) & ~TAG_MASK);
 }
 
-/* Of x, y, z. Not OpenCL's own dot and cross, whose rounding is the device's and may depend on where in a
-   launch a work-item is: proofs count roundings, and results are the same bits whatever the launch. */
+/* Dot and cross products of x, y, z. OpenCL does not define how its own dot and cross round, and that may
+   even depend on the place of a work-item in its launch; proofs count roundings, and results must have the
+   same bits in every launch. */
 static inline real dot3(real4 a, real4 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -1,4 +1,4 @@
-/* seed_t taken apart and put together, in the same words for both precisions. */
+/* Splits a seed_t into its parts and joins them again, alike for both precisions. */
 #ifndef POWERCELL_BASE_POINT
 #define POWERCELL_BASE_POINT
 #include "base/real.cl"
@@ -9,7 +9,7 @@ typedef struct {
   real low[4];
 } parts_t;
 
-/* Weight of a seed that takes no part: no bisector with it reaches any cell. */
+/* Weight of an inactive seed: no bisector with it reaches any cell. */
 #define DEAD_WEIGHT (-REAL_MAX / 4)
 
 #if REAL_BITS == 64
@@ -50,7 +50,7 @@ static inline ulong bits_of(real x) {
 }
 #endif
 
-/* Ascending with x, for x that is not NaN; 0 and -0 alike. Below 2^WEIGHT_KEY_BITS. */
+/* An integer below 2^WEIGHT_KEY_BITS that grows with x; equal for 0 and -0. x must not be NaN. */
 static inline ulong ordered_bits(real x) {
   const ulong sign = (ulong)1 << (WEIGHT_KEY_BITS - 1), bits = bits_of(x == 0 ? (real)0 : x);
   return (bits & sign) != 0 ? 2 * sign - 1 - bits : bits | sign;
@@ -63,7 +63,7 @@ static inline real exact_difference(real a, real b, real* low) {
   return d;
 }
 
-/* The same number with |low| at most half an ulp of high. */
+/* Restores |low| <= half an ulp of high; the sum stays the same. */
 static inline void normalize_parts(real* high, real* low) {
   const real sum = *high + *low;
   *low -= sum - *high;

@@ -1,7 +1,7 @@
-/* Scalar types, seeds and the few things that differ between precisions; with decide.cl, lanes.cl, point.cl
-   and neighbors/blocks.cl the only place of #if on them. Defines: REAL_BITS (32, 64), DIMENSION (of the
-   space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY and
-   OUTPUTS. */
+/* Scalar and seed types, and the constants and functions that depend on the precision. Only this file,
+   lanes.cl, point.cl and neighbors/blocks.cl test REAL_BITS. The host defines REAL_BITS (32, 64), DIMENSION
+   (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY
+   and OUTPUTS. */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
 #include "layout.h"
@@ -22,7 +22,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 /* UNROLL goes before loops over a few coordinates. Compilers that do not unroll on their own (PoCL's) would
-   keep what is indexed in memory; others may ignore it. */
+   keep indexed arrays in memory; others may ignore it. */
 #define UNROLL _Pragma("unroll")
 
 #ifndef VERTEX_CAPACITY
@@ -57,11 +57,24 @@ typedef struct {
 #endif
 typedef real stored_real;
 
-/* a - b by coordinates, and the difference of the weights (exact to the precision of the result
-   also far from the origin). */
-static inline real weight_difference(seed_t a, seed_t b);
-static inline void difference(seed_t a, seed_t b, real* d);
+/* Bounds of the proofs (docs/mathematics.md, "Certain decisions"), in which m is SEARCH_MARGIN. A search may
+   leave out a seed whose bisector clears every vertex by m / 16 of the radius of the cell. A cell goes to the
+   host if errors of the data move a wall more than MOST_BLUR times as far as rounding does, or if its measure
+   is below LEAST_FILLING of the square or cube of its radius and it goes on in no other region. QUICK_PROOF:
+   whether (84) is tried, for which floats are not exact enough. */
+#define QUICK_PROOF (REAL_BITS == 64)
+#if REAL_BITS == 32
+#define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
+#define LEAST_FILLING ((real)0.05)
+#define MOST_BLUR 1
+#else
+#define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_DOUBLE))
+#define LEAST_FILLING 0
+#define MOST_BLUR (REAL_MAX / 4)
+#endif
 
+/* The difference of two weights, and d = a - b by coordinates. Far from the origin too, both are exact to the
+   precision of the result. */
 #if REAL_BITS == 32
 static inline real weight_difference(seed_t a, seed_t b) {
   return (a.high.w - b.high.w) + (a.low.w - b.low.w);
@@ -83,8 +96,8 @@ static inline void difference(seed_t a, seed_t b, real* d) {
 }
 #endif
 
-/* By how much the differences of a seed from anything may be off beyond relative rounding: what two floats
-   leave out of coordinates and weights, and products that underflow. */
+/* Bounds b and b_w (docs/mathematics.md (82a)) for the errors of differences from a seed beyond relative
+   rounding: the parts of coordinates and weights that two floats cannot hold, and products that underflow. */
 typedef struct {
   real position, weight;
 } blur_t;
@@ -104,8 +117,7 @@ static inline blur_t blur_of(seed_t p) {
 }
 #endif
 
-/* What that makes of 2 q.y - |q|^2 - dw, of a plane with |q_1| + |q_2| + ... = sum and points no farther than
- * `reach`. */
+/* The error (82a) of 2 q.y - |q|^2 - dw due to `blur`, where |q_1| + |q_2| + ... = sum and |y| <= reach. */
 static inline real plane_blur(blur_t blur, real reach, real sum) {
   return 8 * blur.position * (reach + sum) + 2 * blur.weight;
 }

@@ -1,6 +1,6 @@
-// Small computations whose results are known: what the clipping kernels rest on, checked on each device
-// before it is believed (lib/cl/self_test_results.cpp computes the same on the host).
-// -D SELF_TEST_DOUBLE=1 where the device has double precision.
+// Small computations with known results, which test on each device the operations that the clipping kernels
+// rely on; lib/cl/self_test_results.cpp computes the same on the host. The host defines SELF_TEST_DOUBLE=1
+// where the device has double precision.
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifndef SELF_TEST_DOUBLE
@@ -12,7 +12,7 @@
 
 // operands: 3 per item (a, b, c; b > 0). results: 6 per item:
 // a*b + c rounded twice, fma(a, b, c), a/b, sqrt(b), -1 where NaN and infinity behave, a*b - b*a.
-// A macro, so that both precisions come in one program: a second one would double the time of the test.
+// A macro, so that one program serves both precisions: a second one would double the time of the test.
 #define ARITHMETIC(name, number)                                                                        \
   __kernel void name(__global const number* operands, __global number* results, uint count) {           \
     const uint i = get_global_id(0);                                                                    \

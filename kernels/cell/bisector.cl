@@ -7,7 +7,7 @@
 /* What lies behind a face with border `old` that lies in the bisector of `border` (docs/mathematics.md,
    "Walls in facets"): of two seeds the farther one; behind a facet of the region the new seed, unless
    the facet bounds the domain or, on a surface, the region behind it is on this side of the bisector. */
-static inline int border_behind(const cell_t* cell, int old, const real* q, real level, real tolerance,
+static inline int border_behind(const cell_t* cell, int old, const real* q, real offset, real tolerance,
                                 int border) {
   real p[DIMENSION];
   const seed_t seed = cell->at.seeds[cell->at.self];
@@ -20,7 +20,7 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
   if (behind == BEHIND_NOTHING) return old;
   if (DIMENSION == CELL_DIMENSION) return border;
   difference(cell->at.corner[behind], seed, p);
-  real s = -level;
+  real s = -offset;
   UNROLL for (int k = 0; k < DIMENSION; ++k) s += 2 * q[k] * p[k];
   return s > tolerance || (s >= -tolerance && (uint)border < cell->at.self) ? border : old;
 }
@@ -31,11 +31,11 @@ static inline int border_behind(const cell_t* cell, int old, const real* q, real
 
 /* For a cell that is empty since all of it is beyond the plane: how far, at least, or below 0 if that is not
    certain. The cell is no longer usable. */
-static inline real outside_gap(cell_t* cell, const real* q, real level, real sum, real error) {
+static inline real outside_gap(cell_t* cell, const real* q, real offset, real sum, real error) {
   real normal[DIMENSION];
   if (cell->at.gap <= TOUCHED_GAP) return -1;
   UNROLL for (int k = 0; k < DIMENSION; ++k) normal[k] = -q[k];
-  find_sides(&cell->at, normal, -level); /* free slots hold 0, which may be on the other side */
+  find_sides(&cell->at, normal, -offset); /* free slots hold 0, which may be on the other side */
   const real gap = (-most_of_used(&cell->at) - error) / (2 * sum);
   if (!(gap > 0)) return -1;
   const real moved = cell_certain(cell);

@@ -1,5 +1,6 @@
-/* The cell type of this variant: both define cell_t and the functions cell_... on it. What they include
-   themselves is included here first: the host expands an include once, also where #if leaves it out. */
+/* The cell type of this variant: polygon.cl and polyhedron.cl both define cell_t and its functions cell_...
+   This file includes their own includes first, since the host expands each include once, even inside an #if
+   that is false. */
 #ifndef POWERCELL_BASE_CELL
 #define POWERCELL_BASE_CELL
 #include "cell/certain.cl"

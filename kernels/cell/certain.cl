@@ -1,5 +1,28 @@
-/* What makes the outcome of a cell certain in spite of rounding (docs/mathematics.md, "Certain decisions"):
-   common to polygons and polyhedra. */
+/* clang-format off */
+/* Proofs that rounding did not change the shape of a cell (docs/mathematics.md, "Certain decisions"): the parts
+   common to polygons and polyhedra. L is the unit of length of the cell; symbols are those of (80)-(84).
+
+   name         unit    meaning                                               computed in                   symbol
+   radius       L       no vertex is farther from the seed                    find_radius2                  R
+   blur         L, L^2  errors of a coordinate and of a weight as stored      blur_of (base/real.cl)        b, b_w
+   doubt        L       error of a plane of unit normal within the radius     unit_plane, facet_plane       delta_f
+   y.w, side[]  L       error of a vertex solved from its planes              meeting_point, move_vertex    e_v
+   moved        L       largest error of a vertex as the cuts left it         move_vertex, cell_certain     max |y_v - y*_v|
+   drift        L       rounding of the new vertices of all cuts (floats:     note_drift                    drift
+                        of those since the first gap)
+   gap          L       least distance, minus rounding, of the vertices       note_gap, note_removed        min gap_j
+                        from the planes that cut nothing or whose faces
+                        are gone, except that of `closest`
+   closest_gap  L       the same of the bisector that came nearest            note_gap                      min gap_j
+   clear        L       the same of a vertex or the seed from                 note_cut                      min |s_j|/2|q_j|_1
+                        the planes that cut
+   rounding     L       largest residual of a vertex in a plane through it    note_cut                      r
+                        (quickly_certain adds corner_error and the drift)
+   steep        1       least squared sine of a bisector with an edge it cut  set_edge_point                kappa^2
+
+   Distances from planes are divided by |q|_1, which makes them lower bounds. (84) takes the least of gap,
+   closest_gap and clear; (82) compares moved + drift with gap, and with closest_gap or else vertex by vertex. */
+/* clang-format on */
 #ifndef POWERCELL_CLIP_CERTAIN
 #define POWERCELL_CLIP_CERTAIN
 #include "cell/vertices.cl"
@@ -16,8 +39,8 @@ static inline real corner_error(const vertices_t* p) {
   return 2 * (REAL_EPSILON * p->reach + p->blur.position);
 }
 
-/* At least the error of 2 q.y - level at the vertices as they are. `sum` = |q_1| + |q_2| + ..., q2 = q.q, dw
-   the difference of the weights. */
+/* A bound for the error of 2 q.y - offset at the vertices as computed. `sum` = |q_1| + |q_2| + ..., q2 = q.q,
+   dw the difference of the weights. */
 static inline real plane_error(const vertices_t* p, real sum, real q2, real dw) {
   return REAL_EPSILON * (8 * sum * p->radius + 4 * (q2 + fabs(dw))) + plane_blur(p->blur, p->radius, sum);
 }
@@ -31,15 +54,15 @@ static inline real most_of_used(const vertices_t* p) {
   return most;
 }
 
-/* After a cut: its vertices lie between those before it but for rounding. The proof from the end asks for
-   that only since there has been a gap. */
+/* Adds the rounding of a cut: apart from it, the new vertices lie between the old ones. The proof from the
+   end needs the drift only since the first gap. */
 static inline void note_drift(vertices_t* p) {
   if (QUICK_PROOF || least_of(p->gap, p->closest_gap) < REAL_MAX / 8)
     p->drift += 2 * REAL_EPSILON * p->radius;
 }
 
-/* Notes how near a plane that cuts, or that all vertices are outside of, comes to the vertices, after
- * count_sides. */
+/* Updates `clear` and `rounding` for a plane that cuts the cell or leaves nothing of it. To be called after
+   count_sides. */
 static inline void note_cut(vertices_t* p, real sum, real error) {
   const real scale = 1 / (2 * sum), clear = (p->nearest - error) * scale;
   error += 12 * REAL_EPSILON * sum * p->radius; /* of the ratio in set_edge_point */
@@ -47,8 +70,7 @@ static inline void note_cut(vertices_t* p, real sum, real error) {
   p->rounding = most_of(error * scale, p->rounding);
 }
 
-/* Whether no decision about the cell came so near that rounding may have made it, by the worst of everything
-   on the way (docs/mathematics.md (84)). */
+/* Whether (84) holds: by the worst bounds over all cuts, rounding has made no decision. */
 static inline bool quickly_certain(const vertices_t* p) {
   const real rounding = p->rounding + corner_error(p) + p->drift;
   const real gap = fmin(fmin(p->gap, p->closest_gap), p->clear);
@@ -56,10 +78,10 @@ static inline bool quickly_certain(const vertices_t* p) {
   return QUICK_PROOF && 16 * rounding < steep * fmin(gap, SEARCH_MARGIN / 16 * p->radius);
 }
 
-/* Notes how near the plane 2 q.y = level of `border`, which cuts nothing, comes to the vertices, after
+/* Updates the gaps for the plane 2 q.y = offset of `border`, which cuts nothing. To be called after
  * find_sides. */
-static inline void note_gap(vertices_t* p, real sum, real level, real error, int border) {
-  const real clear = -(level < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -level */
+static inline void note_gap(vertices_t* p, real sum, real offset, real error, int border) {
+  const real clear = -(offset < 0 ? most_of_used(p) : p->most) - error; /* free slots count as -offset */
   const real gap = clear / (2 * sum);
   const bool closest = gap < p->closest_gap && border >= 0 && border < BORDER_PLANE;
   p->gap = least_of(closest ? p->closest_gap : gap, p->gap);
@@ -67,8 +89,8 @@ static inline void note_gap(vertices_t* p, real sum, real level, real error, int
   p->closest = closest ? border : p->closest;
 }
 
-/* The same for the plane of a face that has gone: 2 q.y = level, with q in x, y, z and the level in w. */
-static inline void note_gone(vertices_t* p, real4 raw, real sum, real error, int border) {
+/* The same for the plane of a removed face: 2 q.y = offset, with q in x, y, z and the offset in w. */
+static inline void note_removed(vertices_t* p, real4 raw, real sum, real error, int border) {
   real normal[DIMENSION];
   if (raw.w - error - 2 * sum * p->radius >= 2 * sum * p->gap) return;
   normal[0] = raw.x;
@@ -78,16 +100,17 @@ static inline void note_gone(vertices_t* p, real4 raw, real sum, real error, int
   note_gap(p, sum, raw.w, error, border);
 }
 
-/* Of a bisector. Its level alone does not tell its error: a square and weights may have cancelled there. */
-static inline void note_gone_bisector(vertices_t* p, real4 raw, int border) {
+/* The same for a bisector. Its error does not follow from its offset, in which |q|^2 and weights may cancel.
+ */
+static inline void note_removed_bisector(vertices_t* p, real4 raw, int border) {
   const real sum = fabs(raw.x) + fabs(raw.y) + fabs(raw.z),
              q2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
-  note_gone(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
+  note_removed(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
 }
 
-/* A raw plane (q, level) of 2 q.y = level, q and level within rounding, as one of unit normal. Where the data
-   leave it open by more than rounding does nothing about it is certain: a cell would have fewer digits than
-   it may have. */
+/* Scales the plane (q, offset) of 2 q.y = offset, known to rounding, to a unit normal. Where the errors of
+   the data exceed rounding, the doubt is so large that nothing about the plane is certain: the host then
+   computes the cell to more digits. */
 static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   certain_plane_t unit;
   const real size = sqrt(raw.x * raw.x + raw.y * raw.y + raw.z * raw.z), scale = 1 / size;
@@ -99,7 +122,7 @@ static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   return unit;
 }
 
-/* 2 q.y = level of the bisector with seed `other`. */
+/* The plane (q, offset) of 2 q.y = offset, the bisector with seed `other` (3). */
 static inline real4 raw_bisector(const vertices_t* p, int other) {
   const seed_t seed = p->seeds[p->self], there = p->seeds[other];
   real q[DIMENSION];
@@ -136,16 +159,17 @@ static inline real4 raw_plane(certain_plane_t unit) {
   return make_real4(unit.plane.x, unit.plane.y, unit.plane.z, 2 * unit.plane.w);
 }
 
-/* Notes the gap to a facet of the region that has gone. */
-static inline void note_gone_facet(vertices_t* p, certain_plane_t facet, int border) {
+/* The same for a removed facet of the region. */
+static inline void note_removed_facet(vertices_t* p, certain_plane_t facet, int border) {
   const real sum = fabs(facet.plane.x) + fabs(facet.plane.y) + fabs(facet.plane.z);
   const real error = REAL_EPSILON * (8 * sum * p->radius + 8 * fabs(facet.plane.w)) + 2 * sum * facet.doubt;
-  note_gone(p, raw_plane(facet), sum, error, border);
+  note_removed(p, raw_plane(facet), sum, error, border);
 }
 
-/* The point of three planes, and at least its error in w; below 0 if the planes are nearly dependent, or not
-   oriented as at a vertex of a cell. The nearer to it `from` is (w: 0), the nearer it comes to each plane: of
-   planes nearly dependent a point off by its error along their common line still bounds the right measure. */
+/* Solves for the point where three planes meet; w is its error (80), below 0 if the planes are nearly
+   dependent or not oriented as at a vertex of a cell. `from` (w: 0) is an estimate: the nearer it is, the
+   nearer the result lies to each plane. For nearly dependent planes it may be off along their common line
+   only, which keeps the measure right. */
 static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane_t a, certain_plane_t b,
                                   certain_plane_t c) {
   const real4 bc = cross3(b.plane, c.plane), ca = cross3(c.plane, a.plane), ab = cross3(a.plane, b.plane);
@@ -160,8 +184,8 @@ static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane
   return y;
 }
 
-/* Puts vertex v at y with the error y.w, which side[v] keeps; returns at least the distance of where it was
-   from the true one. */
+/* Moves vertex v to y and stores its error y.w in side[v]. Returns a bound for the distance of its former
+   place from the true one. */
 static inline real move_vertex(vertices_t* p, int v, real4 y) {
   const real x[3] = {y.x, y.y, y.z};
   real moved = y.w;
@@ -179,8 +203,7 @@ static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_p
   return s < -(error + plane.doubt + 4 * REAL_EPSILON * (p->radius + fabs(plane.plane.w)));
 }
 
-/* Whether each vertex is inside the bisector of `closest`, by its own error (side[]) and not the worst of
- * all. */
+/* Whether each vertex, with its own error (side[]), is inside the bisector of `closest`. */
 static inline bool closest_is_clear(const vertices_t* p) {
   const certain_plane_t plane = unit_plane(p, raw_bisector(p, p->closest));
   for (int w = 0; w < words_of(p); ++w)

@@ -4,18 +4,18 @@
 #define POWERCELL_CLIP_POLYGON
 #include "cell/certain.cl"
 
-/* Edges gone that are kept in mind. */
-#define GONE_MOST 24
+/* Capacity of the list of removed edges. */
+#define REMOVED_CAPACITY 24
 
 typedef struct {
   vertices_t at;
   index_t next[VERTEX_CAPACITY];
   index_t previous[VERTEX_CAPACITY];
   int border[VERTEX_CAPACITY];
-  real4 line[VERTEX_CAPACITY]; /* (q, level) of the bisector of an edge; see cell_certain */
-  real doubt[VERTEX_CAPACITY]; /* for cell_certain */
-  int gone[GONE_MOST];         /* what was behind edges that are no more */
-  int gone_count;
+  real4 line[VERTEX_CAPACITY];   /* (q, offset) of the bisector of an edge; see cell_certain */
+  real doubt[VERTEX_CAPACITY];   /* for cell_certain */
+  int removed[REMOVED_CAPACITY]; /* borders of removed edges */
+  int removed_count;
   int corners; /* of the region */
   int first;   /* some vertex */
 } cell_t;
@@ -34,13 +34,13 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   start_vertices(&cell->at, regions, seeds, self, regions.vertex + first, regions.behind + first);
   cell->first = 0;
   cell->corners = count;
-  cell->gone_count = 0;
+  cell->removed_count = 0;
   set_corners(&cell->at, count);
   for (int v = 0; v < count; ++v) {
     cell->border[v] = ~v;
     link_vertices(cell, v, v + 1 == count ? 0 : v + 1);
   }
-  return PIECE_WHOLE;
+  return PIECE_DONE;
 }
 
 /* The plane that the cell lies in. */
@@ -67,29 +67,29 @@ static inline certain_plane_t edge_line(const cell_t* cell, int v, real4 ground)
                              : unit_plane(&cell->at, cell->line[v]);
 }
 
-/* What edge f lies in: 2 q.y = level. */
-static inline void set_face_plane(cell_t* cell, int f, const real* q, real level) {
-  cell->line[f] = make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, level);
+/* What edge f lies in: 2 q.y = offset. */
+static inline void set_face_plane(cell_t* cell, int f, const real* q, real offset) {
+  cell->line[f] = make_real4(q[0], q[1], DIMENSION == 3 ? q[DIMENSION - 1] : 0, offset);
 }
 
 /* Keeps what was behind the edges that have both ends outside the last cut; they are still linked. */
 static inline void forget_edges(cell_t* cell, int first, int last) {
   for (int v = first; v != last; v = cell->next[v]) {
-    if (cell->gone_count < GONE_MOST) cell->gone[cell->gone_count] = cell->border[v];
-    ++cell->gone_count;
+    if (cell->removed_count < REMOVED_CAPACITY) cell->removed[cell->removed_count] = cell->border[v];
+    ++cell->removed_count;
   }
 }
 
-/* Notes the gaps to the lines of edges that have gone. Where they are too many to have been kept, nothing is
-   certain. */
-static inline void note_gone_edges(cell_t* cell) {
-  if (cell->gone_count > GONE_MOST) cell->at.gap = -1;
-  for (int k = 0; k < min(cell->gone_count, GONE_MOST); ++k) {
-    const int border = cell->gone[k];
+/* Updates the gaps for the lines of removed edges. If there were more than the list holds, nothing is
+ * certain. */
+static inline void note_removed_edges(cell_t* cell) {
+  if (cell->removed_count > REMOVED_CAPACITY) cell->at.gap = -1;
+  for (int k = 0; k < min(cell->removed_count, REMOVED_CAPACITY); ++k) {
+    const int border = cell->removed[k];
     if (border < 0) {
-      note_gone_facet(&cell->at, facet_line(cell, ~border, ground_plane(cell).plane), border);
+      note_removed_facet(&cell->at, facet_line(cell, ~border, ground_plane(cell).plane), border);
     } else {
-      note_gone_bisector(&cell->at, raw_bisector(&cell->at, border), border);
+      note_removed_bisector(&cell->at, raw_bisector(&cell->at, border), border);
     }
   }
 }
@@ -110,10 +110,10 @@ static inline bool find_run(const cell_t* cell, int* first, int* last) {
   return firsts == 1 && lasts == 1;
 }
 
-/* Keeps the part with 2 q.y <= level. Vertices within the tolerance of the line are kept,
+/* Keeps the part with 2 q.y <= offset. Vertices within the tolerance of the line are kept,
    unless nothing else is. Returns a CUT code; after CUT_TOUCH side[] holds. */
-static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
-  if (find_sides(&cell->at, q, level) < -tolerance) return CUT_NONE;
+static inline int cell_cut(cell_t* cell, const real* q, real offset, real tolerance, int border) {
+  if (find_sides(&cell->at, q, offset) < -tolerance) return CUT_NONE;
   int inside, vertices, first = 0, last = 0;
   const int outside = count_sides(&cell->at, tolerance, &vertices, &inside);
   if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
@@ -127,7 +127,7 @@ static inline int cell_cut(cell_t* cell, const real* q, real level, real toleran
   if (b < 0) return CUT_FULL;
   set_edge_point(&cell->at, b, after, last);
   cell->border[a] = border;
-  set_face_plane(cell, a, q, level);
+  set_face_plane(cell, a, q, offset);
   cell->border[b] = cell->border[last];
   cell->line[b] = cell->line[last];
   link_vertices(cell, before, a);
@@ -231,7 +231,7 @@ static inline void triangle_moments(const cell_t* cell, int a, int b, int c, rea
 
 /* Before cell_certain, with `note`. */
 static inline void cell_finish(cell_t* cell, bool note) {
-  if (note) note_gone_edges(cell);
+  if (note) note_removed_edges(cell);
 }
 
 /* Whether the cell may go on in other regions. */

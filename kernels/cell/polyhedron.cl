@@ -12,10 +12,10 @@ typedef struct {
   int border[FACE_CAPACITY];
   index_t mark[FACE_CAPACITY];  /* NO_VERTEX between cuts */
   real4 point[VERTEX_CAPACITY]; /* for cell_certain, then for the moments */
-  real4 normal[FACE_CAPACITY];  /* of the bisectors (q, level) until cell_moments, then of the faces */
+  real4 normal[FACE_CAPACITY];  /* of the bisectors (q, offset) until cell_moments, then of the faces */
   real doubt[FACE_CAPACITY];    /* for cell_certain */
   __global const region_shape_t* shape; /* of the region */
-  int faces;                            /* face numbers given out; some may no longer be in use */
+  int faces;                            /* face numbers assigned; some may be unused */
 } cell_t;
 
 /* The region as the cell of seed `self`. Returns a PIECE status. */
@@ -35,7 +35,7 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   }
   for (int f = 0; f < cell->faces; ++f) cell->border[f] = ~f;
   for (int f = 0; f < FACE_CAPACITY; ++f) cell->mark[f] = NO_VERTEX;
-  return PIECE_WHOLE;
+  return PIECE_DONE;
 }
 
 /* The plane of facet `f` of the region, by a corner and the two edges beside it that the shape puts f
@@ -58,18 +58,18 @@ static inline certain_plane_t face_plane(const cell_t* cell, int f) {
   return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]) : unit_plane(&cell->at, cell->normal[f]);
 }
 
-/* What face f lies in: 2 q.y = level. */
-static inline void set_face_plane(cell_t* cell, int f, const real* q, real level) {
-  cell->normal[f] = make_real4(q[0], q[1], q[DIMENSION - 1], level);
+/* What face f lies in: 2 q.y = offset. */
+static inline void set_face_plane(cell_t* cell, int f, const real* q, real offset) {
+  cell->normal[f] = make_real4(q[0], q[1], q[DIMENSION - 1], offset);
 }
 
 /* Before the number of a face that no vertex has is given out again. */
 static inline void forget_face(cell_t* cell, int f) {
   const int border = cell->border[f];
   if (border < 0) {
-    note_gone_facet(&cell->at, region_plane(cell, ~border), border);
+    note_removed_facet(&cell->at, region_plane(cell, ~border), border);
   } else {
-    note_gone_bisector(&cell->at, cell->normal[f], border);
+    note_removed_bisector(&cell->at, cell->normal[f], border);
   }
 }
 
@@ -149,7 +149,7 @@ static inline int list_cut_edges(const cell_t* cell, int w, uchar* edge) {
   return count;
 }
 
-/* Cuts all edges from vertices outside to others, and links what is new. */
+/* Cuts all edges from vertices outside to others, and links the new vertices. */
 static inline int cut_outside(cell_t* cell, int cut) {
   int count = 0, u = 0;
   uchar edge[3 * WORD_BITS];
@@ -166,23 +166,23 @@ static inline int cut_outside(cell_t* cell, int cut) {
   return count == 0 ? CUT_TANGLED : link_cut(cell, u, count);
 }
 
-/* Keeps the part with 2 q.y <= level. Vertices within the tolerance of the plane are kept,
+/* Keeps the part with 2 q.y <= offset. Vertices within the tolerance of the plane are kept,
    unless nothing else is. Returns a CUT code; after CUT_FULL and CUT_TANGLED the cell is no longer
    usable, after CUT_TOUCH side[] holds. */
-static inline int cell_cut(cell_t* cell, const real* q, real level, real tolerance, int border) {
-  if (find_sides(&cell->at, q, level) < -tolerance) return CUT_NONE;
+static inline int cell_cut(cell_t* cell, const real* q, real offset, real tolerance, int border) {
+  if (find_sides(&cell->at, q, offset) < -tolerance) return CUT_NONE;
   int inside, vertices;
   const int outside = count_sides(&cell->at, tolerance, &vertices, &inside);
   if (inside == 0) return outside > 0 ? CUT_EMPTY : CUT_WITHIN;
   if (outside == 0) return vertices - inside >= CELL_DIMENSION ? CUT_TOUCH : CUT_NONE;
   if (cell->faces == FACE_CAPACITY) {
     collect_faces(cell, true);
-    find_sides(&cell->at, q, level);
+    find_sides(&cell->at, q, offset);
   }
   if (cell->faces == FACE_CAPACITY) return CUT_FULL;
   const int cut = cell->faces++;
   cell->border[cut] = border;
-  set_face_plane(cell, cut, q, level);
+  set_face_plane(cell, cut, q, offset);
   const int result = cut_outside(cell, cut);
   if (result != CUT_SHRUNK) return result;
   drop_outside(&cell->at);

@@ -2,7 +2,6 @@
    have in common. A slot is a vertex or free; free slots of the blocks in use hold 0. */
 #ifndef POWERCELL_CLIP_VERTICES
 #define POWERCELL_CLIP_VERTICES
-#include "base/decide.cl"
 #include "base/lanes.cl"
 #include "base/regions.cl"
 
@@ -110,10 +109,10 @@ static inline void drop_outside(vertices_t* p) {
   }
 }
 
-/* side[v] = 2 q.y_v - level for all slots; returns the largest (that of free slots is -level). */
-static inline real find_sides(vertices_t* p, const real* q, real level) {
+/* side[v] = 2 q.y_v - offset for all slots; returns the largest (that of free slots is -offset). */
+static inline real find_sides(vertices_t* p, const real* q, real offset) {
   real8 most = all_lanes(-REAL_MAX), a[DIMENSION];
-  const real8 l = all_lanes(level);
+  const real8 l = all_lanes(offset);
   UNROLL for (int k = 0; k < DIMENSION; ++k) a[k] = all_lanes(2 * q[k]);
   for (int b = 0; b < p->blocks; ++b) {
     real8 s = a[0] * load8(p->x[0] + b * LANES);

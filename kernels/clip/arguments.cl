@@ -1,4 +1,4 @@
-/* The arguments that clip kernels share, and what is made of them. */
+/* The arguments that all clip kernels share, and the structs made from them. */
 #ifndef POWERCELL_CLIP_ARGUMENTS
 #define POWERCELL_CLIP_ARGUMENTS
 #include "clip/write.cl"
@@ -16,7 +16,7 @@
 #define OUTPUT_OF_ARGUMENTS \
   { moments, faces, border, wall, vertices, vertex, link }
 
-/* Of the kernels that search the packed tree (TreeBlocks::set_arguments). */
+/* Of the kernels that search the packed tree (TreeBlocks::append_arguments). */
 #define TREE_ARGUMENTS                                                                       \
   __global const seed_t *seeds, const uint seed_count, __global const seed_t *node_low,      \
       __global const seed_t *node_high, __global const uint *level_offset, const int levels, \

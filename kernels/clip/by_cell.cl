@@ -37,7 +37,7 @@ static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint
       if (cut > CUT_SHRUNK) return piece_status(cut);
     }
   }
-  return PIECE_WHOLE;
+  return PIECE_DONE;
 }
 
 /* Cuts by planes of the boundary of the domain: rows of q (3), dw, and how far the plane may be off
@@ -50,7 +50,7 @@ static inline int clip_by_planes(cell_t* cell, __global const stored_real* plane
     const int cut = cut_by_plane(cell, q, plane[3], BORDER_PLANE + (int)k);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
-  return PIECE_WHOLE;
+  return PIECE_DONE;
 }
 
 /* The neighbours of rank i are neighbor[wall_offset[i]] and on; none if the cell has not been clipped.
@@ -68,11 +68,11 @@ __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS, __global cons
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
-  if (result == PIECE_WHOLE)
+  if (result == PIECE_DONE)
     result = walls == 0 || walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)
                                               : clip_by_walls(&cell, seeds, i, neighbor + first, walls);
   const uint first_plane = plane_offset[i];
-  if (result == PIECE_WHOLE)
+  if (result == PIECE_DONE)
     result =
         clip_by_planes(&cell, plane + (size_t)first_plane * PLANE_REALS, plane_offset[i + 1] - first_plane);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);

@@ -18,11 +18,11 @@ __kernel void clip_by_list_kernel(PIECE_ARGUMENTS, __global const seed_t* seeds,
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
   list_use_t use = {0, 0};
-  if (result == PIECE_WHOLE) result = clip_by_list(&cell, lists, i, active_list[row], &use);
+  if (result == PIECE_DONE) result = clip_by_list(&cell, lists, i, active_list[row], &use);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
   if (OUTPUTS & OUTPUT_LIST_USE) {
     list_use[3 * row] = use.tried;
     list_use[3 * row + 1] = use.cuts;
-    list_use[3 * row + 2] = result == PIECE_WHOLE || result == PIECE_EMPTY;
+    list_use[3 * row + 2] = result == PIECE_DONE || result == PIECE_EMPTY;
   }
 }

@@ -12,6 +12,6 @@ __kernel void clip_by_tree_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS) {
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
-  if (result == PIECE_WHOLE) result = clip_by_tree(&cell, tree, blocks, i);
+  if (result == PIECE_DONE) result = clip_by_tree(&cell, tree, blocks, i);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

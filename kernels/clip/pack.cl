@@ -1,4 +1,4 @@
-/* Puts rows of a fixed capacity one after the other, so that only what is in them goes to the host. */
+/* Compacts rows of a fixed capacity, so that the host reads only the used entries. */
 
 /* Work-item t moves row t: offset[t + 1] - offset[t] entries of `words` 32-bit words each, from row t of
    `capacity` entries to entry offset[t]. */

@@ -27,7 +27,7 @@ static inline bool cell_is_flat(const cell_t* cell, real measure) {
 /* Whether a piece that nothing can cut any more is what it would be without rounding: its own shape is
    certain, and no plane that cut nothing comes nearer than its vertices may be off. Its vertices are better
    afterwards. */
-static inline bool whole_is_certain(cell_t* cell) {
+static inline bool done_is_certain(cell_t* cell) {
   if (!(cell->at.gap > 0))
     return false; /* before vertices move: a face that was touched has no plane to put them in */
   const real moved = cell_certain(cell), off = moved + cell->at.drift;
@@ -48,11 +48,11 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
   real moments[2 + DIMENSION];
   bool certain = cell->at.gap > 0;
   UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
-  if (status == PIECE_WHOLE) {
+  if (status == PIECE_DONE) {
     find_radius2(&cell->at);
     certain = quickly_certain(&cell->at);
     cell_finish(cell, !certain);
-    certain = certain || whole_is_certain(cell);
+    certain = certain || done_is_certain(cell);
     cell_moments(cell, moments);
     certain = certain && measure_is_good(cell, moments[0]);
     if (cell_is_flat(cell, moments[0])) {

@@ -1,6 +1,6 @@
-// What a device reaches at best: how fast it copies memory, and how fast it multiplies and adds. Both
-// results are known exactly, so that a launch that was not carried out cannot pass for a fast one.
-// REAL_BITS: 32 or 64. Contraction is allowed here: nothing is decided by these numbers.
+// Measures the highest rates of a device: copying memory, and multiplying and adding. Both results are known
+// exactly, so that a launch that did not run cannot pass for a fast one. The host defines REAL_BITS (32, 64).
+// Contraction is allowed here, since no side is decided.
 #pragma OPENCL FP_CONTRACT ON
 
 #ifndef REAL_BITS

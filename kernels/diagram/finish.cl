@@ -6,7 +6,7 @@
 /* Pieces that rounding may have decided count as they are. */
 static inline bool is_finished(uint status) {
   const uint piece = status & ~(uint)PIECE_UNCERTAIN;
-  return piece == PIECE_WHOLE || piece == PIECE_EMPTY || piece == PIECE_FLAT;
+  return piece == PIECE_DONE || piece == PIECE_EMPTY || piece == PIECE_FLAT;
 }
 
 /* Sums over the pairs of rank t, in their order. Returns the status of the seed. */

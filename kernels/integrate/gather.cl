@@ -4,17 +4,16 @@
 
 #define MOMENTS (2 + DIMENSION)
 
-/* The sum decides whether its loop goes on (a sum that is no number stays one), so that it is taken in this
-   order: Intel's compiler adds up loops that are plain sums in another where it has no vector of work-items,
-   without being told to. */
+/* The loop ends early if the sum is NaN, which changes no result but keeps this order: Intel's compiler
+   reorders loops that are plain sums where it does not vectorise over work-items. */
 static inline stored_real add_column(stored_real sum, __global const stored_real* moments, uint first,
                                      uint end, uint column) {
   for (uint pair = first; pair < end && sum == sum; ++pair) sum += moments[(size_t)pair * MOMENTS + column];
   return sum;
 }
 
-/* Work-item t adds the pairs offset[t] .. offset[t+1] of the chunk into row t of `sums`. Where
-   `goes_on`, row 0 begins with the sum of the chunk before. */
+/* Work-item t adds the pairs offset[t] .. offset[t+1] of the chunk into row t of `sums`. If
+   `goes_on`, row 0 starts from the sum `before` that the previous chunk has left for the same seed. */
 __kernel void gather(const uint count, __global const uint* offset, const int goes_on,
                      __global const stored_real* before, __global const stored_real* moments,
                      __global stored_real* sums) {

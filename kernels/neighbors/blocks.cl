@@ -18,11 +18,12 @@
 #define NOBODY (-REAL_MAX / 4)
 
 typedef struct {
-  __global const stored_real* seeds;      /* per leaf */
-  __global const stored_real* nodes;      /* per node above the leaves: its children */
-  __global const uint* near;              /* per leaf: NEAR_MOST leaves (near.cl) */
-  __global const uint* near_count;        /* per leaf */
-  __global const stored_real* near_bound; /* per leaf: lifted distance of what is not near */
+  __global const stored_real* seeds; /* per leaf */
+  __global const stored_real* nodes; /* per node above the leaves: its children */
+  __global const uint* near;         /* per leaf: NEAR_MOST leaves (near.cl) */
+  __global const uint* near_count;   /* per leaf */
+  __global const stored_real*
+      near_bound; /* per leaf: least lifted distance of a seed outside the near leaves, (10b) */
 } blocks_t;
 
 /* A point that lanes are taken relative to. */

@@ -16,7 +16,7 @@ __kernel void pack_blocks(const uint leaves, const uint nodes, __global const se
   pack_node_block(tree, t - (level_offset[level] - leaves), level, node_block);
 }
 
-/* Work-item t lists what is near leaf t. */
+/* Work-item t lists the near leaves of leaf t, (10a). */
 __kernel void list_near(const uint leaves, __global const seed_t* seeds, const uint seed_count,
                         __global const seed_t* node_low, __global const seed_t* node_high,
                         __global const uint* level_offset, const int levels,

@@ -1,18 +1,19 @@
-/* Which of eight seeds or nodes may cut a cell, by its box, or closer and dearer by its vertices: for the
-   long thin cells that seeds on a surface have, whose boxes meet almost everything. What is left out clears
-   the cell by SEARCH_MARGIN / 16 of its radius (docs/mathematics.md, "Certain decisions"). */
+/* Tests which of eight seeds or nodes may cut a cell: by its box (docs/mathematics.md (9), (10)) or, tighter
+   and more expensive, by its vertices (9a). The second serves the long thin cells of seeds on a surface,
+   whose boxes meet almost everything. A seed that is excluded clears the cell by SEARCH_MARGIN / 16 of its
+   radius (docs/mathematics.md, "Certain decisions"). */
 #ifndef POWERCELL_NEIGHBORS_EXCLUDE
 #define POWERCELL_NEIGHBORS_EXCLUDE
 #include "cell/bisector.cl"
 
-/* Seeds nearer than this are hardly told apart from the cell's own: searches keep them, for decisions about
-   them not to be certain (docs/mathematics.md (82a)). */
+/* The resolution of the data (docs/mathematics.md (82a)). Searches never exclude seeds nearer than this, so
+   that they are tried and found uncertain. */
 static inline real resolution_of(const vertices_t* p) {
   return 32 / SEARCH_MARGIN * p->blur.position + sqrt(REAL_LEAST);
 }
 
-/* Of the eight seeds at q, over the corner of the box [low, high] that is worst (docs/mathematics.md (10)).
-   Those with the box just in their bisector count. */
+/* The seeds among eight at q whose bisectors may cut the box [low, high], by its worst corner
+   (docs/mathematics.md (10)). A bisector that only touches the box counts. */
 static inline mask8 seeds_may_cut(const real8* q, real8 dw, real resolution, const real* low,
                                   const real* high) {
   real8 reach = ZERO8, q2 = ZERO8, sum = all_lanes(resolution);
@@ -27,7 +28,7 @@ static inline mask8 seeds_may_cut(const real8* q, real8 dw, real resolution, con
   return reach + reach + size * all_lanes(SEARCH_MARGIN / 8) > q2 + dw;
 }
 
-/* The same over the vertices: (3) does not hold for some vertex. */
+/* The same by the vertices: some vertex violates (3). */
 static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
   real8 reach = all_lanes(-REAL_MAX), q2 = ZERO8, sum = all_lanes(resolution_of(p));
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
@@ -45,14 +46,14 @@ static inline mask8 seeds_cut(const vertices_t* p, const real8* q, real8 dw) {
   return reach + reach + size * all_lanes(SEARCH_MARGIN / 8) > q2 + dw;
 }
 
-/* At least what keeps a node with seeds at |q|_1 <= far clear of a cell of radius `radius`, if the lengths
-   per axis have squares that add up to `squares`: the margin of a seed, and the rounding of the squares. */
+/* The margin that a node with seeds at |q|_1 <= far must keep from a cell of radius `radius`: that of a seed,
+   plus the rounding of squared lengths that add up to `squares`. */
 static inline real8 node_margin(real8 far, real radius, real8 squares) {
   return far * all_lanes(SEARCH_MARGIN / 4 * radius) + squares * all_lanes(16 * REAL_EPSILON);
 }
 
-/* Of the eight nodes with boxes [a, b]: the least value of |y-p_j|^2 - w_j - |y|^2 + w_i over the cell's box
-   and the seeds j of the node is below 0 (docs/mathematics.md (9)). */
+/* The nodes among eight with boxes [a, b] for which the minimum of |y-p_j|^2 - w_j - |y|^2 + w_i, over the
+   cell's box and the seeds j of the node, is below 0 (docs/mathematics.md (9)). */
 static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, real resolution, const real* low,
                                   const real* high) {
   real8 value = dw, squares = size8(dw), far = all_lanes(resolution);
@@ -70,7 +71,7 @@ static inline mask8 nodes_may_cut(const real8* a, const real8* b, real8 dw, real
   return value < node_margin(far, radius, squares);
 }
 
-/* The same over the vertices (docs/mathematics.md (9a)). */
+/* The same by the vertices (docs/mathematics.md (9a)). */
 static inline mask8 nodes_cut(const vertices_t* p, const real8* a, const real8* b, real8 dw) {
   real8 most = all_lanes(-REAL_MAX), squares = size8(dw), far = all_lanes(resolution_of(p));
   UNROLL for (int k = 0; k < DIMENSION; ++k) {

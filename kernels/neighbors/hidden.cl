@@ -1,23 +1,25 @@
-/* Seeds that have no cell in a box, proved without clipping: DIMENSION + 1 others beat such a seed everywhere
-   (docs/mathematics.md, "Hidden seeds"). They are found by the simplex method over the seeds nearby. */
+/* Finds seeds without a cell in a box, without clipping: DIMENSION + 1 other seeds together prove that no
+   point of the box is the seed's (docs/mathematics.md (10c)). The simplex method finds them among the seeds
+   nearby (10d). */
 #include "neighbors/nearest.cl"
 
-/* Leaves whose seeds are asked. Of 48 and 52 hidden seeds among 100 (white, W2) 4, 6 and 8 leaves find 34, 44
-   and 47 in the plane, 8, 12 and 16 find 35, 44 and 48 in space. */
+/* Leaves whose seeds are rivals. Of 48 and 52 hidden seeds among 100 (white, W2) 4, 6 and 8 leaves find 34,
+   44 and 47 in the plane, 8, 12 and 16 find 35, 44 and 48 in space. */
 #define RIVAL_LEAVES (DIMENSION == 3 ? 12 : 6)
 #define RIVALS (RIVAL_LEAVES * LANES)
 #define ROWS (DIMENSION + 1)
-/* Steps after which a seed is left to clipping: most that are hidden need 4 to 8. */
+/* Steps after which clipping decides about a seed: most hidden ones need 4 to 8. */
 #define PIVOTS_MOST 12
-/* Distance of the planes of the first basis from the seed, in units of the farthest rival's, over the length
-   of their normals. Nearer ones save steps until they hide that a seed is hidden. */
+/* Distance of the planes of the first basis from the seed, in units of the farthest rival's distance over the
+   length of their normals before scaling (start_basis). Nearer planes save steps, but planes that are too
+   near make hidden seeds go unnoticed. */
 #define START_RADIUS ((real)1)
 
-/* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and level_j = |q_j|^2 + w_i - w_j, so that no
-   point p_i + y with q_j.(2y) > level_j is i's. */
+/* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and offset_j = |q_j|^2 + w_i - w_j, so that no
+   point p_i + y with q_j.(2y) > offset_j is i's. */
 typedef struct {
   real q[DIMENSION][RIVALS];
-  real level[RIVALS];
+  real offset[RIVALS];
   real extent; /* no q_j is longer */
   int leaves;
 } rivals_t;
@@ -28,14 +30,14 @@ typedef struct {
 typedef struct {
   real inverse[ROWS][4];
   real q[ROWS][DIMENSION];
-  real level[ROWS];
-  real proof[ROWS]; /* the same of a rival; of a plane of the simplex the least level that all of the box is
+  real offset[ROWS];
+  real proof[ROWS]; /* the same of a rival; of a plane of the simplex the least offset that all of the box is
                        within */
-  real dual[ROWS];  /* (2y, t): the point y at which all of the basis have the same value level - q.(2y), and
+  real dual[ROWS];  /* (2y, t): the point y at which all of the basis have the same value offset - q.(2y), and
                        that */
 } basis_t;
 
-/* The box relative to p_i, and what two floats leave out there. */
+/* The box relative to p_i, and the errors of the data there. */
 typedef struct {
   real low[DIMENSION], high[DIMENSION];
   real size; /* largest sum of coordinates */
@@ -52,11 +54,11 @@ static inline room_t room_of(seed_t seed, __global const seed_t* box) {
   return room;
 }
 
-/* At least the error of 2 q.y - level over the box, as plane_error of clip/certain.cl. */
-static inline real rival_error(const room_t* room, const real* q, real level) {
+/* A bound for the error of 2 q.y - offset over the box, like plane_error of cell/certain.cl. */
+static inline real rival_error(const room_t* room, const real* q, real offset) {
   real sum = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) sum += fabs(q[k]);
-  return REAL_EPSILON * (8 * sum * room->size + 8 * norm2(q) + 4 * fabs(level)) +
+  return REAL_EPSILON * (8 * sum * room->size + 8 * norm2(q) + 4 * fabs(offset)) +
          plane_blur(room->blur, room->size, sum);
 }
 
@@ -67,22 +69,22 @@ static inline bool find_rivals(rivals_t* rivals, blocks_t blocks, const nearest_
   real8 least = ZERO8, most = ZERO8;
   rivals->leaves = near->count;
   for (int k = 0; k < near->count; ++k) {
-    real8 q[DIMENSION], dw, level;
+    real8 q[DIMENSION], dw, offset;
     seed_lanes(blocks, near->leaf[k], &origin, q, &dw);
-    level = ZERO8;
-    UNROLL for (int c = 0; c < DIMENSION; ++c) level = level + q[c] * q[c];
-    most = most8(most, level);
-    level = level + dw;
-    if (near->leaf[k] == i / TREE_FAN) level = with_lane(level, i % TREE_FAN, REAL_MAX / 4);
+    offset = ZERO8;
+    UNROLL for (int c = 0; c < DIMENSION; ++c) offset = offset + q[c] * q[c];
+    most = most8(most, offset);
+    offset = offset + dw;
+    if (near->leaf[k] == i / TREE_FAN) offset = with_lane(offset, i % TREE_FAN, REAL_MAX / 4);
     UNROLL for (int c = 0; c < DIMENSION; ++c) store8(q[c], rivals->q[c] + k * LANES);
-    store8(level, rivals->level + k * LANES);
-    least = least8(least, level);
+    store8(offset, rivals->offset + k * LANES);
+    least = least8(least, offset);
   }
   rivals->extent = sqrt(lane_most(most));
   return lane_least(least) < 0;
 }
 
-/* Starts from the planes of a simplex around the seed, with normals `size` long. */
+/* Starts from the planes of a simplex around the seed, with normals scaled by `size`. */
 static inline void start_basis(basis_t* basis, const room_t* room, real size) {
 #if DIMENSION == 3
   const real4 normal[DIMENSION] = {make_real4(1, 1, -1, -1), make_real4(1, -1, 1, -1),
@@ -102,7 +104,7 @@ static inline void start_basis(basis_t* basis, const room_t* room, real size) {
   }
   store4(share, basis->inverse[DIMENSION]);
   UNROLL for (int r = 0; r < ROWS; ++r) {
-    basis->level[r] = START_RADIUS * 2 * size * size;
+    basis->offset[r] = START_RADIUS * 2 * size * size;
     basis->proof[r] = 0;
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       basis->q[r][k] = n[k][r];
@@ -113,11 +115,12 @@ static inline void start_basis(basis_t* basis, const room_t* room, real size) {
   basis->dual[DIMENSION] = START_RADIUS * 2 * size * size;
 }
 
-/* The rival whose value level - q.(2y) is least at the present point; below 0 that point is the rival's. */
+/* The rival whose value offset - q.(2y) is least at the current point y. If the value is below 0, y is the
+   rival's and not the seed's. */
 static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real* value) {
   real8 worst = all_lanes(REAL_MAX / 4);
   for (int k = 0; k < rivals->leaves; ++k) {
-    real8 left = load8(rivals->level + k * LANES);
+    real8 left = load8(rivals->offset + k * LANES);
     UNROLL for (int c = 0; c < DIMENSION; ++c) left =
         left - load8(rivals->q[c] + k * LANES) * all_lanes(basis->dual[c]);
     worst = least8(worst, tag8(left, (uint)k * LANES));
@@ -127,8 +130,8 @@ static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real
   return (int)tag_of(least);
 }
 
-/* Which column leaves when one comes in that is `column` of the present ones, of which `inverse` is one over:
-   the multiples of the others stay at least 0. Below 0 if none can. */
+/* The basis column to replace by a new one so that all multiples stay at least 0, or -1 if there is none. The
+   new column is the sum of `column` times the present ones; `inverse` is 1 / column. */
 static inline int leaving_column(const real* multiple, real4 column, real4 inverse) {
   const real4 most = (real4)(REAL_MAX), least = (real4)(16 * REAL_EPSILON);
   real ratio[4];
@@ -138,7 +141,7 @@ static inline int leaving_column(const real* multiple, real4 column, real4 inver
   return ratio[leaving] < REAL_MAX ? leaving : -1;
 }
 
-/* Puts `rival` into the basis, `excess` being its value less t; returns whether there was room for it. */
+/* Puts `rival` into the basis; `excess` is its value minus t. Returns false if no column can leave. */
 static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival, real excess) {
   real q[DIMENSION], u[4];
   real4 column = vload4(0, basis->inverse[DIMENSION]);
@@ -159,12 +162,12 @@ static inline bool enter_basis(basis_t* basis, const rivals_t* rivals, int rival
     basis->dual[k] += excess * old * scale;
   }
   UNROLL for (int k = 0; k < DIMENSION; ++k) basis->q[leaving][k] = q[k];
-  basis->level[leaving] = basis->proof[leaving] = rivals->level[rival];
+  basis->offset[leaving] = basis->proof[leaving] = rivals->offset[rival];
   return true;
 }
 
-/* Whether the basis proves that nothing of the box is i's: a sum of its inequalities with multiples that are
-   not negative holds nowhere in it, with all errors (docs/mathematics.md (10c)). */
+/* Whether the basis proves that no point of the box is i's: a sum of its inequalities with multiples that
+   are not negative holds nowhere in the box, errors included (docs/mathematics.md (10c)). */
 static inline bool basis_proves(const basis_t* basis, const room_t* room) {
   real sum = 0, error = 0, q[DIMENSION];
   UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = 0;
@@ -197,8 +200,8 @@ static inline bool is_hidden(tree_t tree, blocks_t blocks, __global const seed_t
   return false;
 }
 
-/* Work-item t tells which seeds of leaf t * stride have certainly no cell in the box between two points. The
-   tree has more than one leaf. */
+/* Work-item t sets hidden[8t + k] to 1 if seed k of leaf t * stride certainly has no cell in the box from
+   box[0] to box[1], else to 0. The tree must have more than one leaf. */
 __kernel void find_hidden(const uint count, const uint stride, __global const seed_t* box,
                           __global const seed_t* seeds, const uint seed_count,
                           __global const seed_t* node_low, __global const seed_t* node_high,

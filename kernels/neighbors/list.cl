@@ -37,14 +37,14 @@ static inline int clip_by_list(cell_t* cell, lists_t lists, uint i, uint row, li
   real stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + SEARCH_MARGIN);
   for (uint k = 0; k < lists.count; ++k) {
     const uint j = lists.neighbor[row * lists.stride + k];
-    if (lifted_distance2(lists, i, j) >= stop) return PIECE_WHOLE;
+    if (lifted_distance2(lists, i, j) >= stop) return PIECE_DONE;
     const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
     ++use->tried;
     if (cut != CUT_NONE) ++use->cuts;
     if (cut == CUT_SHRUNK) stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + SEARCH_MARGIN);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
-  return lists.count + 1 >= lists.total ? PIECE_WHOLE : PIECE_MORE;
+  return lists.count + 1 >= lists.total ? PIECE_DONE : PIECE_MORE;
 }
 
 #endif

@@ -1,5 +1,5 @@
-/* The leaves near a leaf: all those nearer to its box than a bound, so that the seeds of one leaf share one
-   search, and whatever is not in the list is known to be far (docs/mathematics.md (10a)). */
+/* Lists the near leaves of a leaf, all those within a bound of its box (docs/mathematics.md (10a)). The seeds
+   of one leaf share this search, and every leaf that is not in the list is known to be beyond the bound. */
 #ifndef POWERCELL_NEIGHBORS_NEAR
 #define POWERCELL_NEIGHBORS_NEAR
 #include "neighbors/blocks.cl"
@@ -8,8 +8,8 @@
 #define NEAR_SPREAD (CELL_DIMENSION == 3 ? (real)1.4 : (real)1.1)
 #define NEAR_TRIES 12
 
-/* The box of a leaf's seeds relative to its first seed, with the largest weight of the leaf: the first seed
-   may be one that takes no part, whose weight would drown all others. */
+/* The box of a leaf's seeds relative to its first seed. The origin has the largest weight of the leaf, since
+   the first seed may be inactive, and its weight would then swamp all others in rounding. */
 typedef struct {
   origin_t origin;
   real low[DIMENSION], high[DIMENSION];
@@ -27,7 +27,7 @@ static inline home_t home_of(tree_t tree, blocks_t blocks, uint leaf) {
   return home;
 }
 
-/* Squared distance of eight boxes from the home's, plus by how much the weight at home exceeds theirs. */
+/* Squared distances of eight boxes from the home's, plus the excess dw of the home's weight over theirs. */
 static inline real8 lifted_distance8(const home_t* home, const real8* a, const real8* b, real8 dw) {
   real8 d = dw;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
@@ -37,7 +37,8 @@ static inline real8 lifted_distance8(const home_t* home, const real8* a, const r
   return d;
 }
 
-/* Appends the leaves below `bound` to `list`; returns their number, above NEAR_MOST if there are more. */
+/* Writes the leaves with lifted distance below `bound` to `list`; returns their number, or NEAR_MOST + 1 if
+   they do not fit. */
 static inline int collect_near(tree_t tree, blocks_t blocks, const home_t* home, real bound,
                                __global uint* list) {
   uint node[TREE_STACK];
@@ -65,7 +66,7 @@ static inline int collect_near(tree_t tree, blocks_t blocks, const home_t* home,
   return found;
 }
 
-/* Mean extent of the leaves beside this one, or of nodes above where those have none. */
+/* Mean extent of the children of the leaf's parent, or of the nearest ancestor whose children have any. */
 static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const origin_t* o) {
   uint node = leaf;
   for (int level = 1; level < tree.levels; ++level) {
@@ -80,8 +81,8 @@ static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const 
   return 0;
 }
 
-/* Writes the list of `leaf`; returns its length and in `bound` what all others are at least away. A bound of
-   -REAL_MAX: no list serves, and none is there. */
+/* Writes the list of `leaf` and returns its length; all other leaves have a lifted distance of at least
+   `bound`. If no list of a fitting length is found, the length is 0 and the bound -REAL_MAX. */
 static inline uint find_near(tree_t tree, blocks_t blocks, uint leaf, __global uint* list, real* bound) {
   if (tree.levels == 1) {
     list[0] = 0;

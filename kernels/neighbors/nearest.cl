@@ -1,9 +1,9 @@
-/* The leaves nearest to a leaf in the lifted space, where heavy ones count as nearer. */
+/* Finds the leaves nearest to a leaf by lifted distance, in which heavy leaves count as nearer. */
 #ifndef POWERCELL_NEIGHBORS_NEAREST
 #define POWERCELL_NEIGHBORS_NEAREST
 #include "neighbors/near.cl"
 
-/* Lifted distances of the children of a node from the home; returns a bit for each that is below `reach`. */
+/* Writes the lifted distances of a node's children from the home; returns a bit for each below `reach`. */
 static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level,
                                    real reach, real* distance) {
   real8 a[DIMENSION], b[DIMENSION], dw;
@@ -14,7 +14,7 @@ static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* h
   return lane_bits(lifted < all_lanes(reach)) & ((1u << children) - 1);
 }
 
-/* Takes in the leaves below a node that are near enough. */
+/* Inserts the leaves below a node that are nearer than the farthest one kept. */
 static inline void take_leaves(nearest_t* near, tree_t tree, blocks_t blocks, const home_t* home, uint node) {
   real distance[LANES];
   uint bits = children_within(tree, blocks, home, node, 1, nearest_reach(near), distance);
@@ -25,7 +25,7 @@ static inline void take_leaves(nearest_t* near, tree_t tree, blocks_t blocks, co
   }
 }
 
-/* The leaves nearest to one of them. */
+/* Fills `near` with the leaves nearest to `leaf`, which counts itself. */
 static inline void find_nearest_leaves(nearest_t* near, tree_t tree, blocks_t blocks, uint leaf) {
   const home_t home = home_of(tree, blocks, leaf);
   stack_t stack;

@@ -1,11 +1,11 @@
-/* Cutting by the seeds of the near leaves (near.cl), nearest bisector first. */
+/* Cuts a cell by the seeds of the near leaves (near.cl), nearest bisector first (docs/mathematics.md (4)). */
 #ifndef POWERCELL_NEIGHBORS_ORDER
 #define POWERCELL_NEIGHBORS_ORDER
 #include "neighbors/exclude.cl"
 #include "neighbors/near.cl"
 
 #define TAKEN (REAL_MAX / 4)
-/* Bisectors that cut nothing, after which the rest are tested eight at a time. White noise has some 24. */
+/* After so many bisectors that cut nothing, the rest are tested eight at a time. White noise has some 24. */
 #define MISSES_MOST 64
 
 /* The seeds of the near leaves by key: the square of twice the signed distance of the bisector
@@ -17,18 +17,19 @@ typedef struct {
   __global const uint* leaf;
 } order_t;
 
-/* The key of eight seeds at q with weights less than that of the seed by dw, rather too low than too high:
-   where weights and distances cancel, and of seeds nearer than the resolution. */
+/* Keys of eight seeds at q, whose weights are less than the cell's own by dw. Where squares and weights
+   cancel, and for seeds nearer than the resolution, keys err on the low side. */
 static inline real8 bisector_keys(const real8* q, real8 dw, real resolution) {
   const real8 taken = all_lanes(TAKEN);
   real8 q2 = ZERO8;
   UNROLL for (int c = 0; c < DIMENSION; ++c) q2 = q2 + q[c] * q[c];
-  const real8 level = q2 * all_lanes(1 - 16 * REAL_EPSILON) + dw;
-  return most8(least8(level * (size8(level) / most8(q2, all_lanes(resolution * resolution))), taken), -taken);
+  const real8 offset = q2 * all_lanes(1 - 16 * REAL_EPSILON) + dw;
+  return most8(least8(offset * (size8(offset) / most8(q2, all_lanes(resolution * resolution))), taken),
+               -taken);
 }
 
-/* Keys of the seeds near i except itself. Where the region is no larger than what is near, seeds that its box
-   excludes are left out. */
+/* Computes the keys of the seeds near i except i. Where the region is no larger than the near leaves reach,
+   seeds that cannot cut its box are left out. */
 static inline void find_keys(order_t* order, cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   const uint home = i / TREE_FAN;
   order->count = blocks.near_count[home];
@@ -65,8 +66,8 @@ static inline real take_least(order_t* order) {
   return least;
 }
 
-/* Cuts by those seeds of a leaf whose bits are set in `left`, tested by the vertices if `close`, else by the
-   box of the cell, which is kept. Returns a CUT code, CUT_NONE when done. */
+/* Cuts by the seeds of a leaf whose bits are set in `left`, after a test by the vertices if `close`, else by
+   the box [low, high] of the cell, which is kept up to date. Returns a CUT code, CUT_NONE when done. */
 static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i, uint leaf, uint left,
                               bool close, real* low, real* high) {
   const seed_t seed = tree.seeds[i];
@@ -88,7 +89,7 @@ static inline int cut_by_leaf(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   }
 }
 
-/* Cuts by what is left of the order, leaf by leaf. */
+/* Cuts by the seeds that are left in the order, leaf by leaf. Returns a CUT code, CUT_NONE when done. */
 static inline int cut_by_left(cell_t* cell, const order_t* order, tree_t tree, blocks_t blocks, uint i) {
   const real reach = 4 * (1 + SEARCH_MARGIN / 4) * find_radius2(&cell->at);
   real none[DIMENSION];
@@ -107,13 +108,13 @@ static inline int cut_by_near(cell_t* cell, tree_t tree, blocks_t blocks, uint i
   const seed_t seed = tree.seeds[i];
   find_keys(&order, cell, tree, blocks, i);
   if (order.count == 0) return CUT_NONE;
-  real reach =
-      TAKEN / 2; /* found anew only after a bisector that cut nothing: that they end shows first there */
+  /* (2R)^2, R being the radius of the cell. Updated only after a bisector that cut nothing: once the cell is
+     done, such a bisector comes first. */
+  real reach = TAKEN / 2;
   bool shrunk = true;
   for (int misses = 0; misses < MISSES_MOST;) {
     const real least = take_least(&order);
-    if (!(untagged(least) < reach))
-      return CUT_NONE; /* that plane is beyond every vertex, and so are the rest */
+    if (!(untagged(least) < reach)) return CUT_NONE; /* this plane and all later ones clear every vertex */
     const uint at = tag_of(least), j = order.leaf[at / LANES] * TREE_FAN + at % LANES;
     const int cut = cut_by_seed(cell, seed, tree.seeds[j], (int)j);
     if (cut > CUT_SHRUNK) return cut;

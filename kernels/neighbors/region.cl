@@ -1,17 +1,17 @@
-/* Candidates from the list of the seeds that can meet the region: no other owns a point of it, so none has
-   to be searched for (docs/mathematics.md, "Which seeds meet a region"). */
+/* Clips a cell by the listed seeds that can meet its region. No other seed has a point of the region, so no
+   search is needed (docs/mathematics.md, "Which seeds meet a region"). */
 #ifndef POWERCELL_NEIGHBORS_REGION
 #define POWERCELL_NEIGHBORS_REGION
 #include "base/lanes.cl"
 #include "neighbors/exclude.cl"
 
 #define LISTED_SEEDS 96 /* most seeds of a list */
-#define FEW_LISTED 16   /* so many are cut by as they come: to order them would take longer than it saves */
+#define FEW_LISTED 16   /* lists up to this length are not ordered: that would take longer than it saves */
 #define LISTED_LAST (REAL_MAX / 4) /* key of a seed that has been tried */
 
 typedef struct {
   __global const seed_t* seeds; /* by rank */
-  __global const ulong* offset; /* per region: its list; an empty one means that there is none */
+  __global const ulong* offset; /* per region: its list; a region without a list has an empty one */
   __global const uint* seed;    /* ranks */
 } region_lists_t;
 
@@ -34,8 +34,8 @@ static inline real cell_reach(const cell_t* cell, const real* centre) {
   return 2 * sqrt(lane_most(most)) * (1 + SEARCH_MARGIN);
 }
 
-/* The point from which cuts are ordered: the seed, or the middle of the region where that is farther from
-   the seed than its vertices. Returns cell_reach. */
+/* The point whose distance orders the cuts: the seed, or the middle of the region if the seed is farther from
+   it than the region's vertices are. Returns cell_reach. */
 static inline real cell_centre(const cell_t* cell, real* centre) {
   real low[DIMENSION], high[DIMENSION], c2 = 0;
   find_box(&cell->at, low, high);
@@ -49,8 +49,8 @@ static inline real cell_centre(const cell_t* cell, real* centre) {
   return cell_reach(cell, centre);
 }
 
-/* Keys of the listed seeds, tagged with their places: how far the bisector is from the centre, less the
-   farther beyond it, rather too low than too high. Returns the number of keys, a multiple of the lanes. */
+/* Keys of the listed seeds, tagged with their places: twice the signed distance of the bisector from the
+   centre, erring on the low side. Returns the number of keys, a multiple of LANES. */
 static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint i, uint region,
                                  const real* centre, real* key) {
   const ulong begin = lists.offset[region];
@@ -66,8 +66,8 @@ static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint 
       sum += fabs(q[c]);
     }
     const real q2 = norm2(q), dw = weight_difference(seed, lists.seeds[j]);
-    const real level = q2 + dw - 2 * along - plane_error(&cell->at, sum, q2, dw);
-    key[k] = k >= count || j == i ? LISTED_LAST : level / most_of(sqrt(q2), resolution);
+    const real offset = q2 + dw - 2 * along - plane_error(&cell->at, sum, q2, dw);
+    key[k] = k >= count || j == i ? LISTED_LAST : offset / most_of(sqrt(q2), resolution);
   }
   for (int row = 0; row < rows; ++row)
     store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)),
@@ -85,10 +85,10 @@ static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __glob
     const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
-  return PIECE_WHOLE;
+  return PIECE_DONE;
 }
 
-/* The same for longer lists, by the bisector nearest to the centre first, or farthest beyond it. */
+/* The same in the order of the keys, for longer lists. */
 static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint region) {
   const seed_t seed = lists.seeds[i];
   real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
@@ -97,9 +97,9 @@ static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint
     real8 best = load8(key);
     for (int k = LANES; k < keys; k += LANES) best = least8(best, load8(key + k));
     const real least = lane_least(best);
-    if (!(untagged(least) < reach)) { /* that plane is beyond every vertex, and so are the rest */
+    if (!(untagged(least) < reach)) { /* this plane and all later ones clear every vertex */
       cell->at.gap = fmin(cell->at.gap, SEARCH_MARGIN / 8 * reach);
-      return PIECE_WHOLE;
+      return PIECE_DONE;
     }
     const uint at = tag_of(least), row = at / LANES * LANES;
     store8(with_lane(load8(key + row), at % LANES, LISTED_LAST), key + row);

@@ -1,14 +1,15 @@
-/* Clips a cell by all seeds that can cut it: first those of the leaves near its own (near.cl), nearest
-   bisector first; then, unless the bound of that list proves the cell done, all nodes of the tree that the
-   exact box test cannot exclude. Right for any weights: nothing is left out without a proof. */
+/* Clips a cell by all seeds that can cut it: first by those of the near leaves of its own leaf (near.cl),
+   nearest bisector first; then, unless the bound of the near leaves proves that the cell is done
+   (docs/mathematics.md (10b)), by the seeds of all nodes of the tree that (9) cannot exclude. Right for any
+   weights: every seed that is left out is proved not to cut the cell. */
 #ifndef POWERCELL_NEIGHBORS_SEARCH
 #define POWERCELL_NEIGHBORS_SEARCH
 #include "neighbors/order.cl"
 
-/* Nodes visited, after which the next are tested by the vertices of the cell. White noise visits some 20. */
+/* After so many nodes, the next are tested by the vertices of the cell too. White noise visits some 20. */
 #define VISITS_MOST 48
 
-/* At least the rounding of distances of the leaf's box, which are taken relative to its first seed. */
+/* A bound for the rounding of distances from the leaf's box, computed relative to its first seed. */
 static inline real box_rounding(tree_t tree, uint leaf) {
   real low[DIMENSION], high[DIMENSION], extent = 0;
   difference(tree.node_low[leaf], tree.seeds[leaf * TREE_FAN], low);
@@ -91,9 +92,9 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
 static inline int clip_by_tree(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   int cut = cut_by_near(cell, tree, blocks, i);
   if (cut > CUT_SHRUNK) return piece_status(cut);
-  if (near_is_enough(cell, tree, blocks, i)) return PIECE_WHOLE;
+  if (near_is_enough(cell, tree, blocks, i)) return PIECE_DONE;
   cut = cut_by_rest(cell, tree, blocks, i);
-  return cut > CUT_SHRUNK ? piece_status(cut) : PIECE_WHOLE;
+  return cut > CUT_SHRUNK ? piece_status(cut) : PIECE_DONE;
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* The packed tree: 8 seeds a leaf, 8 nodes a parent, box and largest weight per node. */
+/* The packed tree of the seeds: 8 seeds to a leaf, 8 nodes to a parent, with a box and the largest weight of
+   each node; and the search for the leaves nearest to a seed by power distance. */
 #ifndef POWERCELL_NEIGHBORS_TREE
 #define POWERCELL_NEIGHBORS_TREE
 #include "cell/bisector.cl"
@@ -21,7 +22,7 @@ typedef struct {
 /* Nodes still to visit, the next on top. */
 typedef struct {
   uint node[TREE_STACK]; /* number within its level */
-  real key[TREE_STACK];  /* power distance of the node */
+  real key[TREE_STACK];  /* lower bound of the distance of its seeds */
   uchar level[TREE_STACK];
   int depth;
 } stack_t;
@@ -46,12 +47,12 @@ static inline void push_root(stack_t* stack, tree_t tree) {
   stack->level[0] = (uchar)(tree.levels - 1);
 }
 
-/* The nodes of level `level` below node `node` of the level above end before this. */
+/* The end of the children of node `node`, which are nodes of level `level`. */
 static inline uint children_end(tree_t tree, uint node, int level) {
   return min((node + 1) * TREE_FAN, tree.level_offset[level + 1] - tree.level_offset[level]);
 }
 
-/* Least power distance of the seed from a node: its box and its largest weight. */
+/* Lower bound of pow_j(p_i) - pow_i(p_i) over the seeds j of a node, by its box and its largest weight. */
 static inline real node_distance(tree_t tree, uint node, seed_t seed) {
   real a[DIMENSION], b[DIMENSION], near2 = 0;
   const seed_t node_low = tree.node_low[node];
@@ -86,7 +87,7 @@ static inline nearest_t nothing_near(int most) {
   return near;
 }
 
-/* What is farther than this is not wanted. */
+/* Leaves at this distance or beyond are not kept. */
 static inline real nearest_reach(const nearest_t* near) {
   return near->count < near->most ? REAL_MAX : near->distance[near->most - 1];
 }

@@ -1,22 +1,24 @@
-/* Which seeds can meet which regions (docs/mathematics.md, 11): half-spaces that hold the cell of a seed are
-   taken down a packed tree of the regions. They come from the seeds near it, and from the seeds that own
-   the places in question. Any seeds would do; what they leave in needlessly, clipping finds empty. */
+/* Lists the (region, seed) pairs that may meet: walks down a packed tree of the regions with half-spaces that
+   contain the cell of the seed (docs/mathematics.md (11)). The half-spaces come from the seeds near it and
+   from the owner of the middle of each box. Any seeds would be right: a pair that is listed needlessly turns
+   out empty when it is clipped. */
 #include "base/point.cl"
 #include "neighbors/tree.cl"
 
 #define TESTERS 16
 #define NO_SEED 0xffffffffu
 
-/* 2 q.y <= level with y relative to the seed; `scale` is the size of the terms of level, `sum` that of q. */
+/* 2 q.y <= offset with y relative to the seed; `scale` is the size of the terms of offset, `sum` that of q.
+ */
 typedef struct {
   real q[DIMENSION];
-  real level;
+  real offset;
   real scale, sum;
   blur_t blur; /* of the seed */
 } half_space_t;
 
 typedef struct {
-  half_space_t space[TESTERS + 1]; /* the last one belongs to the owner of the place in question */
+  half_space_t space[TESTERS + 1]; /* the last one is that of the owner of the box or region at hand */
   real key[TESTERS];
   int count;
 } testers_t;
@@ -25,7 +27,7 @@ static inline half_space_t half_space_of(seed_t seed, seed_t other) {
   half_space_t h;
   difference(other, seed, h.q);
   const real q2 = norm2(h.q), dw = weight_difference(seed, other);
-  h.level = q2 + dw;
+  h.offset = q2 + dw;
   h.scale = q2 + fabs(dw);
   h.sum = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) h.sum += fabs(h.q[k]);
@@ -33,7 +35,7 @@ static inline half_space_t half_space_of(seed_t seed, seed_t other) {
   return h;
 }
 
-/* At least the error of 2 q.y - level where no |y_k| is above `reach`. */
+/* A bound for the error of 2 q.y - offset where |y_k| <= reach. */
 static inline real half_space_error(const half_space_t* h, real reach) {
   return 32 * REAL_EPSILON * (h->scale + 2 * h->sum * reach) + plane_blur(h->blur, DIMENSION * reach, h->sum);
 }
@@ -64,7 +66,7 @@ static inline void find_testers(tree_t tree, uint i, stack_t* stack, testers_t* 
 
 /* True if the box [a, b] lies outside the half-space, with a margin for rounding. */
 static inline bool box_is_outside(const half_space_t* h, const real* a, const real* b) {
-  real value = -h->level, reach = 0;
+  real value = -h->offset, reach = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     value += 2 * fmin(h->q[k] * a[k], h->q[k] * b[k]);
     reach = fmax(reach, fmax(fabs(a[k]), fabs(b[k])));
@@ -72,7 +74,7 @@ static inline bool box_is_outside(const half_space_t* h, const real* a, const re
   return value > half_space_error(h, reach);
 }
 
-/* True if one half-space has all of the box outside. */
+/* True if the box lies outside one of the half-spaces. */
 static inline bool box_is_excluded(const testers_t* testers, bool owned, seed_t seed, seed_t low,
                                    seed_t high) {
   real a[DIMENSION], b[DIMENSION];
@@ -93,7 +95,7 @@ typedef struct {
 static inline bool region_is_outside(const half_space_t* h, region_corners_t regions, uint region,
                                      seed_t seed) {
   for (uint slot = regions.offset[region]; slot < regions.offset[region + 1]; ++slot) {
-    real y[DIMENSION], value = -h->level, reach = 0;
+    real y[DIMENSION], value = -h->offset, reach = 0;
     difference(regions.corners[regions.vertex[slot]], seed, y);
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       value += 2 * h->q[k] * y[k];
@@ -112,7 +114,7 @@ static inline bool region_is_excluded(const testers_t* testers, bool owned, regi
   return false;
 }
 
-/* Makes the owner the last tester. False if there is none, or it is the seed itself. */
+/* Makes the owner the last tester. False if `owner` is NO_SEED or the seed itself. */
 static inline bool take_owner(testers_t* testers, tree_t tree, uint i, uint owner) {
   if (owner == NO_SEED || owner == i) return false;
   testers->space[TESTERS] = half_space_of(tree.seeds[i], tree.seeds[owner]);
@@ -159,8 +161,9 @@ __kernel void find_owners(const uint count, __global const seed_t* low, __global
   owner[t] = seed_of_least_power(tree, middle_of(low[t], high[t]));
 }
 
-/* Rank t: counts its pairs into offset[t], or, where `write`, lists them from offset[t] on, as far as
-   there is room. Tree of the regions: their boxes in curve order, `region` their numbers, nodes above. */
+/* Work-item t counts the pairs of rank t into offset[t] or, if `write`, lists them from offset[t] on, up to
+   `capacity` in all. The tree of the regions: region_low and region_high are their boxes in curve order,
+   region[] their numbers, group_low and group_high the nodes above. */
 __kernel void find_pairs(const uint count, const int write, __global const uint* state,
                          __global const seed_t* seeds, __global const seed_t* node_low,
                          __global const seed_t* node_high, __global const uint* level_offset,

@@ -1,4 +1,4 @@
-/* Stream compaction: which entries of an array have a wanted value. */
+/* Stream compaction: lists the indices of the entries of an array that have a given value. */
 
 /* places[k] = 1 where values[k] is `wanted`, else 0; places[count] = 0. */
 __kernel void mark_wanted(const uint count, __global const uint* values, const uint wanted,
@@ -8,7 +8,8 @@ __kernel void mark_wanted(const uint count, __global const uint* values, const u
   places[k] = k < count && values[k] == wanted ? 1u : 0u;
 }
 
-/* With the prefix sums of those marks: their indices, ascending, and how many there are. */
+/* From the exclusive prefix sums of the marks: writes the indices of the marked entries, ascending, and their
+   number to found[0]. */
 __kernel void list_marked(const uint count, __global const uint* places, __global uint* indices,
                           __global uint* found) {
   const uint k = (uint)get_global_id(0);

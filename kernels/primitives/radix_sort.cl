@@ -1,4 +1,4 @@
-/* One pass of a stable radix sort of (64-bit key, 32-bit value) pairs by least digits first. One
+/* One pass of a stable radix sort of (64-bit key, 32-bit value) pairs, least digit first. One
    work-item counts and moves a tile by itself, in order: no barrier, no local memory, and the same
    result for every number of tiles. RADIX_BITS: 8 suits few tiles (CPU), 4 many (GPU). */
 #ifndef RADIX_BITS

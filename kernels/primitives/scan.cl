@@ -22,8 +22,8 @@ __kernel void sum_tiles(const uint tiles, const uint count, __global const scan_
   sums[to + t] = sum;
 }
 
-/* Replaces each value by the sum of those before it; `sums`, scanned already, holds what comes before
-   each tile. With one tile nothing does, and `sums` is not read. */
+/* Replaces each value by the sum of those before it. `sums`, scanned already, holds the sum before each tile;
+   with one tile it is not read. */
 __kernel void scan_tiles(const uint tiles, const uint count, __global scan_t* values, const uint from,
                          __global const scan_t* sums, const uint to) {
   const uint t = (uint)get_global_id(0);

@@ -1,5 +1,5 @@
-/* The packed tree (kernels/neighbors/tree.cl) over seeds in curve order, level by level. Its shape depends
-   on the number of seeds only. */
+/* Builds the packed tree (kernels/neighbors/tree.cl) over seeds in curve order, level by level. Its shape
+   depends on the number of seeds only. */
 #include "base/point.cl"
 
 #define TREE_FAN 8u
@@ -16,7 +16,7 @@ __kernel void lay_out_levels(const uint seeds, __global uint* level_offset) {
   } while (nodes > 1);
 }
 
-/* Makes `p` hold what both hold: the box and the largest weight. */
+/* Extends the box [low, high] and the largest weight, kept in `low`, to hold those of the child. */
 static inline void add_child(parts_t* low, parts_t* high, const parts_t* child_low,
                              const parts_t* child_high) {
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
@@ -36,7 +36,7 @@ static inline void add_child(parts_t* low, parts_t* high, const parts_t* child_l
 }
 
 /* Node to + t holds the children 8t .. 8t+7 of `children`, which begin at `from` of child_low and
-   child_high: seeds (both the same buffer) or nodes. A child that takes no part does not widen a box. */
+   child_high: seeds (both the same buffer) or nodes. An inactive child does not extend a box. */
 __kernel void build_level(const uint nodes, const uint to, const uint children, const uint from,
                           __global const seed_t* child_low, __global const seed_t* child_high,
                           __global seed_t* node_low, __global seed_t* node_high) {

@@ -1,4 +1,4 @@
-/* Place of a grid cell along the Hilbert curve, by the entry corner and direction of each level
+/* Computes the place of a grid cell along the Hilbert curve from the entry corner and direction of each level
    (Hamilton and Rau-Chaplin, "Compact Hilbert indices", 2008, section 2); the same curve as
    lib/seeds/hilbert_curve.hpp. */
 #ifndef POWERCELL_SEEDS_HILBERT
@@ -17,7 +17,7 @@ static inline uint gray_code(uint w) {
   return w ^ (w >> 1);
 }
 
-/* How many ones w ends in, at most DIMENSION - 1 counted. */
+/* The number of trailing ones of w modulo DIMENSION. */
 static inline uint trailing_ones(uint w) {
   uint ones = 0;
   while (ones < DIMENSION && ((w >> ones) & 1u) != 0) ++ones;

@@ -1,4 +1,4 @@
-/* Sort keys of the seeds, and the seeds in their final order. */
+/* Computes the sort keys of the seeds, and puts the seeds into their final order. */
 #include "base/point.cl"
 #include "seeds/hilbert.cl"
 
@@ -20,7 +20,7 @@ __kernel void make_grid(const uint tiles, __global const stored_real* boxes, __g
   grid[3] = ldexp((real)1, HILBERT_BITS - exponent);
 }
 
-/* The cell of number `x` (>= 0) on a grid of unit cells, and what is left, in cells of the next grid. */
+/* The unit cell that contains high + low (>= 0). Leaves the remainder in *high, in cells of the next grid. */
 static inline uint take_cell(real* high, real* low) {
   const real whole = floor(*high), rest = (*high - whole) + *low, more = floor(rest);
   const long most = ((long)1 << HILBERT_BITS) - 1;
@@ -43,7 +43,7 @@ static inline ulong curve_key(const parts_t* p, __global const stored_real* grid
   return hilbert_key(cell);
 }
 
-/* 32 bits that differ for different positions but by chance. */
+/* A 32-bit hash of the position. */
 static inline ulong position_hash(const parts_t* p) {
   ulong h = 0;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
@@ -82,7 +82,7 @@ __kernel void number_seeds(const uint count, __global uint* order) {
 }
 
 /* True if a seed before rank t is at the same position. Sorting has put the seeds of one position side
-   by side, the one that stays first; only different positions of one hash may lie between. */
+   by side, the one to keep first; only other positions with the same hash may lie between. */
 static inline bool is_duplicate(uint t, const parts_t* p, __global const uint* order,
                                 __global const seed_t* points) {
   const ulong hash = position_hash(p);
@@ -94,7 +94,7 @@ static inline bool is_duplicate(uint t, const parts_t* p, __global const uint* o
   return false;
 }
 
-/* The seeds by rank, and what is known of them: SEED_OK, _DUPLICATE or _INVALID. */
+/* Writes the seeds by rank, and their state: SEED_OK, _DUPLICATE or _INVALID. */
 __kernel void place_seeds(const uint count, __global const uint* order, __global const seed_t* points,
                           __global const uint* status, __global seed_t* placed, __global uint* state) {
   const uint t = (uint)get_global_id(0);

@@ -1,7 +1,7 @@
-/* The caller's seeds in the device's frame, and the box around them. */
+/* Transforms the caller's seeds to the device's frame, and finds the box around them. */
 #include "base/point.cl"
 
-/* Number x of axis k in the frame, as high + low. */
+/* Coordinate x of axis k in the frame, as high + low. */
 static inline void to_frame(__global const stored_real* frame, real x, int k, real* high, real* low) {
   *high = exact_difference(x, frame[FRAME_CENTRE + k], low);
   *low -= frame[FRAME_CENTRE_LOW + k];

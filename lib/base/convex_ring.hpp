@@ -20,10 +20,12 @@ template <class Point, class Edge>
 using ConvexRing = std::vector<RingCorner<Point, Edge>>;
 
 /// Keeps the part of a ring that is not outside a line (Sutherland and Hodgman). The caller decides the
-/// sides, exactly or with rounding. \param side   per corner: above 0 outside, 0 on the line \param cut the
-/// edge along the line \param meet   meet(kept, lost, in, out): the point where the line crosses between two
-/// corners of `other`, the
-///               edge `in` ends and the edge `out` starts
+/// sides, exactly or with rounding.
+///
+/// \param side   per corner: above 0 outside, 0 on the line
+/// \param cut    the edge along the line
+/// \param meet   meet(kept, lost, in, out): the point where the line crosses between two corners of `other`;
+///               there the edge `in` ends and the edge `out` starts
 /// \param other  set to the ring before the cut
 /// \return how often the ring goes outside: once, unless rounding contradicts itself
 template <class Point, class Edge, class Meet>

@@ -8,7 +8,7 @@
 namespace powercell::cl {
 namespace {
 
-constexpr std::size_t smallest_allocation = 16;  // so that an empty buffer is still a valid argument
+constexpr std::size_t smallest_allocation = 16;  // makes an empty buffer a valid argument
 
 void release(cl_mem& memory) {
   if (memory) clReleaseMemObject(memory);
@@ -61,8 +61,8 @@ void RawBuffer::reserve(std::size_t bytes) {
   memory_ = clCreateBuffer(context_->context(), CL_MEM_READ_WRITE, bytes, nullptr, &status);
   const std::string what = allocation_text(bytes, device);
   check_allocation(status, what);
-  // Drivers may put the allocation off until first use; moving it to the device now makes a failure
-  // come here, where it can be told from others and smaller chunks can be tried.
+  // Drivers may delay the allocation until first use. Moving it to the device now makes a failure appear
+  // here, where its cause is known and smaller chunks can be tried.
   status = clEnqueueMigrateMemObjects(context_->queue(), 1, &memory_, CL_MIGRATE_MEM_OBJECT_CONTENT_UNDEFINED,
                                       0, nullptr, nullptr);
   if (status != CL_SUCCESS) release(memory_);

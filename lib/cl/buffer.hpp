@@ -12,7 +12,7 @@
 
 namespace powercell::cl {
 
-/// Untyped device buffer; grows when asked, never shrinks, contents undefined after growth.
+/// Untyped device buffer. It grows on request and never shrinks; its contents are undefined after growth.
 class RawBuffer {
  public:
   explicit RawBuffer(std::shared_ptr<Context> context) : context_(std::move(context)) {}
@@ -48,7 +48,7 @@ class Mapping {
   ~Mapping();
 
   const std::byte* data() const { return data_; }
-  /// Ends it; nothing may be read any more. \throw Error opencl
+  /// Unmaps the buffer; data() is invalid afterwards. \throw Error opencl
   void end();
 
  private:

@@ -1,5 +1,5 @@
 /// \file
-/// Which device a selector means. Internal.
+/// Finds the device that a selector names. Internal.
 #pragma once
 
 #include <powercell/device.hpp>

@@ -19,8 +19,8 @@
 
 namespace powercell::cl {
 
-/// Throws Error (out_of_device_memory for allocation failures, else opencl) naming the code and `what`
-/// was being done, unless `status` is CL_SUCCESS.
+/// Throws unless `status` is CL_SUCCESS. \param what  the operation, for the message
+/// \throw Error out_of_device_memory for allocation failures, else opencl, naming the code and `what`
 void check(cl_int status, std::string_view what);
 /// "CL_OUT_OF_RESOURCES" and so on for every code of OpenCL 1.2 and the ICD loader.
 std::string error_name(cl_int status);
@@ -54,7 +54,6 @@ class Context {
   void finish();
 
  private:
-  // (implementation's own members; keep what is above as it is)
   cl_context context_ = nullptr;
   cl_command_queue queue_ = nullptr;
   cl_device_id device_ = nullptr;
@@ -62,7 +61,7 @@ class Context {
   double build_seconds_ = 0;
   std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
   mutable std::mutex record_mutex_;  // guards build_seconds_ and launched_
-  std::mutex mutex_;                 // guards programs_, also while one is built: each is built once
+  std::mutex mutex_;  // guards programs_, also during a build, so that each program is built once
   std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
 };
 

@@ -13,7 +13,7 @@
 namespace powercell::cl {
 namespace {
 
-/// What stands before the binary in a file. Only read back by the machine that wrote it.
+/// Header of a file, before the binary. Only the machine that wrote it reads it.
 struct Header {
   std::array<char, 8> magic{'P', 'W', 'R', 'C', 'E', 'L', 'L', '1'};
   CacheKey key;
@@ -101,7 +101,7 @@ std::optional<Binary> DiskCache::read(const CacheKey& key) const {
   Header header;
   std::error_code error;
   const std::uintmax_t file_size = std::filesystem::file_size(path(key), error);
-  // The size is looked at first: a damaged header must not ask for memory beyond the file.
+  // The size is checked first, so that a damaged header cannot request more memory than the file has bytes.
   if (!error && file.read(reinterpret_cast<char*>(&header), sizeof header) &&
       file_size == sizeof header + header.size) {
     Binary binary(header.size);
@@ -133,7 +133,7 @@ bool DiskCache::write(const CacheKey& key, std::span<const unsigned char> binary
 }
 
 void DiskCache::remove(const CacheKey& key) const {
-  std::error_code ignored;  // gone already, or not ours to delete: the next write replaces it
+  std::error_code ignored;  // deleted already, or without permission: the next write replaces it
   std::filesystem::remove(path(key), ignored);
 }
 

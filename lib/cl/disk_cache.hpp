@@ -1,7 +1,7 @@
 /// \file
 /// Compiled programs kept between runs, a file each. Internal.
 ///
-/// Nothing here throws for what a disk does: a cache that cannot be read or written is one without entries.
+/// No function throws because of the disk: a cache that cannot be read or written acts as an empty one.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class DiskCache {
   static std::filesystem::path default_folder();
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// The entry, if it is there and whole; one that is truncated, altered or another's is deleted.
+  /// The entry, if it exists and is intact. Deletes an entry that is truncated, altered or of another key.
   std::optional<Binary> read(const CacheKey& key) const;
   /// Makes the folder when needed. False if the entry could not be written whole.
   bool write(const CacheKey& key, std::span<const unsigned char> binary) const;

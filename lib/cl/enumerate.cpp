@@ -32,8 +32,8 @@ T device_value(cl_device_id device, cl_device_info which) {
 bool has_fp64(cl_device_id device) {
   cl_device_fp_config config = 0;
   const cl_int status = clGetDeviceInfo(device, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof config, &config, nullptr);
-  // Devices of OpenCL 1.1 without the extension do not know the question: that is a no. Any other failure is
-  // none, else a device would silently compute in single precision.
+  // Devices of OpenCL 1.1 without the extension do not know the query: they have no double precision. Any
+  // other failure is an error, else a device would silently compute in single precision.
   if (status == CL_INVALID_VALUE) return false;
   check(status, "asking a device for its double precision");
   return config != 0;

@@ -18,7 +18,7 @@ struct FoundDevice {
 /// compiler are left out; the others keep their index.
 std::vector<FoundDevice> find_devices();
 
-/// What `device` says of itself, but for the indices, which stay 0.
+/// The properties that `device` reports; the indices stay 0.
 DeviceInfo describe(cl_platform_id platform, cl_device_id device);
 
 /// A text the driver reports, without the terminating zero. \throw Error opencl

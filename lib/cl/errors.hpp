@@ -8,8 +8,8 @@
 
 namespace powercell::cl {
 
-/// As `check`, at a place where memory is taken: CL_OUT_OF_RESOURCES means memory here, and only here
-/// (elsewhere it is also a kernel's registers or a lost device).
+/// As `check`, after an allocation: there CL_OUT_OF_RESOURCES means memory, while elsewhere it may also mean
+/// a kernel's registers or a lost device.
 void check_allocation(cl_int status, std::string_view what);
 
 }  // namespace powercell::cl

@@ -73,8 +73,8 @@ double event_seconds(cl_event event, const std::string& what) {
   return end > start ? 1e-9 * static_cast<double>(end - start) : 0.0;
 }
 
-/// The first launch of a kernel with a group size, where the driver compiles it only then: waits for the
-/// end and books what is not execution as compilation, else it would pass for the time of the kernel.
+/// The first launch of a kernel with a group size, for drivers that compile only then: waits for the end and
+/// counts the time outside the execution as compilation, not as time of the kernel.
 double compiling_launch(Context& context, const Launch& launch, std::size_t global, std::size_t local) {
   check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
   const auto start = std::chrono::steady_clock::now();

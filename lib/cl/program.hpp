@@ -49,18 +49,13 @@ class Kernel {
   /// exact OpenCL type.
   template <class... Args>
   Kernel& args(const Args&... values) {
-    return args_from(0, values...);
+    arguments_set_ = 0;
+    return more_args(values...);
   }
   /// Sets the arguments that follow the last one set.
   template <class... Args>
   Kernel& more_args(const Args&... values) {
-    return args_from(arguments_set_, values...);
-  }
-  /// Sets the arguments from argument `first` on.
-  template <class... Args>
-  Kernel& args_from(cl_uint first, const Args&... values) {
-    (set(first++, values), ...);
-    arguments_set_ = first;
+    (set(arguments_set_++, values), ...);
     return *this;
   }
   /// Enqueues `global` work-items (rounded up to the group size; kernels guard their tail) and adds

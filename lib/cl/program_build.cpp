@@ -57,7 +57,7 @@ std::shared_ptr<Program> compile(const Context& context, const ProgramRequest& r
                   ")\n  options: " + request.options + "\n  log:\n" + build_log(handle, device));
 }
 
-/// Null when the driver refuses the binary, for whatever reason: the source is there to start from again.
+/// Null if the driver refuses the binary for any reason; the caller then compiles the source.
 std::shared_ptr<Program> load(const Context& context, const ProgramRequest& request, const Binary& binary) {
   const cl_device_id device = context.device();
   const unsigned char* bytes = binary.data();
@@ -73,7 +73,7 @@ std::shared_ptr<Program> load(const Context& context, const ProgramRequest& requ
   return program;
 }
 
-/// Empty when the driver does not hand one out.
+/// Empty if the driver returns none.
 Binary binary_of(const Program& program) {
   // A caller's context may hold several devices; the binaries come for all of them, in its order.
   cl_uint count = 0;

@@ -1,5 +1,5 @@
 /// \file
-/// The text of kernels, with their includes put in. Internal.
+/// The source text of kernels, with includes expanded. Internal.
 #pragma once
 
 #include <string>

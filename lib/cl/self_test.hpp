@@ -1,5 +1,5 @@
 /// \file
-/// Whether a device computes what OpenCL promises. Internal.
+/// Tests whether a device computes as OpenCL specifies. Internal.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 namespace powercell::cl {
 
 /// Runs small computations with known results, in float and, where the device has it, in double.
-/// \throw Error self_test_failed naming the device and what came out wrong
+/// \throw Error self_test_failed naming the device and the wrong result
 void self_test(const std::shared_ptr<Context>& context);
 
 }  // namespace powercell::cl

@@ -14,9 +14,6 @@ namespace {
 /// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 
-/// Number of arguments common to all clip kernels; those of the candidates follow.
-constexpr unsigned common_arguments = 17;
-
 }  // namespace
 
 void ClipStatistics::add(const ClipStatistics& other) {
@@ -143,7 +140,7 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
             domain.region_offset, domain.region_vertex, domain.behind, domain.shape, memory_.status,
             memory_.moments, memory_.faces, memory_.border, memory_.wall, memory_.vertices, memory_.vertex,
             memory_.link);
-  candidates_.set_arguments(call, common_arguments);
+  candidates_.append_arguments(call);
   call.launch(rows);
 
   const std::size_t first_uncertain = outcome.uncertain.size();
@@ -165,7 +162,7 @@ void Clipper::read_statuses(std::span<const std::uint32_t> active, Outcome& outc
   launch_status_.resize(rows);
   memory_.status.download(std::span(launch_status_));
   const auto batch = static_cast<std::uint32_t>(pieces.used);
-  std::uint32_t worst = PIECE_WHOLE;
+  std::uint32_t worst = PIECE_DONE;
   for (std::size_t row = 0; row < rows; ++row) {
     pieces.status[active[row]] = launch_status_[row];
     pieces.batch[active[row]] = batch;

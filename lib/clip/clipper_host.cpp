@@ -59,7 +59,7 @@ int Clipper::clip_split(HostClipper& host, const SplitPair& split, std::span<dou
   for (const std::uint32_t region : split.regions) {
     const int of_part = host.clip(pair_seed_[split.pair], region, part, rows);
     if (of_part == PIECE_EMPTY) continue;
-    if (status != PIECE_WHOLE) status = of_part;
+    if (status != PIECE_DONE) status = of_part;
     std::transform(part.begin(), part.end(), moments.begin(), moments.begin(), std::plus<>());
   }
   // The rows of the parts become one row of walls; there is no common geometry.

@@ -11,36 +11,33 @@ namespace powercell {
 
 struct HostScene;
 
-/// A vertex is given by the planes that meet in it: what lies behind the faces there, as in
-/// PieceBatch::border (rank of a seed, or ~facet of the region). Two on polygons and surfaces, three in
-/// volumes.
+/// A vertex, given by the planes that meet in it. Each is a border as in PieceBatch: the rank of a seed, or
+/// ~facet of the region. Polygons and surfaces have two, volumes three.
 using ExactVertex = std::array<std::int32_t, 3>;
 
-/// Exact predicates in integers, as short as the seeds met allow. Where the numbers as given make a tie, the
-/// weight of each seed counts as larger by an infinitesimal, that of a lower rank by an infinitely larger one
-/// than all behind it (simulation of simplicity), so that every cell decides alike, in whatever order the
-/// seeds were given (docs/mathematics.md, "Certain decisions").
+/// Exact predicates in integers that are as short as the seeds allow. Ties are broken by simulation of
+/// simplicity: the weight of each seed counts as larger by an infinitesimal, which is infinitely larger than
+/// those of all higher ranks. So all cells decide alike, whatever the order in which the seeds were given
+/// (docs/mathematics.md (86)).
 class ExactCell {
  public:
   explicit ExactCell(const HostScene& scene);
   ~ExactCell();
   ExactCell(ExactCell&&) noexcept;
 
-  /// Decisions are about the cell of seed `rank` in `region` from now on.
+  /// From now on all decisions are about the cell of seed `rank` in `region`.
   void start(std::uint32_t rank, std::uint32_t region);
-  /// Whether the vertex is beyond the bisector with seed `other`; not if that is one of its planes.
+  /// Whether the vertex is beyond the bisector with seed `other`; false if that is one of its planes.
   bool is_outside(const ExactVertex& vertex, std::int32_t other);
-  /// The vertex relative to the seed, each coordinate within a few rounding errors of itself.
+  /// The vertex relative to the seed; each coordinate has a relative error of a few rounding units.
   std::array<double, 3> place(const ExactVertex& vertex);
   /// Whether the vertex without the infinitesimals lies in the plane of `border`.
   bool lies_in(const ExactVertex& vertex, std::int32_t border);
-  /// Whether, in the plane of `face`, those of `a` and `b` leave parallel lines; on polygons `face` does not
-  /// count.
+  /// Whether the planes of `a` and `b` meet that of `face` in parallel lines; in polygons `face` is not used.
   bool are_parallel(std::int32_t face, std::int32_t a, std::int32_t b);
   /// Whether vertex `corner` of the domain is beyond the bisector with `other`.
   bool is_corner_outside(std::uint32_t corner, std::int32_t other) const;
-  /// Whether no point of a facet of the region but its ends is within the bisector with `other`. In the
-  /// plane.
+  /// Whether the bisector with `other` keeps no point of a facet of the region except its ends. In the plane.
   bool is_facet_outside(std::uint32_t facet, std::int32_t other) const;
 
  private:

@@ -81,7 +81,7 @@ Int integer(const ExactDifference& x, int exponent) {
   return high + low;
 }
 
-/// Bits that numbers may have: of a normal, and of the difference of weights in a level.
+/// Bits that numbers may have: of a normal, and of the difference of weights in a offset.
 template <class Row>
 struct Limits {
   static constexpr int normal = INT_MAX / 4, weight = INT_MAX / 4;
@@ -107,11 +107,11 @@ bool convert(const Unbounded& x, Unbounded& to) {
 }
 
 template <int n, int m>
-void level_of(const Wide<m>& square, const ExactDifference& weight, int exponent, Wide<n>& level) {
-  level = square.template resized<n>() + integer<Wide<n>>(weight, exponent);
+void offset_of(const Wide<m>& square, const ExactDifference& weight, int exponent, Wide<n>& offset) {
+  offset = square.template resized<n>() + integer<Wide<n>>(weight, exponent);
 }
-void level_of(const Unbounded& square, const ExactDifference& weight, int exponent, Unbounded& level) {
-  level = square + integer<Unbounded>(weight, exponent);
+void offset_of(const Unbounded& square, const ExactDifference& weight, int exponent, Unbounded& offset) {
+  offset = square + integer<Unbounded>(weight, exponent);
 }
 
 using ExactPoint = std::array<ExactDifference, 3>;
@@ -182,7 +182,7 @@ bool ExactPlanes<Row>::make_short_bisector(std::int32_t other, Row& row) const {
       if (static_cast<double>(n) != x) return false;
       row.normal[k].limb[0] = static_cast<std::uint64_t>(n);
     }
-    level_of(dot_of(row.normal, row.normal), {}, 0, row.level);
+    offset_of(dot_of(row.normal, row.normal), {}, 0, row.offset);
     return true;
   }
   return false;
@@ -207,7 +207,7 @@ bool ExactPlanes<Row>::make_bisector(std::int32_t other, Row& row) {
   if (weight.high != 0 && highest_bit_of(weight) - 2 * exponent_ > Limits<Row>::weight) return false;
   for (std::size_t k = 0; k < 3; ++k)
     row.normal[k] = k < d ? integer<typename Row::Normal>(q[k], exponent_) : typename Row::Normal{};
-  level_of(dot_of(row.normal, row.normal), weight, 2 * exponent_, row.level);
+  offset_of(dot_of(row.normal, row.normal), weight, 2 * exponent_, row.offset);
   return true;
 }
 
@@ -251,10 +251,10 @@ bool ExactPlanes<Row>::make_facet(std::int32_t border, Row& row) {
     const Vector along = at((f + 1) % corners_) - at(f);
     normal = shortened(d == 2 ? Vector{along[1], -along[0], 0} : cross_of(along, across(0, 1, 2)));
   }
-  const Unbounded level = 2 * dot_of(normal, at(on));
+  const Unbounded offset = 2 * dot_of(normal, at(on));
   for (std::size_t k = 0; k < 3; ++k)
     if (!convert(normal[k], row.normal[k])) return false;
-  return convert(level, row.level);
+  return convert(offset, row.offset);
 }
 
 template <class Row>

@@ -21,7 +21,7 @@ struct ExactDifference {
   double high = 0, low = 0;
 };
 
-/// Of one seed and region, in units of 2^exponent() (levels: of its square): exact, as long as the numbers
+/// Of one seed and region, in units of 2^exponent() (offsets: of its square): exact, as long as the numbers
 /// met fit rows of this kind. The unit follows the seeds met, so that close together short integers do.
 template <class Row>
 class ExactPlanes {

@@ -33,18 +33,18 @@ inline Scaled scaled(const Unbounded& x) {
   return {x.sign() < 0 ? -fraction : fraction, exponent};
 }
 
-/// The plane n.y = level / 2, level = |q|^2 + w_i - w_j and n = q for a bisector.
+/// The plane n.y = offset / 2, offset = |q|^2 + w_i - w_j and n = q for a bisector.
 template <class NormalType, class LevelType>
 struct ExactRow {
   using Normal = NormalType;
-  using Level = LevelType;
+  using Offset = LevelType;
   std::array<Normal, 3> normal;
-  Level level;
+  Offset offset;
 };
 
-/// With |n_k| <= 2^(64 n - 3) and |level| < 2^(64 l - 2) no sum below exceeds its type: components of a cross
-/// product are at most 2^(128 n - 5), factors 3 * 2^(192 n - 8), and the sum of four of them times a level is
-/// below 2^(192 n + 64 l - 6).
+/// With |n_k| <= 2^(64 n - 3) and |offset| < 2^(64 l - 2) no sum below exceeds its type: components of a
+/// cross product are at most 2^(128 n - 5), factors 3 * 2^(192 n - 8), and the sum of four of them times a
+/// offset is below 2^(192 n + 64 l - 6).
 template <int n, int l>
 using WideRow = ExactRow<Wide<n>, Wide<l>>;
 using UnboundedRow = ExactRow<Unbounded, Unbounded>;
@@ -60,7 +60,7 @@ inline auto dot_of(const std::array<A, 3>& a, const std::array<B, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Factors of the last column of det(a; b; c; p), or det(a; b; p) in the plane, whose rows are (n, -level):
+/// Factors of the last column of det(a; b; c; p), or det(a; b; p) in the plane, whose rows are (n, -offset):
 /// that of row r is the determinant with (0, ..., 0, 1) for r.
 template <class Row>
 inline auto factors_in_space(const Row& a, const Row& b, const Row& c, const Row& p) {
@@ -89,11 +89,11 @@ inline int sign_of_sum(const std::array<Unbounded, count>& a, const std::array<U
 template <class Row, class Factor>
 inline int determinant_sign(const Row& a, const Row& b, const Row& c, const Row& p,
                             const std::array<Factor, 4>& f) {
-  return -sign_of_sum(std::array{a.level, b.level, c.level, p.level}, f);
+  return -sign_of_sum(std::array{a.offset, b.offset, c.offset, p.offset}, f);
 }
 template <class Row, class Factor>
 inline int determinant_sign(const Row& a, const Row& b, const Row& p, const std::array<Factor, 3>& f) {
-  return -sign_of_sum(std::array{a.level, b.level, p.level}, f);
+  return -sign_of_sum(std::array{a.offset, b.offset, p.offset}, f);
 }
 
 /// x / y 2^exponent.
@@ -112,14 +112,14 @@ inline std::array<double, 3> meeting_in_space(const Row& a, const Row& b, const 
   const auto d = dot_of(a.normal, bc);
   std::array<double, 3> y;
   for (std::size_t k = 0; k < 3; ++k)
-    y[k] = quotient(a.level * bc[k] + b.level * ca[k] + c.level * ab[k], d, exponent - 1);
+    y[k] = quotient(a.offset * bc[k] + b.offset * ca[k] + c.offset * ab[k], d, exponent - 1);
   return y;
 }
 template <class Row>
 inline std::array<double, 3> meeting_in_plane(const Row& a, const Row& b, int exponent) {
   const auto d = a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
-  return {quotient(a.level * b.normal[1] - b.level * a.normal[1], d, exponent - 1),
-          quotient(b.level * a.normal[0] - a.level * b.normal[0], d, exponent - 1), 0};
+  return {quotient(a.offset * b.normal[1] - b.offset * a.normal[1], d, exponent - 1),
+          quotient(b.offset * a.normal[0] - a.offset * b.normal[0], d, exponent - 1), 0};
 }
 
 /// Rows by what lies behind them (PieceBatch::border), found quickly.

@@ -22,8 +22,8 @@ class PieceClipper final : public HostClipper {
     start(rank, region);
     std::array<double, 5> sums{};
     std::vector<Wall> walls;
-    int status = cut_by_all() ? PIECE_WHOLE : PIECE_EMPTY;
-    if (status == PIECE_WHOLE) {
+    int status = cut_by_all() ? PIECE_DONE : PIECE_EMPTY;
+    if (status == PIECE_DONE) {
       cell_.finish({exact_, radius_, true});
       sums = cell_.moments();
       HostWalls<Cell> finished(cell_, exact_, radius_);
@@ -80,13 +80,14 @@ class PieceClipper final : public HostClipper {
     const std::array<double, 4>&here = scene_.points[rank_], &there = scene_.points[other];
     const Point q = position(there) - position(here);
     const Bisector bisector{q, dot(q, q), here[3] - there[3]};
-    const double rounding = bisector.rounding(radius_), size = 2 * sum_of_sizes(q), level = bisector.level();
+    const double rounding = bisector.rounding(radius_), size = 2 * sum_of_sizes(q),
+                 offset = bisector.offset();
     const std::size_t count = cell_.size();
     std::size_t inside = 0, outside = 0;
     side_.resize(count);
     for (std::size_t v = 0; v < count; ++v) {
       const HostPoint& p = cell_.vertex(v);
-      const double side = 2 * dot(q, p.at) - level, error = rounding + size * p.error;
+      const double side = 2 * dot(q, p.at) - offset, error = rounding + size * p.error;
       const int is_outside = side > error, is_inside = side < -error;
       side_[v] = is_outside - is_inside;
       inside += is_inside;

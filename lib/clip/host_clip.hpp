@@ -41,7 +41,7 @@ HostScene make_host_scene(const Scene& scene);
 class HostClipper {
  public:
   virtual ~HostClipper() = default;
-  /// Clips the piece of seed `rank` in `region` by all other seeds: returns its status (PIECE_WHOLE, _EMPTY
+  /// Clips the piece of seed `rank` in `region` by all other seeds: returns its status (PIECE_DONE, _EMPTY
   /// or _FLAT), writes its 2 + dimension moments and appends its row. \throw Error internal if the result
   /// contradicts itself: a defect (names the seed by its rank)
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;

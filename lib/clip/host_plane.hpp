@@ -58,8 +58,8 @@ struct HostRegion {
 struct Bisector {
   Point q{};
   double square = 0, weights = 0;  ///< |q|^2; by how much the seed outweighs the other
-  double level() const { return square + weights; }
-  /// At least the error of 2 q.y - level where |y| <= radius.
+  double offset() const { return square + weights; }
+  /// At least the error of 2 q.y - offset where |y| <= radius.
   double rounding(double radius) const {
     return rounding_unit * (8 * sum_of_sizes(q) * radius + 4 * (square + std::fabs(weights))) +
            2 * least_product;
@@ -71,7 +71,7 @@ inline HostPlane plane_of(const Bisector& b) {
   const double most = std::max({std::fabs(b.q[0]), std::fabs(b.q[1]), std::fabs(b.q[2])});
   const double scale = b.square > least_product ? 1 : std::ldexp(1.0, -std::ilogb(most));
   const Point q = scale * b.q;
-  const double length = norm(q), size = length / scale, offset = 0.5 * b.level() / size;
+  const double length = norm(q), size = length / scale, offset = 0.5 * b.offset() / size;
   return {1 / length * q, offset, rounding_unit * (2 * size + std::fabs(offset)) + least_product / size};
 }
 

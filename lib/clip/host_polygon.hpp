@@ -19,9 +19,9 @@ class HostPolygon {
 
   /// Edge k has the border ~k.
   void start(const HostRegion& region);
-  /// Keeps the vertices whose side is below 0. \return whether what it cuts off is in one piece
+  /// Keeps the vertices whose side is below 0. \return whether the part cut off is connected
   bool cut(const std::vector<double>& side, const HostFace& line, const HostPlacer& place);
-  /// Places all vertices anew. Before the functions below.
+  /// Computes all vertices anew. To be called before the functions below.
   void finish(const HostPlacer& place);
   /// Measure, first moments and second moment (docs/mathematics.md (13)).
   std::array<double, 5> moments();
@@ -35,7 +35,7 @@ class HostPolygon {
   bool is_on(std::size_t v, std::size_t f) const { return v == f || v == after(f); }
   std::size_t after(std::size_t v) const { return v + 1 == ring_.size() ? 0 : v + 1; }
   std::size_t before(std::size_t v) const { return v == 0 ? ring_.size() - 1 : v - 1; }
-  /// Calls use(v, u, border) for the edges from v to u while it returns true; whether all did.
+  /// Calls use(v, u, border) for the edges from v to u until it returns false. \return whether it never did
   template <class Use>
   bool all_edges(std::size_t, const Use& use) const {
     for (std::size_t v = 0; v < size(); ++v)

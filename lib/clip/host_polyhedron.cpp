@@ -28,7 +28,7 @@ HostPoint HostPolyhedron::place_vertex(const HostPlacer& place, const Links& fac
   return place({a.border, b.border, c.border}, a.plane, b.plane, c.plane);
 }
 
-/// Lists the vertices outside and the edges from there to others.
+/// Lists the vertices outside and the edges that lead from them to vertices inside.
 void HostPolyhedron::find_crossings(const std::vector<double>& side) {
   outside_.clear();
   crossings_.clear();
@@ -42,7 +42,7 @@ void HostPolyhedron::find_crossings(const std::vector<double>& side) {
   }
 }
 
-/// Joins the new vertices, of which `first` is one, around the new face. \return whether they are one loop
+/// Joins the new vertices, starting from `first`, around the new face. \return whether they form one loop
 bool HostPolyhedron::link_loop(std::uint32_t first) {
   std::size_t length = 0;
   std::uint32_t u = first;
@@ -59,7 +59,7 @@ bool HostPolyhedron::link_loop(std::uint32_t first) {
   return length == crossings_.size();
 }
 
-/// Gives the place of vertex v to the last one.
+/// Removes vertex v; the last vertex takes its number.
 void HostPolyhedron::remove(std::uint32_t v) {
   const auto last = static_cast<std::uint32_t>(size() - 1);
   if (v != last) {
@@ -77,7 +77,7 @@ bool HostPolyhedron::cut(const std::vector<double>& side, const HostFace& face, 
   if (crossings_.size() < 3) return false;
   faces_.push_back(face);
   mark_.assign(faces_.size(), none);
-  for (std::size_t k = 0; k < crossings_.size(); ++k) {  // new vertices take the places of those outside
+  for (std::size_t k = 0; k < crossings_.size(); ++k) {  // new vertices take the numbers of those outside
     const auto& [kept, slot, right, left] = crossings_[k];
     if (k == outside_.size()) {
       outside_.push_back(static_cast<std::uint32_t>(size()));
@@ -95,7 +95,7 @@ bool HostPolyhedron::cut(const std::vector<double>& side, const HostFace& face, 
   return true;
 }
 
-/// Numbers the faces that are left; the mark of each is its first vertex.
+/// Numbers the remaining faces; the mark of each is its first vertex.
 void HostPolyhedron::number_faces() {
   std::vector<std::uint32_t> number(faces_.size(), none);
   for (const Vertex& vertex : links_)

@@ -20,11 +20,12 @@ class HostPolyhedron {
 
   /// The region's shape; facet f has the border ~f.
   void start(const HostRegion& region);
-  /// Keeps the vertices whose side is below 0. \return whether what it cuts off is in one piece
+  /// Keeps the vertices whose side is below 0. \return whether the part cut off is connected
   bool cut(const std::vector<double>& side, const HostFace& face, const HostPlacer& place);
-  /// Places all vertices anew. Before the functions below.
+  /// Computes all vertices anew. To be called before the functions below.
   void finish(const HostPlacer& place);
-  /// Measure, first moments and second moment (docs/mathematics.md (14), (14a)). Before `measure`.
+  /// Measure, first moments and second moment (docs/mathematics.md (14), (14a)). To be called before
+  /// `measure`.
   std::array<double, 5> moments();
 
   std::size_t size() const { return points_.size(); }
@@ -39,8 +40,8 @@ class HostPolyhedron {
   bool is_on(std::size_t v, std::size_t f) const {
     return links_[v].face[0] == f || links_[v].face[1] == f || links_[v].face[2] == f;
   }
-  /// Calls use(v, u, border) for the edges of face f from v to u, each in the plane of `border`, while it
-  /// returns true; whether all did.
+  /// Calls use(v, u, border) for the edges of face f from v to u, each in the plane of `border`, until it
+  /// returns false. \return whether it never did
   template <class Use>
   bool all_edges(std::size_t f, const Use& use) const {
     std::size_t v = mark_[f];

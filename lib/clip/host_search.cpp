@@ -68,8 +68,8 @@ inline double HostSearch::key_of(double nearest, double farthest, double weight)
   // Where the cell's own seed outweighs the others, the distance of the bisector is least at the root of
   // that.
   const double excess = seed_[3] - weight, square = std::max(std::min(excess, farthest), nearest);
-  const double level = square * (1 - 16 * rounding_unit) + excess;
-  return level * (std::fabs(level) / std::max(square, least_product));
+  const double offset = square * (1 - 16 * rounding_unit) + excess;
+  return offset * (std::fabs(offset) / std::max(square, least_product));
 }
 
 void HostSearch::divide_tree(std::uint32_t leaf) {

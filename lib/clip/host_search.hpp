@@ -11,15 +11,15 @@
 
 namespace powercell {
 
-/// Goes outwards in rounds. Each finds the seeds with bisectors nearer than a horizon and leaves out those
-/// that clear the cell by a margin (docs/mathematics.md, "Certain decisions").
+/// Searches outwards in rounds. Each round finds the seeds with bisectors nearer than a horizon and leaves
+/// out those that clear the cell by a margin (docs/mathematics.md, "Certain decisions").
 class HostSearch {
  public:
   explicit HostSearch(const HostScene& scene) : scene_(scene) {}
 
-  /// All other seeds are still to come. Faster for one seed of a leaf after another.
+  /// Starts the search for the cell of seed `rank`. Fast if the seed before was of the same leaf.
   void start(std::uint32_t rank);
-  /// The next seed; once there is none, the seeds left cannot cut the cell.
+  /// The next seed, or nothing if no other seed can cut the cell.
   /// \param radius    no vertex of the cell is farther from its seed
   /// \param vertices  vertices() lists them
   template <class Vertices>
@@ -33,13 +33,13 @@ class HostSearch {
   }
 
  private:
-  /// Seeds are left out only with this part of the cell's radius to spare.
+  /// A seed is left out only if it clears the cell by 1/16 of this part of its radius.
   static constexpr double search_margin = 1.0 / (1 << MARGIN_BITS_DOUBLE);
   static constexpr std::int32_t seed_level = -1, rest_level = -2;
 
   /// A seed, a node of the tree (from level 0), or all of `rest_`.
   struct Entry {
-    double key;  ///< no bisector in it has a lower square of twice its distance (4), with the sign of that
+    double key;  ///< lower bound of the signed squares of twice the distances (4) of its bisectors
     std::uint32_t at;
     std::int32_t level;
   };

@@ -1,5 +1,5 @@
 /// \file
-/// What a finished cell and its walls measure once the infinitesimals of ties are dropped, and which walls
+/// Measures of a finished cell and its walls without the infinitesimals that break ties, and the walls that
 /// lie in facets of the region (docs/mathematics.md, "Certain decisions", "Walls in facets").
 #pragma once
 
@@ -25,8 +25,8 @@ class HostWalls {
   HostWalls(const Cell& cell, ExactCell& exact, double radius)
       : cell_(cell), exact_(exact), radius_(radius) {}
 
-  /// Whether the cell is exactly flat. One that is not, but is no thicker than the rounding of its vertices,
-  /// gets the least measure there is and the mean of its vertices as centroid.
+  /// Whether the cell is exactly flat. If it is not, but no thicker than the rounding of its vertices, sets
+  /// its measure to the least positive number and its centroid to the mean of its vertices.
   bool is_flat(std::array<double, 5>& moments) {
     if (moments[0] > plainly_solid * power_of_radius(Cell::dimension)) return false;
     if (is_degenerate()) return true;
@@ -41,8 +41,8 @@ class HostWalls {
     return false;
   }
 
-  /// The faces of the cell as its row has them.
-  /// \param flat    whether the cell is
+  /// The faces of the cell with the borders and measures of its row in PieceBatch.
+  /// \param flat    whether the cell is flat
   /// \param behind  what lies behind the facets of the region (BEHIND_NOTHING in kernels/layout.h)
   std::vector<Wall> settle(const HostRegion& region, const std::int32_t* behind, bool flat) {
     for (std::size_t facet = 0; facet < cell_.facets().size(); ++facet)
@@ -61,9 +61,11 @@ class HostWalls {
   }
 
  private:
-  /// A face or cell this part of the square or cube of the radius large plainly has its dimension.
+  /// A face or cell is certainly not degenerate if it is larger than this part of the square or cube of the
+  /// radius.
   static constexpr double plainly_solid = 1e-9;
-  /// Of what is plainly a wall: far below rounding, far above the least number.
+  /// Least measure of a wall that is not degenerate, as a part of one that certainly is not: far below
+  /// rounding, far above underflow.
   static constexpr double next_to_nothing = 1e-50;
 
   double power_of_radius(int dimension) const {
@@ -110,8 +112,8 @@ class HostWalls {
     return true;
   }
 
-  /// Walls whose measure is 0 without the infinitesimals measure 0, to the bit, and no others: what rounding
-  /// made nothing measures next to nothing.
+  /// The measure of a face: exactly 0 if and only if it is 0 without the infinitesimals. A wall that rounding
+  /// made 0 or negative gets a tiny measure.
   double measure_of(std::size_t f) {
     const double plain = plainly_solid * power_of_radius(Cell::dimension - 1), measure = cell_.measure(f);
     if (measure > plain) return measure;
@@ -133,8 +135,8 @@ class HostWalls {
     return true;
   }
 
-  /// Sets what lies behind a wall in the plane of a facet: the seed, if it has the region behind the facet
-  /// (or, for a flat piece, if the cell itself has it), else the facet.
+  /// Sets the border of a wall in the plane of a facet: the seed, if it has the region behind the facet (or,
+  /// for a flat piece, if the cell itself has that region), else the facet.
   void settle_in_facets(std::size_t f, const HostRegion& region, const std::int32_t* behind, bool flat,
                         Wall& wall) {
     std::vector<std::size_t> in;  // of a polygon whose corners are in line there may be several
@@ -163,8 +165,8 @@ class HostWalls {
     return false;
   }
 
-  /// Of a wall in the line of several facets only what has a region behind it is one: its length, below 0 if
-  /// that is all of it.
+  /// The length of a wall in the line of several facets, of which only the part with a region behind it
+  /// counts; below 0 if that is the whole wall.
   double open_length(std::size_t f, const std::vector<std::size_t>& facets, const HostRegion& region,
                      const std::int32_t* behind, double least) {
     const Point from = cell_.vertex(f).at, way = cell_.vertex(cell_.after(f)).at - from;

@@ -55,7 +55,7 @@ struct PieceBatch {
 
 /// The pieces of a chunk of pairs.
 struct PieceSet {
-  std::vector<std::uint32_t> status;  ///< per pair: PIECE_WHOLE, _EMPTY or _FLAT
+  std::vector<std::uint32_t> status;  ///< per pair: PIECE_DONE, _EMPTY or _FLAT
   std::vector<std::uint32_t> batch;   ///< per pair: its batch
   std::vector<std::uint32_t> row;     ///< per pair: its row in the batch
   std::vector<PieceBatch> batches;    ///< those in use come first

@@ -1,6 +1,6 @@
 /// \file
-/// Integers of a fixed number of limbs, for decisions that are made by the million: no allocation, no loop
-/// that the compiler does not unroll, and products as long as they need to be.
+/// Integers of a fixed number of limbs, for decisions that are made by the million: without allocation, with
+/// loops that the compiler unrolls, and with products of exactly the length needed.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ namespace powercell {
 __extension__ using Limbs2 = unsigned __int128;
 __extension__ using SignedLimbs2 = __int128;
 
-/// In two's complement, the least limb first. Sums and differences must fit; products always do.
+/// An integer in two's complement, least limb first. Sums and differences must fit n limbs; products always
+/// fit.
 template <int n>
 struct Wide {
   std::array<std::uint64_t, n> limb{};
@@ -26,7 +27,7 @@ struct Wide {
     for (const std::uint64_t part : limb) any |= part;
     return negative() ? -1 : any != 0;
   }
-  /// With m limbs: those left out repeat the sign.
+  /// The same number in m limbs: drops the upper limbs or extends the sign.
   template <int m>
   Wide<m> resized() const {
     Wide<m> x;
@@ -91,7 +92,7 @@ inline Wide<n + m> operator*(const Wide<n>& a, const Wide<m>& b) {
       }
       product.limb[i + m] = carry;
     }
-    // As if unsigned so far: a negative factor counted as itself plus 2^64n.
+    // The product so far is that of unsigned factors: a negative one counted as itself plus 2^64n.
     const auto take = [&](const auto& x, std::size_t from, bool negative) {
       const std::uint64_t mask = negative ? ~std::uint64_t{0} : 0;
       std::uint64_t borrow = 0;
@@ -119,8 +120,7 @@ inline Wide<3> dot_of(const std::array<Wide<1>, 3>& a, const std::array<Wide<2>,
   return {{static_cast<std::uint64_t>(low), top.limb[0], top.limb[1]}};
 }
 
-/// Sign of the sum of products of a_k and b_k, up to 2^60 of them: columns of limbs are summed first, carried
-/// once.
+/// Sign of the sum of up to 2^60 products a_k b_k. Sums up the columns of limbs first and carries once.
 template <int n, int m, std::size_t count>
 inline int sign_of_sum(const std::array<Wide<n>, count>& a, const std::array<Wide<m>, count>& b) {
   std::array<SignedLimbs2, n + m> column{};

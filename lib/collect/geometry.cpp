@@ -50,7 +50,7 @@ void GeometryCollector::add_loops(const PieceBatch& batch, std::size_t row) {
 void GeometryCollector::add(std::span<const std::uint32_t> pair_seed,
                             std::span<const std::uint32_t> pair_region, const PieceSet& pieces) {
   for (std::size_t k = 0; k < pair_seed.size(); ++k) {
-    if (pieces.status[k] != PIECE_WHOLE && pieces.status[k] != PIECE_FLAT) continue;
+    if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
     const PieceBatch& batch = pieces.batches[pieces.batch[k]];
     const std::size_t row = pieces.row[k];
     piece_rank_.push_back(pair_seed[k]);

@@ -12,7 +12,7 @@ constexpr std::size_t share_count = 2048;  // with fewer pairs, threads cost mor
 constexpr std::uint32_t no_rank = ~std::uint32_t{0};
 
 bool has_walls(const PieceSet& pieces, std::size_t pair) {
-  return pieces.status[pair] == PIECE_WHOLE || pieces.status[pair] == PIECE_FLAT;
+  return pieces.status[pair] == PIECE_DONE || pieces.status[pair] == PIECE_FLAT;
 }
 
 std::size_t count_walls(const std::int32_t* border, std::size_t count) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernels/layout.h"
+#include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
 #include "lib/diagram/stopwatch.hpp"
@@ -17,8 +18,6 @@ namespace {
 /// Pairs of a chunk, unless Options::chunk_pairs is set. A GPU needs many to be busy. A core of a CPU needs a
 /// few groups, and collects the output of a small chunk from its cache.
 constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 14;
-/// PoCL compiles a kernel once for fewer than 2^16 work-items and once for more; this avoids the second.
-constexpr std::uint64_t chunk_pairs_cpu = (std::uint64_t{1} << 16) - 4096;
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
@@ -35,10 +34,10 @@ int outputs_of(Wanted want) {
 std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
   if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
   const DeviceInfo& device = setup.device.info();
-  const std::uint64_t most =
-      device.type != DeviceInfo::Type::cpu
-          ? chunk_pairs_gpu
-          : std::min(chunk_pairs_cpu, std::max(1u, device.compute_units) * chunk_pairs_core);
+  const std::uint64_t busy = device.type != DeviceInfo::Type::cpu
+                                 ? chunk_pairs_gpu
+                                 : std::max(1u, device.compute_units) * chunk_pairs_core;
+  const std::uint64_t most = std::min(busy, cl::quirks_of(device).launch_limit);
   // Chunks of equal size, because a small last chunk would not keep all cores busy.
   return (total - 1) / ((total - 1) / most + 1) + 1;
 }

@@ -24,8 +24,6 @@ static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished))
 /// Pairs of one launch, unless Options::chunk_pairs is set: short enough for a display driver's watchdog.
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
-/// The first of its arguments that belong to the search.
-constexpr unsigned tree_argument = 16;
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
@@ -150,7 +148,7 @@ void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uin
                          seeds_.state, domain_buffers.corners, domain_buffers.region_offset,
                          domain_buffers.region_vertex, domain_buffers.behind, domain_buffers.shape,
                          piece_status_, moments_);
-    blocks_.set_arguments(clip_[capacity], tree_argument, device_tree(n));
+    blocks_.append_arguments(clip_[capacity], device_tree(n));
     clip_[capacity].submit(end - first);
   }
 }

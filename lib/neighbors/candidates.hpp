@@ -19,8 +19,8 @@ class Candidates {
   virtual ~Candidates() = default;
   virtual std::string_view file() const = 0;    ///< kernel source
   virtual std::string_view kernel() const = 0;  ///< kernel name
-  /// Sets the arguments that follow those common to all clip kernels, from index `first` on.
-  virtual void set_arguments(cl::Kernel& kernel, unsigned first) const = 0;
+  /// Appends the arguments that follow those common to all clip kernels (PIECE_ARGUMENTS).
+  virtual void append_arguments(cl::Kernel& kernel) const = 0;
   /// Candidates of the same kind for the golden diagram: a small scene in which every seed may be a neighbour
   /// of every other and meet every region.
   virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;

@@ -69,8 +69,8 @@ class HiddenSearch {
                         count = (leaves - 1) / stride + 1;
     hidden_.resize(std::size_t{count} * PackedTree::fan);
     kernel_.args(count, stride, box_);
-    blocks_.set_pack_arguments(kernel_, 3, tree_);
-    kernel_.args_from(3 + TreeBlocks::pack_argument_count, hidden_);
+    blocks_.append_pack_arguments(kernel_, tree_);
+    kernel_.more_args(hidden_);
     kernel_.launch(count);
     return hidden_.download();
   }

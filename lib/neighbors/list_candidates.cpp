@@ -132,8 +132,8 @@ void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
   use_.entries += distinct_.size() * count_;
 }
 
-void ListCandidates::set_arguments(cl::Kernel& kernel, unsigned first) const {
-  kernel.args_from(first, scene_.buffers.points, static_cast<cl_uint>(scene_.seeds.size()), lift_, neighbor_,
+void ListCandidates::append_arguments(cl::Kernel& kernel) const {
+  kernel.more_args(scene_.buffers.points, static_cast<cl_uint>(scene_.seeds.size()), lift_, neighbor_,
                    active_list_, static_cast<cl_uint>(count_), static_cast<cl_uint>(count_),
                    static_cast<cl_int>(twins_), list_use_);
 }

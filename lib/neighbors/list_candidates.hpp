@@ -27,7 +27,7 @@ class ListCandidates : public Candidates {
   std::string_view kernel() const override { return "clip_by_list_kernel"; }
   std::size_t most_pairs(int round) const override;
   void prepare(std::span<const std::uint32_t> ranks, int round) override;
-  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
   int outputs() const override;
   double host_seconds() const override { return host_seconds_; }

@@ -54,14 +54,14 @@ void TreeBlocks::leave_empty() {
   near_count_.resize(0);
 }
 
-void TreeBlocks::set_pack_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
-  kernel.args_from(first, tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
+void TreeBlocks::append_pack_arguments(cl::Kernel& kernel, const Tree& tree) const {
+  kernel.more_args(tree.seeds, tree.seed_count, tree.node_low, tree.node_high, tree.level_offset,
                    cl_int{tree.levels}, seed_block_, node_block_);
 }
 
-void TreeBlocks::set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const {
-  set_pack_arguments(kernel, first, tree);
-  kernel.args_from(first + pack_argument_count, near_, near_count_, near_bound_);
+void TreeBlocks::append_arguments(cl::Kernel& kernel, const Tree& tree) const {
+  append_pack_arguments(kernel, tree);
+  kernel.more_args(near_, near_count_, near_bound_);
 }
 
 }  // namespace powercell

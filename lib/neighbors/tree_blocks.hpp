@@ -34,11 +34,10 @@ class TreeBlocks {
   /// Leaves the buffers empty, for kernels that take the arguments but do not search.
   void leave_empty();
 
-  static constexpr unsigned argument_count = 11, pack_argument_count = 8;
-  /// Sets `argument_count` arguments of a clip kernel from `first` on: tree, blocks and near leaves.
-  void set_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
-  /// Sets `pack_argument_count` arguments: the same without the near leaves.
-  void set_pack_arguments(cl::Kernel& kernel, unsigned first, const Tree& tree) const;
+  /// Appends the arguments of clip kernels: tree, blocks and near leaves.
+  void append_arguments(cl::Kernel& kernel, const Tree& tree) const;
+  /// Appends the same without the near leaves.
+  void append_pack_arguments(cl::Kernel& kernel, const Tree& tree) const;
 
  private:
   cl::Kernel pack_, list_;

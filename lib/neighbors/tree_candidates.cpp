@@ -58,8 +58,8 @@ TreeCandidates::TreeCandidates(const Scene& scene, bool searched)
     blocks_.leave_empty();
 }
 
-void TreeCandidates::set_arguments(cl::Kernel& kernel, unsigned first) const {
-  blocks_.set_arguments(kernel, first, device_tree(scene_));
+void TreeCandidates::append_arguments(cl::Kernel& kernel) const {
+  blocks_.append_arguments(kernel, device_tree(scene_));
 }
 
 std::unique_ptr<Candidates> TreeCandidates::for_scene(const Scene& scene) const {
@@ -75,9 +75,9 @@ RegionCandidates::RegionCandidates(const Scene& scene, std::span<const std::uint
   list_seed_.upload(list_seed);
 }
 
-void RegionCandidates::set_arguments(cl::Kernel& kernel, unsigned first) const {
-  kernel.args_from(first, list_offset_, list_seed_);
-  TreeCandidates::set_arguments(kernel, first + 2);
+void RegionCandidates::append_arguments(cl::Kernel& kernel) const {
+  kernel.more_args(list_offset_, list_seed_);
+  TreeCandidates::append_arguments(kernel);
 }
 
 std::unique_ptr<Candidates> RegionCandidates::for_scene(const Scene& scene) const {
@@ -106,9 +106,9 @@ CellCandidates::CellCandidates(TreeCandidates tree, const CellWalls& walls, cons
   if (!rows.empty()) plane_.write(rows.data(), rows.size() * sizeof(double));
 }
 
-void CellCandidates::set_arguments(cl::Kernel& kernel, unsigned first) const {
-  TreeCandidates::set_arguments(kernel, first);
-  kernel.args_from(first + TreeBlocks::argument_count, wall_offset_, neighbor_, plane_offset_, plane_);
+void CellCandidates::append_arguments(cl::Kernel& kernel) const {
+  TreeCandidates::append_arguments(kernel);
+  kernel.more_args(wall_offset_, neighbor_, plane_offset_, plane_);
 }
 
 std::unique_ptr<Candidates> CellCandidates::for_scene(const Scene& scene) const {

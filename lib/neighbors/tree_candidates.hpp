@@ -23,7 +23,7 @@ class TreeCandidates : public Candidates {
   explicit TreeCandidates(const Scene& scene, bool searched = true);
   std::string_view file() const override { return "clip/by_tree.cl"; }
   std::string_view kernel() const override { return "clip_by_tree_kernel"; }
-  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
 
  protected:
@@ -44,7 +44,7 @@ class RegionCandidates : public TreeCandidates {
                    std::span<const std::uint32_t> list_seed, bool all_listed);
   std::string_view file() const override { return "clip/by_region.cl"; }
   std::string_view kernel() const override { return "clip_by_region_kernel"; }
-  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
 
  private:
@@ -61,7 +61,7 @@ class CellCandidates : public TreeCandidates {
   CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes);
   std::string_view file() const override { return "clip/by_cell.cl"; }
   std::string_view kernel() const override { return "clip_by_cell_kernel"; }
-  void set_arguments(cl::Kernel& kernel, unsigned first) const override;
+  void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
 
  private:

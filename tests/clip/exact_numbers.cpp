@@ -40,14 +40,14 @@ void compare_rows() {
   const auto narrow = [](const UnboundedRow& row) {
     WideRow<n, l> to;
     for (std::size_t k = 0; k < 3; ++k) to.normal[k] = wide<n>(row.normal[k]);
-    to.level = wide<l>(row.level);
+    to.offset = wide<l>(row.offset);
     return to;
   };
   for (int round = 0; round < 4000; ++round) {
     std::array<UnboundedRow, 4> rows;
     for (UnboundedRow& row : rows) {
       for (Unbounded& x : row.normal) x = numbers.next(64 * n - 3);
-      row.level = numbers.next(64 * l - 2);
+      row.offset = numbers.next(64 * l - 2);
     }
     // Ties and planes through one line: the last row is a sum of the others.
     if (round % 4 == 1)
@@ -61,13 +61,13 @@ void compare_rows() {
     for (std::size_t k = 0; k < 4; ++k) {
       CHECK(sign_of(factor[k]) == exact[k].sign());
       CHECK(factor[k].limb == wide<3 * n>(exact[k]).limb);
-      sum += rows[k].level * exact[k];
+      sum += rows[k].offset * exact[k];
     }
     CHECK(determinant_sign(a, b, c, p, factor) == -sum.sign());
     const auto exact2 = factors_in_plane(rows[0], rows[1], rows[2]);
-    CHECK(
-        determinant_sign(a, b, c, factors_in_plane(a, b, c)) ==
-        -Unbounded(rows[0].level * exact2[0] + rows[1].level * exact2[1] + rows[2].level * exact2[2]).sign());
+    CHECK(determinant_sign(a, b, c, factors_in_plane(a, b, c)) ==
+          -Unbounded(rows[0].offset * exact2[0] + rows[1].offset * exact2[1] + rows[2].offset * exact2[2])
+               .sign());
     if (exact[3].sign() == 0) continue;
     const auto place = meeting_in_space(rows[0], rows[1], rows[2], -30),
                same = meeting_in_space(a, b, c, -30);

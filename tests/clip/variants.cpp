@@ -33,9 +33,7 @@ class BlindCandidates : public TreeCandidates {
         blocks_(scene.context(), without_cells(scene)) {
     blocks_.enqueue(tree_);
   }
-  void set_arguments(cl::Kernel& kernel, unsigned first) const override {
-    blocks_.set_arguments(kernel, first, tree_);
-  }
+  void append_arguments(cl::Kernel& kernel) const override { blocks_.append_arguments(kernel, tree_); }
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override {
     return std::make_unique<BlindCandidates>(scene);
   }

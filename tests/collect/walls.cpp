@@ -70,7 +70,7 @@ PieceSet piece_set(const Pieces& p, std::size_t begin, std::size_t end) {
   for (std::size_t k = begin; k < end; ++k) {
     const std::uint32_t which = repeats_a_seed(p.faces[k]) ? 1 : 0;
     PieceBatch& batch = set.batches[which];
-    set.status.push_back(k % 11 == 0 ? PIECE_FLAT : PIECE_WHOLE);
+    set.status.push_back(k % 11 == 0 ? PIECE_FLAT : PIECE_DONE);
     set.batch.push_back(which);
     set.row.push_back(static_cast<std::uint32_t>(batch.face_offset.size() - 1));
     for (const auto& [border, wall] : p.faces[k]) {

@@ -255,60 +255,57 @@ std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
   return result;
 }
 
-/// Divides a piece of the removed seed among the heirs.
-void LocalDiagram::share_out(std::uint32_t seed, std::uint32_t piece,
-                             const std::vector<std::uint32_t>& heirs) {
-  const Ring freed = pieces_[piece].ring;
-  const std::uint32_t t = pieces_[piece].triangle;
+/// The heirs that get a part of a freed piece.
+std::vector<std::uint32_t> LocalDiagram::gainers(const Ring& freed, const std::vector<std::uint32_t>& heirs) {
   std::vector<std::uint32_t> best;  // heirs that own a corner
   for (const Corner& corner : freed) {
-    double least = infinity;
-    std::uint32_t at_least = heirs.front();
-    for (const std::uint32_t j : heirs) {
-      const double p = power(j, corner.at);
-      if (p < least) {
-        least = p;
-        at_least = j;
-      }
-    }
-    if (std::find(best.begin(), best.end(), at_least) == best.end()) best.push_back(at_least);
+    const std::uint32_t nearest =
+        *std::ranges::min_element(heirs, {}, [&](std::uint32_t j) { return power(j, corner.at); });
+    if (std::ranges::find(best, nearest) == best.end()) best.push_back(nearest);
   }
   // An heir to which one of these is preferable at every corner gets nothing, (11).
   std::vector<std::uint32_t> left;
   for (const std::uint32_t j : heirs) {
-    const bool beaten = std::any_of(best.begin(), best.end(), [&](std::uint32_t k) {
-      return k != j && std::all_of(freed.begin(), freed.end(), [&](const Corner& corner) {
+    const bool beaten = std::ranges::any_of(best, [&](std::uint32_t k) {
+      return k != j && std::ranges::all_of(freed, [&](const Corner& corner) {
                return power(k, corner.at) < power(j, corner.at);
              });
     });
     if (!beaten) left.push_back(j);
   }
-  std::vector<std::uint32_t> gainers;
+  std::vector<std::uint32_t> result;
   for (const std::uint32_t j : left) {
     Ring ring = freed;
-    bool any = true;
-    for (std::size_t k = 0; any && k < left.size(); ++k)
-      if (left[k] != j) any = cut(ring, j, left[k]);
-    if (any) gainers.push_back(j);
+    if (cut_by_others(ring, j, left)) result.push_back(j);
   }
+  return result;
+}
+
+/// Clips the ring by all of `seeds` but j. \return false if nothing is left
+bool LocalDiagram::cut_by_others(Ring& ring, std::uint32_t j, const std::vector<std::uint32_t>& seeds) {
+  return std::ranges::all_of(seeds, [&](std::uint32_t k) { return k == j || cut(ring, j, k); });
+}
+
+/// Divides a piece of the removed seed among the heirs.
+void LocalDiagram::share_out(std::uint32_t seed, std::uint32_t piece,
+                             const std::vector<std::uint32_t>& heirs) {
+  const std::uint32_t t = pieces_[piece].triangle;
+  const std::vector<std::uint32_t> gaining = gainers(Ring(pieces_[piece].ring), heirs);
   // Pieces adjacent to the freed one grow; the other heirs get new pieces.
-  std::vector<std::uint32_t> owners, again = gainers;
+  std::vector<std::uint32_t> owners, again = gaining;
   for (const std::uint32_t p : owners_[t]) {
     const std::uint32_t j = pieces_[p].seed;
     if (j == seed) continue;
     owners.push_back(j);
-    const bool beside = std::any_of(pieces_[p].ring.begin(), pieces_[p].ring.end(), [&](const Corner& c) {
-      return c.edge == static_cast<std::int32_t>(seed);
-    });
-    if (beside && std::find(again.begin(), again.end(), j) == again.end()) again.push_back(j);
+    const bool beside = std::ranges::any_of(
+        pieces_[p].ring, [&](const Corner& c) { return c.edge == static_cast<std::int32_t>(seed); });
+    if (beside && std::ranges::find(again, j) == again.end()) again.push_back(j);
   }
-  for (const std::uint32_t j : gainers)
-    if (std::find(owners.begin(), owners.end(), j) == owners.end()) owners.push_back(j);
+  for (const std::uint32_t j : gaining)
+    if (std::ranges::find(owners, j) == owners.end()) owners.push_back(j);
   for (const std::uint32_t j : again) {
     Ring ring = ring_of(t);
-    bool any = true;
-    for (std::size_t k = 0; any && k < owners.size(); ++k)
-      if (owners[k] != j) any = cut(ring, j, owners[k]);
+    const bool any = cut_by_others(ring, j, owners);
     const std::uint32_t old = find(t, j);
     if (old != nothing && any) {
       pieces_[old].ring = ring;

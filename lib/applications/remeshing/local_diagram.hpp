@@ -84,6 +84,8 @@ class LocalDiagram {
   void finish();
   void take_from(std::uint32_t seed, std::vector<std::uint32_t>& affected);
   std::vector<std::uint32_t> heirs(std::uint32_t seed, const std::vector<std::uint32_t>& pieces) const;
+  std::vector<std::uint32_t> gainers(const Ring& freed, const std::vector<std::uint32_t>& heirs);
+  bool cut_by_others(Ring& ring, std::uint32_t j, const std::vector<std::uint32_t>& seeds);
   void share_out(std::uint32_t seed, std::uint32_t piece, const std::vector<std::uint32_t>& heirs);
   std::uint32_t find(std::uint32_t triangle, std::uint32_t seed) const;
 
