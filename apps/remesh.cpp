@@ -93,6 +93,8 @@ nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
           {"rounds", o.result.least_spacing.size()},
           {"least_spacing", o.result.least_spacing},
           {"added", o.result.added},
+          {"collapsed", o.result.collapsed},
+          {"intersections", o.result.intersections.count},
           {"seconds",
            {{"read", o.read},
             {"remesh", o.remesh},
@@ -153,6 +155,25 @@ void require_same_topology(const Outcome& o) {
                 "the topology of the new mesh differs from that of the old one: please report");
 }
 
+/// Says on standard error what is not as usual in the new mesh.
+void print_remarks(const RemeshArguments& arguments, const RemeshResult& result) {
+  std::vector<std::string> remarks;
+  const auto place = [](const std::array<double, 3>& at) {
+    return fmt::format("around ({:.9g}, {:.9g}, {:.9g})", at[0], at[1], at[2]);
+  };
+  if (result.collapsed)
+    remarks.push_back((result.inseparable
+                           ? "the surface is thin or sharp, or crosses itself, " + place(*result.inseparable)
+                           : "the points are few for the topology and the kept edges") +
+                      ": the mesh was made by collapsing edges of the input, not from cells");
+  if (const std::size_t pairs = result.intersections.count; pairs > 0)
+    remarks.push_back(
+        fmt::format("{} of triangles of the new mesh cross{}, {}{}: more points may separate them",
+                    pairs == 1 ? "1 pair" : with_commas(pairs) + " pairs", pairs == 1 ? "es" : "",
+                    pairs == 1 ? "" : "the first ", place(result.intersections.first)));
+  print_notes(remarks, arguments.input, arguments);
+}
+
 void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
   for (const std::string& path : arguments.outputs) {
     if (io::lower_extension(path) == ".png")
@@ -189,6 +210,7 @@ int run(const RemeshArguments& arguments) {
   const TriangleMesh input = repaired(arguments, {domain.vertices, domain.elements}, outcome.repair);
   outcome.result = remesh_file(arguments, input);
   outcome.remesh = watch.lap();
+  print_remarks(arguments, outcome.result);
   const TriangleMesh& mesh = outcome.result.mesh;
   outcome.before = mesh_quality(input.vertices, input.triangles);
   outcome.after = mesh_quality(mesh.vertices, mesh.triangles);

@@ -3,6 +3,7 @@
 /// edges that are shorter where the curvature is larger.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,11 @@ struct RemeshResult {
   std::vector<double> sizing;         ///< per vertex: the target edge length h
   std::vector<double> least_spacing;  ///< after each round: least distance between neighbours, over h
   std::size_t added = 0;              ///< points beyond `count` that the dual needed; later collapsed
+  /// Whether the mesh was made by collapsing edges of the input instead of as the dual of cells: the points
+  /// are too few for a dual of the topology of the surface, as where it is thin or crosses itself.
+  bool collapsed = false;
+  std::optional<std::array<double, 3>> inseparable;  ///< if collapsed for that reason, a place of it
+  RepairCount intersections;  ///< pairs of triangles of the new mesh that cross each other
   double seconds_sample = 0, seconds_dual = 0, seconds_relax = 0;  ///< wall-clock times of the stages
 };
 
@@ -57,9 +63,11 @@ struct RemeshResult {
 ///
 /// The input is a triangle mesh, open or closed; it is repaired first. The vertices of the new mesh lie on
 /// it. The new mesh is a manifold with the same Euler characteristic and number of boundary loops; its edges
-/// and vertices reproduce the boundaries, the edges sharper than `sharp_angle` and their corners. \param
-/// vertices   nv x 3, row-major \param triangles  nt x 3 vertex indices from 0 \throw Error invalid_domain
-/// (sizes, indices and coordinates that Domain::surface refuses; a surface that
+/// and vertices reproduce the boundaries, the edges sharper than `sharp_angle` and their corners. Where parts
+/// of the surface are closer to each other than the new mesh is to them, its triangles may cross.
+/// \param vertices   nv x 3, row-major
+/// \param triangles  nt x 3 vertex indices from 0
+/// \throw Error invalid_domain (sizes, indices and coordinates that Domain::surface refuses; a surface that
 ///   cannot be oriented, or is so thin that cutting its triangles to the new spacing would make more than
 ///   10^5, out of proportion to the result; a triangle without area that repair() left; without repair: any
 ///   such triangle, an edge of more than two triangles, a vertex where sheets touch)

@@ -18,7 +18,7 @@ struct RepairOptions {
   /// a quarter of the shortest edge there. 0: edges at the same position only. Below 0: 10^-6 of the diagonal
   /// of the mesh, or four times the rounding of coordinates if that is more. That rounding is a decimal place
   /// if all coordinates end there and the diagonal has more than 10^5 of them; or that of single precision if
-  /// all are single-precision numbers; else that of double.
+  /// all are single-precision numbers; else that of double; at most 10^-3 of the diagonal.
   double weld = -1;
 };
 

@@ -80,22 +80,6 @@ Place Curve::at(const Surface& surface, double s) const {
   return {triangle[k], share == 0 ? a : share == 1 ? b : a + (b - a) * share};
 }
 
-double Curve::nearest(const Surface& surface, Vec x, double from, double to) const {
-  double best = from, least = norm2(at(surface, from).at - x);
-  for (std::size_t k = 0; k + 1 < vertex.size(); ++k) {
-    if (along[k + 1] < from || along[k] > to) continue;
-    const Vec a = surface.vertex[vertex[k]], step = surface.vertex[vertex[k + 1]] - a;
-    const double length = along[k + 1] - along[k];
-    const double share = norm2(step) > 0 ? dot(x - a, step) / norm2(step) : 0;
-    const double s = std::clamp(along[k] + std::clamp(share, 0.0, 1.0) * length, from, to);
-    const double distance = norm2(at(surface, s).at - x);
-    if (distance >= least) continue;
-    least = distance;
-    best = s;
-  }
-  return best;
-}
-
 std::vector<Curve> kept_curves(const Surface& surface, double sharp_angle) {
   const Net net = net_of(surface, sharp_angle);
   std::vector<bool> used(net.edge.size(), false);

@@ -19,8 +19,6 @@ struct Curve {
   double length() const { return along.back(); }
   /// The point at length s from the start.
   Place at(const Surface& surface, double s) const;
-  /// The length, between two others, at which the curve is nearest to x.
-  double nearest(const Surface& surface, Vec x, double from, double to) const;
 };
 
 /// Divides the kept edges into curves. They end in corners: vertices with other than two kept edges, and

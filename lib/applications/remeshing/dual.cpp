@@ -161,7 +161,7 @@ void find_intruders(const Sampling& sampling, Defects& defects) {
           const std::size_t rank = rank_at(sampling, on.curve, s);
           const auto& seeds = sampling.on_curve(on.curve);
           if (piece.seed != seeds[rank] && piece.seed != seeds[rank + 1])
-            defects.chords.push_back({on.curve, rank, piece.seed});
+            defects.chords.emplace_back(on.curve, rank);
         }
       }
     }
@@ -175,7 +175,7 @@ void find_edge_defects(const Sampling& sampling, const MeshCheck& check, Defects
     for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
       const std::uint32_t a = seeds[k], b = seeds[k + 1];
       chords.insert(chords.end(), {edge_key(a, b), edge_key(b, a)});
-      if (!check.has_edge(a, b) && !check.has_edge(b, a)) defects.chords.push_back({c, k, nothing});
+      if (!check.has_edge(a, b) && !check.has_edge(b, a)) defects.chords.emplace_back(c, k);
     }
   }
   std::sort(chords.begin(), chords.end());
@@ -210,11 +210,7 @@ DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress) 
     if (diagram.seed(i).alive && !check.used[i]) defects.seeds.push_back(i);
   keep_distinct(defects.seeds);
   keep_distinct(defects.twice);
-  keep_distinct(defects.chords);  // then one a chord
-  const auto again = std::unique(
-      defects.chords.begin(), defects.chords.end(),
-      [](const ChordDefect& a, const ChordDefect& b) { return a.curve == b.curve && a.rank == b.rank; });
-  defects.chords.erase(again, defects.chords.end());
+  keep_distinct(defects.chords);
   return dual;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lib/applications/remeshing/progress.hpp"
@@ -16,13 +17,6 @@ struct DualMesh {
   std::vector<std::array<std::uint32_t, 3>> triangle;
 };
 
-struct ChordDefect {
-  std::uint32_t curve;
-  std::size_t rank;        ///< of the seed before the chord
-  std::uint32_t intruder;  ///< a seed whose cell interrupts it, or `nothing`
-  friend auto operator<=>(const ChordDefect&, const ChordDefect&) = default;
-};
-
 /// Reasons why the dual is not a mesh with the topology of the surface (docs/mathematics.md, "Remeshing").
 struct Defects {
   /// Per connected part of a cell without its seed: a place in it, opposite to the seed.
@@ -31,12 +25,12 @@ struct Defects {
   std::vector<std::uint32_t> not_discs;                        ///< seeds whose cells are not discs
   std::vector<std::pair<std::uint32_t, std::uint32_t>> twice;  ///< pairs of cells that share several walls
   std::vector<std::uint32_t> seeds;  ///< vertices where the dual is not a manifold for another reason
-  /// Chords of curves that the cells of other seeds interrupt, or that are not edges of the dual.
-  std::vector<ChordDefect> chords;
+  /// Chords of curves (a curve, and the rank of the seed before the chord) that the cells of other seeds
+  /// interrupt, or that are not edges of the dual.
+  std::vector<std::pair<std::uint32_t, std::size_t>> chords;
 
-  bool none() const {
-    return fragments.empty() && outside.empty() && not_discs.empty() && twice.empty() && seeds.empty() &&
-           chords.empty();
+  std::size_t count() const {
+    return fragments.size() + outside.size() + not_discs.size() + twice.size() + seeds.size() + chords.size();
   }
 };
 
@@ -46,7 +40,9 @@ DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress =
 
 /// Adds seeds at the defects until there are none.
 /// \param most  limit on the number of seeds
-/// \throw Error invalid_argument if these do not suffice; interrupted
-DualMesh mend(Sampling& sampling, std::size_t most, Progress progress = {});
+/// \param left  output: the place of a defect that is left
+/// \return nothing if these do not suffice, or added seeds do not make the defects fewer
+/// \throw Error interrupted
+std::optional<DualMesh> mend(Sampling& sampling, std::size_t most, Place& left, Progress progress = {});
 
 }  // namespace powercell::remeshing

@@ -146,7 +146,7 @@ std::uint32_t LocalDiagram::insert(Vec at, double weight, double size) {
           for (const std::uint32_t p : cells_[i].pieces)
             for (const Corner& corner : pieces_[p].ring)
               if (norm2(corner.at - at) - weight < power(i, corner.at)) {
-                if (!is_barred(id, pieces_[p].triangle)) affected.push_back(p);
+                affected.push_back(p);
                 break;
               }
         });
@@ -155,31 +155,6 @@ std::uint32_t LocalDiagram::insert(Vec at, double weight, double size) {
   grid_.insert(id, at, size, weight);
   finish();
   return id;
-}
-
-void LocalDiagram::divide(const std::vector<Share>& shares) {
-  changed_.clear();
-  for (const Share& share : shares) {
-    for (const std::uint32_t p : std::vector<std::uint32_t>(owners_[share.triangle])) drop_piece(p);
-    for (const std::uint32_t i : share.seeds) {
-      Ring ring = ring_of(share.triangle);
-      const bool any = std::all_of(share.seeds.begin(), share.seeds.end(),
-                                   [&](std::uint32_t j) { return j == i || cut(ring, i, j); });
-      if (any) add_piece(i, share.triangle, ring);
-    }
-  }
-  finish();
-}
-
-void LocalDiagram::bar(std::uint32_t seed, std::uint32_t triangle) {
-  barred_.resize(surface_.size());
-  if (!is_barred(seed, triangle)) barred_[triangle].push_back(seed);
-}
-
-bool LocalDiagram::is_barred(std::uint32_t seed, std::uint32_t triangle) const {
-  if (barred_.empty()) return false;
-  const std::vector<std::uint32_t>& list = barred_[triangle];
-  return std::find(list.begin(), list.end(), seed) != list.end();
 }
 
 /// Clips the affected pieces by the new seed and gives it the parts that they lose.
@@ -210,11 +185,7 @@ void LocalDiagram::remove(std::uint32_t seed) {
   const std::vector<std::uint32_t> pieces = cells_[seed].pieces;
   if (!pieces.empty() && alive() > 1) {
     const std::vector<std::uint32_t> heirs = this->heirs(seed, pieces);
-    for (const std::uint32_t p : pieces) {
-      std::vector<std::uint32_t> admitted = heirs;
-      std::erase_if(admitted, [&](std::uint32_t j) { return is_barred(j, pieces_[p].triangle); });
-      share_out(seed, p, admitted.empty() ? heirs : admitted);
-    }
+    for (const std::uint32_t p : pieces) share_out(seed, p, heirs);
   }
   for (const std::uint32_t p : std::vector<std::uint32_t>(cells_[seed].pieces)) drop_piece(p);
   seeds_[seed].alive = false;

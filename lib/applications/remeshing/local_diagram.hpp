@@ -29,12 +29,6 @@ struct Seed {
   bool alive = false;
 };
 
-/// Seeds that share a triangle among them.
-struct Share {
-  std::uint32_t triangle;
-  std::vector<std::uint32_t> seeds;
-};
-
 /// The cells agree with those of powercell::Diagram up to rounding. Insertion and removal take a time that
 /// depends on the neighbours only: a new cell is cut out of the cells that it reaches, and a removed cell is
 /// divided among the seeds that can reach into it (docs/mathematics.md, "Remeshing"). The caller must avoid
@@ -48,11 +42,6 @@ class LocalDiagram {
   /// \return its index, which is that of a removed seed if there is one
   std::uint32_t insert(Vec at, double weight, double size);
   void remove(std::uint32_t seed);
-  /// Divides triangles among some seeds, however near others are. Seeds inserted later count as ever.
-  void divide(const std::vector<Share>& shares);
-  /// Keeps a seed from owning parts of a triangle from now on, unless no other seed can.
-  void bar(std::uint32_t seed, std::uint32_t triangle);
-  bool is_barred(std::uint32_t seed, std::uint32_t triangle) const;
 
   const Surface& surface() const { return surface_; }
   std::size_t size() const { return seeds_.size(); }  ///< indices in use, including removed seeds
@@ -94,7 +83,6 @@ class LocalDiagram {
   std::vector<Cell> cells_;
   std::vector<Piece> pieces_;
   std::vector<std::vector<std::uint32_t>> owners_;  // per triangle: its pieces
-  std::vector<std::vector<std::uint32_t>> barred_;  // per triangle: seeds; empty if none is
   std::vector<std::uint32_t> free_seeds_, free_pieces_, changed_;
   std::vector<char> is_changed_;
   std::vector<double> side_;

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <limits>
 #include <powercell/error.hpp>
-#include <string>
 
 #include "lib/applications/remeshing/cell_loop.hpp"
 #include "lib/applications/remeshing/dual.hpp"
@@ -9,12 +7,6 @@
 
 namespace powercell::remeshing {
 namespace {
-
-[[noreturn]] void too_few(std::size_t most) {
-  throw Error(ErrorCode::invalid_argument,
-              "too few points for the topology of the surface: its parts lie so close together that " +
-                  std::to_string(most) + " points do not separate them; ask for more");
-}
 
 /// The longest chord at a seed, as a curve and a rank.
 /// \return false if the seed is not on a curve
@@ -44,7 +36,7 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
   }
   std::pair<std::uint32_t, std::size_t> chord;
   if (longest_chord(sampling, seed, chord) && sampling.can_split(chord.first, chord.second)) {
-    sampling.split(chord.first, chord.second, nothing);
+    sampling.split(chord.first, chord.second);
     return;
   }
   for (const std::uint32_t j : sampling.diagram().neighbors(seed))
@@ -97,8 +89,7 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   // Later ranks of a curve first, so that earlier ones stay valid.
   // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the reversed view of libstdc++ 12.
   for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
-    if (sampling.can_split(chord->curve, chord->rank))
-      sampling.split(chord->curve, chord->rank, chord->intruder);
+    if (sampling.can_split(chord->first, chord->second)) sampling.split(chord->first, chord->second);
   for (const Place& fragment : defects.fragments) {
     progress.tick();
     sampling.add_between(fragment);
@@ -108,42 +99,41 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   return sampling.diagram().alive() > before;
 }
 
-/// Keeps cells to their sheets as long as that leaves fewer parts without their seed.
-void separate_sheets(Sampling& sampling, Progress progress) {
-  constexpr int patience = 3;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (int without_gain = 0; without_gain < patience;) {
-    const std::size_t stray = sampling.keep_to_sheets();
-    if (getenv("DBG")) fprintf(stderr, "DBG stray %zu\n", stray);
-    if (stray == 0) return;
-    progress.at(0);
-    without_gain = stray < least ? 0 : without_gain + 1;
-    least = std::min(least, stray);
-  }
+/// A place of a defect.
+Place place_of(const Sampling& sampling, const Defects& defects) {
+  if (!defects.fragments.empty()) return defects.fragments.front();
+  for (const auto* seeds : {&defects.outside, &defects.not_discs, &defects.seeds})
+    if (!seeds->empty()) return sampling.hold(seeds->front()).place;
+  if (!defects.twice.empty()) return sampling.hold(defects.twice.front().first).place;
+  const auto [curve, rank] = defects.chords.front();
+  return sampling.hold(sampling.on_curve(curve)[rank]).place;
 }
 
 }  // namespace
 
-DualMesh mend(Sampling& sampling, std::size_t most, Progress progress) {
+std::optional<DualMesh> mend(Sampling& sampling, std::size_t most, Place& left, Progress progress) {
+  constexpr int patience = 12;  // rounds without fewer defects than ever before
   const Surface& surface = sampling.diagram().surface();
-  while (true) {
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (int without_gain = 0; without_gain < patience; ++without_gain) {
     progress.at(0);
-    separate_sheets(sampling, progress);
     Defects defects;
     DualMesh dual = dual_of(sampling, defects, progress);
     progress.at(0);
-    if (getenv("DBG"))
-      fprintf(stderr, "DBG alive %zu frag %zu out %zu notdisc %zu twice %zu seeds %zu chords %zu\n",
-              sampling.diagram().alive(), defects.fragments.size(), defects.outside.size(),
-              defects.not_discs.size(), defects.twice.size(), defects.seeds.size(), defects.chords.size());
-    if (defects.none()) {
+    if (defects.count() == 0) {
       const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
       if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))
         throw Error(ErrorCode::internal, "the dual is a manifold, but not of the topology of the surface");
       return dual;
     }
-    if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) too_few(most);
+    left = place_of(sampling, defects);
+    if (defects.count() < least) {
+      least = defects.count();
+      without_gain = 0;
+    }
+    if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) break;
   }
+  return std::nullopt;
 }
 
 }  // namespace powercell::remeshing

@@ -11,6 +11,17 @@
 #include "lib/base/text.hpp"
 
 namespace powercell {
+
+remeshing::Patchwork remeshing::patchwork_of(std::span<const double> vertices,
+                                             std::span<const std::uint32_t> triangles) {
+  Patchwork mesh;
+  for (std::size_t k = 0; k < vertices.size(); k += 3)
+    mesh.vertex.push_back({vertices[k], vertices[k + 1], vertices[k + 2]});
+  for (std::size_t k = 0; k < triangles.size(); k += 3)
+    mesh.row.push_back({triangles[k], triangles[k + 1], triangles[k + 2]});
+  return mesh;
+}
+
 namespace {
 
 using namespace remeshing;
@@ -34,7 +45,8 @@ bool has_step(const Patchwork& mesh, double step) {
 }
 
 /// The rounding of coordinates is that of double, of single precision if all are single-precision numbers, or
-/// a decimal place if all end there and the mesh has far more of them.
+/// a decimal place if all end there and the mesh has far more of them; at most 10^-3 of the diagonal, as
+/// coordinates far from the origin may be exact nevertheless.
 Extent extent_of(const Patchwork& mesh) {
   Extent extent;
   Vec low{1e300, 1e300, 1e300}, high = low * -1;
@@ -51,7 +63,7 @@ Extent extent_of(const Patchwork& mesh) {
       }
     }
   extent.diagonal = norm(high - low);
-  extent.rounding = largest * (single ? 0x1p-23 : 0x1p-51);
+  extent.rounding = std::min(largest * (single ? 0x1p-23 : 0x1p-51), 1e-3 * extent.diagonal);
   constexpr double least_places = 1e5;
   for (double place = std::pow(10, std::floor(std::log10(extent.diagonal / least_places)));
        place > 2 * extent.rounding; place /= 10)
@@ -60,15 +72,6 @@ Extent extent_of(const Patchwork& mesh) {
       break;
     }
   return extent;
-}
-
-Patchwork patchwork_of(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
-  Patchwork mesh;
-  for (std::size_t k = 0; k < vertices.size(); k += 3)
-    mesh.vertex.push_back({vertices[k], vertices[k + 1], vertices[k + 2]});
-  for (std::size_t k = 0; k < triangles.size(); k += 3)
-    mesh.row.push_back({triangles[k], triangles[k + 1], triangles[k + 2]});
-  return mesh;
 }
 
 /// Counts components and boundary edges.

@@ -27,6 +27,8 @@ struct Patchwork {
   }
 };
 
+Patchwork patchwork_of(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
+
 inline void count(RepairCount& what, Vec at) {
   if (what.count++ == 0) what.first = {at.x, at.y, at.z};
 }

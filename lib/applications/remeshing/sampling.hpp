@@ -47,22 +47,17 @@ class Sampling {
   /// Adds a free seed with the weight of the sizing. Like the functions below, returns its index.
   std::uint32_t add_free(const Place& place) { return add({Hold::Kind::free, nothing, 0, place}); }
   /// Adds a free seed with the weight of the seed whose cell contains the place, so that neither hides the
-  /// other however close they are. Adds none where there is one already.
+  /// other however close they are.
+  /// \return `nothing` if they are so close that rounding decides between them; no seed is added then
   std::uint32_t add_between(const Place& place);
   /// Gives a seed outside its own cell the weight of the seed whose cell contains it.
   /// \return whether it is in its own cell now
   bool give_cell(std::uint32_t seed);
   void remove(std::uint32_t seed);
-  /// Gives parts of cells that do not contain their seed to the cells around them, see sheets.cpp. There may
-  /// be such parts afterwards; those of a component of the surface without seeds stay.
-  /// \return the number of triangles that were divided anew
-  std::size_t keep_to_sheets();
-  /// Adds a seed between two neighbours on a curve, the first of rank `rank` in on_curve(), with a weight as
-  /// in add_between(): opposite the seed `beside`, so that their cells meet in the middle between two curves
-  /// however near these are, or halfway if that is `nothing` or beyond the neighbours.
-  std::uint32_t split(std::uint32_t curve, std::size_t rank, std::uint32_t beside);
-
-  /// Whether those neighbours are not so near to each other that rounding decides between them.
+  /// Adds a seed halfway between two neighbours on a curve, the first of rank `rank` in on_curve(), with a
+  /// weight as in add_between().
+  std::uint32_t split(std::uint32_t curve, std::size_t rank);
+  /// Whether those neighbours are not so close that rounding decides between them and a seed halfway.
   bool can_split(std::uint32_t curve, std::size_t rank) const;
 
   /// The cell vertex with the highest priority, excluding those in the balls over chords of curves; triangle
@@ -91,8 +86,7 @@ class Sampling {
   std::uint32_t add_between(const Hold& hold);
   std::uint32_t corner_seed(std::uint32_t vertex, const Place& place);
   void measure_changed();
-  void link_curve(std::uint32_t c);
-  double place_opposite(std::uint32_t curve, std::uint32_t seed, double from, double to) const;
+  void link_curves();
   bool in_curve_ball(std::uint32_t seed, Vec x) const;
 
   const Surface& surface_;
