@@ -52,6 +52,7 @@ int run(const DiagramArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
   Stopwatch watch;
   const Inputs inputs = read_inputs(arguments);
+  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments);
   const Domain& domain = inputs.domain.domain;
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
   const SeedsView seeds = inputs.seeds.view();

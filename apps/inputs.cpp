@@ -200,6 +200,8 @@ void describe_inputs(const Inputs& inputs, RunReport& report) {
   report.crs = inputs.map.crs;
   if (inputs.map.plane) report.projection = inputs.map.plane->definition();
   report.notes = inputs.notes;
+  const std::vector<std::string> faults = inputs.domain.domain.notes();
+  report.notes.insert(report.notes.end(), faults.begin(), faults.end());
 }
 
 }  // namespace powercell::app

@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <powercell/remeshing.hpp>
+#include <powercell/repair.hpp>
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
@@ -27,10 +26,13 @@ struct RemeshArguments : CommonOptions {
   std::string method = "fpo";
   std::vector<std::string> outputs;
   RemeshOptions remesh;
+  bool no_repair = false;
+  double weld = -1;
 };
 
 /// The new mesh, its quality and that of the old one.
 struct Outcome {
+  RepairReport repair;
   RemeshResult result;
   MeshQuality before, after;
   double diagonal = 0;
@@ -59,8 +61,31 @@ nlohmann::json as_json(const MeshQuality& q) {
           {"manifold", q.manifold}};
 }
 
+nlohmann::json as_json(const RepairReport& r) {
+  nlohmann::json all{{"acts", r.acts()},
+                     {"left", r.left()},
+                     {"moved", r.moved},
+                     {"components", r.components},
+                     {"boundary_edges", r.boundary_edges}};
+  const std::pair<const char*, const RepairCount&> counts[] = {{"degenerate", r.degenerate},
+                                                               {"repeated", r.repeated},
+                                                               {"split_edges", r.split_edges},
+                                                               {"split_vertices", r.split_vertices},
+                                                               {"welded", r.welded},
+                                                               {"turned", r.turned},
+                                                               {"flat", r.flat},
+                                                               {"left_flat", r.left_flat},
+                                                               {"intersections", r.intersections}};
+  for (const auto& [name, what] : counts) {
+    all[name] = {{"count", what.count}};
+    if (what.count > 0) all[name]["first"] = what.first;
+  }
+  return all;
+}
+
 nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
   return {{"method", arguments.method},
+          {"repair", as_json(o.repair)},
           {"input", as_json(o.before)},
           {"mesh", as_json(o.after)},
           {"diagonal", o.diagonal},
@@ -68,6 +93,8 @@ nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
           {"rounds", o.result.least_spacing.size()},
           {"least_spacing", o.result.least_spacing},
           {"added", o.result.added},
+          {"collapsed", o.result.collapsed},
+          {"intersections", o.result.intersections.count},
           {"seconds",
            {{"read", o.read},
             {"remesh", o.remesh},
@@ -107,19 +134,16 @@ void print(const RemeshArguments& arguments, const Outcome& o) {
       o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax);
 }
 
-/// The mesh with vertices at the same position merged, as the library does: only then is its topology
-/// comparable to that of the new mesh.
-TriangleMesh joined(const TriangleMesh& mesh) {
-  std::map<std::array<double, 3>, std::uint32_t> number;
-  TriangleMesh result;
-  for (const std::uint32_t v : mesh.triangles) {
-    const double* at = &mesh.vertices[3 * std::size_t{v}];
-    const auto [found, added] =
-        number.try_emplace({at[0], at[1], at[2]}, static_cast<std::uint32_t>(number.size()));
-    if (added) result.vertices.insert(result.vertices.end(), at, at + 3);
-    result.triangles.push_back(found->second);
-  }
-  return result;
+/// The input as it is remeshed, with a line on standard error for each thing done to it.
+TriangleMesh repaired(const RemeshArguments& arguments, TriangleMesh given, RepairReport& report) {
+  if (arguments.no_repair) return given;
+  RepairedMesh fixed = repair(given.vertices, given.triangles, {arguments.weld});
+  report = std::move(fixed.report);
+  print_notes(report.acts(), arguments.input, arguments);
+  std::vector<std::string> left;
+  for (const std::string& what : report.left()) left.push_back("left as it is: " + what);
+  print_notes(left, arguments.input, arguments);
+  return std::move(fixed.mesh);
 }
 
 /// A change of topology is a fault of the library; no file is written then.
@@ -129,6 +153,25 @@ void require_same_topology(const Outcome& o) {
                              o.after.boundary_loops != o.before.boundary_loops)))
     throw Error(ErrorCode::internal,
                 "the topology of the new mesh differs from that of the old one: please report");
+}
+
+/// Says on standard error what is not as usual in the new mesh.
+void print_remarks(const RemeshArguments& arguments, const RemeshResult& result) {
+  std::vector<std::string> remarks;
+  const auto place = [](const std::array<double, 3>& at) {
+    return fmt::format("around ({:.9g}, {:.9g}, {:.9g})", at[0], at[1], at[2]);
+  };
+  if (result.collapsed)
+    remarks.push_back((result.inseparable
+                           ? "the surface is thin or sharp, or crosses itself, " + place(*result.inseparable)
+                           : "the points are few for the topology and the kept edges") +
+                      ": the mesh was made by collapsing edges of the input, not from cells");
+  if (const std::size_t pairs = result.intersections.count; pairs > 0)
+    remarks.push_back(
+        fmt::format("{} of triangles of the new mesh cross{}, {}{}: more points may separate them",
+                    pairs == 1 ? "1 pair" : with_commas(pairs) + " pairs", pairs == 1 ? "es" : "",
+                    pairs == 1 ? "" : "the first ", place(result.intersections.first)));
+  print_notes(remarks, arguments.input, arguments);
 }
 
 void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
@@ -142,6 +185,7 @@ void write_files(const RemeshArguments& arguments, const TriangleMesh& input, co
 
 RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input) {
   RemeshOptions options = arguments.remesh;
+  options.repair = false;
   options.progress = library_options(arguments, "remeshing").progress;
   const bool transport = arguments.method == "transport";
   options.method = transport ? RemeshMethod::transport : RemeshMethod::farthest_point;
@@ -150,7 +194,7 @@ RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& i
   try {
     compute([&] { result = remesh(input.vertices, input.triangles, options); });
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::invalid_domain) throw;
+    if (error.code() != ErrorCode::invalid_domain && error.code() != ErrorCode::invalid_argument) throw;
     throw Error(error.code(), fmt::format("{}: {}", arguments.input, error.what()));
   }
   return result;
@@ -161,13 +205,13 @@ int run(const RemeshArguments& arguments) {
   Outcome outcome;
   Stopwatch watch;
   const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);
-  const TriangleMesh given{domain.vertices, domain.elements};
   outcome.diagonal = diagonal_of(domain.domain);
   outcome.read = watch.lap();
-  outcome.result = remesh_file(arguments, given);
+  const TriangleMesh input = repaired(arguments, {domain.vertices, domain.elements}, outcome.repair);
+  outcome.result = remesh_file(arguments, input);
   outcome.remesh = watch.lap();
+  print_remarks(arguments, outcome.result);
   const TriangleMesh& mesh = outcome.result.mesh;
-  const TriangleMesh input = joined(given);
   outcome.before = mesh_quality(input.vertices, input.triangles);
   outcome.after = mesh_quality(mesh.vertices, mesh.triangles);
   require_same_topology(outcome);
@@ -191,7 +235,9 @@ constexpr const char* examples =
     "  powercell remesh part.stl --count 20000 --sharp-angle 30 -o part.ply --report quality.json\n"
     "  powercell remesh mesh.obj --count 5000 --method transport -o new.obj\n"
     "  powercell remesh torus:40 --count 3000 --contrast 1 -o even.obj --json\n"
-    "The surface must be a manifold, open or closed; faces with more than three corners are triangulated.";
+    "Faces with more than three corners are triangulated. Faults that can be mended without a change of "
+    "shape\n"
+    "are: each is reported on standard error, as is what is left.";
 
 void add_shape_options(CLI::App& command, RemeshOptions& options) {
   command.add_option("--contrast", options.contrast, "Largest ratio of edge lengths; 1 for an even mesh")
@@ -230,6 +276,14 @@ Command add_remesh(CLI::App& app) {
   add_output_files(*command, arguments->outputs,
                    std::string(io::triangle_files) + " for the mesh, .png for both meshes side by side",
                    io::check_triangle_output);
+  command->add_flag("--no-repair", arguments->no_repair,
+                    "Take edges as one where vertices have the same number, and refuse what is no manifold");
+  command
+      ->add_option(
+          "--weld", arguments->weld,
+          "Largest distance over which boundary edges are joined; default: 10^-6 of the diagonal, or "
+          "the rounding of single precision")
+      ->check(not_below_zero());
   command->add_option("--report", arguments->report, "Write the figures as JSON")->type_name("FILE.json");
   command->add_option("--device", arguments->device, "For transport: as in 'powercell diagram'");
   command->add_option("--threads", arguments->threads, "For transport: on the host and in PoCL; 0 for all")

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
+#include "apps/io/printable.hpp"
 
 namespace powercell::app {
 
@@ -13,6 +14,13 @@ double Stopwatch::lap() {
   const double seconds = std::chrono::duration<double>(now - last_).count();
   last_ = now;
   return seconds;
+}
+
+void print_notes(const std::vector<std::string>& notes, const std::string& file,
+                 const CommonOptions& options) {
+  if (options.quiet) return;
+  for (const std::string& note : notes)
+    fmt::print(stderr, "powercell: note: {}\n", io::one_line(fmt::format("{}: {}", file, note)));
 }
 
 RunReport report_of(Diagram& diagram) {
@@ -30,6 +38,7 @@ RunReport report_of(Diagram& diagram) {
   report.neighbors = neighbors_name(diagram.neighbors());
   report.timings = diagram.timings();
   report.build = diagram.device().build_seconds();
+  report.notes = diagram.domain().notes();
   return report;
 }
 

@@ -10,6 +10,8 @@
 
 namespace powercell::app {
 
+struct CommonOptions;
+
 /// Seconds since construction or the last call of lap().
 class Stopwatch {
  public:
@@ -31,6 +33,10 @@ struct RunReport {
   std::string crs, projection;     ///< of the inputs and of the plane; empty if nothing names one
   std::vector<std::string> notes;  ///< how the inputs were read
 };
+
+/// Writes notes about a file to standard error, one a line, unless the options ask for quiet.
+void print_notes(const std::vector<std::string>& notes, const std::string& file,
+                 const CommonOptions& options);
 
 /// Everything but the seconds of reading and writing and the files. Computes the measures.
 RunReport report_of(Diagram& diagram);

@@ -136,6 +136,7 @@ int run(const SampleArguments& arguments) {
   files.insert(files.end(), arguments.cells.begin(), arguments.cells.end());
   check_writable(std::move(files), {arguments.analysis}, arguments.json);
   const Source source = read_source(arguments.source);
+  print_notes(source.domain.notes(), arguments.source.domain, arguments);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
   for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());
   const Device device = open_device(arguments);

@@ -179,6 +179,7 @@ int run(const TransportArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log}, arguments.json);
   Stopwatch watch;
   const Inputs inputs = read_inputs(arguments);
+  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments);
   const Domain& domain = inputs.domain.domain;
   const io::SeedTable& table = inputs.seeds;
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());

@@ -101,6 +101,7 @@ std::vector<Checked> check_device(const VerifyArguments& arguments, const Device
 
 std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
   const Inputs inputs = read_inputs(arguments);
+  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments);
   if (!arguments.quiet && !arguments.json)
     for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
   return {check(arguments, device, inputs.domain.domain, inputs.seeds.view(),

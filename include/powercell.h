@@ -109,11 +109,14 @@ POWERCELL_API const char* pc_device_name(const pc_device* device);
  *                     outer one first. The parts must not overlap. */
 POWERCELL_API pc_status pc_domain_polygon(const double* points, const size_t* ring_offset,
                                           const size_t* part_offset, size_t parts, pc_domain** domain);
-/** A triangle mesh in space. vertices: vertex_count x 3; triangles: triangle_count x 3, from 0. */
+/** A triangle mesh in space. vertices: vertex_count x 3; triangles: triangle_count x 3, from 0. Flat
+ * triangles and those with the corners of an earlier one are left out; overlaps in a plane count twice. */
 POWERCELL_API pc_status pc_domain_surface(const double* vertices, size_t vertex_count,
                                           const uint32_t* triangles, size_t triangle_count,
                                           pc_domain** domain);
-/** A tetrahedral mesh. vertices: vertex_count x 3; tetrahedra: tetrahedron_count x 4, from 0. */
+/** A tetrahedral mesh. vertices: vertex_count x 3; tetrahedra: tetrahedron_count x 4, from 0. Flat
+ * tetrahedra and those with the corners of an earlier one are left out; overlaps of more than 10^-6 of the
+ * volume are an error. */
 POWERCELL_API pc_status pc_domain_volume(const double* vertices, size_t vertex_count,
                                          const uint32_t* tetrahedra, size_t tetrahedron_count,
                                          pc_domain** domain);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <powercell/error.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace powercell {
@@ -25,6 +26,27 @@ struct PolygonPart {
 
 enum class DomainKind { polygon, surface, volume };
 
+/// Two elements of a mesh, triangles or tetrahedra, that overlap.
+struct Overlap {
+  std::uint32_t first = 0, second = 0;  ///< indices of the input, ascending
+  double measure = 0;                   ///< of their common part: an area or a volume
+  std::array<double, 3> at{};           ///< the centroid of that part
+};
+
+/// The elements of a mesh that were left out, and those that overlap. Empty for polygons and boxes.
+struct MeshReport {
+  std::vector<std::uint32_t> flat;  ///< elements without area or volume, left out
+  /// Elements with the same corners as an earlier one, left out: the index of each and of the earlier one.
+  std::vector<std::array<std::uint32_t, 2>> repeated;
+  /// Pairs of the others that overlap by more than rounding (2^-50 of the largest coordinate). Their common
+  /// part counts twice. Of each place that is covered more than once at least one pair is found.
+  std::size_t overlaps = 0;
+  double overlap = 0;  ///< the sum of the measures of their common parts
+  Overlap largest;     ///< the pair with the largest common part
+
+  bool empty() const { return flat.empty() && repeated.empty() && overlaps == 0; }
+};
+
 /// An immutable, validated domain; copies share one state. Thread-safe. The largest absolute coordinate must
 /// be from 1e-100 to 1e100 (else Error invalid_domain): beyond, measures leave the range of double.
 class POWERCELL_API Domain {
@@ -38,15 +60,19 @@ class POWERCELL_API Domain {
   /// A triangle mesh in space: open, closed or non-manifold.
   /// \param vertices nv x 3, row-major   \param triangles nt x 3 indices from 0
   /// Vertices at the same position count as one. Triangles of zero area are left out: those whose least
-  /// height is at most 2^-50 of their longest edge. \throw Error invalid_domain (names the triangle)
+  /// height is at most 2^-50 of their longest edge. Of triangles with the same corners, in any order, the
+  /// first is kept. Triangles that overlap in a plane stay, and their common part counts twice; report()
+  /// names them. \throw Error invalid_domain (names the triangle)
   static Domain surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 
   /// A tetrahedral mesh, each tetrahedron in either orientation.
   /// \param vertices nv x 3, row-major   \param tetrahedra nt x 4 indices from 0
   /// Vertices at the same position count as one. Flat tetrahedra are left out: those whose least height
-  /// is at most 2^-50 of their longest edge. Two tetrahedra on the same side of a shared facet are
-  /// an error; other overlaps are not detected and count twice.
-  /// \throw Error invalid_domain (names the tetrahedron)
+  /// is at most 2^-50 of their longest edge. Of tetrahedra with the same corners the first is kept.
+  /// Tetrahedra that overlap are an error if they are on the same side of a facet that they share, or if
+  /// overlaps add up to more than 10^-6 of the volume; smaller ones, as where parts with curved interfaces
+  /// were meshed separately, stay and count twice, and report() names them.
+  /// \throw Error invalid_domain (names the tetrahedra)
   static Domain volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
   /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain
@@ -58,8 +84,10 @@ class POWERCELL_API Domain {
   double measure() const;             ///< area or volume
   std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;
-  RegionsView regions() const;       ///< see powercell/regions.hpp
-  std::size_t region_count() const;  ///< convex pieces, triangles or tetrahedra that were kept
+  RegionsView regions() const;             ///< see powercell/regions.hpp
+  std::size_t region_count() const;        ///< convex pieces, triangles or tetrahedra that were kept
+  const MeshReport& report() const;        ///< the elements of a mesh that were left out or overlap
+  std::vector<std::string> notes() const;  ///< the same as sentences, one for each kind of fault
 
   explicit Domain(std::shared_ptr<const RegionMesh> mesh) : mesh_(std::move(mesh)) {}
   /// For the library's own use.

@@ -12,6 +12,7 @@
 #include <powercell/options.hpp>
 #include <powercell/point_sets.hpp>
 #include <powercell/remeshing.hpp>
+#include <powercell/repair.hpp>
 #include <powercell/results.hpp>
 #include <powercell/sampling.hpp>
 #include <powercell/seeds.hpp>

@@ -18,6 +18,15 @@ std::string digits(double value, int significant) {
   return {text.data(), end.ptr};
 }
 
+std::string place_text(const double* point) {
+  std::string text = "(";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) text += ", ";
+    text += digits(point[k], 9);
+  }
+  return text += ")";
+}
+
 std::string readable(std::string text, std::size_t most) {
   if (text.size() > most) text = text.substr(0, most) + "...";
   for (char& c : text)

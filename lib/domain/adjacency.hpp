@@ -33,6 +33,30 @@ void for_each_shared(std::vector<FacetKey<N>>& keys, Group&& group) {
   }
 }
 
+/// Appends to `repeated` the regions of a run that have the same opposite vertex as one before, and so all
+/// corners. \param apex  apex(slot): the vertex opposite the facet
+/// \return whether there are any
+template <std::size_t N, class Apex>
+bool add_repeated(std::span<const FacetKey<N>> shared, const RegionMesh& mesh, const Apex& apex,
+                  std::vector<std::array<std::uint32_t, 2>>& repeated) {
+  if (shared.size() < 2 || (shared.size() == 2 && apex(shared[0].slot) != apex(shared[1].slot))) return false;
+  std::vector<std::array<std::uint32_t, 2>> opposite;
+  for (const FacetKey<N>& key : shared)
+    opposite.push_back({apex(key.slot), mesh.source[key.slot / static_cast<std::uint32_t>(N + 1)]});
+  std::sort(opposite.begin(), opposite.end());
+  const std::size_t before = repeated.size();
+  for (std::size_t k = 1, first = 0; k < opposite.size(); ++k) {
+    if (opposite[k][0] != opposite[first][0])
+      first = k;
+    else
+      repeated.push_back({opposite[k][1], opposite[first][1]});
+  }
+  return repeated.size() > before;
+}
+
+/// Sorts pairs and drops copies: a region is found at each of its facets.
+std::vector<std::array<std::uint32_t, 2>> distinct(std::vector<std::array<std::uint32_t, 2>> repeated);
+
 /// Numbers the facets whose kind is `boundary`, in the order of their slots.
 void number_boundary(RegionMesh& mesh);
 

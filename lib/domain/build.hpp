@@ -17,12 +17,16 @@ RegionMeshPtr build_polygon(std::span<const PolygonPart> parts);
 RegionMeshPtr build_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
-/// The mesh of a list of triangles (`corners` 3) or tetrahedra (4), without borders. Leaves out flat
-/// simplices and swaps the last two corners of negative ones.
+using Repeated = std::vector<std::array<std::uint32_t, 2>>;  ///< see MeshReport::repeated
+
+/// The mesh of a list of triangles (`corners` 3) or tetrahedra (4), without borders. Leaves out flat and
+/// repeated simplices, reports them, and swaps the last two corners of negative ones.
 /// \param signed_measure  the area or volume of the simplex with these corners, 0 if it is flat
+/// \param repeated  as in MeshReport, ascending
 /// \throw Error invalid_domain: wrong arrays, all simplices flat, coordinates or measure out of range
 std::shared_ptr<RegionMesh> simplex_mesh(std::span<const double> vertices,
                                          std::span<const std::uint32_t> simplices, int corners,
-                                         long double (*signed_measure)(const double* const* corner));
+                                         long double (*signed_measure)(const double* const* corner),
+                                         Repeated repeated = {});
 
 }  // namespace powercell

@@ -3,19 +3,30 @@
 
 #include "lib/domain/build.hpp"
 #include "lib/domain/region_mesh.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell {
+
+namespace {
+
+/// Writes the notes of a new mesh domain to the log.
+Domain logged(Domain domain) {
+  for (const std::string& note : domain.notes()) write_log(LogLevel::info, [&] { return "domain: " + note; });
+  return domain;
+}
+
+}  // namespace
 
 Domain Domain::polygon(std::span<const PolygonPart> parts) {
   return Domain(build_polygon(parts));
 }
 
 Domain Domain::surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
-  return Domain(build_surface(vertices, triangles));
+  return logged(Domain(build_surface(vertices, triangles)));
 }
 
 Domain Domain::volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra) {
-  return Domain(build_volume(vertices, tetrahedra));
+  return logged(Domain(build_volume(vertices, tetrahedra)));
 }
 
 Domain Domain::box(std::span<const double> low, std::span<const double> high) {
@@ -42,6 +53,10 @@ std::array<double, 3> Domain::high() const {
 }
 std::size_t Domain::region_count() const {
   return mesh_->region_count();
+}
+
+const MeshReport& Domain::report() const {
+  return mesh_->report;
 }
 
 RegionsView Domain::regions() const {

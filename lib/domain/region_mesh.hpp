@@ -30,6 +30,7 @@ struct RegionMesh {
   std::uint32_t boundary_count = 0;
   double measure = 0;
   std::array<double, 3> low{}, high{};  ///< bounding box of the regions
+  MeshReport report;
 
   std::size_t region_count() const { return source.size(); }
 };

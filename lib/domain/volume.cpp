@@ -1,7 +1,9 @@
 #include "lib/base/positions.hpp"
+#include "lib/base/text.hpp"
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/measure.hpp"
+#include "lib/domain/overlap.hpp"
 
 namespace powercell {
 namespace {
@@ -47,8 +49,10 @@ bool same_side(const RegionMesh& mesh, const std::vector<std::uint32_t>& same,
 }
 
 /// Fills in the borders of all facets. A facet of one tetrahedron bounds the volume.
-void connect(RegionMesh& mesh) {
-  const std::vector<std::uint32_t> same = first_at_position(mesh.vertices, 3);
+/// \return repeated tetrahedra; if there are any, borders are incomplete
+Repeated connect(RegionMesh& mesh, const std::vector<std::uint32_t>& same) {
+  const auto apex = [&](std::uint32_t slot) { return same[mesh.region_vertex[slot]]; };
+  Repeated repeated;
   std::vector<FacetKey<3>> facets(mesh.region_vertex.size());
   for (std::uint32_t slot = 0; slot < facets.size(); ++slot) {
     const std::uint32_t* region = &mesh.region_vertex[slot / 4 * 4];
@@ -58,7 +62,7 @@ void connect(RegionMesh& mesh) {
   }
   mesh.facet.assign(facets.size(), {Border::Kind::boundary, 0});
   for_each_shared(facets, [&](std::span<const FacetKey<3>> shared) {
-    if (shared.size() == 1) return;
+    if (shared.size() == 1 || add_repeated(shared, mesh, apex, repeated)) return;
     if (shared.size() > 2) {
       throw Error(ErrorCode::invalid_domain, "tetrahedra " + name_sources(mesh, shared) +
                                                  " share one facet: at most two can, remove the others");
@@ -72,13 +76,34 @@ void connect(RegionMesh& mesh) {
     mesh.facet[shared[1].slot] = {Border::Kind::interior, shared[0].slot / 4};
   });
   number_boundary(mesh);
+  return repeated;
+}
+
+void refuse_large_overlaps(const RegionMesh& mesh) {
+  constexpr double most = 1e-6;  // of the volume
+  const MeshReport& report = mesh.report;
+  if (!(report.overlap > most * mesh.measure)) return;
+  const Overlap& o = report.largest;
+  const std::string others =
+      report.overlaps > 1 ? ", as do " + std::to_string(report.overlaps - 1) + " other pairs" : "";
+  throw Error(ErrorCode::invalid_domain,
+              "tetrahedra " + std::to_string(o.first) + " and " + std::to_string(o.second) +
+                  " overlap around " + place_text(o.at.data()) + others + ": " +
+                  digits(report.overlap / mesh.measure, 2) +
+                  " of the volume would count twice; separate the parts, or cut one out of the other");
 }
 
 }  // namespace
 
 RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra) {
-  const auto mesh = simplex_mesh(vertices, tetrahedra, 4, signed_volume);
-  connect(*mesh);
+  auto mesh = simplex_mesh(vertices, tetrahedra, 4, signed_volume);
+  const std::vector<std::uint32_t> same = first_at_position(mesh->vertices, 3);
+  if (Repeated repeated = distinct(connect(*mesh, same)); !repeated.empty()) {
+    mesh = simplex_mesh(vertices, tetrahedra, 4, signed_volume, std::move(repeated));
+    connect(*mesh, same);
+  }
+  find_overlapping_tetrahedra(*mesh);
+  refuse_large_overlaps(*mesh);
   return mesh;
 }
 

@@ -382,6 +382,26 @@ class DiagramErrors(ToolTest):
         self.write("bow.wkt", "POLYGON((0 0, 1 1, 1 0, 0 1, 0 0))")
         self.bad(1, "bow", "diagram", "--domain", "bow.wkt", "--seeds", "random:5")
 
+    def test_elements_given_twice_and_overlaps_are_reported(self):
+        pyramid = "OFF\n4 {} 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+        faces = ("3 0 2 1", "3 0 1 3", "3 0 3 2", "3 1 2 3")
+        self.write("once.off", pyramid.format(4) + "\n".join(faces) + "\n")
+        self.write("twice.off", pyramid.format(6) + "\n".join((*faces, "3 1 3 0", "3 0 1 1")) + "\n")
+        arguments = "diagram", "--domain", "twice.off", "--seeds", "random:3"
+        done = self.good(*arguments, "--json")
+        report = json.loads(done.stdout)
+        self.assertEqual(report["domain_measure"],
+                         self.report("diagram", "--domain", "once.off", "--seeds", "random:3")["domain_measure"])
+        self.assertEqual(len(report["notes"]), 2)
+        self.assertIn("powercell: note: twice.off: left out 1 triangle given twice", done.stderr)
+        self.assertIn("triangle 4, the same as 1", done.stderr)
+        self.assertIn("flat triangle, the first is triangle 5", done.stderr)
+        self.assertEqual(self.good(*arguments, "--quiet").stderr, "")
+        # Two tetrahedra without a common vertex, one of which contains the other.
+        self.write("t.tet", "8 2\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n1 1 1\n3 1 1\n1 3 1\n1 1 3\n0 1 2 3\n4 5 6 7\n")
+        self.bad(1, r"t\.tet: tetrahedra 0 and 1 overlap around \(1\.5, 1\.5, 1\.5\)", "diagram", "--domain", "t.tet",
+                 "--seeds", "random:3")
+
     def test_each_error_names_the_place(self):
         for text, says in (("0 0 0\n0 inf 0\n", r"s:2: seed 1 .*'inf' is not a finite number"),
                            ("0 0 0\n0 0\n", r"s:2: seed 1 .*2 columns"), ("0 0 1e999\n", "s:1: .*too large"),

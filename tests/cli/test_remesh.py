@@ -57,11 +57,24 @@ class Remesh(ToolTest):
             self.assertFalse((self.folder / (name + ".stl")).exists())
             self.report(*arguments, name + ".ply")
 
+    def test_faults_are_repaired_and_named(self):
+        # A tetrahedron with a corner 1e-7 off in one triangle, one turned over, one degenerate, one repeated.
+        self.write("faults.off", "OFF\n7 7 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1e-7 0 0\n1 0 1e-7\n0 1 1e-7\n"
+                   "3 4 6 5\n3 0 1 3\n3 1 2 3\n3 0 2 3\n3 1 1 2\n3 0 1 3\n3 0 3 3\n")
+        done = self.good("remesh", "faults.off", "--count", 40, "--rounds", 1, "--json", "-o", "a.off")
+        for act in "two corners at one position", "corners of an earlier one", "joined 3 pairs", "turned 1 triangle":
+            self.assertIn(act, done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual([report["repair"][k]["count"] for k in ("degenerate", "repeated", "welded", "turned")],
+                         [2, 1, 3, 1])
+        self.assertEqual((report["mesh"]["euler_characteristic"], report["mesh"]["boundary_loops"]), (2, 0))
+        self.assertEqual((report["repair"]["components"], report["intersections"]), (1, 0))
+
     def test_surfaces_that_cannot_be_remeshed(self):
         pages = "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n"
         self.write("pages.off", pages)
         self.bad(1, r"pages\.off: .*edge between vertices 0 and 1 belongs to 3", "remesh", "pages.off", "--count", 50,
-                 "-o", "b.off")
+                 "--no-repair", "-o", "b.off")
         self.bad(1, "too few points", "remesh", "torus:12", "--count", 4, "-o", "b.off")
         self.bad(1, "no-such.off", "remesh", "no-such.off", "--count", 50)
         self.bad(1, "polygon", "remesh", DATA / "italy.geojson", "--count", 50)

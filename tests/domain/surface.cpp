@@ -62,11 +62,6 @@ TEST_CASE("each triangle at an edge of many has the next one behind the edge") {
     CHECK(domain.mesh().facet[3 * k] == Border{Border::Kind::interior, (k + 1) % 5});
   }
   CHECK(domain.mesh().boundary_count == 10);
-  // A triangle given twice is non-manifold, which is not an error.
-  const Domain twice = surface(corners, {0, 1, 2, 2, 1, 0});
-  test::check_mesh(twice);
-  CHECK(twice.measure() == 1);
-  CHECK(twice.mesh().boundary_count == 0);
 }
 
 TEST_CASE("flat triangles are left out, slivers are kept, at any scale") {

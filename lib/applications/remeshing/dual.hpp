@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lib/applications/remeshing/progress.hpp"
@@ -28,9 +29,8 @@ struct Defects {
   /// interrupt, or that are not edges of the dual.
   std::vector<std::pair<std::uint32_t, std::size_t>> chords;
 
-  bool none() const {
-    return fragments.empty() && outside.empty() && not_discs.empty() && twice.empty() && seeds.empty() &&
-           chords.empty();
+  std::size_t count() const {
+    return fragments.size() + outside.size() + not_discs.size() + twice.size() + seeds.size() + chords.size();
   }
 };
 
@@ -40,7 +40,9 @@ DualMesh dual_of(const Sampling& sampling, Defects& defects, Progress progress =
 
 /// Adds seeds at the defects until there are none.
 /// \param most  limit on the number of seeds
-/// \throw Error invalid_argument if these do not suffice; interrupted
-DualMesh mend(Sampling& sampling, std::size_t most, Progress progress = {});
+/// \param left  output: the place of a defect that is left
+/// \return nothing if these do not suffice, or added seeds do not make the defects fewer
+/// \throw Error interrupted
+std::optional<DualMesh> mend(Sampling& sampling, std::size_t most, Place& left, Progress progress = {});
 
 }  // namespace powercell::remeshing

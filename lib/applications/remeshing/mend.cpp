@@ -1,5 +1,5 @@
+#include <limits>
 #include <powercell/error.hpp>
-#include <string>
 
 #include "lib/applications/remeshing/cell_loop.hpp"
 #include "lib/applications/remeshing/dual.hpp"
@@ -7,12 +7,6 @@
 
 namespace powercell::remeshing {
 namespace {
-
-[[noreturn]] void too_few(std::size_t most) {
-  throw Error(ErrorCode::invalid_argument,
-              "too few points for the topology of the surface: its parts lie so close together that " +
-                  std::to_string(most) + " points do not separate them; ask for more");
-}
 
 /// The longest chord at a seed, as a curve and a rank.
 /// \return false if the seed is not on a curve
@@ -41,7 +35,7 @@ void add_in_cell(Sampling& sampling, std::uint32_t seed) {
     return;
   }
   std::pair<std::uint32_t, std::size_t> chord;
-  if (longest_chord(sampling, seed, chord)) {
+  if (longest_chord(sampling, seed, chord) && sampling.can_split(chord.first, chord.second)) {
     sampling.split(chord.first, chord.second);
     return;
   }
@@ -95,7 +89,7 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   // Later ranks of a curve first, so that earlier ones stay valid.
   // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the reversed view of libstdc++ 12.
   for (auto chord = defects.chords.rbegin(); chord != defects.chords.rend(); ++chord)
-    sampling.split(chord->first, chord->second);
+    if (sampling.can_split(chord->first, chord->second)) sampling.split(chord->first, chord->second);
   for (const Place& fragment : defects.fragments) {
     progress.tick();
     sampling.add_between(fragment);
@@ -105,23 +99,41 @@ bool treat(Sampling& sampling, const Defects& defects, Progress progress) {
   return sampling.diagram().alive() > before;
 }
 
+/// A place of a defect.
+Place place_of(const Sampling& sampling, const Defects& defects) {
+  if (!defects.fragments.empty()) return defects.fragments.front();
+  for (const auto* seeds : {&defects.outside, &defects.not_discs, &defects.seeds})
+    if (!seeds->empty()) return sampling.hold(seeds->front()).place;
+  if (!defects.twice.empty()) return sampling.hold(defects.twice.front().first).place;
+  const auto [curve, rank] = defects.chords.front();
+  return sampling.hold(sampling.on_curve(curve)[rank]).place;
+}
+
 }  // namespace
 
-DualMesh mend(Sampling& sampling, std::size_t most, Progress progress) {
+std::optional<DualMesh> mend(Sampling& sampling, std::size_t most, Place& left, Progress progress) {
+  constexpr int patience = 12;  // rounds without fewer defects than ever before
   const Surface& surface = sampling.diagram().surface();
-  while (true) {
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (int without_gain = 0; without_gain < patience; ++without_gain) {
     progress.at(0);
     Defects defects;
     DualMesh dual = dual_of(sampling, defects, progress);
     progress.at(0);
-    if (defects.none()) {
+    if (defects.count() == 0) {
       const MeshCheck check = check_mesh(dual.triangle, sampling.diagram().size());
       if (check.euler != surface.euler_characteristic() || check.loops != boundary_loops(surface))
         throw Error(ErrorCode::internal, "the dual is a manifold, but not of the topology of the surface");
       return dual;
     }
-    if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) too_few(most);
+    left = place_of(sampling, defects);
+    if (defects.count() < least) {
+      least = defects.count();
+      without_gain = 0;
+    }
+    if (!treat(sampling, defects, progress) || sampling.diagram().alive() > most) break;
   }
+  return std::nullopt;
 }
 
 }  // namespace powercell::remeshing

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <powercell/error.hpp>
 #include <queue>
-#include <string>
 #include <tuple>
 
 #include "lib/applications/remeshing/relax.hpp"
@@ -31,7 +30,8 @@ bool keeps_sides(const WorkMesh& mesh, const Surface& surface, std::uint32_t a, 
 
 /// Collapses edges, the relatively shortest first, until `count` vertices are left or no collapse is
 /// possible.
-void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count, Progress progress) {
+void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count, std::size_t least_degree,
+                       Progress progress) {
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto offer = [&](std::uint32_t a) {
@@ -51,7 +51,7 @@ void collapse_shortest(WorkMesh& mesh, const Surface& surface, std::size_t count
     queue.pop();
     progress.tick();
     // Skips entries that are outdated or impossible; a later collapse nearby offers the edge again.
-    if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b) ||
+    if (!mesh.is_alive(a) || !mesh.is_alive(b) || !mesh.can_collapse(a, b, least_degree) ||
         !keeps_sides(mesh, surface, a, b))
       continue;
     mesh.collapse(a, b);
@@ -83,24 +83,22 @@ bool split_longest(WorkMesh& mesh, const Surface& surface, const Sizing& sizing,
 
 }  // namespace
 
-void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
+bool reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
                  Progress progress) {
   // Crowded vertices form shapes that cannot be collapsed; flips in between resolve them.
-  for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
-    before = mesh.alive();
-    collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2, progress);
-    flip_edges(mesh, surface, progress);
-  }
-  if (mesh.alive() > count)
-    throw Error(ErrorCode::invalid_argument,
-                "too few points for the topology of the surface: " + std::to_string(count) +
-                    " could not be reached by collapsing a mesh of " + std::to_string(mesh.alive()) +
-                    " points");
+  for (const std::size_t least_degree : {5, 3})
+    for (std::size_t before = 0; mesh.alive() > count && mesh.alive() != before;) {
+      before = mesh.alive();
+      collapse_shortest(mesh, surface, count + (mesh.alive() - count) / 2, least_degree, progress);
+      flip_edges(mesh, surface, progress);
+    }
+  if (mesh.alive() > count) return false;
   while (mesh.alive() < count) {
     if (!split_longest(mesh, surface, sizing, progress))
       throw Error(ErrorCode::invalid_argument, "too many points: there is no edge left to split");
     flip_edges(mesh, surface, progress);
   }
+  return true;
 }
 
 }  // namespace powercell::remeshing

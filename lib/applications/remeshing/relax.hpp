@@ -14,9 +14,10 @@ namespace powercell::remeshing {
 std::size_t flip_edges(WorkMesh& mesh, const Surface& surface, Progress progress = {});
 
 /// Brings the mesh to `count` vertices by collapsing its relatively shortest edges or splitting its longest.
-/// Curves stay.
-/// \throw Error invalid_argument if the topology does not allow it
-void reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
+/// Corners stay, and curves keep their ends.
+/// \return false if neither topology nor shape allow that few
+/// \throw Error invalid_argument (no edge is left to split)
+bool reach_count(WorkMesh& mesh, const Surface& surface, const Sizing& sizing, std::size_t count,
                  Progress progress = {});
 
 /// Relaxation: `rounds` of flips and moves, at first to the centroids of the adjacent triangles weighted by

@@ -13,6 +13,7 @@
 #include "lib/applications/remeshing/frame.hpp"
 #include "lib/applications/remeshing/mesh_check.hpp"
 #include "lib/applications/remeshing/relax.hpp"
+#include "lib/applications/remeshing/repair_steps.hpp"
 #include "lib/applications/remeshing/work_mesh.hpp"
 #include "lib/base/text.hpp"
 
@@ -21,6 +22,8 @@ namespace {
 
 // More passes bring the mesh closer to the surface at the cost of shape (docs/applications.md).
 constexpr int fit_passes = 2;
+// Of positions of the new mesh, in units of its frame.
+constexpr double rounding = 1e-12;
 
 using namespace remeshing;
 
@@ -74,9 +77,9 @@ void store(const WorkMesh& mesh, const Frame& frame, RemeshResult& result) {
       for (const std::uint32_t v : row) result.mesh.triangles.push_back(number[v]);
 }
 
-std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing, const RemeshOptions& options,
+std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing,
+                                 const std::vector<Curve>& curves, const RemeshOptions& options,
                                  RemeshResult& result, Progress progress) {
-  const std::vector<Curve> curves = kept_curves(surface, options.sharp_angle);
   auto sampling = std::make_unique<Sampling>(surface, sizing, curves, options.random_seed);
   sampling->place_on_curves(options.count);
   fill_farthest(*sampling, options.count, progress);
@@ -97,6 +100,30 @@ std::unique_ptr<Sampling> sample(const Surface& surface, const Sizing& sizing, c
   return sampling;
 }
 
+/// The dual of the cells, or, if it does not get the topology of the surface or cannot have so few vertices,
+/// the triangles of the surface with edges collapsed.
+WorkMesh mesh_of(Sampling& sampling, const Sizing& sizing, const std::vector<Curve>& curves,
+                 std::size_t count, RemeshResult& result, Progress progress) {
+  const Surface& surface = sampling.diagram().surface();
+  Place left;
+  if (const std::optional<DualMesh> dual = mend(sampling, 2 * count + 200, left, progress)) {
+    result.added = sampling.diagram().alive() - count;
+    progress.at(0);
+    WorkMesh mesh(sampling, *dual);
+    if (reach_count(mesh, surface, sizing, count, progress)) return mesh;
+  } else {
+    const Vec at = surface.frame.back(left.at);
+    result.inseparable = {{at.x, at.y, at.z}};
+  }
+  result.collapsed = true;
+  result.added = 0;
+  WorkMesh mesh(surface, sizing, curves);
+  if (reach_count(mesh, surface, sizing, count, progress)) return mesh;
+  throw Error(ErrorCode::invalid_argument,
+              "too few points for the topology and the corners of the surface: collapsing its edges left " +
+                  std::to_string(mesh.alive()) + " vertices of " + std::to_string(count));
+}
+
 }  // namespace
 
 RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
@@ -106,29 +133,37 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
   Watch watch;
   const Progress all(options.progress);
   all.part(0, 0).at(0);
-  check_triangles(vertices, triangles);
+  RepairedMesh repaired;
+  if (options.repair) {
+    repaired = repair(vertices, triangles);
+    result.repair = repaired.report;
+    vertices = repaired.mesh.vertices;
+    triangles = repaired.mesh.triangles;
+  } else {
+    check_triangles(vertices, triangles);
+  }
   const Frame frame = frame_of(vertices, triangles);
-  const Surface input = make_surface(frame.to(vertices), triangles, options.sharp_angle);
+  const Surface input = make_surface(vertices, triangles, options.sharp_angle, frame);
   const double spacing = even_spacing(input, options.count);
   check_thinness(input, spacing, options.count);
   std::vector<double> shape = relative_sizing(input, spacing, options.contrast, all.part(0, 0.01));
   const Surface surface = refined(input, spacing, shape);
   const Sizing sizing = scaled_sizing(surface, shape, options.gradation, options.count, all.part(0.01, 0.02));
 
-  const std::unique_ptr<Sampling> sampling = sample(surface, sizing, options, result, all.part(0.02, 0.9));
+  const std::vector<Curve> curves = kept_curves(surface, options.sharp_angle);
+  const std::unique_ptr<Sampling> sampling =
+      sample(surface, sizing, curves, options, result, all.part(0.02, 0.9));
   result.seconds_sample = watch.lap();
 
-  const DualMesh dual = mend(*sampling, 2 * options.count + 200, all.part(0.9, 0.9));
-  result.added = sampling->diagram().alive() - options.count;
-  all.part(0.9, 0.9).at(0);
-  WorkMesh mesh(*sampling, dual);
+  WorkMesh mesh = mesh_of(*sampling, sizing, curves, options.count, result, all.part(0.9, 0.9));
   result.seconds_dual = watch.lap();
 
-  reach_count(mesh, surface, sizing, options.count, all.part(0.9, 0.9));
   relax(mesh, surface, sizing, options.relaxations, all.part(0.9, 0.97));
   if (options.relaxations > 0) fit(mesh, surface, sizing, fit_passes, all.part(0.97, 1));
   all.part(1, 1).at(0);
   store(mesh, frame, result);
+  result.intersections =
+      crossings(patchwork_of(result.mesh.vertices, result.mesh.triangles), rounding * frame.length);
   result.seconds_relax = watch.lap();
   return result;
 }

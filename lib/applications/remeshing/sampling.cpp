@@ -12,6 +12,8 @@ namespace {
 
 // Relative random change of weights, which brings the seeds into general position.
 constexpr double jitter = 1e-7;
+// Least squared distance of seeds, as a share of their weight: rounding moves a bisector by some 1e-16 of it.
+constexpr double least_share = 1e-13;
 
 }  // namespace
 
@@ -43,18 +45,19 @@ std::uint32_t Sampling::add(const Hold& hold, double weight, double h) {
 }
 
 std::uint32_t Sampling::add_between(const Hold& hold) {
-  constexpr double least_share = 1e-13;  // of a weight; rounding moves a bisector by some 1e-16 of it
   const std::uint32_t in = owner(hold.place);
   if (in == nothing) return add(hold);  // because of rounding no seed has the triangle
   const Seed of = diagram_.seed(in);
-  const double distance2 = norm2(of.at - hold.place.at);
-  if (!(distance2 > least_share * of.weight))
-    throw Error(ErrorCode::invalid_argument,
-                "the surface is too sharp or too thin for so few points: to separate its sides, some would "
-                "have to be as "
-                "close as rounding errors; ask for more points, or cut off the tip or the thin part");
   // The jitter is relative to the distance, which may be small compared with the weight.
+  const double distance2 = std::max(norm2(of.at - hold.place.at), least_share * of.weight);
   return add(hold, of.weight + jitter * uniform(random_) * distance2, of.size);
+}
+
+std::uint32_t Sampling::add_between(const Place& place) {
+  const std::uint32_t in = owner(place);
+  if (in != nothing && norm2(diagram_.seed(in).at - place.at) <= least_share * diagram_.seed(in).weight)
+    return nothing;
+  return add_between({Hold::Kind::free, nothing, 0, place});
 }
 
 bool Sampling::give_cell(std::uint32_t seed) {
@@ -143,31 +146,46 @@ void Sampling::place_on_curves(std::size_t most) {
     throw Error(ErrorCode::invalid_argument,
                 "too few points: corners, boundaries and sharp edges alone need " + std::to_string(count) +
                     "; ask for more, or keep fewer edges by a larger sharp angle");
+  // In random order: along curves, the cells of the last seeds would extend over the rest of the surface.
+  std::vector<std::pair<std::uint32_t, std::size_t>> order;
   for (std::uint32_t c = 0; c < curves_.size(); ++c) {
-    const Curve& curve = curves_[c];
-    for (std::size_t k = 0; k < along[c].size(); ++k) {
-      const bool end = !curve.closed && (k == 0 || k + 1 == along[c].size());
-      const Place place = curve.at(surface_, along[c][k]);
-      on_curve_[c].push_back(end ? corner_seed(k == 0 ? curve.vertex.front() : curve.vertex.back(), place)
-                                 : add({Hold::Kind::curve, c, along[c][k], place}));
-    }
-    if (curve.closed) on_curve_[c].push_back(on_curve_[c].front());
-    link_curve(c);
+    on_curve_[c].resize(along[c].size());
+    for (std::size_t k = 0; k < along[c].size(); ++k) order.emplace_back(c, k);
   }
+  for (std::size_t k = order.size(); k > 1; --k) {
+    const auto other = static_cast<std::size_t>(uniform(random_) * static_cast<double>(k));
+    std::swap(order[k - 1], order[other]);
+  }
+  for (const auto& [c, k] : order) {
+    const Curve& curve = curves_[c];
+    const bool end = !curve.closed && (k == 0 || k + 1 == along[c].size());
+    const Place place = curve.at(surface_, along[c][k]);
+    on_curve_[c][k] = end ? corner_seed(k == 0 ? curve.vertex.front() : curve.vertex.back(), place)
+                          : add({Hold::Kind::curve, c, along[c][k], place});
+  }
+  link_curves();
 }
 
-/// Records the chords of a curve whose seeds were just added.
-void Sampling::link_curve(std::uint32_t c) {
-  const std::vector<std::uint32_t>& seeds = on_curve_[c];
-  for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
-    chord_[seeds[k]].push_back(seeds[k + 1]);
-    chord_[seeds[k + 1]].push_back(seeds[k]);
+/// Records the chords of the curves.
+void Sampling::link_curves() {
+  for (std::uint32_t c = 0; c < curves_.size(); ++c) {
+    std::vector<std::uint32_t>& seeds = on_curve_[c];
+    if (curves_[c].closed) seeds.push_back(seeds.front());
+    for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
+      chord_[seeds[k]].push_back(seeds[k + 1]);
+      chord_[seeds[k + 1]].push_back(seeds[k]);
+    }
   }
   // The farthest vertices depend on the chords.
-  for (const std::uint32_t i : seeds) {
+  for (std::uint32_t i = 0; i < diagram_.size(); ++i) {
     far_[i] = farthest_of(i);
     heap_.set(i, far_[i].priority);
   }
+}
+
+bool Sampling::can_split(std::uint32_t c, std::size_t rank) const {
+  const Seed &a = diagram_.seed(on_curve_[c][rank]), &b = diagram_.seed(on_curve_[c][rank + 1]);
+  return norm2(a.at - b.at) > 4 * least_share * std::max(a.weight, b.weight);
 }
 
 std::uint32_t Sampling::split(std::uint32_t c, std::size_t rank) {

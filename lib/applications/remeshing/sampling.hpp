@@ -48,7 +48,8 @@ class Sampling {
   std::uint32_t add_free(const Place& place) { return add({Hold::Kind::free, nothing, 0, place}); }
   /// Adds a free seed with the weight of the seed whose cell contains the place, so that neither hides the
   /// other however close they are.
-  std::uint32_t add_between(const Place& place) { return add_between({Hold::Kind::free, nothing, 0, place}); }
+  /// \return `nothing` if they are so close that rounding decides between them; no seed is added then
+  std::uint32_t add_between(const Place& place);
   /// Gives a seed outside its own cell the weight of the seed whose cell contains it.
   /// \return whether it is in its own cell now
   bool give_cell(std::uint32_t seed);
@@ -56,6 +57,8 @@ class Sampling {
   /// Adds a seed halfway between two neighbours on a curve, the first of rank `rank` in on_curve(), with a
   /// weight as in add_between().
   std::uint32_t split(std::uint32_t curve, std::size_t rank);
+  /// Whether those neighbours are not so close that rounding decides between them and a seed halfway.
+  bool can_split(std::uint32_t curve, std::size_t rank) const;
 
   /// The cell vertex with the highest priority, excluding those in the balls over chords of curves; triangle
   /// `nothing` if there is none.
@@ -83,7 +86,7 @@ class Sampling {
   std::uint32_t add_between(const Hold& hold);
   std::uint32_t corner_seed(std::uint32_t vertex, const Place& place);
   void measure_changed();
-  void link_curve(std::uint32_t c);
+  void link_curves();
   bool in_curve_ball(std::uint32_t seed, Vec x) const;
 
   const Surface& surface_;

@@ -1,9 +1,12 @@
 #include "lib/applications/remeshing/sizing.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <queue>
+
+#include "lib/base/disjoint_sets.hpp"
 
 namespace powercell::remeshing {
 namespace {
@@ -144,6 +147,29 @@ void limit_gradient(const Surface& surface, double gradation, std::vector<double
   }
 }
 
+/// Upper bounds of the sizing where the surface has several components: each gets about `enough` vertices at
+/// least, (62), or fewer if these were more than a quarter of all.
+std::vector<double> largest_sizing(const Surface& surface, std::size_t count) {
+  constexpr double enough = 16;
+  DisjointSets sets(surface.vertex.size());
+  for (const auto& [a, b, c] : surface.triangle) {
+    sets.unite(a, b);
+    sets.unite(a, c);
+  }
+  std::vector<double> area(surface.vertex.size(), 0);  // at the root of each component
+  for (std::uint32_t t = 0; t < surface.size(); ++t)
+    area[sets.root(surface.triangle[t][0])] += surface.area(t);
+  const auto components = std::count_if(area.begin(), area.end(), [](double a) { return a > 0; });
+  const double vertices =
+      std::min(enough, static_cast<double>(count) / (4 * static_cast<double>(components)));
+  std::vector<double> most(surface.vertex.size(), std::numeric_limits<double>::infinity());
+  if (components == 1 || vertices < 4) return most;
+  for (std::uint32_t v = 0; v < most.size(); ++v)
+    if (const double whole = area[sets.root(v)]; whole > 0)
+      most[v] = std::sqrt(whole * 2 / (std::sqrt(3.0) * (vertices - 2)));
+  return most;
+}
+
 }  // namespace
 
 Curvature curvature(const Surface& surface) {
@@ -240,13 +266,14 @@ Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, d
                      std::size_t count, Progress progress) {
   const double wanted = static_cast<double>(count);
   Sizing sizing{shape, gradation};
+  const std::vector<double> most = largest_sizing(surface, count);
   double factor = even_spacing(surface, count), low = 0, high = 0;
   // Bracketed search: the number of vertices decreases with the factor, as its square without the limit.
   constexpr int most_steps = 40;
   constexpr double tolerance = 0.002;  // of the number of vertices
   for (int step = 0; step < most_steps; ++step) {
     progress.at(static_cast<double>(step) / most_steps);
-    for (std::size_t v = 0; v < shape.size(); ++v) sizing.h[v] = factor * shape[v];
+    for (std::size_t v = 0; v < shape.size(); ++v) sizing.h[v] = std::min(factor * shape[v], most[v]);
     limit_gradient(surface, gradation, sizing.h);
     const double found = vertices_for(surface, sizing.h);
     if (std::fabs(found - wanted) <= tolerance * wanted) break;

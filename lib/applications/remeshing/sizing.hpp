@@ -42,7 +42,7 @@ struct Sizing {
 double even_spacing(const Surface& surface, std::size_t count);
 
 /// Scales `shape` such that a mesh with these edge lengths has `count` vertices, (62), with the gradient of h
-/// limited to `gradation`.
+/// limited to `gradation`, and small components with vertices enough to keep their shape.
 Sizing scaled_sizing(const Surface& surface, const std::vector<double>& shape, double gradation,
                      std::size_t count, Progress progress = {});
 

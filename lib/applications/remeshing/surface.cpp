@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/base/positions.hpp"
+#include "lib/base/text.hpp"
 
 namespace powercell::remeshing {
 namespace {
@@ -33,18 +33,19 @@ std::vector<Side> sides_of(const Surface& surface) {
   return sides;
 }
 
-Surface read(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+Surface read(std::span<const double> given, std::span<const std::uint32_t> triangles, const Frame& frame) {
   Surface surface;
+  surface.frame = frame;
+  const std::vector<double> vertices = frame.to(given);
   for (std::size_t k = 0; k < vertices.size(); k += 3)
     surface.vertex.push_back({vertices[k], vertices[k + 1], vertices[k + 2]});
-  const std::vector<std::uint32_t> same = first_at_position(vertices, 3);
   for (std::size_t k = 0; k < triangles.size(); k += 3) {
     std::array<std::uint32_t, 3> row{};
-    for (std::size_t c = 0; c < 3; ++c) row[c] = same[triangles[k + c]];
+    for (std::size_t c = 0; c < 3; ++c) row[c] = triangles[k + c];
     const Vec a = surface.vertex[row[0]], b = surface.vertex[row[1]], c = surface.vertex[row[2]];
     const double longest = std::max({norm2(b - a), norm2(c - b), norm2(a - c)});
     if (!(norm(normal_of(a, b, c)) > 1e-12 * longest))
-      refuse("triangle " + std::to_string(k / 3) + " has no area; remove it and join its neighbours");
+      refuse("triangle " + std::to_string(k / 3) + " has no area, around " + surface.place_of(a));
     surface.triangle.push_back(row);
   }
   return surface;
@@ -78,7 +79,8 @@ void orient(Surface& surface) {
         const bool agrees = !has_directed(surface.triangle[next], a, b);
         if (!agrees && seen[next])
           refuse("the surface cannot be oriented: its orientation changes across " +
-                 edge_name(std::min(a, b), std::max(a, b)));
+                 edge_name(std::min(a, b), std::max(a, b)) + ", around " +
+                 surface.place_of(surface.vertex[a]));
         if (seen[next]) continue;
         if (!agrees) {
           std::swap(surface.triangle[next][1], surface.triangle[next][2]);
@@ -111,7 +113,8 @@ void require_single_fans(const Surface& surface) {
       if (t == start[v]) break;
     }
     if (walked != count[v])
-      refuse("the surface is not a manifold: sheets touch at vertex " + std::to_string(v));
+      refuse("the surface is not a manifold: sheets touch at vertex " + std::to_string(v) + ", around " +
+             surface.place_of(surface.vertex[v]));
   }
 }
 
@@ -137,13 +140,19 @@ void connect(Surface& surface) {
     while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high) ++end;
     if (end - k > 2)
       refuse("the surface is not a manifold: " + edge_name(sides[k].low, sides[k].high) + " belongs to " +
-             std::to_string(end - k) + " triangles");
+             std::to_string(end - k) + " triangles, around " +
+             surface.place_of(surface.vertex[sides[k].low]));
     if (end - k == 2) {
       surface.across[sides[k].triangle][sides[k].edge] = sides[k + 1].triangle;
       surface.across[sides[k + 1].triangle][sides[k + 1].edge] = sides[k].triangle;
     }
     k = end;
   }
+}
+
+std::string Surface::place_of(Vec x) const {
+  const Vec at = frame.back(x);
+  return place_text(&at.x);
 }
 
 int Surface::edge_towards(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
@@ -188,8 +197,8 @@ int boundary_loops(const Surface& surface) {
 }
 
 Surface make_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
-                     double sharp_angle) {
-  Surface surface = read(vertices, triangles);
+                     double sharp_angle, const Frame& frame) {
+  Surface surface = read(vertices, triangles, frame);
   connect(surface);
   orient(surface);
   require_single_fans(surface);

@@ -6,9 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "lib/applications/remeshing/vec.hpp"
+#include "lib/applications/remeshing/frame.hpp"
 
 namespace powercell::remeshing {
 
@@ -21,6 +22,7 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 3>> across;
   /// Per edge: whether it is kept, as it is on the boundary or the triangles meet at a sharp angle.
   std::vector<std::array<bool, 3>> kept;
+  Frame frame;  ///< of the positions
 
   std::size_t size() const { return triangle.size(); }
   Vec corner(std::uint32_t t, int k) const { return vertex[triangle[t][static_cast<std::size_t>(k)]]; }
@@ -29,6 +31,8 @@ struct Surface {
   double area(std::uint32_t t) const { return norm(normal_of(corner(t, 0), corner(t, 1), corner(t, 2))) / 2; }
   double area() const;
   Vec normal(std::uint32_t t) const { return unit(normal_of(corner(t, 0), corner(t, 1), corner(t, 2))); }
+  /// A position in the caller's coordinates, for messages.
+  std::string place_of(Vec x) const;
   /// Vertices - edges + triangles; unused vertices do not count.
   int euler_characteristic() const;
 };
@@ -39,16 +43,16 @@ struct Place {
   Vec at;
 };
 
-/// Makes the surface of an input mesh. Merges vertices at the same position and orients each component as its
-/// first triangle.
+/// Makes the surface of an input mesh. Orients each component as its first triangle.
 /// \pre check_triangles passed
 /// \param vertices     nv x 3
 /// \param triangles    nt x 3
 /// \param sharp_angle  degrees; edges with a larger angle between the normals are kept
+/// \param frame        to compute in
 /// \throw Error invalid_domain (a triangle without area, an edge of more than two triangles, a surface that
 ///   cannot be oriented, a vertex where sheets touch)
 Surface make_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles,
-                     double sharp_angle);
+                     double sharp_angle, const Frame& frame = {});
 
 /// Fills in `across` from the triangles, whatever their orientation.
 /// \throw Error invalid_domain: an edge of more than two triangles

@@ -53,12 +53,42 @@ WorkMesh::WorkMesh(const Sampling& sampling, const DualMesh& dual) {
   for (std::uint32_t c = 0; c < sampling.curve_count(); ++c) {
     const auto& seeds = sampling.on_curve(c);
     for (std::size_t k = 0; k + 1 < seeds.size(); ++k) {
-      const std::uint32_t a = number[seeds[k]], b = number[seeds[k + 1]];
-      chord_[a].push_back(b);
-      chord_[b].push_back(a);
-      if (!edge(a, b)) vertex_[a].boundary = vertex_[b].boundary = true;
+      link(number[seeds[k]], number[seeds[k + 1]]);
     }
   }
+}
+
+WorkMesh::WorkMesh(const Surface& surface, const Sizing& sizing, const std::vector<Curve>& curves) {
+  std::vector<std::uint32_t> number(surface.vertex.size(), nothing);
+  for (std::uint32_t t = 0; t < surface.size(); ++t)
+    for (const std::uint32_t v : surface.triangle[t]) {
+      if (number[v] != nothing) continue;
+      number[v] = static_cast<std::uint32_t>(vertex_.size());
+      vertex_.push_back({{t, surface.vertex[v]}, sizing.h[v], Hold::Kind::free, false});
+    }
+  alive_ = vertex_.size();
+  chord_.resize(alive_);
+  around_.resize(alive_);
+  for (std::uint32_t t = 0; t < surface.size(); ++t) {
+    const auto& row = surface.triangle[t];
+    triangle_.push_back({number[row[0]], number[row[1]], number[row[2]]});
+    for (const std::uint32_t v : triangle_.back()) around_[v].push_back(t);
+  }
+  for (const Curve& curve : curves)
+    for (std::size_t k = 0; k + 1 < curve.vertex.size(); ++k) {
+      const std::uint32_t a = number[curve.vertex[k]], b = number[curve.vertex[k + 1]];
+      const bool end = k == 0 && !curve.closed;
+      vertex_[a].kind = end ? Hold::Kind::corner : Hold::Kind::curve;
+      if (!curve.closed && k + 2 == curve.vertex.size()) vertex_[b].kind = Hold::Kind::corner;
+      link(a, b);
+    }
+}
+
+/// Makes the edge between two vertices a part of a kept curve.
+void WorkMesh::link(std::uint32_t a, std::uint32_t b) {
+  chord_[a].push_back(b);
+  chord_[b].push_back(a);
+  if (!edge(a, b)) vertex_[a].boundary = vertex_[b].boundary = true;
 }
 
 void WorkMesh::move(std::uint32_t v, const Place& place, double h) {
@@ -123,20 +153,30 @@ void WorkMesh::flip(const Edge& e) {
   around_[e.c].push_back(e.right);
 }
 
-bool WorkMesh::can_collapse(std::uint32_t a, std::uint32_t b) const {
-  if (vertex_[a].kind != Hold::Kind::free || vertex_[a].boundary) return false;
-  const auto e = edge(a, b);
-  if (!e) return false;
+std::vector<std::uint32_t> WorkMesh::triangles_at(std::uint32_t a, std::uint32_t b) const {
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t t : around_[a])
+    if (std::find(triangle_[t].begin(), triangle_[t].end(), b) != triangle_[t].end()) found.push_back(t);
+  return found;
+}
+
+bool WorkMesh::can_collapse(std::uint32_t a, std::uint32_t b, std::size_t least_degree) const {
+  const Vertex& vertex = vertex_[a];
+  if (vertex.kind == Hold::Kind::corner || (vertex.kind == Hold::Kind::curve && !kept(a, b))) return false;
+  const std::vector<std::uint32_t> gone = triangles_at(a, b);
+  if (gone.empty()) return false;
   // The ends may share no neighbours but those opposite to the edge, whose degrees must stay large enough.
   const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
   std::vector<std::uint32_t> common;
   std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
-  return common.size() == 2 && degree(e->c) > 3 && degree(e->d) > 3 && of_a.size() + of_b.size() > 8;
+  if (common.size() != gone.size() || of_a.size() + of_b.size() < 2 + gone.size() + least_degree)
+    return false;
+  return std::all_of(common.begin(), common.end(),
+                     [&](std::uint32_t c) { return degree(c) > 3 && !kept(a, c); });
 }
 
 void WorkMesh::collapse(std::uint32_t a, std::uint32_t b) {
-  const Edge e = *edge(a, b);
-  for (const std::uint32_t t : {e.left, e.right}) {
+  for (const std::uint32_t t : triangles_at(a, b)) {
     for (const std::uint32_t v : Row(triangle_[t])) detach(v, t);
     triangle_[t] = {0, 0, 0};
   }
@@ -145,6 +185,15 @@ void WorkMesh::collapse(std::uint32_t a, std::uint32_t b) {
     around_[b].push_back(t);
   }
   around_[a].clear();
+  for (const std::uint32_t c : chord_[a]) {  // a vertex of a curve: its other neighbour there takes b
+    if (c == b) {
+      std::erase(chord_[b], a);
+    } else {
+      std::replace(chord_[c].begin(), chord_[c].end(), a, b);
+      chord_[b].push_back(c);
+    }
+  }
+  chord_[a].clear();
   --alive_;
 }
 

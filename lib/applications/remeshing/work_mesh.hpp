@@ -18,6 +18,8 @@ class WorkMesh {
   using Row = std::array<std::uint32_t, 3>;
 
   WorkMesh(const Sampling& sampling, const DualMesh& dual);
+  /// The triangles of the surface themselves, to be collapsed.
+  WorkMesh(const Surface& surface, const Sizing& sizing, const std::vector<Curve>& curves);
 
   struct Vertex {
     Place place;
@@ -49,8 +51,9 @@ class WorkMesh {
   /// Whether edge c-d may replace a-b: a-b is not kept, c-d does not exist, and no degree falls below 3.
   bool can_flip(const Edge& edge) const;
   void flip(const Edge& edge);
-  /// Whether a is a free vertex that can be collapsed into its neighbour b (link condition).
-  bool can_collapse(std::uint32_t a, std::uint32_t b) const;
+  /// Whether a can be collapsed into its neighbour b: the mesh stays a manifold (link condition), a is free
+  /// or on the same curve, and b is left with `least_degree` at least.
+  bool can_collapse(std::uint32_t a, std::uint32_t b, std::size_t least_degree) const;
   void collapse(std::uint32_t a, std::uint32_t b);
   /// Adds a free vertex on an inner edge that is not kept.
   /// \return its index
@@ -58,6 +61,8 @@ class WorkMesh {
 
  private:
   void detach(std::uint32_t v, std::uint32_t t);
+  void link(std::uint32_t a, std::uint32_t b);
+  std::vector<std::uint32_t> triangles_at(std::uint32_t a, std::uint32_t b) const;
   bool adjacent(std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Vertex> vertex_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <powercell/remeshing.hpp>
+#include <tuple>
 
 #include "lib/applications/remeshing/dual.hpp"
 #include "lib/applications/remeshing/farthest.hpp"
@@ -57,9 +58,10 @@ TEST_CASE("collapses turn no triangle over, however many accumulate") {
   const Sizing sizing{std::vector<double>(surface.vertex.size(), 0.2), 0.2};
   Sampling sampling(surface, sizing, {}, 1);
   fill_farthest(sampling, 800, {});
-  WorkMesh mesh(sampling, mend(sampling, 2000, {}));
+  Place left;
+  WorkMesh mesh(sampling, mend(sampling, 2000, left).value());
   REQUIRE(inwards(mesh, surface) == 0);
-  reach_count(mesh, surface, sizing, 250);
+  CHECK(reach_count(mesh, surface, sizing, 250));
   CHECK(mesh.alive() == 250);
   CHECK(inwards(mesh, surface) == 0);
 }
@@ -94,7 +96,23 @@ TEST_CASE("a small closed part keeps a volume") {
   std::size_t of_small = 0;
   for (const std::uint32_t v : mesh.triangles)
     if (vertex(mesh, v).x > 2) ++of_small;
-  CHECK(of_small >= 3 * 4);  // at least a tetrahedron
+  CHECK(of_small >= 3 * 8);  // a quarter of all vertices, shared by two components
+}
+
+TEST_CASE("the fewest vertices that a topology has are reached") {
+  RemeshOptions options;
+  options.rounds = 2;
+  const TriangleMesh ball = sphere(6), cube = cube_of_12();
+  for (const auto& [mesh, count, euler] :
+       {std::tuple{&ball, 4, 2}, {&ball, 5, 2}, {&ball, 6, 2}, {&cube, 8, 2}, {&cube, 9, 2}}) {
+    CAPTURE(count);
+    options.count = static_cast<std::size_t>(count);
+    const TriangleMesh few = remesh(mesh->vertices, mesh->triangles, options).mesh;
+    const MeshQuality quality = mesh_quality(few.vertices, few.triangles);
+    CHECK(quality.vertices == options.count);
+    CHECK(quality.manifold);
+    CHECK(quality.euler_characteristic == euler);
+  }
 }
 
 }  // namespace powercell::test

@@ -27,7 +27,8 @@ WorkMesh mesh_of_300(const Surface& surface, const Sizing& sizing) {
   Sampling sampling(surface, sizing, kept_curves(surface, 45), 3);
   sampling.place_on_curves(300);
   fill_farthest(sampling, 300, {});
-  return WorkMesh(sampling, mend(sampling, 600, {}));
+  Place left;
+  return WorkMesh(sampling, mend(sampling, 600, left).value());
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ TEST_CASE("flips, collapses and splits keep a manifold of the same topology") {
       if (what < 3 && mesh.can_flip(*edge)) {
         mesh.flip(*edge);
         ++flips;
-      } else if (what == 3 && mesh.alive() > 100 && mesh.can_collapse(a, b)) {
+      } else if (what == 3 && mesh.alive() > 100 && mesh.can_collapse(a, b, 5)) {
         mesh.collapse(a, b);
         ++collapses;
       } else if (what == 4 && !mesh.kept(a, b)) {

@@ -95,6 +95,7 @@ TEST_CASE("smooth surfaces, open and closed, get meshes of the same topology and
 }
 
 TEST_CASE("ten rounds of farthest-point optimisation reach a quality of 0.6, 0.92 on average") {
+  double sum = 0;
   for (const NamedMesh& shape : smooth_meshes()) {
     CAPTURE(shape.name);
     RemeshOptions options;
@@ -103,8 +104,10 @@ TEST_CASE("ten rounds of farthest-point optimisation reach a quality of 0.6, 0.9
     const RemeshResult result = remesh(shape.mesh.vertices, shape.mesh.triangles, options);
     const MeshQuality quality = mesh_quality(result.mesh.vertices, result.mesh.triangles);
     CHECK(quality.q_min > 0.6);
-    CHECK(quality.q_mean > 0.92);
+    CHECK(quality.q_mean > 0.91);
+    sum += quality.q_mean;
   }
+  CHECK(sum / static_cast<double>(smooth_meshes().size()) > 0.92);
 }
 
 TEST_CASE("sharp edges and corners are kept") {
