@@ -138,7 +138,7 @@ void print(const RemeshArguments& arguments, const Outcome& o) {
 TriangleMesh repaired(const RemeshArguments& arguments, TriangleMesh given, RepairReport& report) {
   if (arguments.no_repair) return given;
   RepairedMesh fixed = repair(given.vertices, given.triangles, {arguments.weld});
-  report = std::move(fixed.report);
+  report = fixed.report;
   print_notes(report.acts(), arguments.input, arguments);
   std::vector<std::string> left;
   for (const std::string& what : report.left()) left.push_back("left as it is: " + what);

@@ -151,9 +151,11 @@ void try_pairs(const RegionMesh& mesh, const std::vector<OpenFacet<N>>& open,
 
 void report(std::vector<Overlap> found, MeshReport& report) {
   const auto pair = [](const Overlap& o) { return std::pair(o.first, o.second); };
-  std::ranges::sort(found, {}, pair);
-  const auto again = std::ranges::unique(found, {}, pair);  // both are open
-  found.erase(again.begin(), again.end());
+  std::sort(found.begin(), found.end(),
+            [&](const Overlap& a, const Overlap& b) { return pair(a) < pair(b); });
+  const auto again = std::unique(found.begin(), found.end(),  // where both are open
+                                 [&](const Overlap& a, const Overlap& b) { return pair(a) == pair(b); });
+  found.erase(again, found.end());
   CompensatedSum<long double> sum;
   for (const Overlap& o : found) {
     sum.add(o.measure);

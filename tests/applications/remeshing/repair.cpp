@@ -123,12 +123,12 @@ TEST_CASE("edges a little apart are welded, those farther apart only if asked fo
 }
 
 TEST_CASE("the tolerance is that of single precision where coordinates have it") {
-  // A cube of size 1 at 10^4, whose coordinates are rounded to a step of 10^-3.
+  // A cube of size 100 at 10^4, with coordinates a last place of single precision, some 10^-3, apart.
   Random random(1);
   TriangleMesh mesh = soup(cube_of_12(), 0, random);
-  for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+  for (double& x : mesh.vertices) {
     const double step = random.uniform() < 0.25 ? 0x1p-10 : 0;  // the last place of single precision there
-    mesh.vertices[k] = static_cast<float>(mesh.vertices[k] * 100 + 10000 + step);
+    x = static_cast<float>(x * 100 + 10000 + step);
   }
   const RepairedMesh result = repaired(mesh);
   CHECK(result.report.welded.count > 0);
