@@ -14,8 +14,10 @@ set -eu
 # Packages to build the library and the tool and to run them on the CPU.
 build_packages="cmake ninja-build g++ pkg-config
   ocl-icd-opencl-dev opencl-c-headers pocl-opencl-icd
-  libflann-dev liblz4-dev libgeos-dev libproj-dev libboost-dev libmuparser-dev libeigen3-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libcairo2-dev libpng-dev libpugixml-dev zlib1g-dev"
+  libflann-dev liblz4-dev libgeos-dev libproj-dev libsqlite3-dev libboost-dev libmuparser-dev
+  libeigen3-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev libcairo2-dev libpng-dev libjpeg-dev libpugixml-dev
+  zlib1g-dev"
 
 # Packages of the tests besides those: the libraries that results are compared with, and the programs that read written
 # files.

@@ -24,8 +24,8 @@ void add_density_options(CLI::App& command, DensityArguments& arguments) {
                      "(.txt) with one value for each vertex of the mesh");
   command
       .add_option("--image", arguments.image,
-                  "PNG whose dark parts are dense; it fills the box of the domain")
-      ->type_name("FILE.png");
+                  "PNG or JPEG whose dark parts are dense; it fills the box of the domain")
+      ->type_name("FILE");
   command.add_flag("--bright", arguments.bright, "The bright parts of the image are dense");
 }
 

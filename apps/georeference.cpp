@@ -69,6 +69,15 @@ std::string titled(const io::Crs& crs) {
                                                                       : fmt::format("{} ({})", name, title);
 }
 
+bool is_known(const std::string& crs) {
+  try {
+    if (!crs.empty()) io::describe_crs(crs);
+    return !crs.empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 class Placing {
  public:
   Placing(const MapArguments& arguments, const std::string& file, const io::DomainArrays& domain,
@@ -117,6 +126,10 @@ class Placing {
                             io::readable(columns_.names[columns_.position[1]]));
       return degrees_crs;
     }
+    if (is_known(columns_.crs) && (may_be_degrees(domain_) || !is_in_degrees(columns_.crs))) {
+      source_ = ", as the file of the seeds says";
+      return columns_.crs;
+    }
     if (!arguments_.seeds_crs.empty() || arguments_.project)
       fail(file_ + ": nothing names its coordinate system; give --crs, for degrees --crs EPSG:4326");
     if (look_like_degrees(domain_, file_) && !arguments_.no_project)
@@ -143,6 +156,13 @@ class Placing {
   void place_seeds(const io::Crs& crs) {
     std::string name = arguments_.seeds_crs;
     std::string source;
+    if (name.empty() && is_known(columns_.crs)) {
+      name = columns_.crs;
+      source = ", as their file says";
+    } else if (name.empty() && !columns_.crs.empty()) {
+      note(fmt::format("the seeds' file is in {}, which is not known: taken as the domain's {}",
+                       io::readable(columns_.crs), io::readable(crs.name)));
+    }
     if (name.empty() && columns_.degrees && !crs.geographic) {
       name = degrees_crs;
       source = fmt::format(", as the columns '{}' and '{}' say",

@@ -141,14 +141,16 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
   command
       .add_option(
           "--domain", arguments.domain,
-          "A file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt), or "
+          "A file (.geojson .json .gpkg .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt), or "
           "square, cube, disk, ball, sphere, torus (with :N for resolution)")
       ->required(required);
   command
       .add_option(
           "--seeds", arguments.seeds,
           "Text or CSV with rows 'x y [z] w', or with columns in any order under a header of these names (or "
-          "lon, lat, weight), - for those from standard input; an .npy file; or random:N[:LO:HI[:SEED]] with "
+          "lon, lat, weight), - for those from standard input; points in .geojson or .gpkg "
+          "(FILE.gpkg:LAYER), or in a "
+          "column of well-known text; an .npy file; or random:N[:LO:HI[:SEED]] with "
           "weights from LO to HI")
       ->check(wrong_seeds)
       ->required(required);

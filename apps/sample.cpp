@@ -22,7 +22,7 @@ namespace {
 struct SampleArguments : CommonOptions {
   SourceArguments source;
   std::size_t count = 1000;
-  std::string mode = "blue", descent = "lloyd", analysis;
+  std::string mode = "blue", descent = "auto", analysis;
   bool periodic = false;
   int iterations = 0, runs = 1;
   double movement = 1e-4, hexatic = 0.61, tolerance = 1e-6;
@@ -34,7 +34,8 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
   SamplingOptions options;
   options.density = source.density;
   options.mode = arguments.mode == "blue" ? SamplingMode::blue : SamplingMode::quantise;
-  options.descent = arguments.descent == "lloyd" ? SamplingDescent::lloyd : SamplingDescent::lbfgs;
+  if (arguments.descent == "lloyd") options.descent = SamplingDescent::lloyd;
+  if (arguments.descent == "lbfgs") options.descent = SamplingDescent::lbfgs;
   options.periodic = arguments.periodic;
   options.iterations = arguments.iterations;
   options.hexatic = arguments.hexatic;
@@ -44,6 +45,7 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
   options.diagram = library_options(arguments, "cells");
   if (arguments.source.paper != 0) {
     options.mode = SamplingMode::quantise;
+    if (options.descent == SamplingDescent::automatic) options.descent = SamplingDescent::lloyd;
     options.movement = 0;
     if (options.iterations == 0) options.iterations = 100;
   }
@@ -97,7 +99,7 @@ void print(const SampleArguments& arguments, const Source& source, const Study& 
 }
 
 /// For a run that did not converge: the goal that was missed, and advice.
-std::string shortfall(const SamplingResult& points, const SamplingOptions& options) {
+std::string shortfall(const SamplingResult& points, const SamplingOptions& options, const Domain& domain) {
   constexpr const char* more = "; allow more with --iterations";
   const SamplingStep& last = points.steps.back();
   if (!(points.capacity_error < options.capacity_tolerance))
@@ -108,7 +110,13 @@ std::string shortfall(const SamplingResult& points, const SamplingOptions& optio
                        options.capacity_tolerance, remedy_of_integrals);
   if (std::isfinite(last.hexatic))
     return fmt::format("the hexatic order is {:.3f}, not {:.3f}{}", last.hexatic, options.hexatic, more);
-  return fmt::format("the mean move is {:.1e}{}", last.gradient, more);
+  const double spacing =
+      std::pow(domain.measure() / static_cast<double>(points.weights.size()), 1.0 / domain.cell_dimension());
+  return fmt::format(
+      "the points still move by {:.1e} of their spacing on average, not {:.1e}{}{}, or accept "
+      "the points after these moves with --movement 0",
+      last.gradient / spacing, options.movement, more,
+      options.descent == SamplingDescent::lloyd ? ", use --descent lbfgs, which needs fewer" : "");
 }
 
 /// Spectra take time that grows with the square of the number of points: they are computed for few points or
@@ -137,9 +145,10 @@ int run(const SampleArguments& arguments) {
   print(arguments, source, study, write_files(arguments, device, source, study));
   for (const Run& one : study.runs)
     if (!one.points.converged)
-      throw Error(ErrorCode::not_converged,
-                  fmt::format("not converged after {} iterations; the best points found are written: {}",
-                              one.points.steps.back().iteration, shortfall(one.points, options)));
+      throw Error(
+          ErrorCode::not_converged,
+          fmt::format("not converged after {} iterations; the best points found are written: {}",
+                      one.points.steps.back().iteration, shortfall(one.points, options, source.domain)));
   return 0;
 }
 
@@ -183,8 +192,11 @@ Command add_sample(CLI::App& app) {
   add_source(*command, arguments->source);
   command->add_option("--mode", arguments->mode, "blue: even and irregular; quantise: least energy")
       ->check(CLI::IsMember({"blue", "quantise"}));
-  command->add_option("--descent", arguments->descent, "lloyd or lbfgs")
-      ->check(CLI::IsMember({"lloyd", "lbfgs"}));
+  command
+      ->add_option("--descent", arguments->descent,
+                   "lloyd moves points to the centroids of their cells, lbfgs rests after fewer moves; auto: "
+                   "lloyd for blue, lbfgs for quantise")
+      ->check(CLI::IsMember({"auto", "lloyd", "lbfgs"}));
   command->add_flag("--periodic", arguments->periodic,
                     "Identify opposite sides of the box; uniform density only");
   command
@@ -193,8 +205,9 @@ Command add_sample(CLI::App& app) {
   command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at, 0.4 to 0.99")
       ->check(between(0.4, 0.99));
   command
-      ->add_option("--movement", arguments->movement,
-                   "quantise: stop when points move less than this part of the spacing; 0 for never")
+      ->add_option(
+          "--movement", arguments->movement,
+          "quantise: stop when points move less than this part of the spacing; 0: after --iterations")
       ->check(not_below_zero());
   command->add_option("--tolerance", arguments->tolerance, "Relative tolerance of the masses, 1e-12 to 0.1")
       ->check(between(1e-12, 0.1));

@@ -32,11 +32,11 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 
 /// Whether a field is a number as JSON writes them: no leading zeros or plus, so that codes such as 00501
 /// stay text.
-bool is_plain_number(std::string_view field, bool& whole) {
+bool is_plain_number(std::string_view field, char mark, bool& whole) {
   double value = 0;
-  if (parse_number(field, value) != Parsed::ok || field[0] == '+') return false;
+  if (parse_number(field, mark, value) != Parsed::ok || field[0] == '+') return false;
   const std::string_view digits = field.substr(field[0] == '-' ? 1 : 0);
-  if (digits.size() > 1 && digits[0] == '0' && digits[1] != '.' && digits[1] != 'e' && digits[1] != 'E')
+  if (digits.size() > 1 && digits[0] == '0' && digits[1] != mark && digits[1] != 'e' && digits[1] != 'E')
     return false;
   whole = whole && digits.size() <= 15 && digits.find_first_not_of("0123456789") == std::string_view::npos;
   return true;
@@ -80,18 +80,20 @@ KeptColumn::Type KeptColumns::type_of(std::size_t column) const {
     const std::string_view field = table_->text.field(row, column);
     if (field.empty()) continue;
     any = true;
-    if (!is_plain_number(field, whole)) return KeptColumn::Type::text;
+    if (!is_plain_number(field, mark(), whole)) return KeptColumn::Type::text;
   }
   return !any ? KeptColumn::Type::text : whole ? KeptColumn::Type::whole : KeptColumn::Type::real;
 }
 
+double KeptColumns::number(std::size_t row, const KeptColumn& column) const {
+  double value = 0;
+  const bool is_number = parse_number(field(row, column), mark(), value) == Parsed::ok;
+  return is_number ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::vector<double> KeptColumns::numbers(const KeptColumn& column) const {
   std::vector<double> values;
-  for (std::size_t row = 0; row < table_->text.rows(); ++row) {
-    double value = 0;
-    const bool read = parse_number(field(row, column), value) == Parsed::ok;
-    values.push_back(read ? value : std::numeric_limits<double>::quiet_NaN());
-  }
+  for (std::size_t row = 0; row < table_->text.rows(); ++row) values.push_back(number(row, column));
   return values;
 }
 

@@ -31,11 +31,14 @@ class KeptColumns {
   bool empty() const { return columns_.empty(); }
   const std::vector<KeptColumn>& columns() const { return columns_; }
   std::string_view field(std::size_t row, const KeptColumn& column) const;
+  char mark() const { return table_ != nullptr ? table_->text.mark : '.'; }  ///< of decimals
   char separator() const { return table_ != nullptr ? table_->text.separator : ','; }
   /// Whether the coordinates, or the weights of `seeds`, are found in these columns when they are read again.
   bool has_positions() const { return positions_; }
   bool has_weights() const { return weights_; }
 
+  /// A field of a column of numbers; not a number if it is empty.
+  double number(std::size_t row, const KeptColumn& column) const;
   /// The values of a column of numbers; not a number for empty fields.
   std::vector<double> numbers(const KeptColumn& column) const;
 

@@ -80,13 +80,14 @@ std::size_t choose(std::uint32_t seed, const std::array<double, palette.size()>&
 
 }  // namespace
 
+double to_linear(double channel) {
+  return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+}
+
 double to_linear(std::uint8_t channel) {
   static const std::array<double, 256> linear = [] {
     std::array<double, 256> values{};
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const double v = static_cast<double>(k) / 255;
-      values[k] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    }
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = to_linear(static_cast<double>(k) / 255);
     return values;
   }();
   return linear[channel];

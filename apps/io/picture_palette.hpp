@@ -18,6 +18,7 @@ struct Colour {
 
 /// Linear light, from 0 to 1, of a channel (IEC 61966-2-1), and the channel of it.
 double to_linear(std::uint8_t channel);
+double to_linear(double channel);  ///< of a channel from 0 to 1
 std::uint8_t to_srgb(double linear);
 
 /// "#rrggbb".

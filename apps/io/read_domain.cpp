@@ -6,6 +6,7 @@
 
 #include "apps/io/names.hpp"
 #include "apps/io/read_file.hpp"
+#include "apps/io/read_geopackage.hpp"
 
 namespace powercell::io {
 namespace {
@@ -82,15 +83,21 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
     MeshArrays mesh = choose_elements(format.parse(bytes, name), kind, name);
     return {mesh.kind, {}, std::move(mesh.vertices), std::move(mesh.elements), {}};
   }
-  fail_file(name,
-            fmt::format(
-                "unknown extension '{}'; a domain is .geojson .json .wkt .svg (polygon), .off .obj .ply "
-                ".stl (surface), .mesh .msh .vtu .vtk .tet (tetrahedra), .txt (plain), or one of square cube "
-                "disk ball sphere torus",
-                extension));
+  fail_file(
+      name,
+      fmt::format(
+          "unknown extension '{}'; a domain is .geojson .json .gpkg .wkt .svg (polygon), .off .obj .ply "
+          ".stl (surface), .mesh .msh .vtu .vtk .tet (tetrahedra), .txt (plain), or one of square cube "
+          "disk ball sphere torus",
+          extension));
 }
 
 DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKind> kind) {
+  if (is_geopackage(spec)) {
+    NamedCrs crs;
+    std::vector<PolygonPart> parts = read_geopackage_polygons(spec, &crs);
+    return polygon_arrays(std::move(parts), std::move(crs), kind, spec);
+  }
   if (!is_builtin_domain(spec)) return parse_domain(read_file(spec), lower_extension(spec), kind, spec);
   DomainArrays arrays = builtin_domain(spec);
   if (kind.value_or(arrays.kind) != arrays.kind)

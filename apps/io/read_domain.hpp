@@ -23,7 +23,7 @@ struct LoadedDomain {
   NamedCrs crs = {};                    ///< polygon
 };
 
-/// \param spec  a file (.geojson .json .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt
+/// \param spec  a file (.geojson .json .gpkg .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt
 ///   of the paper's kind), or square, cube (unit, from 0 to 1), disk[:N], ball[:N], sphere[:N] (radius 1
 ///   about 0), torus[:N] (N: resolution)
 /// \param kind  for files that can be read as more than one kind (a mesh with faces and solids)

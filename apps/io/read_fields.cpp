@@ -52,6 +52,7 @@ char number_separator(std::string_view text, char comment) {
 }
 
 std::string separated_by(char separator) {
+  if (separator == '\0') return {};
   const char* name = separator == ';'    ? "semicolons"
                      : separator == '\t' ? "tabs"
                      : separator == ','  ? "commas"
@@ -68,11 +69,16 @@ Records::Records(std::string_view text, std::string name, char separator, char c
   if (comment != '\0') ends_plain_[static_cast<unsigned char>(comment)] = true;
 }
 
-void Records::fail(const std::string& what) const {
-  fail_line(name_, line_, what);
+void RowSource::fail(const std::string& what) const {
+  fail_file(place(), what);
 }
 
-void Records::comment_whole_lines() {
+std::string Records::place() const {
+  return fmt::format("{}:{}", name_, line_);
+}
+
+void Records::begin_rows() {
+  if (separator_ == ' ') return;
   whole_lines_ = true;
   if (comment_ != '\0') ends_plain_[static_cast<unsigned char>(comment_)] = false;
 }
@@ -157,6 +163,35 @@ bool is_header(const Fields& fields) {
   return std::none_of(fields.begin(), fields.end(), [&](std::string_view field) {
     return parse_number(field, value) != Parsed::not_a_number || has_decimal_comma(field);
   });
+}
+
+Parsed parse_number(std::string_view field, char mark, double& value) {
+  if (mark != ',') return parse_number(field, value);
+  if (field.find('.') != std::string_view::npos) return Parsed::not_a_number;
+  std::string with_point(field);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return parse_number(with_point, value);
+}
+
+Parsed FieldNumbers::read(std::string_view field, double& value) {
+  if (mark_ == '\0') {
+    if (may_have_commas() && has_decimal_comma(field))
+      mark_ = ',';
+    else if (field.find('.') != std::string_view::npos)
+      mark_ = '.';
+  }
+  return parse_number(field, mark_, value);
+}
+
+std::string FieldNumbers::why_not(std::string_view field, Parsed parsed) const {
+  double value = 0;
+  if (mark_ == ',' && parse_number(field, value) == Parsed::ok)
+    return fmt::format("'{}' has a decimal point, but numbers before have decimal commas", field);
+  if (mark_ == '.' && may_have_commas() && has_decimal_comma(field))
+    return fmt::format("'{}' has a decimal comma, but numbers before have decimal points", field);
+  std::string reason = io::why_not(field, parsed);
+  if (has_decimal_comma(field)) reason += ", or separate the columns by semicolons";
+  return reason;
 }
 
 std::string column_name(std::string_view field) {

@@ -2,36 +2,93 @@
 // do, and there are few kinds of geometry.
 #include <fmt/format.h>
 
+#include <array>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "apps/io/feature_rows.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_polygons.hpp"
 
 namespace powercell::io {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // attributes in the order of the file
 
 constexpr int deepest_nesting = 32;  // of GeometryCollections in one another
 
+/// Walks through a document; what is done with its geometries is of the derived class.
 class GeoJson {
  public:
   explicit GeoJson(const std::string& name) : name_(name) {}
+  virtual ~GeoJson() = default;
 
-  void object(const json& value, const std::string& path, int depth) {
+  void object(const json& value, const std::string& path, int depth, const json* feature = nullptr) {
     if (depth > deepest_nesting) fail(path, "is nested too deeply");
-    if (!value.is_object() || !value.contains("type") || !value["type"].is_string()) {
+    if (!value.is_object() || !value.contains("type") || !value["type"].is_string())
       fail(path, "is not a GeoJSON object (an object with a type)");
-    }
     const std::string type = value["type"];
     if (type == "FeatureCollection") {
-      members(value, "features", path, depth);
+      members(value, "features", path, depth, nullptr);
     } else if (type == "GeometryCollection") {
-      members(value, "geometries", path, depth);
+      members(value, "geometries", path, depth, feature);
     } else if (type == "Feature") {
       if (!value.contains("geometry")) fail(path, "has no geometry");
-      if (!value["geometry"].is_null()) object(value["geometry"], path + ".geometry", depth + 1);
-    } else if (type == "Polygon") {
+      if (value["geometry"].is_null())
+        no_geometry(path);
+      else
+        object(value["geometry"], path + ".geometry", depth + 1, &value);
+    } else {
+      geometry(value, type, path, feature);
+    }
+  }
+
+ protected:
+  virtual void geometry(const json& value, const std::string& type, const std::string& path,
+                        const json* feature) = 0;
+  virtual void no_geometry(const std::string&) {}
+
+  [[noreturn]] void fail(const std::string& path, const std::string& what) const {
+    fail_file(name_, fmt::format("{} {}", path, what));
+  }
+
+  const json& coordinates(const json& value, const std::string& path) const {
+    if (!value.contains("coordinates") || !value["coordinates"].is_array())
+      fail(path, "has no array coordinates");
+    return value["coordinates"];
+  }
+
+  /// The numbers of a point: 2, or 3 and more.
+  std::vector<double> point(const json& p, const std::string& path) const {
+    if (!p.is_array() || p.size() < 2) fail(path, "is not a point (an array of at least 2 numbers)");
+    std::vector<double> numbers;
+    for (const json& number : p) {
+      if (!number.is_number()) fail(path, "is not a point (an array of at least 2 numbers)");
+      numbers.push_back(number.get<double>());
+    }
+    return numbers;
+  }
+
+ private:
+  void members(const json& value, const char* key, const std::string& path, int depth, const json* feature) {
+    if (!value.contains(key) || !value[key].is_array()) fail(path, fmt::format("has no array {}", key));
+    for (std::size_t k = 0; k < value[key].size(); ++k)
+      object(value[key][k], fmt::format("{}.{}[{}]", path, key, k), depth + 1, feature);
+  }
+
+  std::string name_;
+};
+
+class GeoJsonPolygons : public GeoJson {
+ public:
+  using GeoJson::GeoJson;
+  std::vector<std::vector<PolygonPart>> groups;  // one a geometry
+
+ private:
+  void geometry(const json& value, const std::string& type, const std::string& path, const json*) override {
+    if (type == "Polygon") {
       const json& rings = coordinates(value, path);  // an empty array means null (RFC 7946, 3.1)
       if (!rings.empty()) groups.push_back({part(rings, path + ".coordinates")});
     } else if (type == "MultiPolygon") {
@@ -44,25 +101,6 @@ class GeoJson {
       fail(path, fmt::format("is a {}; only Polygon and MultiPolygon make a domain: leave the others out",
                              type.substr(0, 40)));
     }
-  }
-
-  std::vector<std::vector<PolygonPart>> groups;  // one a geometry
-
- private:
-  [[noreturn]] void fail(const std::string& path, const std::string& what) const {
-    fail_file(name_, fmt::format("{} {}", path, what));
-  }
-
-  void members(const json& value, const char* key, const std::string& path, int depth) {
-    if (!value.contains(key) || !value[key].is_array()) fail(path, fmt::format("has no array {}", key));
-    for (std::size_t k = 0; k < value[key].size(); ++k)
-      object(value[key][k], fmt::format("{}.{}[{}]", path, key, k), depth + 1);
-  }
-
-  const json& coordinates(const json& value, const std::string& path) const {
-    if (!value.contains("coordinates") || !value["coordinates"].is_array())
-      fail(path, "has no array coordinates");
-    return value["coordinates"];
   }
 
   PolygonPart part(const json& rings, const std::string& path) const {
@@ -81,18 +119,56 @@ class GeoJson {
     Ring result;
     result.reserve(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
-      const json& p = points[k];
-      if (!p.is_array() || p.size() < 2 || !p[0].is_number() || !p[1].is_number()) {
-        fail(fmt::format("{}[{}]", path, k), "is not a point (an array of at least 2 numbers)");
-      }
-      result.push_back({p[0].get<double>(), p[1].get<double>()});
+      const std::vector<double> p = point(points[k], fmt::format("{}[{}]", path, k));
+      result.push_back({p[0], p[1]});
     }
     if (result.front() != result.back()) fail(path, "is not closed: its last point differs from its first");
     result.pop_back();
     return result;
   }
+};
 
-  std::string name_;
+class GeoJsonPoints : public GeoJson {
+ public:
+  struct Feature {
+    std::array<double, 3> point;
+    std::map<std::string, std::string> attributes;
+  };
+
+  using GeoJson::GeoJson;
+  std::vector<Feature> features;
+  std::vector<std::string> attributes;  // their names, in the order in which they appear
+
+ private:
+  void geometry(const json& value, const std::string& type, const std::string& path,
+                const json* feature) override {
+    const json* numbers = &coordinates(value, path);
+    if (type == "MultiPoint" && numbers->size() == 1)
+      numbers = &(*numbers)[0];
+    else if (type == "MultiPoint")
+      fail(path, fmt::format("has {} points; split it into features of one point", numbers->size()));
+    else if (type != "Point")
+      fail(path, fmt::format("is a {}; seeds are points", type.substr(0, 40)));
+    const std::vector<double> p = point(*numbers, path + ".coordinates");
+    features.push_back({{p[0], p[1], p.size() > 2 ? p[2] : std::numeric_limits<double>::quiet_NaN()}, {}});
+    if (feature == nullptr) return;
+    if (feature->contains("id")) add("id", (*feature)["id"]);
+    if (!feature->contains("properties") || !(*feature)["properties"].is_object()) return;
+    for (const auto& [key, property] : (*feature)["properties"].items()) add(key, property);
+  }
+  void no_geometry(const std::string& path) override {
+    fail(path, "has no point; remove it, or give it one");
+  }
+
+  void add(const std::string& key, const json& value) {
+    if (known_.insert(key).second) attributes.push_back(key);
+    features.back().attributes[key] = value.is_null() ? ""
+                                      : value.is_string()
+                                          ? value.get<std::string>()
+                                          : value.dump(-1, ' ', false, json::error_handler_t::replace);
+  }
+
+  std::set<std::string> known_;
 };
 
 /// GeoJSON of 2008 names its system in a member; RFC 7946 did away with it, but programs write it where the
@@ -108,12 +184,9 @@ NamedCrs crs_of(const json& document) {
   return crs;
 }
 
-}  // namespace
-
-std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name, NamedCrs* crs) {
-  json document;
+json parse_json(std::string_view text, const std::string& name) {
   try {
-    document = json::parse(text);
+    return json::parse(text);
   } catch (const json::exception& error) {
     std::string what = error.what();
     const std::size_t line = what.find("at line ");
@@ -122,7 +195,30 @@ std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string&
     const std::size_t number = std::strtoul(error.what() + line + 8, nullptr, 10);
     fail_line(name, number, fmt::format("is not JSON, or truncated: {}", what));
   }
-  GeoJson reader(name);
+}
+
+}  // namespace
+
+FeatureRows parse_geojson_points(std::string_view text, std::size_t dimension, const std::string& name) {
+  const json document = parse_json(text, name);
+  GeoJsonPoints reader(name);
+  reader.object(document, "$", 0);
+  FeatureRows rows(name, dimension, reader.attributes);
+  std::vector<std::string> values(reader.attributes.size());
+  for (const GeoJsonPoints::Feature& feature : reader.features) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto found = feature.attributes.find(reader.attributes[k]);
+      values[k] = found == feature.attributes.end() ? "" : found->second;
+    }
+    rows.add(feature.point, values);
+  }
+  rows.crs = crs_of(document);
+  return rows;
+}
+
+std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name, NamedCrs* crs) {
+  const json document = parse_json(text, name);
+  GeoJsonPolygons reader(name);
   reader.object(document, "$", 0);
   if (reader.groups.empty()) fail_file(name, "holds no polygon");
   if (crs != nullptr) *crs = crs_of(document);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <utility>
 
 #include "apps/io/read_file.hpp"
@@ -80,6 +81,20 @@ bool Geos::parts(const GEOSGeometry* geometry, std::vector<PolygonPart>& out) co
     polygons_only = parts(GEOSGetGeometryN_r(handle(), geometry, k), out) && polygons_only;
   }
   return polygons_only;
+}
+
+std::string Geos::point(const GEOSGeometry* geometry, std::array<double, 3>& out) const {
+  if (GEOSisEmpty_r(handle(), geometry) != 0) return "an empty geometry";
+  const int type = GEOSGeomTypeId_r(handle(), geometry);
+  if (type == GEOS_MULTIPOINT && GEOSGetNumGeometries_r(handle(), geometry) == 1)
+    return point(GEOSGetGeometryN_r(handle(), geometry, 0), out);
+  if (type == GEOS_MULTIPOINT) return "several points; split them into features of one point";
+  if (type != GEOS_POINT) return "not a point; seeds are points";
+  out[2] = std::numeric_limits<double>::quiet_NaN();
+  GEOSGeomGetX_r(handle(), geometry, &out[0]);
+  GEOSGeomGetY_r(handle(), geometry, &out[1]);
+  if (GEOSHasZ_r(handle(), geometry) == 1) GEOSGeomGetZ_r(handle(), geometry, &out[2]);
+  return {};
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <geos_c.h>
 
+#include <array>
 #include <memory>
 #include <powercell/domain.hpp>
 #include <string>
@@ -32,6 +33,9 @@ class Geos {
 
   /// Appends the polygons in `geometry`, at any depth. False if it also contains other geometries.
   bool parts(const GEOSGeometry* geometry, std::vector<PolygonPart>& out) const;
+  /// Coordinates of a point, or of the one member of a multipoint; z is not a number if there is none.
+  /// Returns what it is if it is neither, else nothing.
+  std::string point(const GEOSGeometry* geometry, std::array<double, 3>& out) const;
 
  private:
   struct Finish {

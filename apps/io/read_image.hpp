@@ -15,10 +15,11 @@ struct GrayImage {
   std::vector<double> values;
 };
 
-/// The luminance, in linear light, of a PNG of any kind with 8 or 16 bits; transparent parts show white
-/// paper. \throw Error invalid_file (not a PNG, damaged, or more than 2^28 pixels)
+/// The luminance, in linear light, of a PNG or JPEG of any kind, turned as its Exif orientation says.
+/// Transparent parts show white paper. Channels are sRGB unless a PNG's cICP or gAMA says otherwise; ICC
+/// profiles are not applied. \throw Error invalid_file (not a PNG or JPEG, damaged, or more than 2^28 pixels)
 GrayImage read_image(const std::string& path);
 /// The same from memory.
-GrayImage parse_png(std::string_view bytes, const std::string& name);
+GrayImage parse_image(std::string_view bytes, const std::string& name);
 
 }  // namespace powercell::io

@@ -15,7 +15,9 @@ namespace {
 class MassesText {
  public:
   MassesText(std::string_view text, const std::string& column, const std::string& name)
-      : records_(text, name, number_separator(text, '#'), '#'), column_(column_name(column)) {}
+      : records_(text, name, number_separator(text, '#'), '#'),
+        numbers_(records_.separator()),
+        column_(column_name(column)) {}
 
   std::vector<double> read() {
     Fields fields;
@@ -55,19 +57,21 @@ class MassesText {
       records_.fail(fmt::format("seed {} (from 0) has {} columns, the ones before have {}{}", seed,
                                 fields.size(), columns_, separated_by(records_.separator())));
     double mass = 0;
-    const Parsed parsed = parse_number(fields[at_], mass);
+    const Parsed parsed = numbers_.read(fields[at_], mass);
     if (parsed == Parsed::not_a_number)
-      records_.fail(fmt::format("seed {} (from 0): {}", seed,
-                                fields[at_].empty() ? "the mass is empty" : why_not(fields[at_], parsed)));
+      records_.fail(
+          fmt::format("seed {} (from 0): {}", seed,
+                      fields[at_].empty() ? "the mass is empty" : numbers_.why_not(fields[at_], parsed)));
     if (parsed != Parsed::ok || !(mass > 0))
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{}:{}: seed {} (from 0): the mass is {}; masses must be positive and finite; "
+                  fmt::format("{}: seed {} (from 0): the mass is {}; masses must be positive and finite; "
                               "remove seeds without mass",
-                              records_.name(), records_.line(), seed, fields[at_]));
+                              records_.place(), seed, fields[at_]));
     masses_.push_back(mass);
   }
 
   Records records_;
+  FieldNumbers numbers_;
   std::string column_;
   std::size_t columns_ = 0, at_ = 0;
   std::vector<double> masses_;
@@ -102,7 +106,7 @@ std::vector<double> masses_of_table(const SeedTable& seeds, const std::string& c
   for (std::size_t i = 0; i < seeds.count(); ++i) {
     const std::string_view field = seeds.text.field(i, static_cast<std::size_t>(found - names.begin()));
     double mass = 0;
-    const Parsed parsed = parse_number(field, mass);
+    const Parsed parsed = parse_number(field, seeds.text.mark, mass);
     if (parsed == Parsed::ok && mass > 0) {
       masses.push_back(mass);
       continue;

@@ -2,12 +2,32 @@
 
 #include <fmt/format.h>
 
+#include "apps/io/feature_rows.hpp"
 #include "apps/io/read_file.hpp"
+#include "apps/io/read_geopackage.hpp"
+#include "apps/io/read_text.hpp"
 
 namespace powercell::io {
+namespace {
+
+std::size_t axes(int dimension) {
+  return static_cast<std::size_t>(dimension);
+}
+
+SeedTable seeds_of_features(FeatureRows rows, const ColumnChoice& choice) {
+  SeedTable table = parse_seed_rows(rows, static_cast<int>(rows.dimension()), choice);
+  table.columns.crs = rows.crs.name;
+  return table;
+}
+
+}  // namespace
 
 bool ColumnChoice::any() const {
-  return !(position[0] + position[1] + position[2] + weight + radius + id).empty();
+  return has_position() || !(weight + radius + id).empty();
+}
+
+bool ColumnChoice::has_position() const {
+  return !(position[0] + position[1] + position[2]).empty();
 }
 
 void TableText::add(std::string_view field) {
@@ -33,16 +53,19 @@ SeedTable read_seeds(const std::string& spec, const Domain& domain, const Column
 }
 
 SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice) {
-  if (path == "-") return parse_seeds_text(read_file("/dev/stdin"), dimension, "standard input", choice);
-  const std::string extension = lower_extension(path);
+  const bool is_stream = path == "-";
+  const std::string name = is_stream ? "standard input" : path, extension = lower_extension(path);
+  if (is_geopackage(path)) return seeds_of_features(read_geopackage_points(path, axes(dimension)), choice);
   if (extension == ".npz") fail_file(path, "is an archive of arrays; save a single array as .npy");
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_file(is_stream ? "/dev/stdin" : path);
+  if (extension == ".geojson" || extension == ".json" || trimmed(bytes.substr(0, 64)).starts_with('{'))
+    return seeds_of_features(parse_geojson_points(bytes, axes(dimension), name), choice);
   if (extension != ".npy" && !bytes.starts_with("\x93NUMPY"))
-    return parse_seeds_text(bytes, dimension, path, choice);
+    return parse_seeds_text(bytes, dimension, name, choice);
   if (choice.any())
     fail_file(path,
               "columns of an array are taken by their order; save the columns x, y (, z), weight alone");
-  return parse_seeds_npy(bytes, dimension, path);
+  return parse_seeds_npy(bytes, dimension, name);
 }
 
 }  // namespace powercell::io

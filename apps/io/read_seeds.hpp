@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/io/row_source.hpp"
+
 namespace powercell::io {
 
 /// The columns of a table of seeds as the user chooses them, each by a name in the header or a number from 1.
@@ -22,6 +24,7 @@ struct ColumnChoice {
   std::string radius;  ///< weights are the squares of this column
   std::string id;
   bool any() const;
+  bool has_position() const;
 };
 
 /// The columns that were taken.
@@ -33,6 +36,7 @@ struct SeedColumns {
   bool named = false;    ///< the coordinates were found by their names
   bool radius = false;   ///< the weight is the square of its column
   bool degrees = false;  ///< the names of the coordinates say longitude and latitude
+  std::string crs;       ///< that the file says; empty if it does not
   std::string taken;     ///< for messages: "x from 'lon', y from 'lat', no weights"
   std::string note;      ///< for a report: `taken` and the other columns, if the header leaves a doubt
 };
@@ -46,6 +50,7 @@ class TableText {
 
   std::size_t columns = 0;
   char separator = ',';
+  char mark = '.';  ///< of decimals
   std::size_t rows() const { return columns == 0 ? 0 : ends_.size() / columns; }
 
  private:
@@ -65,13 +70,16 @@ struct SeedTable {
   SeedsView view() const { return {dimension, positions, weights}; }
 };
 
-/// \param spec  text or CSV, `-` for those from standard input, `.npy`, or `random:N[:LO:HI[:SEED]]`
-/// \param domain  sets the dimension of the seeds, and the positions of random ones
+/// \param spec  text or CSV, `-` for those from standard input, points in GeoJSON or a GeoPackage, `.npy`, or
+/// `random:N[:LO:HI[:SEED]]` \param domain  sets the dimension of the seeds, and the positions of random ones
 /// \throw Error invalid_file (file and line or row), invalid_seed (NaN or infinity), invalid_argument
 SeedTable read_seeds(const std::string& spec, const Domain& domain, const ColumnChoice& choice = {});
 
 /// The same of a file alone. \param dimension  2 or 3
 SeedTable read_seed_file(const std::string& path, int dimension, const ColumnChoice& choice);
+
+/// Seeds from rows `x y [z] w`, or from the named columns below a header.
+SeedTable parse_seed_rows(RowSource& rows, int dimension, const ColumnChoice& choice);
 
 /// Text or CSV from memory with rows `x y [z] w`. Columns are separated as `number_separator` finds and
 /// quoted as in RFC 4180; `#` begins a comment (below a header of separated columns only at the begin of a

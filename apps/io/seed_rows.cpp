@@ -1,5 +1,8 @@
 #include "apps/io/seed_rows.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,7 +41,10 @@ void FieldWriter::text(std::string_view field) {
 void FieldWriter::number(double value) {
   if (!std::isfinite(value)) return empty();
   separate();
-  file_.number(value);
+  if (mark_ == '.') return file_.number(value);
+  std::string text = fmt::format("{}", value);
+  std::replace(text.begin(), text.end(), '.', mark_);
+  file_.write(text);
 }
 
 void FieldWriter::count(std::uint64_t value) {
@@ -59,7 +65,7 @@ SeedRows::SeedRows(const std::string& path, const SeedsView& seeds, const InputV
       kept_(inputs, seeds,
             {"seed", "status", "measure", "mass", "target", "cx", "cy", "cz", "second_moment", "neighbors",
              "merged_with"}),
-      fields_(path, kept_.separator()) {
+      fields_(path, kept_.separator(), kept_.mark()) {
   for (const KeptColumn& column : kept_.columns()) fields_.text(column.name);
   fields_.text("seed");
   for (std::size_t k = 0; k < dimension_ && !kept_.has_positions(); ++k) fields_.text(axis_names[k]);

@@ -16,7 +16,9 @@ namespace powercell::io {
 /// Separates and quotes fields as RFC 4180 has it, so that they are read back the same.
 class FieldWriter {
  public:
-  FieldWriter(const std::string& path, char separator) : file_(path), separator_(separator) {}
+  /// \param mark  of decimals
+  FieldWriter(const std::string& path, char separator, char mark = '.')
+      : file_(path), separator_(separator), mark_(mark) {}
 
   void text(std::string_view field);
   void number(double value);  ///< empty if it is not finite
@@ -29,7 +31,7 @@ class FieldWriter {
  private:
   void separate();
   AtomicFile file_;
-  char separator_;
+  char separator_, mark_;
   bool first_ = true;
 };
 

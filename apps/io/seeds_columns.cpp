@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "apps/io/printable.hpp"
+#include "apps/io/read_fields.hpp"
 
 namespace powercell::io {
 namespace {
@@ -68,8 +69,8 @@ std::string row_names(std::size_t dimension) {
 /// Finds the columns of one table.
 class Chooser {
  public:
-  Chooser(const Records& records, std::size_t count, std::size_t dimension, const ColumnChoice& choice)
-      : records_(records), dimension_(dimension), choice_(choice) {
+  Chooser(const RowSource& rows, std::size_t count, std::size_t dimension, const ColumnChoice& choice)
+      : rows_(rows), dimension_(dimension), choice_(choice) {
     columns_.count = count;
   }
 
@@ -79,13 +80,13 @@ class Chooser {
       names_.push_back(column_name(field));
     }
     const bool chosen = choose();
-    columns_.named = !chosen && find_coordinates();
+    columns_.named = !chosen && (!rows_.geometry().empty() || find_coordinates());
     const bool named = chosen || columns_.named;
     if (!columns_.weight) columns_.weight = find(weight_names);
     if (!named) take_by_order();
     const auto radius = columns_.weight ? std::nullopt : find(radius_names);
     if (radius)
-      records_.fail(fmt::format(
+      rows_.fail(fmt::format(
           "the header has a column {} and no column of weights; a weight is a length squared: give "
           "--radius-column {} to use the squares (or rename this column if it is not a radius)",
           shown(*radius), columns_.names[*radius]));
@@ -108,15 +109,15 @@ class Chooser {
       const auto column = chosen(choice_.position[axis]);
       if (!column) continue;
       if (axis >= dimension_)
-        records_.fail("--z-column is given, but the seeds of this domain have 2 coordinates; leave it out");
+        rows_.fail("--z-column is given, but the seeds of this domain have 2 coordinates; leave it out");
       columns_.position[axis] = *column;
       ++found;
     }
     if (found != 0 && found != dimension_)
-      records_.fail(fmt::format("only {} of the {} coordinates of a seed is chosen; give {} together", found,
-                                dimension_, position_options()));
+      rows_.fail(fmt::format("only {} of the {} coordinates of a seed is chosen; give {} together", found,
+                             dimension_, position_options()));
     if (!choice_.weight.empty() && !choice_.radius.empty())
-      records_.fail("--weight-column and --radius-column are both given; a weight comes from one of them");
+      rows_.fail("--weight-column and --radius-column are both given; a weight comes from one of them");
     columns_.radius = !choice_.radius.empty();
     columns_.weight = chosen(columns_.radius ? choice_.radius : choice_.weight);
     columns_.id = chosen(choice_.id);
@@ -130,7 +131,7 @@ class Chooser {
     for (std::size_t k = 0; k < names_.size(); ++k) {
       if (columns_.names[k] == wanted) return k;
       if (names_[k] != name) continue;
-      if (found) records_.fail(fmt::format("several columns are named '{}'; rename one", readable(wanted)));
+      if (found) rows_.fail(fmt::format("several columns are named '{}'; rename one", readable(wanted)));
       found = k;
     }
     if (found) return found;
@@ -140,12 +141,12 @@ class Chooser {
         number <= columns_.count)
       return number - 1;
     if (names_.empty())
-      records_.fail(fmt::format("no column '{}': the table has no header; give a number from 1 to {}",
-                                readable(wanted), columns_.count));
+      rows_.fail(fmt::format("no column '{}': the table has no header; give a number from 1 to {}",
+                             readable(wanted), columns_.count));
     std::string all;
     for (std::size_t k = 0; k < names_.size() && k < 12; ++k) all += (k > 0 ? ", " : "") + shown(k);
-    records_.fail(fmt::format("no column '{}'; the header has {}{}", readable(wanted), all,
-                              names_.size() > 12 ? fmt::format(" and {} more", names_.size() - 12) : ""));
+    rows_.fail(fmt::format("no column '{}'; the header has {}{}", readable(wanted), all,
+                           names_.size() > 12 ? fmt::format(" and {} more", names_.size() - 12) : ""));
   }
 
   /// The column with one of these names, if any.
@@ -170,7 +171,7 @@ class Chooser {
   }
 
   [[noreturn]] void fail_twice(std::size_t first, std::size_t second) const {
-    records_.fail(
+    rows_.fail(
         fmt::format("the header has columns {} and {}, which mean the same; rename one, or choose with "
                     "--x-column and so on",
                     shown(first), shown(second)));
@@ -186,7 +187,7 @@ class Chooser {
     if (!found[0] && !found[1] && !found[2]) return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (found[axis].has_value() != (axis < dimension_))
-        records_.fail(fmt::format(
+        rows_.fail(fmt::format(
             "the header names some of x, y, z, but seeds of this domain have {} coordinates; name their "
             "columns {}, and rename others",
             dimension_, row_names(dimension_)));
@@ -197,22 +198,21 @@ class Chooser {
 
   void take_by_order() {
     if (!names_.empty() && (columns_.weight || find_any(other_names)))
-      records_.fail(
+      rows_.fail(
           fmt::format("the header names no coordinates; name their columns {}, or choose them with "
                       "--x-column and so on{}",
-                      row_names(dimension_), separated_by(records_.separator())));
+                      row_names(dimension_), separated_by(rows_.separator())));
     if (columns_.weight.value_or(dimension_) < dimension_ || columns_.id.value_or(dimension_) < dimension_)
-      records_.fail(
-          fmt::format("the first {} columns are the coordinates unless others are chosen; give {} too",
-                      dimension_, position_options()));
+      rows_.fail(fmt::format("the first {} columns are the coordinates unless others are chosen; give {} too",
+                             dimension_, position_options()));
     if (columns_.weight) return;
     if (columns_.count == dimension_ + 1 && columns_.id != dimension_)
       columns_.weight = dimension_;
     else if (columns_.count != dimension_ && !columns_.id)
-      records_.fail(fmt::format(
+      rows_.fail(fmt::format(
           "{} columns, but a row of this domain's seeds is {}{}; other tables need a "
           "header with {}, or --x-column 2 and so on",
-          columns_.count, seed_row(dimension_), separated_by(records_.separator()), row_names(dimension_)));
+          columns_.count, seed_row(dimension_), separated_by(rows_.separator()), row_names(dimension_)));
   }
 
   const char* position_options() const {
@@ -226,9 +226,10 @@ class Chooser {
   void finish(bool named) {
     const auto& p = columns_.position;
     for (std::size_t axis = 0; axis < dimension_; ++axis) {
-      if (p[axis] >= columns_.count) records_.fail(fmt::format("there is no column {}", p[axis] + 1));
-      columns_.taken += fmt::format("{} from {}, ", axis_names[axis], shown(p[axis]));
+      if (p[axis] >= columns_.count) rows_.fail(fmt::format("there is no column {}", p[axis] + 1));
+      if (!is_geometry()) columns_.taken += fmt::format("{} from {}, ", axis_names[axis], shown(p[axis]));
     }
+    if (is_geometry()) columns_.taken = fmt::format("positions from {}, ", rows_.geometry());
     columns_.taken += columns_.weight ? "weight from " + shown(*columns_.weight) : "no weights";
     if (columns_.radius) columns_.taken += " squared";
     columns_.degrees = !names_.empty() && is_one_of(names_[p[0]], longitude_names) &&
@@ -249,6 +250,8 @@ class Chooser {
                        others > 0 ? "; kept: " + kept : "");
   }
 
+  bool is_geometry() const { return columns_.named && !rows_.geometry().empty(); }
+
   bool has_plain_names() const {
     for (std::size_t axis = 0; axis < dimension_ && !names_.empty(); ++axis)
       if (names_[columns_.position[axis]] != axis_names[axis]) return false;
@@ -266,7 +269,7 @@ class Chooser {
     return fmt::format("'{}'", readable(columns_.names[column]));
   }
 
-  const Records& records_;
+  const RowSource& rows_;
   std::size_t dimension_;
   const ColumnChoice& choice_;
   std::vector<std::string> names_;  // in lower case
@@ -275,14 +278,24 @@ class Chooser {
 
 }  // namespace
 
-SeedColumns columns_by_header(const Records& records, const Fields& header, std::size_t dimension,
+SeedColumns columns_by_header(const RowSource& rows, const Fields& header, std::size_t dimension,
                               const ColumnChoice& choice) {
-  return Chooser(records, header.size(), dimension, choice).by_header(header);
+  return Chooser(rows, header.size(), dimension, choice).by_header(header);
 }
 
-SeedColumns columns_by_order(const Records& records, std::size_t count, std::size_t dimension,
+SeedColumns columns_by_order(const RowSource& rows, std::size_t count, std::size_t dimension,
                              const ColumnChoice& choice) {
-  return Chooser(records, count, dimension, choice).by_order();
+  return Chooser(rows, count, dimension, choice).by_order();
+}
+
+bool names_coordinates(const Fields& header, std::size_t dimension) {
+  return std::any_of(header.begin(), header.end(), [&](std::string_view field) {
+    const std::string name = column_name(field);
+    bool is_named = is_one_of(name, x_names) || is_one_of(name, y_names);
+    for (std::size_t axis = 0; axis < dimension; ++axis)
+      is_named = is_named || is_axis(name, axis_names[axis]);
+    return is_named;
+  });
 }
 
 bool is_weight_name(std::string_view name) {

@@ -127,6 +127,7 @@ nlohmann::json value_of(const KeptColumns& kept, std::size_t row, const KeptColu
   const std::string_view field = kept.field(row, column);
   if (column.type != KeptColumn::Type::text && field.empty()) return nullptr;
   if (column.type == KeptColumn::Type::text) return std::string(field);
+  if (kept.mark() == ',') return kept.number(row, column);
   return nlohmann::json::parse(field);
 }
 

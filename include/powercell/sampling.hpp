@@ -22,7 +22,8 @@ enum class SamplingMode {
 
 /// How the points move.
 enum class SamplingDescent {
-  lloyd,  ///< to the centroids of their cells
+  automatic,  ///< lloyd for blue, lbfgs for quantise
+  lloyd,  ///< to the centroids of their cells: few moves make the points even, thousands bring them to rest
   lbfgs,  ///< limited-memory BFGS with 7 pairs and the initial inverse Hessian 1 / (2 m_i)
 };
 
@@ -42,18 +43,19 @@ struct SamplingStep {
 struct SamplingOptions {
   Density density = Density::constant(1);
   SamplingMode mode = SamplingMode::blue;
-  SamplingDescent descent = SamplingDescent::lloyd;
+  SamplingDescent descent = SamplingDescent::automatic;
   /// The domain is a box of the plane with its opposite sides identified. The density must be constant.
   bool periodic = false;
-  /// Limit on iterations. 0 means 100 for blue in the plane, 20 for blue elsewhere, 1000 for quantise.
+  /// Limit on iterations. 0 means 100 for blue in the plane, 20 for blue elsewhere, 10,000 for quantise.
   int iterations = 0;
   /// Blue in the plane stops at this hexatic order, after at least one iteration. With fewer than 50 points,
   /// or fewer than five neighbours per point on average (as in a row of points), the order is not meaningful
-  /// and it stops after 20 iterations. Between 0 and 1.
+  /// and it stops after 20 iterations. It also stops where the order no longer grows, by less than 0.01 in 10
+  /// iterations after the 20th. Between 0 and 1.
   double hexatic = 0.61;
   /// Quantise, and blue in the plane, stop when the gradient is below this fraction of the spacing
-  /// (measure of the domain / n)^(1/d'), d' the dimension of the cells. With 0, quantise stops after
-  /// `iterations`, or when rounding allows no further descent.
+  /// (measure of the domain / n)^(1/d'), d' the dimension of the cells, or when rounding allows no further
+  /// descent. With 0, quantise stops after `iterations`.
   double movement = 1e-4;
   /// Limit on max |m_i / (M/n) - 1| in the result. Between 0 and 1.
   double capacity_tolerance = 1e-6;
@@ -66,7 +68,8 @@ struct SamplingOptions {
 /// The points, in the order of the initial points. Arrays are owned.
 struct SamplingResult {
   /// Both errors are below capacity_tolerance, and the mode's criterion is met: the hexatic order or movement
-  /// is reached, or all iterations are done where they are the criterion (outside the plane; movement 0).
+  /// is reached, or no longer grows, or all iterations are done where they are the criterion (blue with the
+  /// default number; blue outside the plane; movement 0).
   bool converged = false;
   std::vector<double> positions;  ///< n x d, row-major, in the domain (on a surface: on it)
   std::vector<double> weights;    ///< n, length²: with them all cells have equal mass

@@ -139,6 +139,10 @@ class POWERCELL_API TransportSolver {
   /// \throw Error invalid_argument unless in [0, 1)
   void set_tolerance(double tolerance);
 
+  /// Changes the limit on linear solves of TransportOptions, e.g. within a loop.
+  /// \throw Error invalid_argument if negative
+  void set_max_steps(int steps);
+
   /// Solves from the current weights. Failure to converge is not an error: see TransportResult::converged.
   /// \return valid until the next solve
   /// \throw Error invalid_argument (no seeds; sum of the masses), interrupted; as Diagram

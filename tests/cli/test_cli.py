@@ -386,7 +386,7 @@ class DiagramErrors(ToolTest):
         for text, says in (("0 0 0\n0 inf 0\n", r"s:2: seed 1 .*'inf' is not a finite number"),
                            ("0 0 0\n0 0\n", r"s:2: seed 1 .*2 columns"), ("0 0 1e999\n", "s:1: .*too large"),
                            ("1e300 0 0\n0 0 0\n", "seed 0: coordinate x is 1e.300"), ("9\n0 0\n", "9 seeds are announced"),
-                           ("id,lon,w\n0,0,0\n", "s:1: the header names "), ("0,5;1\n", "s:1: .*decimal commas are not read"),
+                           ("id,lon,w\n0,0,0\n", "s:1: the header names "), ("1 1\n0,5 1\n", "s:2: .*decimal commas are not read"),
                            ("0 0\x1b[31m\x07 1\n", "s:1: .*is not a number")):
             with self.subTest(seeds=text):
                 self.bad(1, says, "diagram", "--domain", "square", "--seeds", self.write("s", text))

@@ -59,7 +59,7 @@ class Sample(ToolTest):
             self.assertEqual(len(circles), 300)
             scale = 1600 / 30
             ink = sum(math.pi * float(r) ** 2 for _, _, r in circles) / scale**2
-            half = 1 - ((0.5 + 0.055) / 1.055) ** 2.4 if bits == 8 else 0.5  # sRGB; 16 bits are linear
+            half = 1 - ((0.5 + 0.055) / 1.055) ** 2.4  # sRGB
             self.assertAlmostEqual(ink, 300 * (1 + half), delta=4)
 
     def test_bright_parts(self):
@@ -82,7 +82,7 @@ class Sample(ToolTest):
         self.write("text.png", "not a picture")
         for code, pattern, arguments in [
                 (1, "blank", ["--image", "blank.png"]),
-                (1, "not a PNG", ["--image", "text.png"]),
+                (1, "not a PNG or JPEG", ["--image", "text.png"]),
                 (1, "damaged", ["--image", "cut.png"]),
                 (1, "missing.png", ["--image", "missing.png"]),
                 (1, "polygon", ["--image", "ink.png", "--domain", "sphere"]),

@@ -122,7 +122,7 @@ class Transport(ToolTest):
                               ("1\nnan\n", r"m.csv:2: seed 1 .*nan"), ("1\nx\n", r"m.csv:2: seed 1.*'x'"),
                               ("1\n", r"1 masses for 2 seeds"), ("a,b\n1,2\n3,4\n", r"no column 'mass'"),
                               ("1 2\n3 4\n", r"2 columns and no header"), ("0;5\n1;5\n", r"2 columns.*separated by semicolons"),
-                              ("name;mass\na;0,5\nb;0,5\n", r"m.csv:2: .*decimal commas are not read"),
+                              ("name;mass\na;0,5\nb;0.5\n", r"m.csv:3: .*has a decimal point, but numbers before"),
                               ("mass,mass\n1,2\n3,4\n", r"m.csv:1: the header has 2 columns 'mass'"),
                               ("2\n3\n", r"the masses sum to 5, the domain's mass is 1.*--rescale")):
             with self.subTest(text=text):

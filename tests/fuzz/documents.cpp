@@ -128,7 +128,7 @@ void documents(Bytes input) {
         require(row.n > 0 && row.rate >= 0 && row.adjacency_rate >= 0,
                 "a row of no seeds or a negative rate");
     } else {
-      check_image(io::parse_png(choice == 5 ? std::string(bytes) : with_sums(bytes), kName));
+      check_image(io::parse_image(choice == 6 ? with_sums(bytes) : std::string(bytes), kName));
     }
   });
 }

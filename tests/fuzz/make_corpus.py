@@ -4,6 +4,7 @@
 The first byte of a file input chooses the format (files.cpp); inputs of the other targets are numbers and
 choices (input.hpp), here random ones from a fixed seed. What the fuzzers found lies beside, under other names.
 """
+import base64
 import pathlib
 import random
 import struct
@@ -80,6 +81,24 @@ documents = {
               '"measures":{"cells_per_second":1e6},"adjacency":{"cells_per_second":5e5}},{"passed":false}]}',
 }
 
+# 16 x 8 pixels: gray and progressive with an Exif orientation, RGB, and inks.
+jpegs = {
+    "gray": "/9j/4QAiRXhpZgAASUkqAAgAAAABABIBAwABAAAABgAAAAAAAAD/2wBDACgcHiMeGSgjISMtKygwPGRBPDc3PHtYXUlkkYCZlo+A"
+            "jIqgtObDoKrarYqMyP/L2u71////m8H////6/+b9//j/wgALCAAIABABAREA/8QAFAABAAAAAAAAAAAAAAAAAAAAAP/aAAgBAQAA"
+            "AAE//8QAFhAAAwAAAAAAAAAAAAAAAAAAAAES/9oACAEBAAEFAoSKP//EABcQAQADAAAAAAAAAAAAAAAAAAABISL/2gAIAQEABj8C"
+            "tmH/xAAZEAEAAgMAAAAAAAAAAAAAAAABABEhMYH/2gAIAQEAAT8hA3gTeujP/9oACAEBAAAAEL//xAAZEAEAAwEBAAAAAAAAAAAA"
+            "AAABABExUYH/2gAIAQEAAT8QuedmNaNBx3yf/9k=",
+    "rgb": "/9j/2wBDACgcHiMeGSgjISMtKygwPGRBPDc3PHtYXUlkkYCZlo+AjIqgtObDoKrarYqMyP/L2u71////m8H////6/+b9//j/2wBD"
+            "ASstLTw1PHZBQXb4pYyl+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj/wAARCAAIABAD"
+            "ASIAAhEBAxEB/8QAFAABAAAAAAAAAAAAAAAAAAAAAP/EACEQAAEDAQkAAAAAAAAAAAAAAAEAAgNRBBESEyEiIzHB/8QAFQEBAQAA"
+            "AAAAAAAAAAAAAAAAAAH/xAAXEQEAAwAAAAAAAAAAAAAAAAAAEUFh/9oADAMBAAIRAxEAPwAYy26yxdkch8TbK7A0jIj1LqmqIppc"
+            "P//Z",
+    "inks": "/9j/7gAOQWRvYmUAZAAAAAAA/9sAQwAoHB4jHhkoIyEjLSsoMDxkQTw3Nzx7WF1JZJGAmZaPgIyKoLTmw6Cq2q2KjMj/y9ru9f//"
+            "/5vB////+v/m/f/4/8AAFAgACAAQBEMRAE0RAFkRAEsRAP/EABUAAQEAAAAAAAAAAAAAAAAAAAAB/8QAJhAAAQIEBQUBAQAAAAAA"
+            "AAAAAQIRAAMSIRMiQVHwIzFxkbFhof/aAA4EQwBNAFkASwAAPwBhoQUSlEJlyhUsnfT+fYgCUmgthSRUpmurlvMCEIUAXwpAzNd1"
+            "ct7iuEuKenI0vmV2+2iOVOKepP0tlT2+WgQtaQC2LPOZrMnlvcAFKFBfFnGpTPZPLeIBEw0SyomZNzLP5tzaP//Z",
+}
+
 
 def png(width, height, bits, colour, rows):
     """A PNG; `rows` with the filter's byte before each."""
@@ -121,6 +140,8 @@ for name, bits, colour, rows in (("gray", 8, 0, b"\0\x10\x80\1\x20\xf0"), ("rgba
                                  ("palette", 2, 3, b"\0\x10\0\xe0")):
     write("documents", f"png_{name}", b"5" + png(2, 2, bits, colour, rows))
     write("documents", f"png_{name}_mended", b"6" + png(2, 2, bits, colour, rows))
+for name, text in jpegs.items():
+    write("documents", f"jpeg_{name}", b"5" + base64.b64decode(text))
 
 generator = random.Random(1)
 for target in ("domains", "diagrams", "c_interface", "device_diagrams", "triangulations", "treemaps", "transports",

@@ -28,7 +28,7 @@ void polygons(Bytes input);  ///< .geojson .wkt .svg
 void seeds(Bytes input);     ///< text, .npy, random:
 void trees(
     Bytes input);  ///< tables, JSON and earlier layouts of treemaps; small ones are laid out (documents.cpp)
-void documents(Bytes input);  ///< masses, saved diagrams, records of benchmarks, PNG (documents.cpp)
+void documents(Bytes input);  ///< masses, saved diagrams, records of benchmarks, PNG, JPEG (documents.cpp)
 
 // Public entry points. The bytes are numbers and choices, see input.hpp.
 void domains(Bytes input);      ///< Domain::polygon, surface, volume, box (domains.cpp)

@@ -1,4 +1,5 @@
 // A transport solver used in any order of calls, with any numbers and densities.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <powercell/transport.hpp>
@@ -30,7 +31,8 @@ void check_result(const TransportResult& result, std::size_t n, std::size_t d) {
               result.second_moment.size() == n && result.merged_with.size() == n &&
               result.centroid.size() == n * d,
           "results of another size than the seeds");
-  require(result.error <= result.tolerance || !result.converged, "converged above the tolerance");
+  require(result.error <= std::max(result.tolerance, result.rounding_error) || !result.converged,
+          "converged above the tolerance");
   double worst = 0;
   for (std::size_t i = 0; i < n; ++i) {
     require(std::isfinite(result.weights[i]), "a weight that is not finite");
@@ -46,7 +48,8 @@ void check_result(const TransportResult& result, std::size_t n, std::size_t d) {
   }
   for (std::size_t i = 0; i < n; ++i)
     if (result.merged_with[i] == i) worst = std::max(worst, std::fabs(found[i] / wanted[i] - 1));
-  require(worst <= 1.001 * result.tolerance, "converged, with masses off by " + std::to_string(worst));
+  require(worst <= 1.001 * std::max(result.tolerance, result.rounding_error),
+          "converged, with masses off by " + std::to_string(worst));
 }
 
 class Session {

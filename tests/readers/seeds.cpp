@@ -83,8 +83,7 @@ TEST_CASE("ambiguous tables are refused") {
   CHECK(says(message("x,y,Radius\n1,2,3\n"),
              "s.csv:1: the header has a column 'Radius' and no column of weights"));
   CHECK(parse_seeds_text("x,y,r,w\n1,2,3,9\n", 2, "s.csv").weights == std::vector<double>{9});
-  for (const char* text :
-       {"0,5;1\n1,5;2\n", "0,5;1,5\n1,5;2,5\n", "x;y\n0,5;1\n", "0,5\t1\n", "\"0,5\",1\n"}) {
+  for (const char* text : {"\"0,5\",1\n", "\"0,5\" 1\n"}) {
     CAPTURE(text);
     CHECK(says(message(text), "'0,5' is not a number: decimal commas are not read"));
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <powercell/point_sets.hpp>
 
+#include "lib/applications/sampling/even_points.hpp"
 #include "lib/applications/sampling/lbfgs.hpp"
 #include "lib/applications/sampling/state.hpp"
 
@@ -14,8 +15,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Tolerances of the capacities while points still move; the last solve has the caller's. For Lloyd's method
-// 0.1 costs energy in the end, and less than 0.03 gains nothing.
+// 0.1 costs energy in the end, and less than 0.03 gains nothing while points move far.
 constexpr double lloyd_tolerance = 3e-2, lbfgs_tolerance = 1e-5;
+// Centroids of cells whose masses are off by 1 % are off by about 1 % of the spacing. To come to rest, points
+// need a tolerance below this fraction of their mean move relative to the spacing.
+constexpr double tolerance_of_move = 0.3;
+// Newton steps of the transport: as in TransportOptions, and for a move of blue noise. These take one or two,
+// and many only if mass has to cross gaps, as between the strokes of a drawing; the last solve makes up for
+// masses that are not equal until then.
+constexpr int most_newton_steps = 500, most_newton_steps_of_move = 8;
+// Blue noise in the plane also stops when the hexatic order has risen by less than this over so many moves:
+// points along strokes have few neighbours, and a low order whatever the number of moves.
+constexpr double least_rise = 0.01;
+constexpr std::size_t moves_of_rise = 10;
 constexpr double sufficient_decrease = 1e-4;  // of the energy, relative to the slope (Armijo)
 constexpr int most_halvings = 10;             // of a step
 // Iterations of blue noise where the hexatic order is not meaningful: points in the plane have six neighbours
@@ -28,10 +40,15 @@ constexpr std::size_t points_with_order = 50;
 class Sampler {
  public:
   Sampler(const Device& device, const Domain& domain, const SamplingOptions& options,
-          std::vector<double> positions)
-      : options_(options),
+          std::vector<double> positions, bool drawn)
+      : domain_(domain),
+        options_(options),
+        drawn_(drawn),
+        lloyd_(options.descent == SamplingDescent::lloyd ||
+               (options.descent == SamplingDescent::automatic && options.mode == SamplingMode::blue)),
         until_hexatic_(options.mode == SamplingMode::blue && domain.dimension() == 2),
-        fixed_count_(options.mode == SamplingMode::blue ? !until_hexatic_ : options.movement == 0),
+        fixed_count_(options.mode == SamplingMode::blue ? !until_hexatic_ || options.iterations == 0
+                                                        : options.movement == 0),
         start_(std::move(positions)),
         state_(device, domain, options, start_),
         spacing_(
@@ -39,13 +56,14 @@ class Sampler {
 
   SamplingResult run() {
     const int most = iterations();
-    state_.move_to(start_, tolerance());
+    state_.move_to(start_, tolerance(), most_steps());
+    if (drawn_ && options_.mode == SamplingMode::blue && !state_.cells().converged) start_evenly();
     refuse_duplicates();
     record(0);
     while (!at_end() && result_.steps.back().iteration < most) {
       const int iteration = result_.steps.back().iteration + 1;
-      if (options_.descent == SamplingDescent::lloyd) {
-        state_.move_to(state_.centroids(), tolerance());
+      if (lloyd_) {
+        state_.move_to(state_.centroids(), tolerance(), most_steps());
       } else if (!lbfgs_move()) {
         no_descent_left_ = true;
         break;
@@ -53,9 +71,10 @@ class Sampler {
       record(iteration);
     }
     const int iterations_done = result_.steps.back().iteration;
-    const bool done = at_end() || (fixed_count_ && (iterations_done == most || no_descent_left_));
-    const bool at_centroids = iterations_done > 0 && options_.descent == SamplingDescent::lloyd;
-    state_.move_to(state_.in_domain(at_centroids), options_.capacity_tolerance);
+    const bool done = at_end() || no_descent_left_ || (fixed_count_ && iterations_done == most);
+    const bool at_centroids = iterations_done > 0 && lloyd_;
+    state_.move_to(state_.on_density(state_.in_domain(at_centroids)), options_.capacity_tolerance,
+                   most_newton_steps);
     finish(done);
     return std::move(result_);
   }
@@ -63,12 +82,37 @@ class Sampler {
  private:
   int iterations() const {
     if (options_.iterations > 0) return options_.iterations;
-    if (options_.mode == SamplingMode::quantise) return 1000;
+    if (options_.mode == SamplingMode::quantise) return 10000;
     return until_hexatic_ ? 100 : iterations_without_order;
   }
 
   double tolerance() const {
-    return options_.descent == SamplingDescent::lloyd ? lloyd_tolerance : lbfgs_tolerance;
+    if (!lloyd_) return lbfgs_tolerance;
+    if (options_.mode == SamplingMode::blue || result_.steps.empty()) return lloyd_tolerance;
+    return std::clamp(tolerance_of_move * result_.steps.back().gradient / spacing_, lbfgs_tolerance,
+                      lloyd_tolerance);
+  }
+
+  int most_steps() const {
+    return options_.mode == SamplingMode::blue ? most_newton_steps_of_move : most_newton_steps;
+  }
+
+  /// Starts from points whose numbers in the parts of the density are near their shares: mass that has to
+  /// cross gaps costs many Newton steps.
+  void start_evenly() {
+    const std::size_t n = state_.size();
+    start_ =
+        even_points(random_points(domain_, options_.density, points_to_choose_from * n, options_.random_seed),
+                    state_.dimension(), n);
+    state_.restart(start_);
+    state_.move_to(start_, tolerance(), most_steps());
+  }
+
+  /// Whether the hexatic order, which grows as points become even, no longer does.
+  bool order_rests() const {
+    const std::size_t last = result_.steps.size() - 1;
+    return last >= 2 * moves_of_rise &&
+           result_.steps[last].hexatic < result_.steps[last - moves_of_rise].hexatic + least_rise;
   }
 
   bool at_end() const {
@@ -78,7 +122,7 @@ class Sampler {
     if (step.iteration == 0) return false;  // initial points may meet the criterion by chance
     if (at_rest) return true;
     if (neighbours_ >= neighbours_with_order && state_.size() >= points_with_order)
-      return step.hexatic >= options_.hexatic;
+      return step.hexatic >= options_.hexatic || order_rests();
     return step.iteration >= std::min(iterations_without_order, iterations());
   }
 
@@ -129,7 +173,7 @@ class Sampler {
       for (int k = 0; slope < 0 && k < most_halvings; ++k, length /= 2) {
         std::vector<double> step = direction, to = from;
         for (std::size_t c = 0; c < to.size(); ++c) to[c] += step[c] *= length;
-        state_.move_to(std::move(to), tolerance());
+        state_.move_to(std::move(to), tolerance(), most_steps());
         if (!(state_.energy() <= energy + sufficient_decrease * length * slope)) continue;
         std::vector<double> change = state_.energy_gradient();
         for (std::size_t c = 0; c < change.size(); ++c) change[c] -= gradient[c];
@@ -139,7 +183,7 @@ class Sampler {
       const bool was_plain = memory_.empty();
       memory_.forget();
       if (was_plain) {
-        state_.move_to(from, tolerance());
+        state_.move_to(from, tolerance(), most_steps());
         return false;
       }
     }
@@ -157,7 +201,10 @@ class Sampler {
     result_.relative_energy = state_.relative_energy();
   }
 
+  const Domain& domain_;
   const SamplingOptions& options_;
+  bool drawn_;          // the initial points are random
+  bool lloyd_;          // the descent
   bool until_hexatic_;  // the criterion is the hexatic order
   bool fixed_count_;    // the criterion is the number of iterations
   std::vector<double> start_;
@@ -165,7 +212,7 @@ class Sampler {
   double spacing_;
   LbfgsMemory memory_;
   double neighbours_ = 0;         // per point on average, after the last iteration of blue in the plane
-  bool no_descent_left_ = false;  // rounding allows none
+  bool no_descent_left_ = false;  // the points rest as well as rounding allows
   SamplingResult result_;
   Clock::time_point before_ = Clock::now();
 };
@@ -186,7 +233,8 @@ SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                       const SamplingOptions& options) {
   check(options);
   if (n == 0) throw Error(ErrorCode::invalid_argument, "no points: sampling needs at least one");
-  return Sampler(device, domain, options, random_points(domain, options.density, n, options.random_seed))
+  return Sampler(device, domain, options, random_points(domain, options.density, n, options.random_seed),
+                 true)
       .run();
 }
 
@@ -197,7 +245,7 @@ SamplingResult sample(const Device& device, const Domain& domain, std::span<cons
     throw Error(ErrorCode::invalid_argument, std::to_string(positions.size()) +
                                                  " coordinates are not a whole number of points with " +
                                                  std::to_string(domain.dimension()) + " each");
-  return Sampler(device, domain, options, {positions.begin(), positions.end()}).run();
+  return Sampler(device, domain, options, {positions.begin(), positions.end()}, false).run();
 }
 
 }  // namespace powercell

@@ -30,10 +30,16 @@ SamplingState::SamplingState(const Device& device, const Domain& domain, const S
   solver_.set_seeds({domain.dimension(), positions_, {}});
 }
 
-void SamplingState::move_to(std::vector<double> positions, double tolerance) {
+void SamplingState::restart(std::vector<double> positions) {
+  positions_ = std::move(positions);
+  solver_.set_seeds({domain_.dimension(), positions_, {}});
+}
+
+void SamplingState::move_to(std::vector<double> positions, double tolerance, int max_steps) {
   solver_.move_seeds(positions);
   positions_ = std::move(positions);
   solver_.set_tolerance(tolerance);
+  solver_.set_max_steps(max_steps);
   solver_.solve();
 }
 

@@ -17,9 +17,12 @@ class SamplingState {
   SamplingState(const Device& device, const Domain& domain, const SamplingOptions& options,
                 std::vector<double> positions);
 
+  /// Replaces the points by others, with weights of 0.
+  void restart(std::vector<double> positions);
   /// Moves the points and solves for the weights.
   /// \param tolerance  of the capacities
-  void move_to(std::vector<double> positions, double tolerance);
+  /// \param max_steps  limit on Newton steps; the best weights of these are kept
+  void move_to(std::vector<double> positions, double tolerance, int max_steps);
   /// Centroids of the cells, n x d; for an empty cell the point itself.
   std::vector<double> centroids() const;
   /// dE/dp_i = 2 m_i (p_i - c_i), n x d, (36).
@@ -33,6 +36,9 @@ class SamplingState {
   /// The points, each projected to its own cell.
   /// \param at_centroids  the points are centroids of cells, which needs no projection for convex cells
   std::vector<double> in_domain(bool at_centroids);
+  /// The given points, those without density replaced by points of their cells with density. Polygons only;
+  /// elsewhere the points as they are.
+  std::vector<double> on_density(std::vector<double> positions);
   /// The points, in a periodic domain moved to their copies inside the box.
   std::vector<double> wrapped() const;
   /// Energy relative to that of the best lattice, (38).

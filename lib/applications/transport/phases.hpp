@@ -57,7 +57,8 @@ class SolveContext {
   /// The tolerance, or if the caller gave none and it is larger, the error to which rounded weights can meet
   /// masses.
   double attainable(const Iterate& at, const Vector& target, double tolerance) const {
-    return tolerance_given_ ? tolerance : std::max(tolerance, at.rounding_error(target));
+    constexpr double most = 1e-3;  // masses farther off are not those that were asked for
+    return tolerance_given_ ? tolerance : std::max(tolerance, std::min(at.rounding_error(target), most));
   }
   /// Whether the target masses are met to the tolerance, or as well as the rounding of weights allows. Walls
   /// may be missing then.

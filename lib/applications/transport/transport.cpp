@@ -105,6 +105,13 @@ void TransportSolver::set_tolerance(double tolerance) {
   state_->tolerance = tolerance > 0 ? tolerance : state_->options.tolerance;
 }
 
+void TransportSolver::set_max_steps(int steps) {
+  TransportOptions options;
+  options.max_steps = steps;
+  check(options);
+  state_->options.max_steps = steps;
+}
+
 const TransportResult& TransportSolver::solve() {
   return state_->solve();
 }

@@ -97,16 +97,16 @@ TEST_CASE("the gradient of the energy agrees with finite differences") {
   const std::vector<double> positions = scatter(Distribution::white, 30, 2, {}, random).positions;
   const Domain domain = unit_box(2);
   SamplingState state(device(), domain, options, positions);
-  state.move_to(positions, 1e-11);
+  state.move_to(positions, 1e-11, 500);
   const std::vector<double> gradient = state.energy_gradient();
   const double step = 1e-5;
   for (const std::size_t k : {0u, 7u, 22u, 41u}) {
     std::vector<double> moved = positions;
     moved[k] += step;
-    state.move_to(moved, 1e-11);
+    state.move_to(moved, 1e-11, 500);
     const double up = state.energy();
     moved[k] -= 2 * step;
-    state.move_to(moved, 1e-11);
+    state.move_to(moved, 1e-11, 500);
     CHECK(std::abs((up - state.energy()) / (2 * step) - gradient[k]) < 1e-6);
   }
 }
@@ -119,6 +119,7 @@ TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   options.movement = 0;
   options.iterations = 30;
   options.random_seed = test_seed();
+  options.descent = SamplingDescent::lloyd;
   const SamplingResult lloyd = sample(device(), unit_box(2), 100, options);
   options.descent = SamplingDescent::lbfgs;
   const SamplingResult lbfgs = sample(device(), unit_box(2), 100, options);
@@ -142,6 +143,83 @@ TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   const SamplingResult rested = sample(device(), unit_box(2), 20, options);
   CHECK(rested.converged);
   CHECK(rested.steps.back().gradient < 1e-3 / std::sqrt(20.0));
+}
+
+TEST_CASE(
+    "quantise comes to rest with its defaults, whatever the number of points, the domain and the density") {
+  INFO(replay_hint());
+  struct Case {
+    const char* name;
+    Domain domain;
+    Density density = Density::constant(1);
+  };
+  const Case cases[] = {{"square", unit_box(2)},
+                        {"square with holes", Domain::polygon(square_with_holes())},
+                        {"cube", unit_box(3)},
+                        {"torus", surface_of(torus(24, 12))},
+                        {"slope", unit_box(2), Density::formula("1 + 1000*x^8")},
+                        {"empty half", unit_box(2), Density::image({2, 1, std::vector<double>{1, 0}})}};
+  for (const Case& one : cases)
+    for (const std::size_t n : {1u, 10u, 80u}) {
+      CAPTURE(one.name);
+      CAPTURE(n);
+      SamplingOptions options;
+      options.density = one.density;
+      options.mode = SamplingMode::quantise;
+      options.random_seed = test_seed();
+      const SamplingResult found = sample(device(), one.domain, n, options);
+      CHECK(found.converged);
+      CHECK(found.capacity_error < 1e-6);
+      CHECK(found.steps.back().iteration < 400);
+    }
+}
+
+TEST_CASE("a drawing: dots lie on the ink, masses are equal, and a low hexatic order is no failure") {
+  INFO(replay_hint());
+  // A ring three pixels wide and, apart from it, a spot with 3.6 points' share of the ink.
+  const std::size_t side = 120;
+  std::vector<double> ink(side * side, 0.0);
+  for (std::size_t r = 0; r < side; ++r)
+    for (std::size_t c = 0; c < side; ++c) {
+      const double from_centre = std::hypot(static_cast<double>(r) - 59.5, static_cast<double>(c) - 59.5);
+      if (std::abs(from_centre - 45) < 1.5 || from_centre < 3) ink[r * side + c] = 1;
+    }
+  SamplingOptions options;
+  options.density = Density::image({side, side, ink});
+  options.random_seed = test_seed();
+  const SamplingResult found = sample(device(), unit_box(2), 120, options);
+  CHECK(found.converged);
+  check_capacities(unit_box(2), options.density, found, 120);
+  CHECK(found.steps.back().iteration <= 100);
+  for (const SamplingStep& step : found.steps) CHECK(step.newton_steps <= 8);
+  std::size_t in_spot = 0;
+  for (std::size_t i = 0; i < 120; ++i) {
+    const auto column = static_cast<std::size_t>(found.positions[2 * i] * side);
+    const auto row = side - 1 - static_cast<std::size_t>(found.positions[2 * i + 1] * side);
+    CHECK(ink[row * side + column] > 0);
+    in_spot += std::hypot(found.positions[2 * i] - 0.5, found.positions[2 * i + 1] - 0.5) < 0.1 ? 1 : 0;
+  }
+  CHECK(in_spot >= 3);
+  CHECK(in_spot <= 5);
+}
+
+TEST_CASE("Lloyd's method comes to rest too, with about the energy of L-BFGS") {
+  INFO(replay_hint());
+  for (const std::size_t n : {10u, 50u, 200u}) {
+    CAPTURE(n);
+    SamplingOptions options;
+    options.mode = SamplingMode::quantise;
+    options.random_seed = test_seed();
+    const SamplingResult lbfgs = sample(device(), unit_box(2), n, options);
+    options.descent = SamplingDescent::lloyd;
+    const SamplingResult lloyd = sample(device(), unit_box(2), n, options);
+    CHECK(lbfgs.converged);
+    CHECK(lloyd.converged);
+    CHECK(lloyd.steps.back().gradient < 1e-4 / std::sqrt(static_cast<double>(n)));
+    CHECK(lbfgs.steps.size() < lloyd.steps.size());
+    CHECK(lloyd.relative_energy == doctest::Approx(lbfgs.relative_energy).epsilon(0.03));
+    if (n >= 50) CHECK(lbfgs.relative_energy < 1.05);
+  }
 }
 
 TEST_CASE("the hexagonal lattice is a fixed point, with relative energy 1") {
