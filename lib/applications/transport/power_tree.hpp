@@ -39,13 +39,22 @@ class PowerTree {
     build(0, seeds_.size());
   }
 
-  double least(const Point& x) const {
-    double best = std::numeric_limits<double>::infinity();
+  struct Nearest {
+    std::uint32_t seed;
+    double power;
+  };
+  /// The seed with the least power distance, one of them if several have it.
+  Nearest nearest(const Point& x) const {
+    Nearest best{seeds_[0], std::numeric_limits<double>::infinity()};
     visit(
-        0, 0, seeds_.size(), x, [&] { return best; },
-        [&](std::uint32_t seed) { best = std::min(best, distance(seed, x)); });
+        0, 0, seeds_.size(), x, [&] { return best.power; },
+        [&](std::uint32_t seed) {
+          const double power = distance(seed, x);
+          if (power < best.power) best = {seed, power};
+        });
     return best;
   }
+  double least(const Point& x) const { return nearest(x).power; }
 
   /// Calls visitor(seed, power distance) for all seeds with a power distance below `most`, and possibly for
   /// others.
