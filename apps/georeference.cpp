@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <powercell/error.hpp>
 
 #include "apps/io/printable.hpp"
@@ -69,12 +70,13 @@ std::string titled(const io::Crs& crs) {
                                                                       : fmt::format("{} ({})", name, title);
 }
 
-bool is_known(const std::string& crs) {
+/// The system of that name; none if it is empty or not known.
+std::optional<io::Crs> find_crs(const std::string& name) {
+  if (name.empty()) return std::nullopt;
   try {
-    if (!crs.empty()) io::describe_crs(crs);
-    return !crs.empty();
+    return io::describe_crs(name);
   } catch (const Error&) {
-    return false;
+    return std::nullopt;
   }
 }
 
@@ -108,7 +110,9 @@ class Placing {
     const bool polygons = domain_.kind == DomainKind::polygon && !io::is_builtin_domain(file_) &&
                           io::lower_extension(file_) != ".svg";
     if (!polygons && (!(arguments_.crs + arguments_.seeds_crs).empty() || arguments_.project))
-      fail(file_ + ": --crs, --seeds-crs and --project are for polygons of maps, from GeoJSON, WKT or text");
+      fail(file_ +
+           ": --crs, --seeds-crs and --project are for polygons of maps, from GeoJSON, GeoPackage, WKT or "
+           "text");
     return polygons;
   }
 
@@ -126,17 +130,19 @@ class Placing {
                             io::readable(columns_.names[columns_.position[1]]));
       return degrees_crs;
     }
-    if (is_known(columns_.crs) && (may_be_degrees(domain_) || !is_in_degrees(columns_.crs))) {
+    if (const auto crs = find_crs(columns_.crs); crs && (may_be_degrees(domain_) || !crs->geographic)) {
       source_ = ", as the file of the seeds says";
       return columns_.crs;
     }
+    if (!columns_.crs.empty())
+      note(fmt::format("the seeds' file is in {}, which is not used, as nothing names the domain's system",
+                       io::readable(columns_.crs)));
     if (!arguments_.seeds_crs.empty() || arguments_.project)
       fail(file_ + ": nothing names its coordinate system; give --crs, for degrees --crs EPSG:4326");
     if (look_like_degrees(domain_, file_) && !arguments_.no_project)
       note(
           "the coordinates may be degrees, but nothing says so: computed as a plane, areas in squares of "
-          "their "
-          "unit (--crs EPSG:4326 if they are degrees, --no-project if not)");
+          "their unit (--crs EPSG:4326 if they are degrees, --no-project if not)");
     return {};
   }
 
@@ -156,7 +162,7 @@ class Placing {
   void place_seeds(const io::Crs& crs) {
     std::string name = arguments_.seeds_crs;
     std::string source;
-    if (name.empty() && is_known(columns_.crs)) {
+    if (name.empty() && find_crs(columns_.crs)) {
       name = columns_.crs;
       source = ", as their file says";
     } else if (name.empty() && !columns_.crs.empty()) {
@@ -187,8 +193,7 @@ class Placing {
                      source_, plane->definition(), 100 * plane->distortion()));
     note(
         fmt::format("areas and weights are in m2; coordinates in tables and GeoJSON are in {}, in pictures "
-                    "and other files in "
-                    "metres of the plane",
+                    "and other files in metres of the plane",
                     io::readable(crs.name)));
     result_.frame.plane = std::move(plane);
   }
@@ -249,9 +254,10 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
       ->type_name("CRS")
       ->group(group);
   command
-      .add_option(
-          "--seeds-crs", arguments.seeds_crs,
-          "That of the seeds. Default: degrees if their columns are named lon and lat, else the domain's")
+      .add_option("--seeds-crs", arguments.seeds_crs,
+                  "That of the seeds. Default: what their file says; degrees if their columns are named lon "
+                  "and lat; else "
+                  "the domain's")
       ->type_name("CRS")
       ->group(group);
   auto* project = command.add_flag("--project", arguments.project,
@@ -263,11 +269,8 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
 }
 
 bool is_in_degrees(const std::string& crs) {
-  try {
-    return !crs.empty() && io::describe_crs(crs).geographic;
-  } catch (const Error&) {
-    return false;  // not known: a plane
-  }
+  const std::optional<io::Crs> found = find_crs(crs);  // not known: a plane
+  return found && found->geographic;
 }
 
 Georeference georeference(const MapArguments& arguments, const std::string& file,

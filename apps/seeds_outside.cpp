@@ -11,7 +11,7 @@
 
 #include "apps/common.hpp"
 #include "apps/io/printable.hpp"
-#include "apps/io/read_text.hpp"
+#include "apps/io/read_fields.hpp"
 
 namespace powercell::app {
 namespace {
@@ -51,7 +51,8 @@ std::vector<Column> numeric_columns(const io::SeedTable& seeds) {
     if (std::any_of(columns.begin(), columns.end(), [k](const Column& c) { return c.index == k; })) continue;
     Column column{k, {}};
     double value = 0;
-    for (std::size_t i = 0; i < n && io::parse_number(seeds.text.field(i, k), value) == io::Parsed::ok;
+    for (std::size_t i = 0;
+         i < n && io::parse_number(seeds.text.field(i, k), seeds.text.mark, value) == io::Parsed::ok;
          i += step)
       column.values.push_back(value);
     if (column.values.size() == columns[0].values.size()) columns.push_back(std::move(column));
@@ -157,12 +158,10 @@ std::string other_units(const SeedBox& box, const io::SeedTable& seeds) {
   }
   if (d == 2 && like_degrees(box) && like_lengths(extent))
     return "the domain could be in degrees and the seeds in lengths: name the system of the seeds with "
-           "--seeds-crs "
-           "EPSG:..., and that of the domain with --crs EPSG:4326";
+           "--seeds-crs EPSG:..., and that of the domain with --crs EPSG:4326";
   if (d == 2 && like_lengths(box) && like_degrees(extent))
     return "the seeds could be in degrees and the domain in lengths: say so with --seeds-crs EPSG:4326, and "
-           "name the "
-           "system of the domain with --crs EPSG:... if its file does not";
+           "name the system of the domain with --crs EPSG:... if its file does not";
   for (const double factor : {1e3, 1e-3, 1e2, 1e-2, 1e1, 1e-1}) {
     std::size_t inside = 0;
     for (std::size_t i = 0; i < seeds.count(); ++i) {

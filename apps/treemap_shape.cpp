@@ -77,7 +77,7 @@ double area(const Ring& ring) {
 // The hull of an outline that only the rounding of its coordinates makes concave; any other outline as it is.
 Ring without_rounding(const Ring& ring, std::vector<std::string>& notes) {
   constexpr double most = 1e-4;  // of the size, far below what a picture shows
-  const Ring hull = convex_hull(ring);
+  Ring hull = convex_hull(ring);
   const double whole = area(hull), more = whole / area(ring) - 1;
   if (hull.size() < 3 || !(more > 1e-12) || more > most) return ring;
   double depth = 0;

@@ -7,14 +7,15 @@
 #include <limits>
 #include <powercell/error.hpp>
 
+#include "apps/io/printable.hpp"
 #include "apps/io/read_polygons.hpp"
 
 namespace powercell::io {
 namespace {
 
-/// Of the traced polygons, over their area; a tenth of it is for cells that are small and at the boundary.
+/// Of the traced polygons, over their area; a fiftieth of it is for cells that are small and at the boundary.
 constexpr double allowed_area_error = 1e-6;
-constexpr double relative_tolerance = allowed_area_error / 10;
+constexpr double relative_tolerance = allowed_area_error / 50;
 constexpr int deepest_bisection = 24;
 constexpr double pi = 3.14159265358979323846;
 
@@ -109,6 +110,18 @@ MapPoint middle_of(const std::vector<MapPoint>& degrees) {
       "them in a projection (such as EPSG:6931 or EPSG:6932 about the poles)");
 }
 
+void require_degrees(const Crs& crs, const std::vector<PolygonPart>& parts) {
+  for_each_ring(parts, [&](const Ring& ring, int) {
+    for (const MapPoint& p : ring)
+      if (!(std::abs(p[0]) <= 540 && std::abs(p[1]) <= 90))
+        throw Error(
+            ErrorCode::invalid_domain,
+            fmt::format("the point ({}, {}) is no longitude and latitude in degrees, as {} has them; name "
+                        "the system that its coordinates are in with --crs",
+                        p[0], p[1], readable(crs.name)));
+  });
+}
+
 }  // namespace
 
 double areal_scale(const Crs& crs, const PointMap& to_degrees, MapPoint point) {
@@ -152,6 +165,7 @@ double ring_area(const Ellipsoid& ellipsoid, const Ring& degrees) {
 
 MapPlane::MapPlane(const Crs& crs, std::vector<PolygonPart> parts)
     : crs_(crs), degrees_(map_to_degrees(crs)), map_parts_(std::move(parts)) {
+  if (crs.geographic) require_degrees(crs, map_parts_);
   std::vector<MapPoint> degrees;
   for_each_ring(map_parts_, [&](const Ring& ring, int) {
     for (const MapPoint& p : ring) degrees.push_back(degrees_->forward(p));

@@ -74,7 +74,7 @@ bool SeedsReader::first_line(const Fields& fields) {
     columns_ = columns_by_header(rows_, fields, dimension_, choice_);
     header_ = true;
     table_.text.columns = fields.size();
-    table_.text.separator = rows_.separator();
+    table_.text.separator = rows_.separator() == '\0' ? ',' : rows_.separator();
     rows_.begin_rows();
     return true;
   }

@@ -24,8 +24,9 @@ void write_table(const std::string& path, const SeedsView& seeds, const Measures
 
 void write_walls(const std::string& path, const Adjacency& adjacency, const InputView& inputs) {
   const SeedTable* table = inputs.table;
-  const bool ids = table != nullptr && table->columns.id.has_value() && table->text.columns > 0;
-  FieldWriter file(path, table != nullptr && table->text.columns > 0 ? table->text.separator : ',');
+  const bool like_table = table != nullptr && table->text.columns > 0;
+  const bool ids = like_table && table->columns.id.has_value();
+  FieldWriter file(path, like_table ? table->text.separator : ',', like_table ? table->text.mark : '.');
   for (const char* column : {"seed", "neighbor", "measure"}) file.text(column);
   if (ids)
     for (const char* column : {"id", "neighbor_id"}) file.text(column);

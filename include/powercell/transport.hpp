@@ -69,9 +69,9 @@ struct TransportOptions {
 
 /// Result of a solve. Arrays are owned and in the order of the seeds.
 struct POWERCELL_API TransportResult {
-  /// error < tolerance (if that is the default: or < rounding_error) and quadrature_error < tolerance. If
-  /// false, the result is the best iterate: one with the fewest empty cells, and of these the one with the
-  /// least error.
+  /// error < tolerance (if that is the default: or < rounding_error, up to 10⁻³) and quadrature_error <
+  /// tolerance. If false, the result is the best iterate: one with the fewest empty cells, and of these the
+  /// one with the least error.
   bool converged = false;
   double error = 0;  ///< max |m_i / v_i - 1|
   /// The largest estimated quadrature error of m_i, relative to v_i: above 0 where a formula or function has

@@ -55,6 +55,11 @@ class Maps(ToolTest):
         rows = [f"Shop {i},{6.7 + i % 5 * 1.9},{45.9 + i // 5 * 1.7 + i % 3 * 0.3},{(i % 4) * 1e9}" for i in range(25)]
         return self.write(name, columns + "\n" + "\n".join(rows) + "\n")
 
+    def test_lengths_called_degrees_are_refused(self):
+        self.domain(box(100, 200, 300, 900), crs="EPSG:4326")
+        self.bad(1, r"land.geojson: the point \(\S+, 200\) is no longitude and latitude in degrees, as EPSG:4326 has them; name "
+                    "the system", "diagram", "--domain", "land.geojson", "--seeds", "random:10")
+
     def check_ground_areas(self, features, rows, total):
         measures = [float(row["measure"]) for row in rows]
         self.assertAlmostEqual(sum(measures) / total, 1, delta=1e-6)

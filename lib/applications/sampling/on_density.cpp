@@ -1,71 +1,55 @@
 // Points where the density is positive.
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <powercell/point_sets.hpp>
 
 #include "lib/applications/density/model.hpp"
 #include "lib/applications/sampling/even_points.hpp"
 #include "lib/applications/sampling/state.hpp"
+#include "lib/applications/transport/power_tree.hpp"
 
 namespace powercell {
 namespace {
 
-using Place = std::array<double, 2>;
-
-double squared_distance(const double* a, const double* b) {
-  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+std::vector<std::uint32_t> indices(std::size_t count) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
 }
 
-/// Random points of a density, to place points of cells at.
+/// Random points of a density in the plane, to place the points of cells at.
 class Candidates {
  public:
   Candidates(std::vector<double> drawn, std::span<const double> seeds, std::span<const double> weights)
-      : drawn_(std::move(drawn)), seeds_(seeds), weights_(weights) {}
+      : drawn_(std::move(drawn)), no_weights_(drawn_.size() / 2), in_cell_(weights.size()) {
+    const PowerTree cells(seeds, weights, 2, indices(weights.size()));
+    for (std::uint32_t k = 0; k < no_weights_.size(); ++k)
+      in_cell_[cells.nearest({drawn_[2 * k], drawn_[2 * k + 1], 0}).seed].push_back(k);
+  }
 
-  /// Those in a cell, by index.
-  /// \param low, high  the box of the cell
-  std::vector<std::size_t> in_cell(std::size_t cell, const Place& low, const Place& high) const {
-    std::vector<std::size_t> found;
-    for (std::size_t k = 0; k < drawn_.size() / 2; ++k) {
-      const double* x = &drawn_[2 * k];
-      if (x[0] < low[0] || x[0] > high[0] || x[1] < low[1] || x[1] > high[1]) continue;
-      const double least = power(x, cell);
-      bool best = true;
-      for (std::size_t j = 0; j < weights_.size() && best; ++j) best = least <= power(x, j);
-      if (best) found.push_back(k);
-    }
-    return found;
+  /// The place for the point of a cell: a candidate in it, else the nearest one.
+  const double* place(std::size_t cell, const double* point) const {
+    const std::vector<std::uint32_t>& inside = in_cell_[cell];
+    return at(inside.empty() ? tree_.nearest({point[0], point[1], 0}).seed : central(inside));
   }
-  /// The one with the least sum of distances to the others: inside the heaviest part of a cell of several.
-  std::size_t central(const std::vector<std::size_t>& among) const {
-    std::size_t best = among.front();
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : among) {
-      double sum = 0;
-      for (const std::size_t j : among) sum += std::sqrt(squared_distance(&drawn_[2 * i], &drawn_[2 * j]));
-      if (sum < least) {
-        least = sum;
-        best = i;
-      }
-    }
-    return best;
-  }
-  std::size_t nearest(const double* x) const {
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < drawn_.size() / 2; ++k)
-      if (squared_distance(&drawn_[2 * k], x) < squared_distance(&drawn_[2 * best], x)) best = k;
-    return best;
-  }
-  const double* at(std::size_t k) const { return &drawn_[2 * k]; }
 
  private:
-  double power(const double* x, std::size_t i) const {
-    return squared_distance(x, &seeds_[2 * i]) - weights_[i];
+  const double* at(std::uint32_t k) const { return &drawn_[2 * std::size_t{k}]; }
+
+  /// The one with the least sum of distances to the others: inside the heaviest part of a cell of several.
+  std::uint32_t central(const std::vector<std::uint32_t>& among) const {
+    const auto sum = [&](std::uint32_t i) {
+      double result = 0;
+      for (const std::uint32_t j : among) result += std::hypot(at(i)[0] - at(j)[0], at(i)[1] - at(j)[1]);
+      return result;
+    };
+    return *std::ranges::min_element(among, {}, sum);
   }
 
-  std::vector<double> drawn_;
-  std::span<const double> seeds_, weights_;
+  std::vector<double> drawn_, no_weights_;
+  std::vector<std::vector<std::uint32_t>> in_cell_;
+  PowerTree tree_{drawn_, no_weights_, 2, indices(no_weights_.size())};
 };
 
 }  // namespace
@@ -84,21 +68,7 @@ std::vector<double> SamplingState::on_density(std::vector<double> positions) {
   const Candidates candidates(
       random_points(domain_, options_.density, points_to_choose_from * size(), options_.random_seed),
       positions_, cells().weights);
-  const Cells& geometry = solver_.diagram().cells();
-  for (const std::size_t i : bare) {
-    Place low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Place high{-low[0], -low[1]};
-    for (std::uint64_t p = geometry.cell_offset[i]; p < geometry.cell_offset[i + 1]; ++p)
-      for (std::uint64_t v = geometry.vertex_offset[p]; v < geometry.vertex_offset[p + 1]; ++v)
-        for (std::size_t c = 0; c < 2; ++c) {
-          low[c] = std::min(low[c], geometry.vertices[2 * v + c]);
-          high[c] = std::max(high[c], geometry.vertices[2 * v + c]);
-        }
-    const std::vector<std::size_t> inside = candidates.in_cell(i, low, high);
-    const std::size_t to =
-        inside.empty() ? candidates.nearest(&positions[2 * i]) : candidates.central(inside);
-    std::copy_n(candidates.at(to), 2, &positions[2 * i]);
-  }
+  for (const std::size_t i : bare) std::copy_n(candidates.place(i, &positions[2 * i]), 2, &positions[2 * i]);
   return positions;
 }
 

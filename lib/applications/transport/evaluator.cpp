@@ -57,18 +57,16 @@ double Iterate::quadrature_error(const Vector& target) const {
       .maxCoeff();
 }
 
-double Iterate::rounding_error(const Vector& target) const {
+Vector Iterate::rounding() const {
   const Adjacency& walls = cells.walls;
-  double largest = 0;
-  if (conductance.empty()) return largest;
+  Vector sum = Vector::Zero(weights.size());
+  if (conductance.empty()) return sum;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    double sum = 0;
     const auto row = static_cast<std::size_t>(i);
     for (std::uint64_t k = walls.offset[row]; k < walls.offset[row + 1]; ++k)
-      sum += conductance[k] * (std::abs(weights[i]) + std::abs(weights[walls.neighbor[k]]));
-    largest = std::max(largest, std::numeric_limits<double>::epsilon() * sum / target[i]);
+      sum[i] += conductance[k] * (std::abs(weights[i]) + std::abs(weights[walls.neighbor[k]]));
   }
-  return largest;
+  return std::numeric_limits<double>::epsilon() * sum;
 }
 
 double Iterate::least(const Vector& target) const {

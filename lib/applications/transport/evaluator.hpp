@@ -29,9 +29,12 @@ struct Iterate {
   double error(const Vector& target) const;
   /// The largest quadrature error of a mass relative to v_i.
   double quadrature_error(const Vector& target) const;
-  /// A bound for the error of a mass, relative to v_i, from the rounding of the weights, (31f); 0 without
-  /// conductances.
-  double rounding_error(const Vector& target) const;
+  /// Bounds for the errors of the masses from the rounding of the weights, (31f); 0 without conductances.
+  Vector rounding() const;
+  /// The largest of these relative to v_i.
+  double rounding_error(const Vector& target) const {
+    return (rounding().array() / target.array()).maxCoeff();
+  }
   /// min m_i / v_i
   double least(const Vector& target) const;
   /// v - m, the gradient of the dual

@@ -2,6 +2,7 @@
 /// Least and soft least power distances of a point from a set of seeds. Internal.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +24,8 @@ inline double power_distance(std::span<const double> positions, std::span<const 
   return square - weights[seed];
 }
 
-/// A tree of boxes of seeds with their largest weights.
+/// A tree of boxes of seeds. A box has an affine function that its weights do not exceed: weights of a
+/// transport that moves seeds far vary over a box by much more than they deviate from that.
 class PowerTree {
  public:
   using Point = std::array<double, 3>;
@@ -37,13 +39,22 @@ class PowerTree {
     build(0, seeds_.size());
   }
 
-  double least(const Point& x) const {
-    double best = std::numeric_limits<double>::infinity();
+  struct Nearest {
+    std::uint32_t seed;
+    double power;
+  };
+  /// The seed with the least power distance, one of them if several have it.
+  Nearest nearest(const Point& x) const {
+    Nearest best{seeds_[0], std::numeric_limits<double>::infinity()};
     visit(
-        0, 0, seeds_.size(), x, [&] { return best; },
-        [&](std::uint32_t seed) { best = std::min(best, distance(seed, x)); });
+        0, 0, seeds_.size(), x, [&] { return best.power; },
+        [&](std::uint32_t seed) {
+          const double power = distance(seed, x);
+          if (power < best.power) best = {seed, power};
+        });
     return best;
   }
+  double least(const Point& x) const { return nearest(x).power; }
 
   /// Calls visitor(seed, power distance) for all seeds with a power distance below `most`, and possibly for
   /// others.
@@ -57,8 +68,8 @@ class PowerTree {
  private:
   static constexpr std::size_t leaf = 8;
   struct Node {
-    Point low{}, high{};
-    double weight = -std::numeric_limits<double>::infinity();
+    Point low{}, high{}, slope{};
+    double weight = -std::numeric_limits<double>::infinity();  ///< the largest, less slope·p
     std::size_t right = 0;  ///< of an inner node; its left child follows it
   };
 
@@ -81,7 +92,7 @@ class PowerTree {
       node.high[c] = coordinate(*high, c);
       if (node.high[c] - node.low[c] > node.high[longest] - node.low[longest]) longest = c;
     }
-    for (std::size_t k = first; k < last; ++k) node.weight = std::max(node.weight, weights_[seeds_[k]]);
+    fit(first, last, node);
     if (last - first > leaf) {
       const std::size_t middle = (first + last) / 2;
       std::nth_element(
@@ -94,11 +105,46 @@ class PowerTree {
     return at;
   }
 
+  /// Fits the affine function by least squares.
+  void fit(std::size_t first, std::size_t last, Node& node) const {
+    using Vec = Eigen::Vector3d;
+    const auto from_corner = [&](std::uint32_t seed) {
+      Vec u = Vec::Zero();
+      for (std::size_t c = 0; c < d_; ++c)
+        u[static_cast<Eigen::Index>(c)] = coordinate(seed, c) - node.low[c];
+      return u;
+    };
+    Vec mean = Vec::Zero();
+    double weight = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      mean += from_corner(seeds_[k]) / static_cast<double>(last - first);
+      weight += weights_[seeds_[k]] / static_cast<double>(last - first);
+    }
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    Vec product = Vec::Zero();
+    for (std::size_t k = first; k < last; ++k) {
+      const Vec u = from_corner(seeds_[k]) - mean;
+      square += u * u.transpose();
+      product += (weights_[seeds_[k]] - weight) * u;
+    }
+    const double trace = square.trace();
+    square.diagonal().array() += trace > 0 ? 1e-9 * trace : 1;  // for seeds in a plane or on a line
+    const Vec slope = square.ldlt().solve(product);
+    if (slope.allFinite()) std::copy_n(slope.data(), 3, node.slope.begin());
+    for (std::size_t k = first; k < last; ++k) {
+      double rest = weights_[seeds_[k]];
+      for (std::size_t c = 0; c < d_; ++c) rest -= node.slope[c] * coordinate(seeds_[k], c);
+      node.weight = std::max(node.weight, rest);
+    }
+  }
+
+  /// A bound from below. With slope b, |x - p|² - b·p = |p - (x + b/2)|² - b·x - |b|²/4.
   double bound(const Node& node, const Point& x) const {
     double square = 0;
     for (std::size_t c = 0; c < d_; ++c) {
-      const double away = std::max({node.low[c] - x[c], x[c] - node.high[c], 0.0});
-      square += away * away;
+      const double half = node.slope[c] / 2, y = x[c] + half;
+      const double away = std::max({node.low[c] - y, y - node.high[c], 0.0});
+      square += away * away - half * (2 * x[c] + half);
     }
     return square - node.weight;
   }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "lib/applications/transport/phases.hpp"
 
@@ -34,13 +35,28 @@ Vector power_of(const SolveContext& context, double exponent) {
   return result * (context.target().sum() / result.sum());
 }
 
+/// The exponent whose masses are nearest to those that the start has in the parts; 0 without such a start.
+double first_exponent(const SolveContext& context, const Iterate& at) {
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (const double exponent : {0.0, 0.25, 0.5, 0.75}) {
+    if (context.shares().empty()) break;
+    const Vector target = power_of(context, exponent);
+    const double off = at.gradient(target).norm() / target.norm();
+    if (off >= least) continue;
+    least = off;
+    best = exponent;
+  }
+  return best;
+}
+
 }  // namespace
 
 PhaseEnd ramp(SolveContext& context, Iterate& at) {
-  double reached = 0, stride = 0.5;
+  const double first = first_exponent(context, at);
+  double reached = first, stride = 0.5;
   bool started = false;
   while (true) {
-    const double exponent = started ? std::min(1.0, reached + stride) : 0;
+    const double exponent = started ? std::min(1.0, reached + stride) : first;
     const bool last = exponent == 1;
     const Vector target = last ? context.target() : power_of(context, exponent);
     Iterate trial = at;

@@ -10,7 +10,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t few_seeds = 150, seeds_per_cluster = 16;
+constexpr std::size_t few_seeds = 150, seeds_per_cluster = 8;
 constexpr double mass_power = 0.5;  // sizes of clusters lie between the numbers of their seeds and the masses
 
 using Clusters = std::vector<std::vector<std::uint32_t>>;  // per cluster its seeds

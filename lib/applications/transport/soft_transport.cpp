@@ -9,7 +9,7 @@
 namespace powercell {
 
 double soften(const Weighted& from, Weighted& to, std::size_t d, double heat) {
-  constexpr double cut = 12;  // exp(-12) is negligible
+  constexpr double cut = 7;  // exp(-7) is negligible for a start
   std::vector<double> raised(from.size());
   const double total = std::accumulate(from.mass.begin(), from.mass.end(), 0.0);
   for (std::size_t i = 0; i < raised.size(); ++i)
@@ -24,7 +24,9 @@ double soften(const Weighted& from, Weighted& to, std::size_t d, double heat) {
     const double least = tree.least(x);
     double sum = 0, first = 0;
     tree.near(x, least + cut * heat, [&](std::uint32_t, double power) {
-      const double u = (least - power) / heat, e = std::exp(u);
+      const double u = (least - power) / heat;
+      if (u < -cut) return;
+      const double e = std::exp(u);
       sum += e;
       first += e * u;
     });
