@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <powercell/remeshing.hpp>
 
 #include "apps/common.hpp"
@@ -17,6 +18,7 @@
 #include "apps/io/write_triangles.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -35,7 +37,7 @@ struct Outcome {
   MeshQuality before, after;
   double diagonal = 0;
   double input_to_mesh = 0, mesh_to_input = 0;  ///< Hausdorff, one-sided
-  double read = 0, remesh = 0, check = 0, write = 0;
+  double read = 0, open = 0, remesh = 0, check = 0, write = 0, build = 0, run = 0;
 };
 
 double diagonal_of(const Domain& domain) {
@@ -70,12 +72,15 @@ nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
           {"added", o.result.added},
           {"seconds",
            {{"read", o.read},
+            {"open", o.open},
             {"remesh", o.remesh},
             {"sample", o.result.seconds_sample},
             {"dual", o.result.seconds_dual},
             {"relax", o.result.seconds_relax},
             {"check", o.check},
-            {"write", o.write}}},
+            {"write", o.write},
+            {"build", o.build},
+            {"run", o.run}}},
           {"files", arguments.outputs},
           {"version", version()}};
 }
@@ -102,9 +107,10 @@ void print(const RemeshArguments& arguments, const Outcome& o) {
   for (const std::string& path : arguments.outputs) fmt::print("wrote {}\n", path);
   fmt::print(
       "{} rounds, least spacing {:.3f} of the sizing; {:.2f} s: sampling {:.2f}, dual {:.2f}, relaxation "
-      "{:.2f}\n",
+      "{:.2f}{}\n",
       o.result.least_spacing.size(), o.result.least_spacing.empty() ? 0 : o.result.least_spacing.back(),
-      o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax);
+      o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax,
+      building_note(o.build));
 }
 
 /// The mesh with vertices at the same position merged, as the library does: only then is its topology
@@ -140,12 +146,20 @@ void write_files(const RemeshArguments& arguments, const TriangleMesh& input, co
   }
 }
 
-RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input) {
+constexpr const char *remeshing = "remeshing", *checking = "comparing both meshes";
+
+/// \param device  output: stays open, since to close it takes time of its own
+RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input, Progress& progress,
+                         std::optional<Device>& device) {
   RemeshOptions options = arguments.remesh;
-  options.progress = library_options(arguments, "remeshing").progress;
+  options.progress = progress.callback();
   const bool transport = arguments.method == "transport";
   options.method = transport ? RemeshMethod::transport : RemeshMethod::farthest_point;
-  if (transport) options.device = open_device(arguments);
+  if (transport) {
+    progress.begin(stage::opening);
+    options.device = device = open_device(arguments);
+  }
+  progress.begin(remeshing);
   RemeshResult result;
   try {
     compute([&] { result = remesh(input.vertices, input.triangles, options); });
@@ -156,16 +170,28 @@ RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& i
   return result;
 }
 
+void describe_times(const Progress& progress, Outcome& o) {
+  o.read = progress.seconds(stage::reading);
+  o.open = progress.seconds(stage::opening);
+  o.remesh = progress.seconds(remeshing);
+  o.check = progress.seconds(checking);
+  o.write = progress.seconds(stage::writing);
+  o.build = progress.build();
+  o.run = progress.run();
+}
+
 int run(const RemeshArguments& arguments) {
   check_writable(arguments.outputs, {arguments.report}, arguments.json);
   Outcome outcome;
-  Stopwatch watch;
+  Progress progress(
+      {{stage::reading, 2}, {stage::opening, 1}, {remeshing, 85}, {checking, 8}, {stage::writing, 4}},
+      arguments.silent());
   const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);
   const TriangleMesh given{domain.vertices, domain.elements};
   outcome.diagonal = diagonal_of(domain.domain);
-  outcome.read = watch.lap();
-  outcome.result = remesh_file(arguments, given);
-  outcome.remesh = watch.lap();
+  std::optional<Device> device;
+  outcome.result = remesh_file(arguments, given, progress, device);
+  progress.begin(checking);
   const TriangleMesh& mesh = outcome.result.mesh;
   const TriangleMesh input = joined(given);
   outcome.before = mesh_quality(input.vertices, input.triangles);
@@ -173,9 +199,10 @@ int run(const RemeshArguments& arguments) {
   require_same_topology(outcome);
   outcome.input_to_mesh = farthest_from(input, mesh);
   outcome.mesh_to_input = farthest_from(mesh, input);
-  outcome.check = watch.lap();
+  progress.begin(stage::writing);
   write_files(arguments, input, mesh);
-  outcome.write = watch.lap();
+  progress.finish();
+  describe_times(progress, outcome);
   if (!arguments.report.empty()) {
     io::AtomicFile file(arguments.report);
     file.write(json_text(as_json(arguments, outcome)) + "\n");
