@@ -90,7 +90,7 @@ class PngFile {
   }
 
   void require(bool good) const {
-    if (!good) fail_file(name_, "damaged PNG: " + readable(message_.c_str()));
+    if (!good) fail_file(name_, "damaged PNG: " + readable(message_));
   }
 
   bool try_header() {
