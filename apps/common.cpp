@@ -48,18 +48,20 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   add_output_options(command, options);
 }
 
-Options library_options(const CommonOptions& options, std::string_view label) {
+Options library_options(const CommonOptions& options) {
   Options result;
   result.precision = precisions.at(options.precision);
   result.neighbors = providers.at(options.neighbors);
   result.decisions = options.decisions == "fast" ? Decisions::fast : Decisions::exact;
   result.certify = options.certify;
   result.threads = options.threads;
-  auto bar = std::make_shared<ProgressBar>(std::string(label), options.quiet || options.json);
-  result.progress = [bar](double fraction) {
-    bar->update(fraction);
-    return !interrupted();
-  };
+  result.progress = [](double) { return !interrupted(); };
+  return result;
+}
+
+Options library_options(const CommonOptions& options, Progress& progress) {
+  Options result = library_options(options);
+  result.progress = progress.callback();
   return result;
 }
 

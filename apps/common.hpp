@@ -9,7 +9,6 @@
 #include <powercell/powercell.hpp>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -23,6 +22,8 @@ struct WrongUsage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+class Progress;
+
 /// Options of every subcommand that computes.
 struct CommonOptions {
   std::string device;
@@ -33,6 +34,9 @@ struct CommonOptions {
   int threads = 0;
   bool json = false;
   bool quiet = false;
+
+  /// Whether nothing is shown while the command runs.
+  bool silent() const { return quiet || json; }
 };
 
 /// Adds --json and --quiet.
@@ -42,9 +46,10 @@ void add_engine_options(CLI::App& command, CommonOptions& options);
 /// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
-/// The library's options for these, with progress and interruption (see interrupt.hpp).
-/// \param label  shown beside the progress bar, e.g. "cells"
-Options library_options(const CommonOptions& options, std::string_view label);
+/// The library's options for these, with interruption (see interrupt.hpp).
+Options library_options(const CommonOptions& options);
+/// The same for a diagram that is the current part of a stage.
+Options library_options(const CommonOptions& options, Progress& progress);
 
 /// Passes --threads to PoCL, which reads its number of threads when the first platform is queried.
 void limit_threads(const CommonOptions& options);

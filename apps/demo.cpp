@@ -17,6 +17,7 @@
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/outputs.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -93,18 +94,28 @@ void write_seeds(const fs::path& path, const SeedsView& seeds) {
   file.commit();
 }
 
-RunReport draw(const DemoArguments& arguments, const Device& device, const DemoShape& shape) {
+constexpr const char* drawing = "drawing";
+
+// In the part of the stage that begins at `from`. Each of the diagrams and then the files take a share of it.
+RunReport draw(const DemoArguments& arguments, const Device& device, const DemoShape& shape, double from,
+               double part, Progress& progress) {
+  constexpr double read_done = 0.05, relaxed = 0.5, computed = 0.6;
+  const auto part_of = [&](double begin, double end) {
+    progress.part(from + begin * part, from + end * part);
+  };
+  const double start = progress.seconds(drawing), run_start = progress.run();
   const fs::path shape_path = fs::path(arguments.folder) / shape.file;
   const fs::path stem = fs::path(shape_path).replace_extension();
-  Stopwatch watch;
   write_text(shape_path, shape.text);
   const io::LoadedDomain domain = io::read_domain(shape_path.string());
-  const double read = watch.lap();
+  const double read = progress.seconds(drawing) - start;
   const Plan plan = plan_for(domain.domain.kind());
 
-  Diagram diagram(device, domain.domain, library_options(arguments, shape.file));
+  Diagram diagram(device, domain.domain, library_options(arguments, progress));
   std::vector<double> positions = io::random_seeds({plan.seeds, 0, 0, 1}, domain.domain).positions;
+  part_of(read_done, relaxed);
   relax(diagram, positions, 8);
+  part_of(relaxed, computed);
   const std::vector<double> weights = weights_of_discs(domain.domain, plan.seeds);
   const SeedsView seeds{domain.domain.dimension(), positions, weights};
   diagram.set_seeds(seeds);
@@ -117,13 +128,13 @@ RunReport draw(const DemoArguments& arguments, const Device& device, const DemoS
     diagram.cells();
   });
 
-  watch.lap();
+  const double before = progress.seconds(drawing);
   const std::string seeds_path = stem.string() + "-seeds.csv";
   write_seeds(seeds_path, seeds);
   for (const std::string& extension : plan.extensions) report.files.push_back(stem.string() + extension);
   write_diagram(report.files, diagram, seeds);
-  report.write = watch.lap();
-  report.build = 0;  // reported once, for the whole demo
+  report.write = progress.seconds(drawing) - before;
+  report.run = progress.run() - run_start;
   return report;
 }
 
@@ -157,25 +168,30 @@ void print(const DemoShape& shape, const RunReport& report) {
 }
 
 int run(const DemoArguments& arguments) {
-  Stopwatch watch;
+  Progress progress({{stage::opening, 3}, {drawing, 97}}, arguments.silent());
   make_folder(arguments.folder);
   const Device device = open_device(arguments);
-  const bool talk = !arguments.quiet && !arguments.json;
-  if (talk) fmt::print("device {} ({})\n", device.info().name, device.info().platform_name);
+  const bool talk = !arguments.silent();
+  if (talk)
+    progress.aside([&] { fmt::print("device {} ({})\n", device.info().name, device.info().platform_name); });
+  progress.begin(drawing);
+  const double part = 1 / static_cast<double>(demo_shapes().size());
   nlohmann::json shapes = nlohmann::json::array();
   for (const DemoShape& shape : demo_shapes()) {
-    const RunReport report = draw(arguments, device, shape);
-    if (talk) print(shape, report);
+    const RunReport report =
+        draw(arguments, device, shape, part * static_cast<double>(shapes.size()), part, progress);
+    if (talk) progress.aside([&] { print(shape, report); });
     shapes.push_back(as_json(report));
     shapes.back()["shape"] = shape.file;
   }
   const fs::path page = fs::path(arguments.folder) / "index.html";
   write_page(page);
-  const double seconds = watch.lap();
+  progress.finish();
+  const double seconds = progress.run();
   if (arguments.json)
     fmt::print("{}\n", json_text({{"shapes", shapes},
                                   {"open", page.string()},
-                                  {"build", device.build_seconds()},
+                                  {"build", progress.build()},
                                   {"seconds", seconds},
                                   {"version", version()}}));
   if (talk)
@@ -184,7 +200,7 @@ int run(const DemoArguments& arguments) {
         "Open {}\n"
         "The same by hand: powercell diagram --domain {}/italy.geojson --seeds {}/italy-seeds.csv -o "
         "map.png\n",
-        seconds, device.build_seconds(), page.string(), arguments.folder, arguments.folder);
+        seconds, progress.build(), page.string(), arguments.folder, arguments.folder);
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "apps/io/output.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/outputs.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -24,7 +25,6 @@ struct DiagramArguments : CommonOptions, InputArguments {
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
                  RunReport& report) {
   const SeedsView seeds = inputs.seeds.view();
-  Stopwatch watch;
   write_diagram(arguments.outputs, diagram, seeds, inputs.view());
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
@@ -35,7 +35,6 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inpu
     io::write_walls(arguments.walls, diagram.adjacency(), inputs.view());
     report.files.push_back(arguments.walls);
   }
-  report.write = watch.lap();
 }
 
 void print(const DiagramArguments& arguments, const Inputs& inputs, const RunReport& report) {
@@ -50,26 +49,31 @@ void print(const DiagramArguments& arguments, const Inputs& inputs, const RunRep
 
 int run(const DiagramArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
-  Stopwatch watch;
+  Progress progress({{stage::reading, 5}, {stage::opening, 2}, {"computing", 78}, {stage::writing, 15}},
+                    arguments.silent());
   const Inputs inputs = read_inputs(arguments);
-  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments);
+  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
   const SeedsView seeds = inputs.seeds.view();
-  const double read = watch.lap();
 
-  Diagram diagram(open_device(arguments), domain, library_options(arguments, "cells"));
+  progress.begin(stage::opening);
+  const Device device = open_device(arguments);
+  progress.begin("computing");
+  progress.count(static_cast<double>(seeds.size()), "cells");
+  Diagram diagram(device, domain, library_options(arguments, progress));
   diagram.set_seeds(seeds);
   // Everything that the files need, in one pass.
   const bool geometry = !arguments.outputs.empty();
   compute(
       [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
   RunReport report = report_of(diagram);
-  report.read = read;
   describe_inputs(inputs, report);
   require_partition(report);
+  progress.begin(stage::writing);
   write_files(arguments, diagram, inputs, report);
-  report.build = diagram.device().build_seconds();  // writing may have built further kernels
+  progress.finish();
+  describe_times(progress, report);
   print(arguments, inputs, report);
   return 0;
 }

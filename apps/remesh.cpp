@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <powercell/remeshing.hpp>
 #include <powercell/repair.hpp>
 
@@ -16,6 +17,7 @@
 #include "apps/io/write_triangles.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -37,7 +39,7 @@ struct Outcome {
   MeshQuality before, after;
   double diagonal = 0;
   double input_to_mesh = 0, mesh_to_input = 0;  ///< Hausdorff, one-sided
-  double read = 0, remesh = 0, check = 0, write = 0;
+  double read = 0, repairing = 0, open = 0, remesh = 0, check = 0, write = 0, build = 0, run = 0;
 };
 
 double diagonal_of(const Domain& domain) {
@@ -97,12 +99,15 @@ nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
           {"intersections", o.result.intersections.count},
           {"seconds",
            {{"read", o.read},
+            {"open", o.open},
             {"remesh", o.remesh},
             {"sample", o.result.seconds_sample},
             {"dual", o.result.seconds_dual},
             {"relax", o.result.seconds_relax},
             {"check", o.check},
-            {"write", o.write}}},
+            {"write", o.write},
+            {"build", o.build},
+            {"run", o.run}}},
           {"files", arguments.outputs},
           {"version", version()}};
 }
@@ -129,20 +134,26 @@ void print(const RemeshArguments& arguments, const Outcome& o) {
   for (const std::string& path : arguments.outputs) fmt::print("wrote {}\n", path);
   fmt::print(
       "{} rounds, least spacing {:.3f} of the sizing; {:.2f} s: sampling {:.2f}, dual {:.2f}, relaxation "
-      "{:.2f}\n",
+      "{:.2f}{}\n",
       o.result.least_spacing.size(), o.result.least_spacing.empty() ? 0 : o.result.least_spacing.back(),
-      o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax);
+      o.remesh, o.result.seconds_sample, o.result.seconds_dual, o.result.seconds_relax,
+      building_note(o.build));
 }
 
+constexpr const char *repairing = "repairing the input", *remeshing = "remeshing",
+                     *checking = "comparing both meshes";
+
 /// The input as it is remeshed, with a line on standard error for each thing done to it.
-TriangleMesh repaired(const RemeshArguments& arguments, TriangleMesh given, RepairReport& report) {
+TriangleMesh repaired(const RemeshArguments& arguments, TriangleMesh given, RepairReport& report,
+                      Progress& progress) {
+  progress.begin(repairing);
   if (arguments.no_repair) return given;
   RepairedMesh fixed = repair(given.vertices, given.triangles, {arguments.weld});
   report = fixed.report;
-  print_notes(report.acts(), arguments.input, arguments);
+  print_notes(report.acts(), arguments.input, arguments, progress);
   std::vector<std::string> left;
   for (const std::string& what : report.left()) left.push_back("left as it is: " + what);
-  print_notes(left, arguments.input, arguments);
+  print_notes(left, arguments.input, arguments, progress);
   return std::move(fixed.mesh);
 }
 
@@ -156,7 +167,7 @@ void require_same_topology(const Outcome& o) {
 }
 
 /// Says on standard error what is not as usual in the new mesh.
-void print_remarks(const RemeshArguments& arguments, const RemeshResult& result) {
+void print_remarks(const RemeshArguments& arguments, const RemeshResult& result, Progress& progress) {
   std::vector<std::string> remarks;
   const auto place = [](const std::array<double, 3>& at) {
     return fmt::format("around ({:.9g}, {:.9g}, {:.9g})", at[0], at[1], at[2]);
@@ -171,7 +182,7 @@ void print_remarks(const RemeshArguments& arguments, const RemeshResult& result)
         fmt::format("{} of triangles of the new mesh cross{}, {}{}: more points may separate them",
                     pairs == 1 ? "1 pair" : with_commas(pairs) + " pairs", pairs == 1 ? "es" : "",
                     pairs == 1 ? "" : "the first ", place(result.intersections.first)));
-  print_notes(remarks, arguments.input, arguments);
+  print_notes(remarks, arguments.input, arguments, progress);
 }
 
 void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
@@ -183,13 +194,19 @@ void write_files(const RemeshArguments& arguments, const TriangleMesh& input, co
   }
 }
 
-RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input) {
+/// \param device  output: stays open, since to close it takes time of its own
+RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& input, Progress& progress,
+                         std::optional<Device>& device) {
   RemeshOptions options = arguments.remesh;
   options.repair = false;
-  options.progress = library_options(arguments, "remeshing").progress;
+  options.progress = progress.callback();
   const bool transport = arguments.method == "transport";
   options.method = transport ? RemeshMethod::transport : RemeshMethod::farthest_point;
-  if (transport) options.device = open_device(arguments);
+  if (transport) {
+    progress.begin(stage::opening);
+    options.device = device = open_device(arguments);
+  }
+  progress.begin(remeshing);
   RemeshResult result;
   try {
     compute([&] { result = remesh(input.vertices, input.triangles, options); });
@@ -200,26 +217,45 @@ RemeshResult remesh_file(const RemeshArguments& arguments, const TriangleMesh& i
   return result;
 }
 
+void describe_times(const Progress& progress, Outcome& o) {
+  o.read = progress.seconds(stage::reading);
+  o.open = progress.seconds(stage::opening);
+  o.repairing = progress.seconds(repairing);
+  o.remesh = progress.seconds(remeshing);
+  o.check = progress.seconds(checking);
+  o.write = progress.seconds(stage::writing);
+  o.build = progress.build();
+  o.run = progress.run();
+}
+
 int run(const RemeshArguments& arguments) {
   check_writable(arguments.outputs, {arguments.report}, arguments.json);
   Outcome outcome;
-  Stopwatch watch;
+  Progress progress({{stage::reading, 2},
+                     {stage::opening, 1},
+                     {repairing, 5},
+                     {remeshing, 80},
+                     {checking, 8},
+                     {stage::writing, 4}},
+                    arguments.silent());
   const io::LoadedDomain domain = io::read_domain(arguments.input, DomainKind::surface);
   outcome.diagonal = diagonal_of(domain.domain);
-  outcome.read = watch.lap();
-  const TriangleMesh input = repaired(arguments, {domain.vertices, domain.elements}, outcome.repair);
-  outcome.result = remesh_file(arguments, input);
-  outcome.remesh = watch.lap();
-  print_remarks(arguments, outcome.result);
+  const TriangleMesh input =
+      repaired(arguments, {domain.vertices, domain.elements}, outcome.repair, progress);
+  std::optional<Device> device;
+  outcome.result = remesh_file(arguments, input, progress, device);
+  progress.begin(checking);
+  print_remarks(arguments, outcome.result, progress);
   const TriangleMesh& mesh = outcome.result.mesh;
   outcome.before = mesh_quality(input.vertices, input.triangles);
   outcome.after = mesh_quality(mesh.vertices, mesh.triangles);
   require_same_topology(outcome);
   outcome.input_to_mesh = farthest_from(input, mesh);
   outcome.mesh_to_input = farthest_from(mesh, input);
-  outcome.check = watch.lap();
+  progress.begin(stage::writing);
   write_files(arguments, input, mesh);
-  outcome.write = watch.lap();
+  progress.finish();
+  describe_times(progress, outcome);
   if (!arguments.report.empty()) {
     io::AtomicFile file(arguments.report);
     file.write(json_text(as_json(arguments, outcome)) + "\n");

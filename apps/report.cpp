@@ -6,6 +6,7 @@
 
 #include "apps/common.hpp"
 #include "apps/io/printable.hpp"
+#include "apps/progress.hpp"
 
 namespace powercell::app {
 
@@ -16,11 +17,13 @@ double Stopwatch::lap() {
   return seconds;
 }
 
-void print_notes(const std::vector<std::string>& notes, const std::string& file,
-                 const CommonOptions& options) {
+void print_notes(const std::vector<std::string>& notes, const std::string& file, const CommonOptions& options,
+                 Progress& progress) {
   if (options.quiet) return;
-  for (const std::string& note : notes)
-    fmt::print(stderr, "powercell: note: {}\n", io::one_line(fmt::format("{}: {}", file, note)));
+  progress.aside([&] {
+    for (const std::string& note : notes)
+      fmt::print(stderr, "powercell: note: {}\n", io::one_line(fmt::format("{}: {}", file, note)));
+  });
 }
 
 RunReport report_of(Diagram& diagram) {
@@ -37,9 +40,21 @@ RunReport report_of(Diagram& diagram) {
   report.precision = precision_name(diagram.precision());
   report.neighbors = neighbors_name(diagram.neighbors());
   report.timings = diagram.timings();
-  report.build = diagram.device().build_seconds();
   report.notes = diagram.domain().notes();
   return report;
+}
+
+void describe_times(const Progress& progress, RunReport& report) {
+  report.read = progress.seconds(stage::reading);
+  report.open = progress.seconds(stage::opening);
+  report.write = progress.seconds(stage::writing);
+  report.build = progress.build();
+  report.run = progress.run();
+}
+
+std::string building_note(double seconds) {
+  constexpr double noticeable = 0.05;
+  return seconds < noticeable ? "" : fmt::format(", {:.1f} s building kernels", seconds);
 }
 
 nlohmann::json as_json(const RunReport& report) {
@@ -63,9 +78,12 @@ nlohmann::json as_json(const RunReport& report) {
             {"neighbors", t.neighbors},
             {"clip", t.clip},
             {"collect", t.collect},
+            {"certify", t.certify},
             {"read", report.read},
+            {"open", report.open},
             {"build", report.build},
-            {"write", report.write}}},
+            {"write", report.write},
+            {"run", report.run}}},
           {"pairs", t.pair_count},
           {"retried", t.retried},
           {"uncertain", t.uncertain},
@@ -89,8 +107,7 @@ std::string self_check_line(const RunReport& report) {
       defect < 0 ? '-' : '+', std::abs(defect), report.device, report.precision, report.neighbors,
       report.timings.total);
   line += fmt::format(" (and {:.3f} s reading, {:.3f} s writing", report.read, report.write);
-  if (report.build > 0) line += fmt::format(", {:.1f} s building kernels", report.build);
-  return line + ")";
+  return line + building_note(report.build) + ")";
 }
 
 double partition_tolerance(Precision precision) {

@@ -21,6 +21,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+class Progress;
+
+/// ", 10.2 s building kernels" if that took noticeable time, for reports.
+std::string building_note(double seconds);
+
 /// Figures of a run.
 struct RunReport {
   std::size_t seeds = 0, cells = 0, hidden = 0, duplicate = 0;
@@ -28,15 +33,20 @@ struct RunReport {
   double measure = 0, domain_measure = 0, relative_error = 0;
   std::string device, precision, neighbors;
   Timings timings;
-  double read = 0, build = 0, write = 0;  ///< seconds beside `timings.total`
+  /// Seconds beside `timings.total`: of reading, opening the device, compiling kernels and writing, and of
+  /// the whole run, which is their sum but for milliseconds.
+  double read = 0, open = 0, build = 0, write = 0, run = 0;
   std::vector<std::string> files;
   std::string crs, projection;     ///< of the inputs and of the plane; empty if nothing names one
   std::vector<std::string> notes;  ///< how the inputs were read
 };
 
 /// Writes notes about a file to standard error, one a line, unless the options ask for quiet.
-void print_notes(const std::vector<std::string>& notes, const std::string& file,
-                 const CommonOptions& options);
+void print_notes(const std::vector<std::string>& notes, const std::string& file, const CommonOptions& options,
+                 Progress& progress);
+
+/// Enters the seconds of the run. \pre its stages are those of `stage`, and one for computing
+void describe_times(const Progress& progress, RunReport& report);
 
 /// Everything but the seconds of reading and writing and the files. Computes the measures.
 RunReport report_of(Diagram& diagram);

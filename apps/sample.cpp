@@ -13,6 +13,7 @@
 #include "apps/io/write_points.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 #include "apps/sampling/study.hpp"
 
@@ -42,7 +43,7 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
   options.movement = arguments.movement;
   options.capacity_tolerance = arguments.tolerance;
   options.random_seed = arguments.random_seed;
-  options.diagram = library_options(arguments, "cells");
+  options.diagram = library_options(arguments);
   if (arguments.source.paper != 0) {
     options.mode = SamplingMode::quantise;
     if (options.descent == SamplingDescent::automatic) options.descent = SamplingDescent::lloyd;
@@ -55,7 +56,7 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
 void write_cells(const SampleArguments& arguments, const Device& device, const Source& source,
                  const SamplingResult& points) {
   if (arguments.cells.empty()) return;
-  Diagram diagram(device, source.domain, library_options(arguments, "cells"));
+  Diagram diagram(device, source.domain, library_options(arguments));
   const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
@@ -84,17 +85,22 @@ std::vector<std::string> write_files(const SampleArguments& arguments, const Dev
 }
 
 void print(const SampleArguments& arguments, const Source& source, const Study& study,
-           const std::vector<std::string>& written) {
+           const std::vector<std::string>& written, const Progress& progress) {
   if (arguments.json) {
     nlohmann::json json = as_json(study, false);
     json["points"] = study.runs.front().points.weights.size();
     json["files"] = written;
+    json["seconds"] = {
+        {"read", progress.seconds(stage::reading)},   {"open", progress.seconds(stage::opening)},
+        {"sample", progress.seconds(sampling_stage)}, {"build", progress.build()},
+        {"write", progress.seconds(stage::writing)},  {"run", progress.run()}};
     fmt::print("{}\n", json_text(json));
   } else if (!arguments.quiet) {
     fmt::print("{}\n", source.description);
     for (const std::string& path : written) fmt::print("wrote {}\n", path);
     for (const Run& run : study.runs) fmt::print("{}\n", line_of(run));
     if (study.runs.size() > 1 || study.spectrum) fmt::print("{}\n", summary_of(study));
+    fmt::print("{:.2f} s in all{}\n", progress.run(), building_note(progress.build()));
   }
 }
 
@@ -135,15 +141,22 @@ int run(const SampleArguments& arguments) {
   std::vector<std::string> files = arguments.outputs;
   files.insert(files.end(), arguments.cells.begin(), arguments.cells.end());
   check_writable(std::move(files), {arguments.analysis}, arguments.json);
+  Progress progress({{stage::reading, 2}, {stage::opening, 2}, {sampling_stage, 90}, {stage::writing, 6}},
+                    arguments.silent());
   const Source source = read_source(arguments.source);
-  print_notes(source.domain.notes(), arguments.source.domain, arguments);
+  print_notes(source.domain.notes(), arguments.source.domain, arguments, progress);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
   for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());
+  progress.begin(stage::opening);
   const Device device = open_device(arguments);
+  progress.begin(sampling_stage);
   const SamplingOptions options = sampling_options(arguments, source);
   const Study study =
-      run_study(device, source, arguments.count, options, arguments.runs, wants_spectra(arguments));
-  print(arguments, source, study, write_files(arguments, device, source, study));
+      run_study(device, source, arguments.count, options, arguments.runs, wants_spectra(arguments), progress);
+  progress.begin(stage::writing);
+  const std::vector<std::string> written = write_files(arguments, device, source, study);
+  progress.finish();
+  print(arguments, source, study, written, progress);
   for (const Run& one : study.runs)
     if (!one.points.converged)
       throw Error(

@@ -37,28 +37,25 @@ const std::map<std::string, LinearSolver> solvers = {{"auto", LinearSolver::auto
                                                      {"direct", LinearSolver::direct},
                                                      {"multilevel", LinearSolver::multilevel}};
 
-/// Progress from the first error to the tolerance, on a logarithmic scale.
-double fraction_done(const TransportStep& step, double first_error, double tolerance) {
-  if (!(step.error > tolerance)) return 1;
-  return std::clamp(std::log(first_error / step.error) / std::log(first_error / tolerance), 0.0, 1.0);
-}
+constexpr const char* solving = "solving";
 
-TransportOptions solver_options(const TransportArguments& arguments, const Domain& domain) {
+TransportOptions solver_options(const TransportArguments& arguments, const Domain& domain,
+                                Progress& progress) {
   TransportOptions options;
   options.density = read_density(arguments.density, domain);
   options.tolerance = arguments.tolerance;
   options.max_steps = arguments.most_steps;
   options.linear = solvers.at(arguments.linear);
   options.rescale = arguments.rescale;
-  options.diagram = library_options(arguments, "cells");
-  options.diagram.progress = [](double) { return !interrupted(); };
-  auto bar = std::make_shared<ProgressBar>("transport", arguments.quiet || arguments.json);
+  options.diagram = library_options(arguments);
   const double tolerance = arguments.tolerance > 0 ? arguments.tolerance : 1e-6;
-  options.progress = [bar, tolerance, first = 0.0](const TransportStep& step) mutable {
+  options.progress = [&progress, tolerance, first = 0.0,
+                      approach = Approach()](const TransportStep& step) mutable {
     first = std::max(first, step.error);
+    progress.note(fmt::format("step {}, masses to {:.0e}", step.step, step.error));
     // Steps with a blended density do not show how much is left.
-    if (step.spread == 0) bar->update(fraction_done(step, first, tolerance));
-    return !interrupted();
+    const double share = step.spread == 0 ? logarithmic_share(step.error, first, tolerance) : 0;
+    return progress.at(approach.step(share));
   };
   return options;
 }
@@ -120,8 +117,10 @@ nlohmann::json as_json(const TransportReport& report, const TransportResult& res
             {"diagrams", diagrams},
             {"linear", linear},
             {"read", run.read},
+            {"open", run.open},
             {"build", run.build},
-            {"write", run.write}}},
+            {"write", run.write},
+            {"run", run.run}}},
           {"crs", run.crs},
           {"projection", run.projection},
           {"notes", run.notes},
@@ -142,9 +141,9 @@ std::string result_line(const TransportReport& report, const TransportResult& re
   if (report.run.hidden > 0) line += fmt::format(", {} hidden", with_commas(report.run.hidden));
   return line + fmt::format(
                     "; W2^2 = {:.12g} (dual {:.12g}); {}, {}, {}; {:.3f} s (and {:.3f} s reading, "
-                    "{:.3f} s writing)",
+                    "{:.3f} s writing{})",
                     result.primal, result.dual, report.run.device, report.run.precision, report.run.neighbors,
-                    report.solve, report.run.read, report.run.write);
+                    report.solve, report.run.read, report.run.write, building_note(report.run.build));
 }
 
 [[noreturn]] void refuse_unconverged(const TransportResult& result, const RunReport& report) {
@@ -177,9 +176,10 @@ std::string result_line(const TransportReport& report, const TransportResult& re
 
 int run(const TransportArguments& arguments) {
   check_writable(arguments.outputs, {arguments.table, arguments.walls, arguments.log}, arguments.json);
-  Stopwatch watch;
+  Progress progress({{stage::reading, 3}, {stage::opening, 2}, {solving, 85}, {stage::writing, 10}},
+                    arguments.silent());
   const Inputs inputs = read_inputs(arguments);
-  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments);
+  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
   const io::SeedTable& table = inputs.seeds;
   for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
@@ -188,25 +188,25 @@ int run(const TransportArguments& arguments) {
     masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());
   else if (!arguments.mass_column.empty())
     masses = io::masses_of_table(table, arguments.mass_column, arguments.seeds);
-  const TransportOptions options = solver_options(arguments, domain);
+  const TransportOptions options = solver_options(arguments, domain, progress);
   TransportReport report;
-  const double read = watch.lap();
 
-  TransportSolver solver(open_device(arguments), domain, options);
+  progress.begin(stage::opening);
+  const Device device = open_device(arguments);
+  progress.begin(solving);
+  TransportSolver solver(device, domain, options);
   solver.set_seeds(table.view());
   solver.set_masses(masses);
-  watch.lap();
   compute([&] { solver.solve(); });
-  report.solve = watch.lap();
   const TransportResult& result = solver.result();
   report.run = report_of(solver.diagram());
-  report.run.read = read;
   describe_inputs(inputs, report.run);
   require_partition(report.run);
-  watch.lap();
+  progress.begin(stage::writing);
   write_files(arguments, solver, inputs, report.run);
-  report.run.write = watch.lap();
-  report.run.build = solver.diagram().device().build_seconds();
+  progress.finish();
+  report.solve = progress.seconds(solving);
+  describe_times(progress, report.run);
 
   if (arguments.json) {
     fmt::print("{}\n", json_text(as_json(report, result)));

@@ -29,9 +29,7 @@ struct TreemapArguments : CommonOptions {
   bool no_labels = false;
 };
 
-struct Seconds {
-  double read = 0, layout = 0, write = 0;
-};
+constexpr const char* laying_out = "laying out";
 
 std::vector<std::string> dropped_ids(const io::NamedTree& tree, const Treemap& map) {
   std::vector<std::string> ids;
@@ -42,7 +40,7 @@ std::vector<std::string> dropped_ids(const io::NamedTree& tree, const Treemap& m
 
 /// \param hue  output: the numbers that choose the hues of the branches
 Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, const Ring& outline,
-                std::vector<std::int64_t>& hue) {
+                std::vector<std::int64_t>& hue, Progress& progress) {
   TreemapOptions options;
   options.tolerance = arguments.tolerance;
   options.rounds = arguments.rounds;
@@ -60,13 +58,13 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
   std::vector<std::size_t> children(tree.size());
   for (const std::int64_t parent : tree.parent)
     if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
-  if (*std::max_element(children.begin(), children.end()) > options.large_group)
+  if (*std::max_element(children.begin(), children.end()) > options.large_group) {
+    progress.begin(stage::opening);
     options.device = open_device(arguments);
-  ProgressBar bar("nodes", arguments.quiet || arguments.json);
-  options.progress = [&bar](double fraction) {
-    bar.update(fraction);
-    return !interrupted();
-  };
+  }
+  progress.begin(laying_out);
+  progress.count(static_cast<double>(tree.size()), "nodes");
+  options.progress = progress.callback();
   Treemap map;
   compute([&] { map = treemap({tree.parent, tree.value}, outline, options); });
   hue = io::number_branches(map, hue);
@@ -74,29 +72,34 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
 }
 
 void print_json(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
-                const Seconds& seconds) {
+                const Progress& progress) {
   std::vector<std::string> unsolved;
   for (const std::size_t i : map.not_converged) unsolved.push_back(tree.id[i]);
-  const nlohmann::json report = {
-      {"nodes", tree.size()},
-      {"leaves", map.leaves},
-      {"levels", *std::max_element(map.depth.begin(), map.depth.end()) + 1},
-      {"dropped", dropped_ids(tree, map)},
-      {"worst_leaf_error", map.worst_error},
-      {"worst_leaf", tree.id[map.worst_leaf]},
-      {"mean_aspect", map.mean_aspect},
-      {"not_converged", unsolved},
-      {"diagrams", map.diagrams},
-      {"newton_steps", map.newton_steps},
-      {"notes", tree.notes},
-      {"version", version()},
-      {"files", files},
-      {"seconds", {{"read", seconds.read}, {"layout", seconds.layout}, {"write", seconds.write}}}};
+  const nlohmann::json report = {{"nodes", tree.size()},
+                                 {"leaves", map.leaves},
+                                 {"levels", *std::max_element(map.depth.begin(), map.depth.end()) + 1},
+                                 {"dropped", dropped_ids(tree, map)},
+                                 {"worst_leaf_error", map.worst_error},
+                                 {"worst_leaf", tree.id[map.worst_leaf]},
+                                 {"mean_aspect", map.mean_aspect},
+                                 {"not_converged", unsolved},
+                                 {"diagrams", map.diagrams},
+                                 {"newton_steps", map.newton_steps},
+                                 {"notes", tree.notes},
+                                 {"version", version()},
+                                 {"files", files},
+                                 {"seconds",
+                                  {{"read", progress.seconds(stage::reading)},
+                                   {"open", progress.seconds(stage::opening)},
+                                   {"layout", progress.seconds(laying_out)},
+                                   {"build", progress.build()},
+                                   {"write", progress.seconds(stage::writing)},
+                                   {"run", progress.run()}}}};
   fmt::print("{}\n", json_text(report));
 }
 
 void print(const io::NamedTree& tree, const Treemap& map, const std::vector<std::string>& files,
-           const Seconds& seconds) {
+           const Progress& progress) {
   for (const std::string& note : tree.notes) fmt::print("{}\n", note);
   const std::vector<std::string> dropped = dropped_ids(tree, map);
   if (!dropped.empty()) {
@@ -107,30 +110,30 @@ void print(const io::NamedTree& tree, const Treemap& map, const std::vector<std:
                dropped.size() > 5 ? ", ..." : "");
   }
   for (const std::string& path : files) fmt::print("wrote {}\n", path);
-  fmt::print("{} nodes, {} leaves; worst area off by {:.2g} % ('{}'), mean aspect {:.3f}; {:.2f} s\n",
+  fmt::print("{} nodes, {} leaves; worst area off by {:.2g} % ('{}'), mean aspect {:.3f}; {:.2f} s{}\n",
              with_commas(tree.size() - dropped.size()), with_commas(map.leaves), 100 * map.worst_error,
-             tree.id[map.worst_leaf], map.mean_aspect, seconds.layout);
+             tree.id[map.worst_leaf], map.mean_aspect, progress.seconds(laying_out),
+             building_note(progress.build()));
 }
 
 int run(const TreemapArguments& arguments) {
   check_writable(arguments.outputs, {}, arguments.json);
-  Stopwatch watch;
-  Seconds seconds;
+  Progress progress({{stage::reading, 3}, {stage::opening, 2}, {laying_out, 85}, {stage::writing, 10}},
+                    arguments.silent());
   std::vector<std::string> notes;
   const Ring outline = treemap_shape(arguments.shape, notes);
   io::NamedTree tree = io::read_tree(arguments.tree);
   tree.notes.insert(tree.notes.end(), notes.begin(), notes.end());
-  seconds.read = watch.lap();
   std::vector<std::int64_t> hue;
-  const Treemap map = lay_out(arguments, tree, outline, hue);
-  seconds.layout = watch.lap();
+  const Treemap map = lay_out(arguments, tree, outline, hue, progress);
+  progress.begin(stage::writing);
   for (const std::string& path : arguments.outputs)
     io::write_treemap(path, {tree, map, hue}, {arguments.size, !arguments.no_labels});
-  seconds.write = watch.lap();
+  progress.finish();
   if (arguments.json)
-    print_json(tree, map, arguments.outputs, seconds);
+    print_json(tree, map, arguments.outputs, progress);
   else if (!arguments.quiet)
-    print(tree, map, arguments.outputs, seconds);
+    print(tree, map, arguments.outputs, progress);
   if (!map.not_converged.empty())
     throw Error(
         ErrorCode::not_converged,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 
 #include "apps/common.hpp"
@@ -13,6 +14,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/number_checks.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 #include "apps/saved.hpp"
 
@@ -24,6 +26,11 @@ struct VerifyArguments : CommonOptions, InputArguments {
   std::size_t count = 2000;
   std::size_t samples = 1000;
   std::uint64_t random_seed = 1;
+};
+
+// Fractions of the stage.
+struct Span {
+  double from, to;
 };
 
 // The laws of one diagram under a title such as "sphere, equal weights".
@@ -70,20 +77,28 @@ void print(const Checked& checked, bool quiet) {
   }
 }
 
-// Checks one diagram and prints the laws.
+constexpr const char* checking = "checking";
+
+// Checks one diagram, in the current part of the stage, and prints the laws.
 Checked check(const VerifyArguments& arguments, const Device& device, const Domain& domain,
-              const SeedsView& seeds, std::string title) {
+              const SeedsView& seeds, std::string title, Span part, Progress& progress) {
   Checked checked{std::move(title), {}};
   compute([&] {
-    Diagram diagram(device, domain, library_options(arguments, "cells"));
+    const double computed = 0.5 * (part.from + part.to);
+    progress.part(part.from, computed);
+    Diagram diagram(device, domain, library_options(arguments, progress));
     diagram.set_seeds(seeds);
-    checked.laws = verify(diagram, seeds, {arguments.samples, arguments.random_seed});
+    diagram.compute(true, true);
+    progress.part(computed, part.to);
+    checked.laws = verify(diagram, seeds, {arguments.samples, arguments.random_seed, progress.callback()});
   });
-  print(checked, arguments.quiet || arguments.json);
+  progress.aside([&] { print(checked, arguments.silent()); });
   return checked;
 }
 
-std::vector<Checked> check_device(const VerifyArguments& arguments, const Device& device) {
+std::vector<Checked> check_device(const VerifyArguments& arguments, const Device& device,
+                                  Progress& progress) {
+  constexpr double diagrams = 9;
   std::vector<Checked> all;
   std::mt19937_64 random(arguments.random_seed);
   for (const char* shape : {"square", "cube", "sphere"}) {
@@ -92,27 +107,32 @@ std::vector<Checked> check_device(const VerifyArguments& arguments, const Device
                                        std::pair{"weights that hide many", 4.0}}) {
       const std::vector<double> positions = random_positions(domain, arguments.count, random);
       const std::vector<double> weights = random_weights(domain, arguments.count, spread, random);
+      const auto done = static_cast<double>(all.size());
       all.push_back(check(arguments, device, domain, {domain.dimension(), positions, weights},
-                          fmt::format("{}, {} random seeds, {}", shape, with_commas(arguments.count), name)));
+                          fmt::format("{}, {} random seeds, {}", shape, with_commas(arguments.count), name),
+                          {done / diagrams, (done + 1) / diagrams}, progress));
     }
   }
   return all;
 }
 
-std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device) {
-  const Inputs inputs = read_inputs(arguments);
-  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments);
-  if (!arguments.quiet && !arguments.json)
-    for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
+std::vector<Checked> check_files(const VerifyArguments& arguments, const Device& device, const Inputs& inputs,
+                                 Progress& progress) {
+  print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
+  if (!arguments.silent())
+    progress.aside([&] {
+      for (const std::string& note : inputs.notes) fmt::print("{}\n", note);
+    });
   return {check(arguments, device, inputs.domain.domain, inputs.seeds.view(),
-                fmt::format("{} with {}", arguments.domain, arguments.seeds))};
+                fmt::format("{} with {}", arguments.domain, arguments.seeds), {0, 1}, progress)};
 }
 
-std::vector<Checked> check_saved_file(const VerifyArguments& arguments) {
+std::vector<Checked> check_saved_file(const VerifyArguments& arguments, Progress& progress) {
   const Precision precision = arguments.precision == "float" ? Precision::float32 : Precision::float64;
-  Checked checked{arguments.file, check_saved(read_saved(arguments.file), precision,
-                                              {arguments.samples, arguments.random_seed})};
-  print(checked, arguments.quiet || arguments.json);
+  const SavedFile saved = read_saved(arguments.file);
+  progress.begin(checking);
+  Checked checked{arguments.file, check_saved(saved, precision, {arguments.samples, arguments.random_seed})};
+  progress.aside([&] { print(checked, arguments.silent()); });
   return {std::move(checked)};
 }
 
@@ -131,15 +151,24 @@ nlohmann::json as_json(const std::vector<Checked>& all) {
   return list;
 }
 
-int conclude(const VerifyArguments& arguments, const std::string& subject, const std::vector<Checked>& all) {
+int conclude(const VerifyArguments& arguments, const std::string& subject, const std::vector<Checked>& all,
+             Progress& progress) {
+  progress.finish();
   const bool good = std::all_of(all.begin(), all.end(), passed);
   if (arguments.json)
-    fmt::print(
-        "{}\n",
-        json_text(
-            {{"subject", subject}, {"passed", good}, {"checks", as_json(all)}, {"version", version()}}));
+    fmt::print("{}\n", json_text({{"subject", subject},
+                                  {"passed", good},
+                                  {"checks", as_json(all)},
+                                  {"version", version()},
+                                  {"seconds",
+                                   {{"read", progress.seconds(stage::reading)},
+                                    {"open", progress.seconds(stage::opening)},
+                                    {"check", progress.seconds(checking)},
+                                    {"build", progress.build()},
+                                    {"run", progress.run()}}}}));
   else if (!arguments.quiet)
-    fmt::print("{}: {}\n", subject, good ? "all laws hold" : "SOME LAWS ARE BROKEN");
+    fmt::print("{}: {}; {:.1f} s{}\n", subject, good ? "all laws hold" : "SOME LAWS ARE BROKEN",
+               progress.seconds(checking), building_note(progress.build()));
   return good ? 0 : 1;
 }
 
@@ -150,11 +179,18 @@ int run(const VerifyArguments& arguments) {
     throw WrongUsage(
         "--domain and --seeds go together: give both, or neither to check "
         "the device");
-  if (!arguments.file.empty()) return conclude(arguments, arguments.file, check_saved_file(arguments));
+  Progress progress({{stage::reading, 3}, {stage::opening, 2}, {checking, 95}}, arguments.silent());
+  if (!arguments.file.empty())
+    return conclude(arguments, arguments.file, check_saved_file(arguments, progress), progress);
+  std::optional<Inputs> inputs;
+  if (!arguments.domain.empty()) inputs = read_inputs(arguments);
+  progress.begin(stage::opening);
   const Device device = open_device(arguments);
+  progress.begin(checking);
   return conclude(
       arguments, device.info().name,
-      arguments.domain.empty() ? check_device(arguments, device) : check_files(arguments, device));
+      inputs ? check_files(arguments, device, *inputs, progress) : check_device(arguments, device, progress),
+      progress);
 }
 
 }  // namespace

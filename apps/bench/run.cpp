@@ -11,6 +11,7 @@
 #include "apps/bench/table.hpp"
 #include "apps/bench/timing.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/progress.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -88,7 +89,10 @@ std::string now() {
 class Bench {
  public:
   Bench(const BenchArguments& arguments, const EarlierRecord* earlier)
-      : arguments_(arguments), earlier_(earlier), domains_(load_domains(arguments)) {
+      : arguments_(arguments),
+        earlier_(earlier),
+        progress_({{"measuring", 1}}, !arguments.talk()),
+        domains_(load_domains(arguments)) {
     record_.revision = POWERCELL_REVISION;
     record_.date = now();
     record_.threads = arguments.threads;
@@ -100,7 +104,9 @@ class Bench {
   BenchRecord run() {
     for (const DeviceInfo& device : record_.devices)
       rows_left_ += precisions_of(arguments_, device).size() * domains_.size();
+    rows_ = rows_left_;
     for (const DeviceInfo& device : record_.devices) run_device(device);
+    progress_.finish();
     record_.seconds = spent();
     return std::move(record_);
   }
@@ -140,13 +146,14 @@ class Bench {
                const DeviceRates& rates, const std::string& fault) {
     const CommonOptions options = on_device(arguments_, device.selector());
     BenchTask task{domain.name, &domain.loaded, [options] { return open_device(options); },
-                   library_options(options, domain.name)};
+                   library_options(options)};
     task.options.precision = precision;
     task.n = seeds_of(device, domain.name, precision);
     task.repeat = arguments_.repeat;
     task.seconds = std::max(1.0, (seconds_in_all() - spent()) / static_cast<double>(rows_left_--));
     task.longest = arguments_.quick ? quick_run : usual_run;
     task.rates = rates;
+    follow(task);
 
     BenchRow row;
     row.domain = domain.name;
@@ -157,6 +164,19 @@ class Bench {
     row.selector = device.selector();
     say(table_line(row));
     record_.rows.push_back(std::move(row));
+  }
+
+  // A row has many diagrams; how much of it is done shows in the time.
+  void follow(BenchTask& task) {
+    const double row = 1 / static_cast<double>(rows_),
+                 done = row * static_cast<double>(rows_ - rows_left_ - 1);
+    progress_.part(done, done + row);
+    progress_.note(task.name + std::string(" in ") + precision_name(task.options.precision));
+    task.options.progress = [this, watch = Stopwatch(), spent = 0.0, in_all = task.seconds](double) mutable {
+      constexpr double most = 0.95;
+      spent += watch.lap();
+      return progress_.at(std::min(most, spent / in_all));
+    };
   }
 
   // From the arguments, else from the earlier record, else 0 to choose by time.
@@ -174,18 +194,21 @@ class Bench {
     return spent_;
   }
 
-  void say(const std::string& text) const {
+  void say(const std::string& text) {
     if (!arguments_.talk()) return;
-    fmt::print("{}\n", text);
-    std::fflush(stdout);
+    progress_.aside([&] {
+      fmt::print("{}\n", text);
+      std::fflush(stdout);
+    });
   }
 
   const BenchArguments& arguments_;
   const EarlierRecord* earlier_;
+  Progress progress_;
   std::vector<NamedDomain> domains_;
   WorkCounts counts_;
   BenchRecord record_;
-  std::size_t rows_left_ = 0;
+  std::size_t rows_ = 0, rows_left_ = 0;
   Stopwatch watch_;
   double spent_ = 0;
 };

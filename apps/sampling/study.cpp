@@ -10,7 +10,7 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/report.hpp"
+#include "apps/sampling/progress.hpp"
 
 namespace powercell::app {
 namespace {
@@ -18,13 +18,14 @@ namespace {
 /// In units of sqrt(n). There is no agreed limit of low frequencies, and the power rises steeply there.
 constexpr std::array<double, 5> cutoffs{0.3, 0.4, 0.44, 0.5, 0.6};
 
+/// Of all threads, without compiling kernels.
 double processor_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime) - kernel_builds().processor_seconds;
 }
 
 /// JSON has no NaN.
@@ -66,20 +67,21 @@ double mean_of(const Study& study, const Value& value) {
 }  // namespace
 
 Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
-                int runs, bool spectra) {
+                int runs, bool spectra, Progress& progress) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Study study;
   std::vector<Spectrum> found;
   for (int k = 0; k < runs; ++k) {
     SamplingOptions own = options;
     own.random_seed += static_cast<std::uint64_t>(k);
+    own.progress = sampling_progress(progress, own, source.domain, n);
+    progress.part(static_cast<double>(k) / runs, (k + 1.0) / runs);
     Run run;
     compute([&] {
-      Stopwatch watch;
-      const double before = processor_seconds();
+      const double before = progress.seconds(sampling_stage), processor_before = processor_seconds();
       run.points = sample(device, source.domain, n, own);
-      run.seconds = watch.lap();
-      run.processor_seconds = processor_seconds() - before;
+      run.seconds = progress.seconds(sampling_stage) - before;
+      run.processor_seconds = processor_seconds() - processor_before;
       run.spacing = n == 1 ? Spacing{nan, nan, nan}
                            : spacing(device, source.domain, run.points.positions, own.periodic,
                                      source.density.is_constant(), own.diagram);

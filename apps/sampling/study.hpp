@@ -11,10 +11,13 @@
 
 namespace powercell::app {
 
+class Progress;
+inline constexpr const char* sampling_stage = "sampling";
+
 struct Run {
   SamplingResult points;
   Spacing spacing;               ///< NaN where no point has a neighbour
-  double seconds = 0;            ///< wall clock
+  double seconds = 0;            ///< wall clock, without compiling kernels, as the next
   double processor_seconds = 0;  ///< of all threads
 };
 
@@ -24,9 +27,10 @@ struct Study {
 };
 
 /// \param runs  their number; random seeds count up from options.random_seed
+/// \param progress  in `sampling_stage`
 /// \param spectra  whether to compute them, which takes n² time
 Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
-                int runs, bool spectra);
+                int runs, bool spectra, Progress& progress);
 
 /// Keys: runs (a list), mean, spectrum (radial frequencies in waves per box; power; anisotropy in decibels;
 /// low_frequency up to half of sqrt(n); low_frequencies up to several fractions of sqrt(n)).

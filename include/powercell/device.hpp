@@ -42,6 +42,14 @@ struct DeviceInfo {
 /// \throw Error opencl if a platform cannot be queried.
 POWERCELL_API std::vector<DeviceInfo> devices();
 
+/// Compilation of kernels in this process, on all devices and in all threads.
+struct KernelBuilds {
+  bool running = false;          ///< whether a kernel is being compiled now
+  double seconds = 0;            ///< wall-clock time spent so far
+  double processor_seconds = 0;  ///< of this process meanwhile
+};
+POWERCELL_API KernelBuilds kernel_builds() noexcept;
+
 /// A device with its context, queue and program cache. Copies share one state; the last one frees it.
 /// Diagrams in different threads may share a device.
 class POWERCELL_API Device {

@@ -50,8 +50,8 @@ struct Options {
   /// on it, bit for bit.
   std::uint64_t chunk_pairs = 0;
 
-  /// Called from time to time with the fraction done in [0, 1]; returning false stops the
-  /// computation with Error interrupted.
+  /// Called from time to time with the fraction done in [0, 1], which never falls within a computation;
+  /// returning false stops the computation with Error interrupted.
   std::function<bool(double)> progress;
 };
 

@@ -37,7 +37,7 @@ struct SamplingStep {
   double hexatic = 0;         ///< Spacing::hexatic; NaN if not needed
   double capacity_error = 0;  ///< max |m_i / (M/n) - 1|
   int newton_steps = 0;       ///< of the transport
-  double seconds = 0;         ///< wall-clock time of this iteration
+  double seconds = 0;         ///< wall-clock time of this iteration, without compiling kernels
 };
 
 struct SamplingOptions {

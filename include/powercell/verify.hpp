@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <powercell/diagram.hpp>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct LawCheck {
 struct VerifyOptions {
   std::size_t samples = 1000;  ///< random points at which all seeds are tried
   std::uint64_t random_seed = 1;
+  /// Called after each law of a Diagram with the fraction done; returning false stops with Error interrupted.
+  std::function<bool(double)> progress = {};
 };
 
 /// A diagram without its domain, as `powercell diagram -o FILE.json` saves it. Nothing is owned.

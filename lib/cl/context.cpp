@@ -74,6 +74,7 @@ Context::Context(cl_command_queue queue) {
   }
   context_ = context;
   queue_ = queue;
+  callers_queue_ = true;
   log_device(info_);
 }
 

@@ -37,6 +37,7 @@ class Context {
 
   cl_context context() const { return context_; }
   cl_command_queue queue() const { return queue_; }
+  bool has_callers_queue() const { return callers_queue_; }
   cl_device_id device() const { return device_; }
   const DeviceInfo& info() const { return info_; }
   double build_seconds() const;
@@ -56,6 +57,7 @@ class Context {
  private:
   cl_context context_ = nullptr;
   cl_command_queue queue_ = nullptr;
+  bool callers_queue_ = false;
   cl_device_id device_ = nullptr;
   DeviceInfo info_;
   double build_seconds_ = 0;

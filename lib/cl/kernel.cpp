@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "lib/cl/build_clock.hpp"
 #include "lib/cl/program.hpp"
 #include "lib/cl/quirks.hpp"
 #include "lib/report/log.hpp"
@@ -77,15 +78,14 @@ double event_seconds(cl_event event, const std::string& what) {
 /// counts the time outside the execution as compilation, not as time of the kernel.
 double compiling_launch(Context& context, const Launch& launch, std::size_t global, std::size_t local) {
   check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
-  const auto start = std::chrono::steady_clock::now();
+  const BuildClock clock;
   cl_event event = nullptr;
   enqueue(launch, global, local, &event);
   const double execution = event_seconds(event, launch.what);
-  const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  context.add_build_seconds(std::max(0.0, all - execution));
+  const double seconds = clock.done(context, execution);
   write_log(LogLevel::detail, [&] {
     return launch.what + ", groups of " + std::to_string(local) + ", for the first time: compiled in " +
-           in_seconds(std::max(0.0, all - execution));
+           in_seconds(seconds);
   });
   return execution;
 }
@@ -164,7 +164,12 @@ void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
   const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
                       "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
-  enqueue(launch, (global + local - 1) / local * local, local, done);
+  global = (global + local - 1) / local * local;
+  // Nothing holds back a queue of the library's own, so the compilation can be waited for, and counted.
+  if (!done && !context_->has_callers_queue() && context_->compiles_at_launch(*program_, name_, local))
+    compiling_launch(*context_, launch, global, local);
+  else
+    enqueue(launch, global, local, done);
 }
 
 void Kernel::require_all_arguments() const {

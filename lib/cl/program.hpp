@@ -63,8 +63,8 @@ class Kernel {
   /// local = 0 lets the class choose: a power of two within the queried limits of device and kernel.
   /// \throw Error internal unless the last argument set is the kernel's last; opencl, out_of_device_memory
   void launch(std::size_t global, std::size_t local = 0, double* seconds = nullptr);
-  /// The same without ever waiting, also where the driver compiles at the first launch: for queues that
-  /// hold back until the caller signals them. \param done  the caller's to release, if not null
+  /// The same without waiting. On a caller's queue, which the caller may hold back, it does not wait where
+  /// the driver compiles at the first launch either. \param done  the caller's to release, if not null
   void submit(std::size_t global, std::size_t local = 0, cl_event* done = nullptr);
 
  private:

@@ -1,10 +1,10 @@
 #include "lib/cl/program_build.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <powercell/version.hpp>
 
+#include "lib/cl/build_clock.hpp"
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program_source.hpp"
 #include "lib/cl/quirks.hpp"
@@ -175,15 +175,14 @@ std::shared_ptr<const Program> Context::program(std::string_view file,
   const std::string key = std::string(file) + '\n' + options;
   std::lock_guard lock(mutex_);
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
-  const auto start = std::chrono::steady_clock::now();
+  const BuildClock clock;
   const ProgramRequest request{"kernels/" + std::string(file), expand_includes(embedded_kernels(), file),
                                options};
   const DiskCache cache(DiskCache::default_folder());
   ProgramOrigin origin{};
   auto program = build_program(*this, request, uses_disk_cache(*this) ? &cache : nullptr, &origin);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const bool compiled = origin == ProgramOrigin::compiled;
-  if (compiled) add_build_seconds(seconds);
+  const double seconds = compiled ? clock.done(*this) : clock.seconds();
   write_log(compiled ? LogLevel::info : LogLevel::detail, [&] {
     return request.name + (compiled ? " built in " : " taken from the cache in ") + in_seconds(seconds) +
            ": " + options;

@@ -56,7 +56,8 @@ class CellWallsBuilder {
 }  // namespace
 
 CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
-                                  std::span<const std::uint32_t> ranks) {
+                                  std::span<const std::uint32_t> ranks,
+                                  const std::function<bool(double)>& progress) {
   std::optional<Clipper> clipper;
   const auto container = static_cast<std::uint32_t>(scene.mesh().region_count() - 1);
   const std::size_t chunk = std::min(chunk_cells, ranks.size());
@@ -69,6 +70,8 @@ CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
         const PieceSet& pieces =
             clipper->clip(ranks.subspan(begin, end - begin), std::span(regions).first(end - begin));
         for (std::size_t k = 0; begin + k < end; ++k) cells.add(ranks[begin + k], pieces, k);
+        if (progress && !progress(static_cast<double>(end) / static_cast<double>(ranks.size())))
+          throw Error(ErrorCode::interrupted, "stopped by the progress callback while clipping cells");
       },
       [&] { clipper.reset(); });
   cells.fill_up_to(scene.seeds.size());

@@ -128,6 +128,7 @@ void Pass::clip_all(Timings& timings) {
                      std::move(memory));
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
+  const std::function<bool(double)>& progress = setup_.options.progress;
   const double list_seconds_before = candidates.host_seconds();
   ClipStatistics done, before;  // of discarded clippers; at the beginning of a chunk
   const Stopwatch watch(setup_.device);
@@ -138,7 +139,6 @@ void Pass::clip_all(Timings& timings) {
         clip_chunk(begin, end);
         write_log(LogLevel::detail,
                   [&] { return std::to_string(end) + " of " + std::to_string(total) + " pairs clipped"; });
-        const auto& progress = setup_.options.progress;
         if (progress && !progress(static_cast<double>(end) / static_cast<double>(total)))
           throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
       },

@@ -18,6 +18,9 @@ namespace {
 /// With more pieces per cell it is faster to clip unrestricted cells first (docs/performance.md).
 constexpr std::size_t pieces_that_pay = 3;
 
+/// Shares of a pass, as measured for volumes: the search at the boundary, unrestricted cells, and the pairs.
+constexpr double boundary_done = 0.05, cells_done = 0.2, pairs_done = 0.3;
+
 /// Lists from FLANN, or null if the tree is to be searched.
 std::unique_ptr<Candidates> make_lists([[maybe_unused]] const Setup& setup,
                                        [[maybe_unused]] const Scene& scene) {
@@ -34,18 +37,21 @@ Plan plan_by_cells(const Setup& setup, const Active& active, Timings& timings) {
   const Scene scene = active.scene();
   Plan plan;
   plan.unrestricted = true;
+  setup.progress->begin_part(0, boundary_done);
   const Stopwatch boundary_watch(setup.device);
   const BoundaryRanks boundary =
       setup.pairs.at_boundary(active.seeds(), active.tree(), active.by_region, setup.options.progress);
   timings.pairs = boundary_watch.seconds();
 
+  setup.progress->begin_part(boundary_done, cells_done);
   const Stopwatch cell_watch(setup.device);
   std::unique_ptr<Candidates> lists = make_lists(setup, scene);
   std::optional<TreeCandidates> tree;
   if (!lists) tree.emplace(scene);
-  plan.walls = clip_unrestricted_cells(scene, lists ? *lists : *tree, boundary.ranks);
+  plan.walls = clip_unrestricted_cells(scene, lists ? *lists : *tree, boundary.ranks, setup.options.progress);
   timings.neighbors = cell_watch.seconds();
 
+  setup.progress->begin_part(cells_done, pairs_done);
   const Stopwatch pair_watch(setup.device);
   const bool planes = tree && !setup.float32() && active.seeds().size() < BORDER_PLANE;
   plan.pairs = setup.pairs.by_cells(active.seeds(), boundary, plan.walls, planes, setup.options.progress);
@@ -72,7 +78,7 @@ std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scen
     const std::vector<std::uint32_t> ranks = ranks_of(pairs);
     if (pairs.region.size() > pieces_that_pay * ranks.size()) {
       TreeCandidates tree(scene);
-      const CellWalls walls = clip_unrestricted_cells(scene, tree, ranks);
+      const CellWalls walls = clip_unrestricted_cells(scene, tree, ranks, setup.options.progress);
       return std::make_unique<CellCandidates>(std::move(tree), walls, CellPlanes{});
     }
   }
@@ -81,9 +87,11 @@ std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scen
 
 Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings) {
   Plan plan;
+  setup.progress->begin_part(0, cells_done);
   const Stopwatch pair_watch(setup.device);
   plan.pairs = setup.pairs.by_regions(active.seeds(), active.tree(), setup.options.progress);
   timings.pairs = pair_watch.seconds();
+  setup.progress->begin_part(cells_done, pairs_done);
   const Stopwatch neighbor_watch(setup.device);
   plan.candidates = candidates_by_regions(setup, active.scene(), plan.pairs);
   plan.pairs.list_offset = {};  // the device has them now
@@ -98,6 +106,7 @@ Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Timings&
   if (active.seeds().size() == 0) return {};
   Plan plan = kind == PlanKind::integrals && setup.has_inside ? plan_by_cells(setup, active, timings)
                                                               : plan_by_regions(setup, active, timings);
+  setup.progress->begin_part(pairs_done, 1);
   timings.pair_count = plan.pairs.region.size();
   return plan;
 }

@@ -41,12 +41,16 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
     : device(std::move(device_in)),
       domain(std::move(domain_in)),
       options(checked(std::move(options_in))),
+      progress(std::make_shared<StageProgress>(options.progress)),
       precision(choose_precision(device, options.precision)),
       neighbors(choose_neighbors(options.neighbors)),
       threads(thread_count(options.threads)),
       has_inside(powercell::has_inside(domain.mesh())),
       clip_mesh(has_inside ? with_container(domain.mesh()) : RegionMesh{}),
       on_device(device.context(), has_inside ? clip_mesh : domain.mesh(), precision == Precision::float32),
-      pairs(domain.mesh(), threads) {}
+      pairs(domain.mesh(), threads) {
+  if (options.progress)
+    options.progress = [stages = progress](double fraction) { return stages->report(fraction); };
+}
 
 }  // namespace powercell

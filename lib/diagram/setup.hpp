@@ -2,10 +2,12 @@
 /// The constant part of a Diagram. Internal.
 #pragma once
 
+#include <memory>
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/options.hpp>
 
+#include "lib/diagram/stage_progress.hpp"
 #include "lib/pairs/pair_finder.hpp"
 #include "lib/scene/domain_buffers.hpp"
 
@@ -17,7 +19,8 @@ Precision choose_precision(const Device& device, Precision asked);
 struct Setup {
   Device device;
   Domain domain;
-  Options options;
+  Options options;  ///< its `progress` reports through the one below
+  std::shared_ptr<StageProgress> progress;
   Precision precision;  ///< not automatic
   Neighbors neighbors;  ///< not automatic
   int threads;

@@ -97,9 +97,13 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 void Diagram::State::compute_missing(Wanted want) {
   if (want.cells && setup.has_inside) {
     // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
-    if (!results.measures || want.adjacency) pass(PlanKind::integrals, {.adjacency = want.adjacency});
+    const bool both = !results.measures || want.adjacency;
+    setup.progress->begin_pass(0, 0.5);
+    if (both) pass(PlanKind::integrals, {.adjacency = want.adjacency});
+    setup.progress->begin_pass(both ? 0.5 : 0, 1);
     pass(PlanKind::geometry, {.cells = true});
   } else {
+    setup.progress->begin_pass(0, 1);
     pass(PlanKind::integrals, want);
   }
 }
@@ -112,6 +116,7 @@ void Diagram::State::compute(Wanted want) {
   const double built_before = setup.device.build_seconds();
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   const Stopwatch watch(setup.device);
+  setup.progress->begin_computation();
   compute_missing(want);
   if (setup.options.certify) certify();
   timings.build = setup.device.build_seconds() - built_before;

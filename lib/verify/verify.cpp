@@ -34,14 +34,21 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   const Cells& cells = diagram.cells();
   const Measures& measures = diagram.measures();
 
-  std::vector<LawCheck> checks{check_partition(measures, cells, &domain.mesh(), rounding),
-                               check_statuses(measures, cells, seeds),
-                               check_walls(diagram.adjacency(), &domain.mesh(), rounding)};
-  for (LawCheck& check : check_pieces(measures, cells, rounding)) checks.push_back(std::move(check));
-  checks.push_back(check_bisectors(cells, rounding));
+  std::vector<LawCheck> checks;
+  const auto add = [&](LawCheck check) {
+    constexpr double most_laws = 7;
+    checks.push_back(std::move(check));
+    if (options.progress && !options.progress(static_cast<double>(checks.size()) / most_laws))
+      throw Error(ErrorCode::interrupted, "stopped by the progress callback while checking laws");
+  };
+  add(check_partition(measures, cells, &domain.mesh(), rounding));
+  add(check_statuses(measures, cells, seeds));
+  add(check_walls(diagram.adjacency(), &domain.mesh(), rounding));
+  for (LawCheck& check : check_pieces(measures, cells, rounding)) add(std::move(check));
+  add(check_bisectors(cells, rounding));
   const std::size_t samples = seeds.size() > 0 ? options.samples : 0;
-  checks.push_back(check_owners(random_points(domain.mesh(), samples, options.random_seed), domain.mesh(),
-                                cells, rounding));
+  add(check_owners(random_points(domain.mesh(), samples, options.random_seed), domain.mesh(), cells,
+                   rounding));
   return checks;
 }
 

@@ -119,8 +119,13 @@ TEST_CASE("one context builds a program once, whoever asks") {
   CHECK(programs[0] != context->program("base/self_test.cl", {"SELF_TEST_DOUBLE=0"}));
   const double before = device.build_seconds();
   CHECK(before > 0);
+  const KernelBuilds builds = kernel_builds();
+  CHECK(builds.seconds >= before);  // of all devices
+  CHECK(builds.processor_seconds > 0);
+  CHECK_FALSE(builds.running);
   context->program("base/self_test.cl", {"SELF_TEST_DOUBLE=0", "T=1"});
   CHECK(device.build_seconds() == before);
+  CHECK(kernel_builds().seconds == builds.seconds);
   CHECK_THROWS_AS(context->program("base/nowhere.cl", {}), Error);
 }
 

@@ -1,6 +1,7 @@
 // The state that a diagram keeps between calls must not affect its results.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -143,5 +144,28 @@ TEST_CASE("an interrupted diagram can be computed later") {
     go_on = true;
     check_same(diagram, fresh);
     CHECK(last > 0);
+  });
+}
+
+TEST_CASE("the progress of a computation never falls, whatever its passes, and ends at 1") {
+  for_each_domain_and_setup([](const Domain& domain, const Setup& setup, const SeedArray& seeds, Random&) {
+    std::vector<double> reports;
+    Options options = setup.options;
+    options.chunk_pairs = 1024;
+    options.progress = [&](double fraction) {
+      reports.push_back(fraction);
+      return true;
+    };
+    Diagram diagram(setup.device, domain, options);
+    diagram.set_seeds(seeds.view());
+    diagram.compute(true, true);
+    REQUIRE_FALSE(reports.empty());
+    CHECK(std::is_sorted(reports.begin(), reports.end()));
+    CHECK(reports.back() == 1);
+    reports.clear();
+    diagram.set_weights(seeds.weights);  // begins again
+    diagram.measures();
+    CHECK(std::is_sorted(reports.begin(), reports.end()));
+    CHECK(reports.back() == 1);
   });
 }

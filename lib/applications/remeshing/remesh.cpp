@@ -1,6 +1,5 @@
 // remesh(): from the input mesh to the new one.
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <powercell/error.hpp>
 #include <powercell/remeshing.hpp>
@@ -16,6 +15,7 @@
 #include "lib/applications/remeshing/repair_steps.hpp"
 #include "lib/applications/remeshing/work_mesh.hpp"
 #include "lib/base/text.hpp"
+#include "lib/base/work_clock.hpp"
 
 namespace powercell {
 namespace {
@@ -49,18 +49,6 @@ void check_thinness(const Surface& input, double spacing, std::size_t count) {
                                              " points: cut to their spacing, its triangles would be about " +
                                              digits(triangles, 2));
 }
-
-class Watch {
- public:
-  /// Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void store(const WorkMesh& mesh, const Frame& frame, RemeshResult& result) {
   std::vector<std::uint32_t> number(mesh.vertex_count(), nothing);
@@ -130,7 +118,7 @@ RemeshResult remesh(std::span<const double> vertices, std::span<const std::uint3
                     const RemeshOptions& options) {
   check(options);
   RemeshResult result;
-  Watch watch;
+  WorkClock watch;
   const Progress all(options.progress);
   all.part(0, 0).at(0);
   RepairedMesh repaired;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -8,11 +7,10 @@
 #include "lib/applications/sampling/even_points.hpp"
 #include "lib/applications/sampling/lbfgs.hpp"
 #include "lib/applications/sampling/state.hpp"
+#include "lib/base/work_clock.hpp"
 
 namespace powercell {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Tolerances of the capacities while points still move; the last solve has the caller's. For Lloyd's method
 // 0.1 costs energy in the end, and less than 0.03 gains nothing while points move far.
@@ -139,9 +137,7 @@ class Sampler {
     }
     step.capacity_error = state_.capacity_error();
     step.newton_steps = static_cast<int>(state_.cells().newton_steps());
-    const Clock::time_point now = Clock::now();
-    step.seconds = std::chrono::duration<double>(now - before_).count();
-    before_ = now;
+    step.seconds = clock_.lap();
     result_.steps.push_back(step);
     if (options_.progress && !options_.progress(step))
       throw Error(ErrorCode::interrupted, "stopped by the progress callback");
@@ -214,7 +210,7 @@ class Sampler {
   double neighbours_ = 0;         // per point on average, after the last iteration of blue in the plane
   bool no_descent_left_ = false;  // the points rest as well as rounding allows
   SamplingResult result_;
-  Clock::time_point before_ = Clock::now();
+  WorkClock clock_;
 };
 
 void check(const SamplingOptions& options) {

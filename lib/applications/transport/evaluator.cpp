@@ -1,9 +1,10 @@
 #include "lib/applications/transport/evaluator.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
+
+#include "lib/base/work_clock.hpp"
 
 namespace powercell {
 namespace {
@@ -169,7 +170,7 @@ void Evaluator::measure(Iterate& at) {
 }
 
 Iterate Evaluator::evaluate(Vector weights) {
-  const auto start = std::chrono::steady_clock::now();
+  WorkClock clock;
   Iterate result;
   weights.array() -= weights.mean();
   result.weights = std::move(weights);
@@ -177,7 +178,7 @@ Iterate Evaluator::evaluate(Vector weights) {
   measure(result);
   for (const double m : result.cells.mass) result.empty += m > 0 ? 0 : 1;
   ++diagrams_;
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  seconds_ += clock.lap();
   return result;
 }
 

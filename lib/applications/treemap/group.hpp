@@ -48,8 +48,9 @@ class GroupSolver {
 };
 
 /// The same by TransportSolver on a device, for any number of siblings.
-/// \param go_on  called after each step; returning false stops with Error interrupted
+/// \param progress  called after each step with the fraction done; returning false stops with Error
+/// interrupted
 GroupLayout lay_out_large(const Group& group, const GroupSettings& settings, const Device& device,
-                          int threads, const std::function<bool()>& go_on);
+                          int threads, const std::function<bool(double)>& progress);
 
 }  // namespace powercell::treemap_detail

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <powercell/transport.hpp>
+#include <utility>
 
 #include "lib/applications/treemap/relax.hpp"
 
@@ -29,11 +30,11 @@ std::vector<double> as_rows(const Columns& columns) {
   return rows;
 }
 
-TransportOptions make_options(int threads, const std::function<bool()>& go_on) {
+TransportOptions make_options(int threads, std::function<bool()> go_on) {
   TransportOptions options;
   options.rescale = true;  // shares sum to 1 up to rounding, as does the area
   options.diagram.threads = threads;
-  options.progress = [go_on](const TransportStep&) { return go_on(); };
+  options.progress = [go_on = std::move(go_on)](const TransportStep&) { return go_on(); };
   return options;
 }
 
@@ -46,6 +47,7 @@ struct DeviceSolver {
   TransportSolver transport;
   std::vector<double> positions;
   Columns centroids;
+  int& solves;  ///< done so far
   std::uint64_t diagrams = 0, newton_steps = 0;
 
   void start(const Columns& seeds) {
@@ -68,6 +70,7 @@ struct DeviceSolver {
     const TransportResult& result = transport.solve();
     diagrams += result.diagrams;
     newton_steps += result.newton_steps();
+    ++solves;
     centroids = as_columns(result.centroid);
     return result.converged;
   }
@@ -81,10 +84,13 @@ struct DeviceSolver {
 }  // namespace
 
 GroupLayout lay_out_large(const Group& group, const GroupSettings& settings, const Device& device,
-                          int threads, const std::function<bool()>& go_on) {
+                          int threads, const std::function<bool(double)>& progress) {
   const Domain domain = as_domain(group.outline);
-  const TransportOptions options = make_options(threads, go_on);
-  DeviceSolver solver{device, domain, group.share, options, TransportSolver(device, domain, options), {}, {}};
+  int solves = 0;  // at most one for each round, and the last
+  const TransportOptions options =
+      make_options(threads, [&] { return progress(static_cast<double>(solves) / (settings.rounds + 1)); });
+  DeviceSolver solver{device, domain, group.share, options, TransportSolver(device, domain, options),
+                      {},     {},     solves};
   GroupLayout layout;
   relax(solver, group, settings, layout);
   layout.diagrams = solver.diagrams;

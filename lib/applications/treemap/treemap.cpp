@@ -56,7 +56,9 @@ class Layout {
     for (const std::uint32_t node : large) {
       if (!device_) device_ = Device::choose();
       const Group group = make_group(node);
-      take(node, lay_out_large(group, settings_, *device_, threads_, [this] { return go_on(); }));
+      const auto children = static_cast<double>(tree_.children(node).size());
+      take(node, lay_out_large(group, settings_, *device_, threads_,
+                               [&](double fraction) { return go_on(fraction * children); }));
     }
     // The largest groups first, so that the threads finish at about the same time.
     std::stable_sort(groups.begin(), groups.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -130,9 +132,10 @@ class Layout {
     if (!go_on()) throw Error(ErrorCode::interrupted, "treemap: interrupted");
   }
 
-  bool go_on() const {
+  /// \param more  nodes done beside `done_`
+  bool go_on(double more = 0) const {
     return !options_.progress ||
-           options_.progress(static_cast<double>(done_) / static_cast<double>(tree_.order.size()));
+           options_.progress((static_cast<double>(done_) + more) / static_cast<double>(tree_.order.size()));
   }
 
   void collect() {
