@@ -12,6 +12,8 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // A cell keeps this part of its mass, or of its target, when another group takes from it.
 constexpr double kept = 0.5;
+// Several groups may each take this part of one cell: they hardly ever take the same.
+constexpr double little = 0.1;
 // Groups times simplices; more take longer than an ascent.
 constexpr std::size_t most_work = 20'000'000;
 
@@ -21,11 +23,11 @@ struct Groups {
   std::vector<std::vector<std::uint32_t>> members;  ///< per group
 };
 
-Groups groups_of(const Iterate& at, const Vector& target) {
+Groups groups_of(const Iterate& at, const Vector& target, double starved) {
   const auto n = static_cast<std::uint32_t>(at.cells.mass.size());
   const Adjacency& walls = at.cells.walls;
   const auto starves = [&](std::uint32_t i) {
-    return at.cells.mass[i] < starved_share * target[static_cast<Eigen::Index>(i)];
+    return at.cells.mass[i] < starved * target[static_cast<Eigen::Index>(i)];
   };
   DisjointSets sets(n);
   for (std::uint32_t i = 0; i < n; ++i)
@@ -47,8 +49,9 @@ Groups groups_of(const Iterate& at, const Vector& target) {
 class Raising {
  public:
   Raising(SolveContext& context, const Iterate& at, const Vector& target, const Groups& groups,
-          const Cells& cells)
+          const Cells& cells, double starved)
       : target_(target),
+        starved_(starved),
         tolerance_(context.tolerance()),
         positions_(context.evaluator().positions()),
         d_(static_cast<std::size_t>(cells.dimension)),
@@ -121,7 +124,7 @@ class Raising {
     for (std::size_t j = 0; j < mass_.size(); ++j) {
       // A starved cell may be swallowed: it is raised next, against a cell that has something to give.
       const double target = target_[static_cast<Eigen::Index>(j)];
-      if (taken_[j] > 0 && mass_[j] >= starved_share * target &&
+      if (taken_[j] > 0 && mass_[j] >= starved_ * target &&
           mass_[j] - taken_[j] < kept * std::min(mass_[j], target))
         return true;
     }
@@ -161,7 +164,7 @@ class Raising {
     takes_too_much(group, threshold, by);
     // What earlier groups took from a cell is not known in detail: another one might take the same again.
     for (std::size_t j = 0; j < mass_.size(); ++j)
-      if (taken_[j] > 0 && touched_[j]) return false;
+      if (taken_[j] > little * mass_[j] && touched_[j]) return false;
     for (std::size_t j = 0; j < mass_.size(); ++j) {
       if (taken_[j] > 0) touched_[j] = true;
       mass_[j] -= taken_[j];
@@ -180,7 +183,7 @@ class Raising {
   }
 
   const Vector& target_;
-  double tolerance_;
+  double starved_, tolerance_;
   std::span<const double> positions_;
   std::size_t d_;
   const Groups& groups_;
@@ -193,14 +196,19 @@ class Raising {
 
 }  // namespace
 
-bool connect(SolveContext& context, Iterate& at, const Vector& target) {
-  const Groups groups = groups_of(at, target);
+bool raise_starved(SolveContext& context, Iterate& at, const Vector& target, double starved) {
+  const Groups groups = groups_of(at, target, starved);
   if (groups.members.size() < 2) return false;
   Evaluator& evaluator = context.evaluator();
   if (evaluator.last_weights() != at.weights) at = evaluator.evaluate(at.weights);
-  Raising raising(context, at, target, groups, evaluator.cells());
+  Raising raising(context, at, target, groups, evaluator.cells(), starved);
   if (groups.members.size() * raising.simplices() > most_work || !raising.raise_all()) return false;
   at = evaluator.evaluate(raising.raised());
+  return true;
+}
+
+bool connect(SolveContext& context, Iterate& at, const Vector& target) {
+  if (!raise_starved(context, at, target, starved_share)) return false;
   TransportStep step;
   step.phase = TransportPhase::ascent;
   context.record(step, at, target);

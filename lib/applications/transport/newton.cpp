@@ -6,15 +6,31 @@
 namespace powercell {
 namespace {
 
-constexpr double shortest = 1.0 / 4096;  // shortest step tried
-constexpr double short_step = 1.0 / 32;  // a step up to this length counts as short
-constexpr int most_short_steps = 8;      // in a row, before another phase is more promising
-constexpr int few_short_steps = 2;       // the same where ramp() has good intermediate targets
+constexpr double shortest = 1.0 / 4096;   // shortest step tried
+constexpr double short_step = 1.0 / 32;   // a step up to this length counts as short
+constexpr int most_short_steps = 8;       // in a row, before another phase is more promising
+constexpr std::size_t most_starved = 20;  // one in so many: a shorter step is cheaper where more are starved
+constexpr int most_rounds = 4;            // of starved cells after one step; each takes a diagram
+constexpr int few_short_steps = 2;        // the same where ramp() has good intermediate targets
 
 /// Whether small masses become better although the rounding of large ones hides that in the gradient.
 bool better_but_for_rounding(const Iterate& at, const Iterate& next, const Vector& target) {
   return next.error(target) <= at.error(target) / 2 &&
          next.gradient(target).norm() <= at.gradient(target).norm() + next.rounding().norm();
+}
+
+/// Gives mass back to cells that a step has left with less than the share `least`. Where masses differ by
+/// orders, small cells vanish in steps that are good for all others. \return whether no cell has less
+bool feed(SolveContext& context, Iterate& next, const Vector& target, double least) {
+  constexpr std::size_t few = 3;
+  if (next.empty > std::max(few, static_cast<std::size_t>(target.size()) / most_starved)) return false;
+  for (int k = 0; k < most_rounds; ++k) {
+    const std::size_t before = next.empty;
+    if (!raise_starved(context, next, target, least)) return false;
+    if (next.empty == 0 && next.least(target) >= least) return true;
+    if (next.empty > before / 2) return false;
+  }
+  return false;
 }
 
 }  // namespace
@@ -46,10 +62,13 @@ PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double
           Vector weights = at.weights + trial * direction.linear.solution;
           if (!context.evaluator().plausible(weights, at.weights)) return false;
           next = context.evaluator().evaluate(std::move(weights));
-          if (next.empty > 0 || next.least(target) < least) return false;
-          const double norm = next.gradient(target).norm();
-          return decreases_enough(norm, gradient.norm(), trial) ||
-                 (context.has_several_parts() && better_but_for_rounding(at, next, target));
+          const auto better = [&] {
+            return decreases_enough(next.gradient(target).norm(), gradient.norm(), trial) ||
+                   (context.has_several_parts() && better_but_for_rounding(at, next, target));
+          };
+          if (!better()) return false;
+          if (next.empty == 0 && next.least(target) >= least) return true;
+          return context.has_several_parts() && feed(context, next, target, least) && better();
         },
         longest);
     if (length == 0) return PhaseEnd::stalled;

@@ -109,9 +109,12 @@ Iterate find_start(SolveContext& context, const Vector& weights);
 /// For a domain of several parts and a constant density: tries weights (31d), which share the seeds among the
 /// parts, unless hardly any mass is misplaced. Replaces `best` if the dual is larger for them.
 void try_on_parts(SolveContext& context, Iterate& best);
-/// Raises the weights of groups of cells that lack mass, where walls connect no cell of the group to others
-/// and of empty cells, until they touch cells of other groups: Newton's method can then pass mass to them.
-/// \return false if there is one group, or none could be raised
+/// Raises the weights of groups of cells that lack mass, where walls connect no cell of the group to others,
+/// and of cells with less than the share `starved` of their mass, until these take what they need from
+/// others, or half of a cell: Newton's method can then pass mass to them. \return false if there is one
+/// group, or none could be raised
+bool raise_starved(SolveContext& context, Iterate& at, const Vector& target, double starved);
+/// raise_starved() as a step of its own, for cells with hardly any mass.
 bool connect(SolveContext& context, Iterate& at, const Vector& target);
 /// Damped Newton towards a target of its own, (27)-(29).
 PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double tolerance,

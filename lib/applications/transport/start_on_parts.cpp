@@ -21,7 +21,7 @@ constexpr int sweeps = 4;  // at each temperature
 constexpr double cooling = 2;
 constexpr int most_coolings = 60;  // of a level: seeds at nearly one position stay shared
 // Mean entropy of the shares of the seeds in a point at which a level ends.
-constexpr double resolved_clusters = 0.7, resolved_seeds = 0.7;
+constexpr double resolved_clusters = 0.7, resolved_seeds = 0.4;
 
 /// Mean and standard deviation.
 struct Spread {
