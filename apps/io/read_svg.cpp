@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <pugixml.hpp>
 
 #include "apps/io/read_file.hpp"
@@ -21,6 +22,8 @@ struct Shape {
   bool even_odd;
 };
 
+constexpr std::size_t most_copies = 1'000'000;  // elements drawn by <use>, which may double at each level
+
 class SvgReader {
  public:
   SvgReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -28,8 +31,10 @@ class SvgReader {
 
  private:
   void read_style_sheets(const pugi::xml_document& document);
+  void find_named(const pugi::xml_document& document);
   void element(const pugi::xml_node& node, const SvgTransform& outer, bool even_odd, int depth);
   void children(const pugi::xml_node& node, const SvgTransform& here, bool even_odd, int depth);
+  void copy(const pugi::xml_node& use, const SvgTransform& here, bool even_odd, int depth);
   bool is_drawn(const pugi::xml_node& node) const;
   void refuse_unread(const pugi::xml_node& node, const SvgProperties& css) const;
   SvgTransform transform_of(const pugi::xml_node& node, const SvgProperties& css) const;
@@ -47,6 +52,8 @@ class SvgReader {
   std::string name_;
   std::string namespace_;  // of the outermost element
   SvgStyle style_;
+  std::map<std::string, pugi::xml_node, std::less<>> named_;  // elements by their ids, the first of each
+  std::size_t copies_ = 0;
   std::vector<Shape> shapes_;
 };
 
@@ -133,7 +140,6 @@ std::vector<SvgOutline> SvgReader::outlines(const pugi::xml_node& node, std::str
     add_svg_arc(outline, rx, ry, 0, false, true, {cx + rx, cy});
     return {outline};
   }
-  if (tag == "use") fail(node, "is not read; replace it by the shape");
   return {};
 }
 
@@ -156,6 +162,19 @@ void SvgReader::read_style_sheets(const pugi::xml_document& document) {
       } catch (const SvgError& error) {
         reader.fail(node, error.what());
       }
+      return true;
+    }
+    SvgReader& reader;
+  } collector(*this);
+  pugi::xml_node whole = document;
+  whole.traverse(collector);
+}
+
+void SvgReader::find_named(const pugi::xml_document& document) {
+  struct Collector : pugi::xml_tree_walker {
+    explicit Collector(SvgReader& to) : reader(to) {}
+    bool for_each(pugi::xml_node& node) override {
+      if (const pugi::xml_attribute id = node.attribute("id")) reader.named_.try_emplace(id.value(), node);
       return true;
     }
     SvgReader& reader;
@@ -192,7 +211,7 @@ void SvgReader::refuse_unread(const pugi::xml_node& node, const SvgProperties& c
   if (node.attribute("transform") && is_set(property(node, css, "transform-origin")))
     fail(node, "transform-origin is not read; write the transform with the origin 0 0");
   const std::string_view tag = svg_local_name(node);
-  if (tag != "path" && tag != "rect" && tag != "circle" && tag != "ellipse") return;
+  if (tag != "path" && tag != "rect" && tag != "circle" && tag != "ellipse" && tag != "use") return;
   for (const char* place : {"d", "x", "y", "cx", "cy", "r", "rx", "ry", "width", "height"}) {
     if (css.contains(place))
       fail(node, fmt::format("{} in CSS is not read; write it as an attribute", place));
@@ -216,6 +235,33 @@ void SvgReader::children(const pugi::xml_node& node, const SvgTransform& here, b
   }
 }
 
+// The attribute `href` of SVG 2, or that of XLink under whatever prefix.
+std::string_view reference_of(const pugi::xml_node& node) {
+  if (const pugi::xml_attribute plain = node.attribute("href")) return trimmed(plain.value());
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    if (std::string_view(attribute.name()).ends_with(":href")) return trimmed(attribute.value());
+  }
+  return {};
+}
+
+// Draws the element that <use> names, moved by its x and y.
+void SvgReader::copy(const pugi::xml_node& use, const SvgTransform& here, bool even_odd, int depth) {
+  const std::string_view reference = reference_of(use);
+  if (!reference.starts_with('#'))
+    fail(use, reference.empty() ? "names no element" : "only elements of the same file can be used");
+  const auto found = named_.find(reference.substr(1));
+  if (found == named_.end()) fail(use, fmt::format("no element has the id '{}'", reference.substr(1, 40)));
+  if (++copies_ > most_copies)
+    fail(use, fmt::format("draws more than {} elements, with those drawn by others", most_copies));
+  const pugi::xml_node target = found->second;
+  const SvgTransform moved = here * SvgTransform{1, 0, 0, 1, length(use, "x"), length(use, "y")};
+  if (svg_local_name(target) != "symbol") return element(target, moved, even_odd, depth + 1);
+  if (target.attribute("viewBox"))
+    fail(target, "a symbol with a viewBox is not read; remove it, and scale with the attribute transform");
+  refuse_unread(target, style_.of(target));
+  children(target, moved, even_odd, depth + 1);
+}
+
 void SvgReader::element(const pugi::xml_node& node, const SvgTransform& outer, bool even_odd, int depth) {
   if (depth > 256) fail(node, "is nested too deeply");
   if (!is_drawn(node)) return;
@@ -237,7 +283,10 @@ void SvgReader::element(const pugi::xml_node& node, const SvgTransform& outer, b
     Shape shape{outlines(node, tag), even_odd};
     for (SvgOutline& outline : shape.outlines) transform(outline, here);
     if (!shape.outlines.empty()) shapes_.push_back(std::move(shape));
-    children(node, here, even_odd, depth);
+    if (tag == "use")
+      copy(node, here, even_odd, depth);
+    else
+      children(node, here, even_odd, depth);
   } catch (const SvgError& error) {
     fail(node, error.what());
   }
@@ -279,6 +328,7 @@ std::vector<PolygonPart> SvgReader::read() {
   if (svg_local_name(root) != "svg") fail_line(name_, 1, "its outermost element is not <svg>");
   namespace_ = namespace_of(root);
   read_style_sheets(document);
+  find_named(document);
   element(root, SvgTransform{1, 0, 0, -1, 0, 0}, false, 0);  // y up
   if (shapes_.empty()) fail_file(name_, "holds no path, polygon, polyline, rect, circle or ellipse");
 
