@@ -99,6 +99,7 @@ nlohmann::json as_json(const RemeshArguments& arguments, const Outcome& o) {
           {"intersections", o.result.intersections.count},
           {"seconds",
            {{"read", o.read},
+            {"repair", o.repairing},
             {"open", o.open},
             {"remesh", o.remesh},
             {"sample", o.result.seconds_sample},

@@ -40,7 +40,6 @@ RunReport report_of(Diagram& diagram) {
   report.precision = precision_name(diagram.precision());
   report.neighbors = neighbors_name(diagram.neighbors());
   report.timings = diagram.timings();
-  report.notes = diagram.domain().notes();
   return report;
 }
 

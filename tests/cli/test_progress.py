@@ -96,7 +96,8 @@ class ProgressTest(ToolTest):
 
     def check_times(self, command, report, uncompiled):
         seconds = report["seconds"]
-        parts = sum(seconds.get(key, 0) for key in ("read", "open", COMPUTING[command], "repair", "check", "build", "write"))
+        stages = "read", "repair", "open", COMPUTING[command], "check", "build", "write"
+        parts = sum(seconds.get(key, 0) for key in stages)
         if command == "verify":
             parts -= seconds["check"]  # once
         self.assertAlmostEqual(parts, seconds["run"], delta=0.02 + 0.02 * seconds["run"])
