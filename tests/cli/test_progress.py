@@ -100,7 +100,7 @@ class ProgressTest(ToolTest):
         parts = sum(seconds.get(key, 0) for key in stages)
         if command == "verify":
             parts -= seconds["check"]  # once
-        self.assertAlmostEqual(parts, seconds["run"], delta=0.02 + 0.02 * seconds["run"])
+        self.assertAlmostEqual(parts, seconds["run"], delta=0.1 + 0.02 * seconds["run"])
         self.assertTrue(all(value >= 0 for value in seconds.values()), seconds)
         self.assertGreater(seconds["build"], 1 if uncompiled else 0)
         if command == "diagram":
@@ -109,7 +109,7 @@ class ProgressTest(ToolTest):
             self.assertAlmostEqual(inner, seconds["total"], delta=0.02 + 0.05 * seconds["total"])
         if command == "remesh":
             inner = sum(seconds[key] for key in ("sample", "dual", "relax"))
-            self.assertAlmostEqual(inner, seconds["remesh"], delta=0.02)
+            self.assertAlmostEqual(inner, seconds["remesh"], delta=0.1)
         if command == "sample":
             run = report["runs"][0]
             self.assertLess(run["seconds"], seconds["sample"] + 1e-3)
@@ -137,7 +137,7 @@ class ProgressTest(ToolTest):
                 for key in (COMPUTING[command], "write"):
                     if key in cold:
                         self.assertLess(cold[key], 2 * warm[key] + 0.2 + 0.05 * compiled, (key, cold, warm))
-                self.assertLess(cold["open"], warm["open"] + 0.5)
+                self.assertLess(cold["open"], 2 * warm["open"] + 0.5)
 
 
 if __name__ == "__main__":
