@@ -65,6 +65,16 @@ struct SamplingOptions {
   std::function<bool(const SamplingStep&)> progress;
 };
 
+/// Parts of cells that are not connected with the part that has the point: those on the other side of a thin
+/// plate, or across a narrow gap. There the points are fewer than their share.
+struct PartsApart {
+  std::size_t cells = 0;  ///< cells with such parts
+  double share = 0;       ///< of the domain's area or volume in such parts
+  /// Distance of such a part's centroid from the part with the point, the median by area or volume: about the
+  /// thickness of the plate or the width of the gap. 0 if there are no such parts.
+  double distance = 0;
+};
+
 /// The points, in the order of the initial points. Arrays are owned.
 struct SamplingResult {
   /// Both errors are below capacity_tolerance, and the mode's criterion is met: the hexatic order or movement
@@ -80,6 +90,7 @@ struct SamplingResult {
   /// Energy relative to the best lattice with cells of the same measure: hexagonal (5 / (18 sqrt 3)) on
   /// polygons and surfaces, body-centred cubic in volumes. Its minimum tends to 1 for many points.
   double relative_energy = 0;
+  PartsApart apart;  ///< of the cells; nothing is apart in a periodic box
   std::vector<SamplingStep> steps;
 };
 

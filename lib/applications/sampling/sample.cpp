@@ -195,6 +195,7 @@ class Sampler {
     result_.quadrature_error = cells.quadrature_error;
     result_.energy = cells.primal;
     result_.relative_energy = state_.relative_energy();
+    result_.apart = state_.parts_apart();
   }
 
   const Domain& domain_;
