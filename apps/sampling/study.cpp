@@ -53,6 +53,7 @@ nlohmann::json as_json(const Run& run) {
            {{"cells", run.points.apart.cells},
             {"share", run.points.apart.share},
             {"distance", run.points.apart.distance}}},
+          {"layers", run.points.layers},
           {"least_distance", number(run.spacing.least)},
           {"mean_distance", number(run.spacing.mean)},
           {"hexatic", number(run.spacing.hexatic)},

@@ -91,12 +91,19 @@ struct SamplingResult {
   /// polygons and surfaces, body-centred cubic in volumes. Its minimum tends to 1 for many points.
   double relative_energy = 0;
   PartsApart apart;  ///< of the cells; nothing is apart in a periodic box
+  /// The numbers of points on the layers of a surface that were sampled apart (see sample()), else empty.
+  std::vector<std::size_t> layers;
   std::vector<SamplingStep> steps;
 };
 
 /// Capacity-constrained sampling (Balzer et al. 2009; by power diagrams: de Goes et al. 2012, Xiao et al.
 /// 2023). Each iteration finds the weights that give every cell the same mass (TransportSolver), then moves
 /// the points ((35)-(37) of docs/mathematics.md).
+///
+/// Blue noise on a surface whose sides are nearer to each other than 0.7 of the spacing, (measure / n)^(1/2),
+/// on more than 1 % of its mass: the surface is cut into layers without such sides, and the points move as if
+/// the layers were far from each other, so that each has its share of the points. The weights, masses and
+/// energy are those of cells on the surface as it is, which then are apart from their points by some half.
 /// \param n  number of points; they start at random with the density (random_points)
 /// \throw Error invalid_argument (no points; an option out of range), unsupported (a periodic domain that is
 ///   not a box of the plane, or a density that is not constant there), interrupted; as TransportSolver and
@@ -104,7 +111,7 @@ struct SamplingResult {
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                                     const SamplingOptions& options = {});
 
-/// The same, from given initial points.
+/// The same, from given initial points, without layers.
 /// \param positions  n x d, row-major; they may lie outside the domain, but no two at the same position
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain,
                                     std::span<const double> positions, const SamplingOptions& options = {});
