@@ -8,6 +8,7 @@
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/options.hpp>
+#include <powercell/point_sets.hpp>
 #include <span>
 #include <vector>
 
@@ -91,8 +92,10 @@ struct SamplingResult {
   /// polygons and surfaces, body-centred cubic in volumes. Its minimum tends to 1 for many points.
   double relative_energy = 0;
   PartsApart apart;  ///< of the cells; nothing is apart in a periodic box
-  /// The numbers of points on the layers of a surface that were sampled apart (see sample()), else empty.
+  /// The numbers of points on the layers of a surface that were sampled apart (see sample()), else empty. The
+  /// energies and gradients of `steps` are then those on the layers.
   std::vector<std::size_t> layers;
+  Spacing layer_spacing;  ///< of each point among those of its layer; zeros without layers
   std::vector<SamplingStep> steps;
 };
 

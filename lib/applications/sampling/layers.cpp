@@ -22,7 +22,8 @@ constexpr double near = 0.7;
 constexpr double least_radius = 0.5, largest_radius = 4;
 constexpr double negligible = 0.01;         // of the mass
 constexpr std::size_t first_probes = 2048;  // to see whether sides are near to each other at all
-constexpr std::size_t probes_a_point = 16;  // any place is in the balls of some 25
+// Any place is in the balls of some twenty. Fewer do where triangles are larger than balls.
+constexpr std::size_t probes_a_point = 12, most_probes = 4'000'000;
 // Layers grow around an edge of 90° after the regions within this many spacings.
 constexpr double edge_cost = 10;
 // Fewer points on a layer are not spread over it.
@@ -211,7 +212,8 @@ Layers find_layers(const Domain& surface, const Density& density, std::size_t n,
   };
   Probes probes = probe_with(first_probes);
   if (!(probes.share > negligible)) return {};
-  if (probes_a_point * n > first_probes) probes = probe_with(probes_a_point * n);
+  const std::size_t count = std::min(probes_a_point * std::min(n, surface.region_count()), most_probes);
+  if (count > first_probes) probes = probe_with(count);
   if (probes.found.empty()) return {};
   Layers layers = Growth(surface, probes.found, spacing).run(least_points * spacing * spacing);
   return layers.count > 1 ? layers : Layers{};

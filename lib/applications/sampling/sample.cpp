@@ -248,10 +248,14 @@ SamplingResult sample_layers(const Device& device, const Domain& surface, std::s
   moved.density = apart.density(options.density);
   Sampler sampler(device, apart.domain(), moved, spread_points(apart.domain(), moved, n), false);
   std::vector<double> positions = sampler.move();
+  const Spacing spacing = neighbour_statistics(device, apart.domain(), positions, false,
+                                               options.density.is_constant(), options.diagram)
+                              .spacing;
   const std::vector<std::size_t> points = apart.move_back(positions);
   SamplingState state(device, surface, options, positions);
   SamplingResult result = sampler.finish(state, std::move(positions));
   result.layers = points;
+  result.layer_spacing = spacing;
   return result;
 }
 

@@ -109,6 +109,7 @@ TEST_CASE("both sides of a thin plate get their share of even points, whatever t
       const Spacing even = spacing(device(), unit_box(2), points);
       CHECK(even.mean > 0.84);
       CHECK(even.least > 0.5);
+      CHECK(found.layer_spacing.mean == doctest::Approx(even.mean).epsilon(0.03));
       // The masses are those of power cells on the plate.
       Diagram diagram(device(), domain);
       diagram.set_seeds({3, found.positions, found.weights});
