@@ -106,7 +106,7 @@ struct SamplingResult {
 /// Blue noise on a surface whose sides are nearer to each other than 0.7 of the spacing, (measure / n)^(1/2),
 /// on more than 1 % of its mass: the surface is cut into layers without such sides, and the points move as if
 /// the layers were far from each other, so that each has its share of the points. The weights, masses and
-/// energy are those of cells on the surface as it is, which then are apart from their points by some half.
+/// energy are those of cells on the surface as it is, which reach through to other layers (`apart`).
 /// \param n  number of points; they start at random with the density (random_points)
 /// \throw Error invalid_argument (no points; an option out of range), unsupported (a periodic domain that is
 ///   not a box of the plane, or a density that is not constant there), interrupted; as TransportSolver and
