@@ -15,6 +15,7 @@
 #include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
+#include "apps/sampling/notes.hpp"
 #include "apps/sampling/study.hpp"
 
 namespace powercell::app {
@@ -85,11 +86,14 @@ std::vector<std::string> write_files(const SampleArguments& arguments, const Dev
 }
 
 void print(const SampleArguments& arguments, const Source& source, const Study& study,
-           const std::vector<std::string>& written, const Progress& progress) {
+           const std::vector<std::string>& written, const std::vector<std::string>& notes,
+           const Progress& progress) {
   if (arguments.json) {
     nlohmann::json json = as_json(study, false);
     json["points"] = study.runs.front().points.weights.size();
     json["files"] = written;
+    json["notes"] = source.domain.notes();
+    for (const std::string& note : notes) json["notes"].push_back(note);
     json["seconds"] = {
         {"read", progress.seconds(stage::reading)},   {"open", progress.seconds(stage::opening)},
         {"sample", progress.seconds(sampling_stage)}, {"build", progress.build()},
@@ -132,6 +136,12 @@ bool wants_spectra(const SampleArguments& arguments) {
   return arguments.periodic && (arguments.count <= quick || !arguments.analysis.empty());
 }
 
+/// Of the domain, for notes.
+std::string name_of(const SampleArguments& arguments) {
+  const SourceArguments& source = arguments.source;
+  return !source.domain.empty() ? source.domain : !source.image.empty() ? source.image : "the domain";
+}
+
 int run(const SampleArguments& arguments) {
   if (arguments.periodic && !arguments.cells.empty())
     throw Error(
@@ -156,7 +166,9 @@ int run(const SampleArguments& arguments) {
   progress.begin(stage::writing);
   const std::vector<std::string> written = write_files(arguments, device, source, study);
   progress.finish();
-  print(arguments, source, study, written, progress);
+  const std::vector<std::string> notes = notes_of(source.domain, study, options.mode);
+  print(arguments, source, study, written, notes, progress);
+  print_notes(notes, name_of(arguments), arguments, progress);
   for (const Run& one : study.runs)
     if (!one.points.converged)
       throw Error(

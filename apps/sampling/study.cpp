@@ -49,6 +49,11 @@ nlohmann::json as_json(const Run& run) {
           {"quadrature_error", run.points.quadrature_error},
           {"energy", run.points.energy},
           {"relative_energy", run.points.relative_energy},
+          {"apart",
+           {{"cells", run.points.apart.cells},
+            {"share", run.points.apart.share},
+            {"distance", run.points.apart.distance}}},
+          {"layers", run.points.layers},
           {"least_distance", number(run.spacing.least)},
           {"mean_distance", number(run.spacing.mean)},
           {"hexatic", number(run.spacing.hexatic)},
@@ -64,11 +69,19 @@ double mean_of(const Study& study, const Value& value) {
   return sum / static_cast<double>(study.runs.size());
 }
 
+Spacing spacing_of(const Device& device, const Source& source, const SamplingResult& points,
+                   const SamplingOptions& options) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (points.weights.size() == 1) return {nan, nan, nan};
+  if (!points.layers.empty()) return points.layer_spacing;
+  return spacing(device, source.domain, points.positions, options.periodic, source.density.is_constant(),
+                 options.diagram);
+}
+
 }  // namespace
 
 Study run_study(const Device& device, const Source& source, std::size_t n, const SamplingOptions& options,
                 int runs, bool spectra, Progress& progress) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Study study;
   std::vector<Spectrum> found;
   for (int k = 0; k < runs; ++k) {
@@ -82,9 +95,7 @@ Study run_study(const Device& device, const Source& source, std::size_t n, const
       run.points = sample(device, source.domain, n, own);
       run.seconds = progress.seconds(sampling_stage) - before;
       run.processor_seconds = processor_seconds() - processor_before;
-      run.spacing = n == 1 ? Spacing{nan, nan, nan}
-                           : spacing(device, source.domain, run.points.positions, own.periodic,
-                                     source.density.is_constant(), own.diagram);
+      run.spacing = spacing_of(device, source, run.points, own);
       if (own.periodic && spectra)
         found.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
     });
@@ -129,7 +140,8 @@ std::string line_of(const Run& run) {
       with_commas(points.weights.size()), points.weights.size() == 1 ? "" : "s",
       points.steps.back().iteration, points.capacity_error, points.energy, points.relative_energy);
   if (std::isfinite(run.spacing.least))
-    text += fmt::format(", distances least {:.3f} mean {:.3f}", run.spacing.least, run.spacing.mean);
+    text += fmt::format(", distances{} least {:.3f} mean {:.3f}", points.layers.empty() ? "" : " on layers",
+                        run.spacing.least, run.spacing.mean);
   if (std::isfinite(run.spacing.hexatic)) text += fmt::format(", hexatic order {:.3f}", run.spacing.hexatic);
   return text + fmt::format("; {:.2f} s ({:.2f} s of processors)", run.seconds, run.processor_seconds);
 }

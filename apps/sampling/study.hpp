@@ -16,7 +16,7 @@ inline constexpr const char* sampling_stage = "sampling";
 
 struct Run {
   SamplingResult points;
-  Spacing spacing;               ///< NaN where no point has a neighbour
+  Spacing spacing;               ///< on layers if there are any; NaN where no point has a neighbour
   double seconds = 0;            ///< wall clock, without compiling kernels, as the next
   double processor_seconds = 0;  ///< of all threads
 };

@@ -8,6 +8,7 @@
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/options.hpp>
+#include <powercell/point_sets.hpp>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,16 @@ struct SamplingOptions {
   std::function<bool(const SamplingStep&)> progress;
 };
 
+/// Parts of cells that are not connected with the part that has the point: those on the other side of a thin
+/// plate, or across a narrow gap. There the points are fewer than their share.
+struct PartsApart {
+  std::size_t cells = 0;  ///< cells with such parts
+  double share = 0;       ///< of the domain's area or volume in such parts
+  /// Distance of such a part's centroid from the part with the point, the median by area or volume: about the
+  /// thickness of the plate or the width of the gap. 0 if there are no such parts.
+  double distance = 0;
+};
+
 /// The points, in the order of the initial points. Arrays are owned.
 struct SamplingResult {
   /// Both errors are below capacity_tolerance, and the mode's criterion is met: the hexatic order or movement
@@ -80,12 +91,22 @@ struct SamplingResult {
   /// Energy relative to the best lattice with cells of the same measure: hexagonal (5 / (18 sqrt 3)) on
   /// polygons and surfaces, body-centred cubic in volumes. Its minimum tends to 1 for many points.
   double relative_energy = 0;
+  PartsApart apart;  ///< of the cells; nothing is apart in a periodic box
+  /// The numbers of points on the layers of a surface that were sampled apart (see sample()), else empty. The
+  /// energies and gradients of `steps` are then those on the layers.
+  std::vector<std::size_t> layers;
+  Spacing layer_spacing;  ///< of each point among those of its layer; zeros without layers
   std::vector<SamplingStep> steps;
 };
 
 /// Capacity-constrained sampling (Balzer et al. 2009; by power diagrams: de Goes et al. 2012, Xiao et al.
 /// 2023). Each iteration finds the weights that give every cell the same mass (TransportSolver), then moves
 /// the points ((35)-(37) of docs/mathematics.md).
+///
+/// Blue noise on a surface whose sides are nearer to each other than 0.7 of the spacing, (measure / n)^(1/2),
+/// on more than 1 % of its mass: the surface is cut into layers without such sides, and the points move as if
+/// the layers were far from each other, so that each has its share of the points. The weights, masses and
+/// energy are those of cells on the surface as it is, which reach through to other layers (`apart`).
 /// \param n  number of points; they start at random with the density (random_points)
 /// \throw Error invalid_argument (no points; an option out of range), unsupported (a periodic domain that is
 ///   not a box of the plane, or a density that is not constant there), interrupted; as TransportSolver and
@@ -93,7 +114,7 @@ struct SamplingResult {
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                                     const SamplingOptions& options = {});
 
-/// The same, from given initial points.
+/// The same, from given initial points, without layers.
 /// \param positions  n x d, row-major; they may lie outside the domain, but no two at the same position
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain,
                                     std::span<const double> positions, const SamplingOptions& options = {});

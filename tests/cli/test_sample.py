@@ -114,6 +114,47 @@ class Sample(ToolTest):
             self.assertRegex(done.stderr, "the hexatic order is .*, not 0.610")
             self.assertEqual("low-frequency" in done.stdout, told)
 
+    def thin_plate(self, name, thickness):
+        """The square [0, 1]^2 and another one above, closed by a rim."""
+        corners = [(x, y, z) for z in (0, thickness) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        rim = [(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)]
+        faces = [(3, 2, 1, 0), (4, 5, 6, 7), *rim]
+        return self.write(name, "".join(f"v {x} {y} {z}\n" for x, y, z in corners) +
+                          "".join(f"f {a + 1} {b + 1} {c + 1}\nf {a + 1} {c + 1} {d + 1}\n" for a, b, c, d in faces))
+
+    def test_sides_of_a_thin_plate(self):
+        spacing = math.sqrt(2 / 500)
+        for part in (0.1, 0.25, 0.5):
+            self.thin_plate("plate.obj", part * spacing)
+            report = self.report("sample", "-n", "500", "--domain", "plate.obj", "-o", "p.csv")
+            found = report["runs"][0]
+            self.assertEqual(sum(found["layers"]), 500)
+            self.assertEqual(len(found["layers"]), 2)
+            below = sum(float(row["z"]) < part * spacing / 2 for row in self.rows("p.csv"))
+            self.assertAlmostEqual(below, 250, delta=3 + 500 * part * spacing)
+            self.assertGreater(found["mean_distance"], 0.84)
+            self.assertRegex(report["notes"][0], "2 layers")
+        # The number of points that the note of the last one names has cells that keep to their sides.
+        self.assertGreater(found["apart"]["share"], 0.01)
+        count = re.search(r"some ([\d,]+) points", report["notes"][0])[1].replace(",", "")
+        report = self.report("sample", "-n", count, "--domain", "plate.obj")
+        self.assertEqual(report["notes"], [])
+        self.assertEqual(report["runs"][0]["layers"], [])
+        self.assertLess(report["runs"][0]["apart"]["share"], 0.01)
+
+    def test_parts_apart_are_noted(self):
+        self.thin_plate("plate.obj", 0.1 * math.sqrt(2 / 500))
+        done = self.good("sample", "-n", "500", "--domain", "plate.obj", "--mode", "quantise", "--movement",
+                         "0", "--iterations", "3")
+        self.assertRegex(done.stderr, r"note: plate.obj: [3-5]\d % of the area .* --mode blue")
+        fingers = [[x, y] for k in range(20) for x, y in ((k, 0), (k, 20), (k + .9, 20), (k + .9, 0))]
+        ring = [[0, -1], *fingers, [19.9, -1], [0, -1]]
+        self.write("comb.json", json.dumps({"type": "Polygon", "coordinates": [ring]}))
+        report = self.report("sample", "-n", "100", "--domain", "comb.json")
+        self.assertGreater(report["runs"][0]["apart"]["share"], 0.1)
+        self.assertRegex(report["notes"][0], r"of the area lies in parts of \d+ cells")
+        self.assertEqual(self.report("sample", "-n", "100", "--domain", "disk")["notes"], [])
+
     def test_not_converged_is_reported_and_the_best_kept(self):
         done = run("sample", "-n", "100", "--mode", "quantise", "--movement", "1e-9", "--iterations", "2",
                    "-o", "p.csv", cwd=self.folder)

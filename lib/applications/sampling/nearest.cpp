@@ -25,7 +25,7 @@ struct Nearest {
 };
 
 /// Twice the area vector of a polygon.
-Vec area_vector(const std::vector<Vec>& polygon) {
+Vec area_vector(std::span<const Vec> polygon) {
   Vec sum{};
   for (std::size_t k = 2; k < polygon.size(); ++k)
     sum = sum + cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
@@ -33,7 +33,7 @@ Vec area_vector(const std::vector<Vec>& polygon) {
 }
 
 /// Considers the nearest point of a convex polygon in space or in the plane.
-void consider_polygon(const std::vector<Vec>& polygon, Nearest& nearest) {
+void consider_polygon(std::span<const Vec> polygon, Nearest& nearest) {
   const Vec normal = area_vector(polygon);
   const double squared = dot(normal, normal);
   bool inside = squared > 0;
@@ -74,24 +74,38 @@ class CellView {
   std::size_t d_;
 };
 
+/// Considers the nearest point of a piece.
+void consider_piece(const Cells& cells, std::uint64_t piece, Nearest& nearest) {
+  const CellView view(cells);
+  if (cells.cell_dimension == 2) return consider_polygon(view.polygon(piece), nearest);
+  bool inside = true;
+  for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
+    const std::vector<Vec> face = view.face(piece, f);
+    if (dot(area_vector(face), nearest.to - face[0]) > 0) inside = false;
+    consider_polygon(face, nearest);
+  }
+  if (inside) nearest.consider(nearest.to);
+}
+
 }  // namespace
 
-std::array<double, 3> nearest_in_cell(const Cells& cells, std::size_t cell, const std::array<double, 3>& x) {
-  const CellView view(cells);
+Vec nearest_in_polygon(std::span<const Vec> polygon, const Vec& x) {
   Nearest nearest{x};
-  for (std::uint64_t p = cells.cell_offset[cell]; p < cells.cell_offset[cell + 1]; ++p) {
-    if (cells.cell_dimension == 2) {
-      consider_polygon(view.polygon(p), nearest);
-      continue;
-    }
-    bool inside = true;
-    for (std::uint64_t f = cells.face_offset[p]; f < cells.face_offset[p + 1]; ++f) {
-      const std::vector<Vec> face = view.face(p, f);
-      if (dot(area_vector(face), x - face[0]) > 0) inside = false;
-      consider_polygon(face, nearest);
-    }
-    if (inside) return x;
-  }
+  consider_polygon(polygon, nearest);
+  return nearest.point;
+}
+
+std::array<double, 3> nearest_in_piece(const Cells& cells, std::uint64_t piece,
+                                       const std::array<double, 3>& x) {
+  Nearest nearest{x};
+  consider_piece(cells, piece, nearest);
+  return nearest.point;
+}
+
+std::array<double, 3> nearest_in_cell(const Cells& cells, std::size_t cell, const std::array<double, 3>& x) {
+  Nearest nearest{x};
+  for (std::uint64_t p = cells.cell_offset[cell]; p < cells.cell_offset[cell + 1]; ++p)
+    consider_piece(cells, p, nearest);
   return nearest.point;
 }
 

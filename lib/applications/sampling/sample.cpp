@@ -6,6 +6,7 @@
 
 #include "lib/applications/sampling/even_points.hpp"
 #include "lib/applications/sampling/lbfgs.hpp"
+#include "lib/applications/sampling/moved_layers.hpp"
 #include "lib/applications/sampling/state.hpp"
 #include "lib/base/work_clock.hpp"
 
@@ -34,6 +35,15 @@ constexpr int most_halvings = 10;             // of a step
 constexpr int iterations_without_order = 20;
 constexpr double neighbours_with_order = 5;
 constexpr std::size_t points_with_order = 50;
+// Between layers, in units of the spacing: so far that a cell which has its share on one of them reaches no
+// other.
+constexpr double gap_of_layers = 4;
+
+/// Random points whose numbers in parts of the domain that are apart are near their shares.
+std::vector<double> spread_points(const Domain& domain, const SamplingOptions& options, std::size_t n) {
+  return even_points(random_points(domain, options.density, points_to_choose_from * n, options.random_seed),
+                     static_cast<std::size_t>(domain.dimension()), n);
+}
 
 class Sampler {
  public:
@@ -52,7 +62,8 @@ class Sampler {
         spacing_(
             std::pow(domain.measure() / static_cast<double>(state_.size()), 1.0 / domain.cell_dimension())) {}
 
-  SamplingResult run() {
+  /// Moves the points as far as the mode demands. \return the points, in the domain
+  std::vector<double> move() {
     const int most = iterations();
     state_.move_to(start_, tolerance(), most_steps());
     if (drawn_ && options_.mode == SamplingMode::blue && !state_.cells().converged) start_evenly();
@@ -69,11 +80,29 @@ class Sampler {
       record(iteration);
     }
     const int iterations_done = result_.steps.back().iteration;
-    const bool done = at_end() || no_descent_left_ || (fixed_count_ && iterations_done == most);
+    done_ = at_end() || no_descent_left_ || (fixed_count_ && iterations_done == most);
     const bool at_centroids = iterations_done > 0 && lloyd_;
-    state_.move_to(state_.on_density(state_.in_domain(at_centroids)), options_.capacity_tolerance,
-                   most_newton_steps);
-    finish(done);
+    return state_.on_density(state_.in_domain(at_centroids));
+  }
+
+  SamplingResult run() {
+    std::vector<double> positions = move();
+    return finish(state_, std::move(positions));
+  }
+
+  /// The result for the points of move(), with cells of a state whose domain may be another one.
+  SamplingResult finish(SamplingState& state, std::vector<double> positions) {
+    state.move_to(std::move(positions), options_.capacity_tolerance, most_newton_steps);
+    const TransportResult& cells = state.cells();
+    result_.converged = done_ && cells.converged && cells.merged == 0;
+    result_.positions = state.wrapped();
+    result_.weights = cells.weights;
+    result_.mass = cells.mass;
+    result_.capacity_error = state.capacity_error();
+    result_.quadrature_error = cells.quadrature_error;
+    result_.energy = cells.primal;
+    result_.relative_energy = state.relative_energy();
+    result_.apart = state.parts_apart();
     return std::move(result_);
   }
 
@@ -99,9 +128,7 @@ class Sampler {
   /// cross gaps costs many Newton steps.
   void start_evenly() {
     const std::size_t n = state_.size();
-    start_ =
-        even_points(random_points(domain_, options_.density, points_to_choose_from * n, options_.random_seed),
-                    state_.dimension(), n);
+    start_ = spread_points(domain_, options_, n);
     state_.restart(start_);
     state_.move_to(start_, tolerance(), most_steps());
   }
@@ -185,18 +212,6 @@ class Sampler {
     }
   }
 
-  void finish(bool done) {
-    const TransportResult& cells = state_.cells();
-    result_.converged = done && cells.converged && cells.merged == 0;
-    result_.positions = state_.wrapped();
-    result_.weights = cells.weights;
-    result_.mass = cells.mass;
-    result_.capacity_error = state_.capacity_error();
-    result_.quadrature_error = cells.quadrature_error;
-    result_.energy = cells.primal;
-    result_.relative_energy = state_.relative_energy();
-  }
-
   const Domain& domain_;
   const SamplingOptions& options_;
   bool drawn_;          // the initial points are random
@@ -209,6 +224,7 @@ class Sampler {
   LbfgsMemory memory_;
   double neighbours_ = 0;         // per point on average, after the last iteration of blue in the plane
   bool no_descent_left_ = false;  // the points rest as well as rounding allows
+  bool done_ = false;             // the mode's criterion is met
   SamplingResult result_;
   WorkClock clock_;
 };
@@ -223,12 +239,37 @@ void check(const SamplingOptions& options) {
     refuse("the tolerance of the capacities must be between 0 and 1");
 }
 
+/// Blue noise on the layers of a surface.
+SamplingResult sample_layers(const Device& device, const Domain& surface, std::size_t n,
+                             const SamplingOptions& options, const Layers& layers) {
+  const MovedLayers apart(surface, layers,
+                          gap_of_layers * std::sqrt(surface.measure() / static_cast<double>(n)));
+  SamplingOptions moved = options;
+  moved.density = apart.density(options.density);
+  Sampler sampler(device, apart.domain(), moved, spread_points(apart.domain(), moved, n), false);
+  std::vector<double> positions = sampler.move();
+  const Spacing spacing = neighbour_statistics(device, apart.domain(), positions, false,
+                                               options.density.is_constant(), options.diagram)
+                              .spacing;
+  const std::vector<std::size_t> points = apart.move_back(positions);
+  SamplingState state(device, surface, options, positions);
+  SamplingResult result = sampler.finish(state, std::move(positions));
+  result.layers = points;
+  result.layer_spacing = spacing;
+  return result;
+}
+
 }  // namespace
 
 SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                       const SamplingOptions& options) {
   check(options);
   if (n == 0) throw Error(ErrorCode::invalid_argument, "no points: sampling needs at least one");
+  if (domain.kind() == DomainKind::surface && options.mode == SamplingMode::blue) {
+    const Layers layers =
+        find_layers(domain, options.density, n, options.random_seed, options.diagram.threads);
+    if (layers.count > 1) return sample_layers(device, domain, n, options, layers);
+  }
   return Sampler(device, domain, options, random_points(domain, options.density, n, options.random_seed),
                  true)
       .run();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <powercell/point_sets.hpp>
 
+#include "lib/applications/sampling/apart.hpp"
 #include "lib/applications/sampling/nearest.hpp"
 
 namespace powercell {
@@ -116,6 +117,12 @@ double SamplingState::relative_energy() {
     for (std::size_t i = 0; i < size(); ++i) sum += cells().mass[i] * std::pow(measures.mass[i], 2.0 / d);
   }
   return cells().primal / (lattice * sum);
+}
+
+PartsApart SamplingState::parts_apart() {
+  // The cells of a convex domain are convex.
+  if (options_.periodic || domain_.region_count() == 1) return {};
+  return powercell::parts_apart(solver_.diagram().cells(), positions_);
 }
 
 }  // namespace powercell

@@ -43,6 +43,7 @@ class SamplingState {
   std::vector<double> wrapped() const;
   /// Energy relative to that of the best lattice, (38).
   double relative_energy();
+  PartsApart parts_apart();
 
   std::size_t size() const { return positions_.size() / dimension_; }
   std::size_t dimension() const { return dimension_; }
