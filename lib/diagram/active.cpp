@@ -28,7 +28,8 @@ double excluding_weight(const Domain& domain, const SeedSet& seeds) {
 
 }  // namespace
 
-Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept)
+Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept,
+               double least_margin)
     : setup_(setup), input_(input), buffers_(buffers) {
   if (const Period* const period = setup.period()) {
     const std::size_t n = input.seeds.size();
@@ -36,7 +37,8 @@ Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std
       images_ = std::move(kept->images);
       set_weights(*images_, input.seeds, setup.threads);
     } else {
-      images_ = make_images(*period, input.seeds, first_margin(*period, n), setup.threads);
+      images_ = make_images(*period, input.seeds, std::max(least_margin, first_margin(*period, input.seeds)),
+                            setup.threads);
     }
   }
   if (kept && kept->tree.seeds == seeds().size()) {

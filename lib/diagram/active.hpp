@@ -26,7 +26,9 @@ class Active {
   /// Builds the tree, uploads the seeds, and sets seeds aside that are proved hidden, if they are many.
   /// \param buffers  receive the seeds; must outlive this
   /// \param kept     released by earlier active seeds at the same positions
-  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept);
+  /// \param least_margin  of images in a periodic domain
+  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept,
+         double least_margin);
   Active(const Active&) = delete;
   Active& operator=(const Active&) = delete;
 

@@ -63,7 +63,7 @@ class Pass {
     geometry_.place(*placement_);
     proof_.emplace(*setup.period(), *active.images(),
                    setup.float32() ? proved_reach_error_float : proved_reach_error_double);
-    if (want.adjacency) periodic_walls_.emplace(*placement_);
+    if (want.adjacency) periodic_walls_.emplace(*placement_, setup.threads);
   }
 
   Clipped run(Timings& timings) {
@@ -123,6 +123,7 @@ void Pass::set_chunk_seeds(std::uint64_t begin, std::uint64_t end) {
 }
 
 void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
+  if (margin_ > 0) return;  // the pass must be repeated
   set_chunk_seeds(begin, end);
   const std::span pair_region(plan_.pairs.region.data() + begin, end - begin);
   const std::vector<std::uint32_t> for_host = clipper_->clip_on_device(pair_seed_, pair_region);
@@ -199,6 +200,7 @@ void Pass::keep_wall_memory() {
 void Pass::place_centroids(Measures& measures) const {
   const auto d = static_cast<std::size_t>(measures.dimension);
   for (std::uint32_t rank = 0; rank < active_.images()->own; ++rank) {
+    if (placement_->is_inside(rank)) continue;
     const std::array<double, 3> offset = placement_->offset(rank);
     for (std::size_t c = 0; c < d; ++c) measures.centroid[active_.seeds().input[rank] * d + c] += offset[c];
   }
@@ -221,7 +223,7 @@ Clipped Pass::finish() {
   const double unit = setup_.on_device.frame().unit(setup_.domain.cell_dimension() - 1);
   const double negligible = exact_ ? 0 : setup_.float32() ? negligible_float : negligible_double;
   if (periodic_walls_)
-    results.adjacency = periodic_walls_->finish(measures.status, unit, negligible, setup_.threads);
+    results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
   if (want_.cells) results.cells = geometry_.finish(measures.status);

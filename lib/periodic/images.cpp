@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <powercell/error.hpp>
 #include <powercell/seeds.hpp>
 #include <string>
@@ -13,7 +14,6 @@
 namespace powercell {
 namespace {
 
-constexpr double first_spacings = 3;
 /// More than the rounding of fractions.
 constexpr double fraction_rounding = 1e-6;
 /// More than the rounding of the distances compared, relative.
@@ -81,9 +81,17 @@ void append_sorted(Images& images, std::span<const double> positions, std::span<
 
 }  // namespace
 
-double first_margin(const Period& period, std::size_t seeds) {
-  return first_spacings * std::pow(period.measure() / static_cast<double>(std::max<std::size_t>(seeds, 1)),
-                                   1.0 / period.dimension());
+double first_margin(const Period& period, const SeedSet& seeds) {
+  if (seeds.size() == 0) return 0;
+  const auto n = static_cast<double>(seeds.size());
+  const double spacing = std::pow(period.measure() / n, 1.0 / period.dimension());
+  // The volume, in those of a mean cell, of the largest ball without seeds is about the logarithm of their
+  // number.
+  const double ball = std::log(n) + 6;
+  const double reach = spacing * (period.dimension() == 2 ? std::sqrt(ball / 3.14) : std::cbrt(ball / 4.19));
+  const double most = *std::max_element(seeds.weights.begin(), seeds.weights.end());
+  const double mean = std::accumulate(seeds.weights.begin(), seeds.weights.end(), 0.0) / n;
+  return reach + std::sqrt(reach * reach + std::min(most - mean, reach * reach));
 }
 
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads) {

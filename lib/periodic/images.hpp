@@ -27,8 +27,8 @@ struct Images {
   Shift shift_of(std::uint32_t r) const { return r < own ? Shift{} : shift[r - own]; }
 };
 
-/// The margin to try first: some spacings of the seeds.
-double first_margin(const Period& period, std::size_t seeds);
+/// The margin to try first: what the largest cells of white noise need.
+double first_margin(const Period& period, const SeedSet& seeds);
 
 /// \param seeds  wrapped, in Hilbert order
 /// \throw Error unsupported if there would be more than most_seeds_of_diagram
@@ -65,6 +65,7 @@ struct Placement {
   /// The image in which `neighbor`, by rank, borders the cell of `rank`: moves the neighbour as given, in the
   /// vectors as given.
   Shift shift_of_wall(std::uint32_t rank, std::uint32_t neighbor) const;
+  bool is_inside(std::uint32_t rank) const { return wrapped[images.seeds.input[rank]] == Shift{}; }
   /// The seed as given minus the wrapped one.
   std::array<double, 3> offset(std::uint32_t rank) const {
     return period.sum_given(wrapped[images.seeds.input[rank]]);
