@@ -27,6 +27,8 @@ constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);  // (82)
+/// Of a margin that must be widened, since other cells may reach farther still.
+constexpr double more_than_needed = 1.1;
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 int outputs_of(Wanted want) {
@@ -210,7 +212,7 @@ Clipped Pass::finish() {
   const SeedSet& seeds = active_.seeds();
   Clipped results;
   if (margin_ > 0) {
-    results.margin = std::min(margin_, 2 * active_.images()->margin);
+    results.margin = std::min(more_than_needed * margin_, 2 * active_.images()->margin);
     return results;
   }
   Measures measures = measures_.finish();

@@ -91,7 +91,7 @@ double first_margin(const Period& period, const SeedSet& seeds) {
   const double reach = spacing * (period.dimension() == 2 ? std::sqrt(ball / 3.14) : std::cbrt(ball / 4.19));
   const double most = *std::max_element(seeds.weights.begin(), seeds.weights.end());
   const double mean = std::accumulate(seeds.weights.begin(), seeds.weights.end(), 0.0) / n;
-  return reach + std::sqrt(reach * reach + std::min(most - mean, reach * reach));
+  return reach + std::sqrt(reach * reach + std::min(1.5 * (most - mean), 2 * reach * reach));
 }
 
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads) {
