@@ -28,17 +28,16 @@ double excluding_weight(const Domain& domain, const SeedSet& seeds) {
 
 }  // namespace
 
-Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept,
-               double least_margin)
+Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept)
     : setup_(setup), input_(input), buffers_(buffers) {
   if (const Period* const period = setup.period()) {
-    const std::size_t n = input.seeds.size();
-    if (kept && kept->images && kept->images->own == n) {
+    const double margin = first_margin(*period, input.seeds);
+    if (kept && kept->images && kept->images->own == input.seeds.size() && kept->images->margin == margin) {
       images_ = std::move(kept->images);
       set_weights(*images_, input.seeds, setup.threads);
     } else {
-      images_ = make_images(*period, input.seeds, std::max(least_margin, first_margin(*period, input.seeds)),
-                            setup.threads);
+      images_ = make_images(*period, input.seeds, margin, setup.threads);
+      kept.reset();
     }
   }
   if (kept && kept->tree.seeds == seeds().size()) {

@@ -25,10 +25,10 @@ class Active {
  public:
   /// Builds the tree, uploads the seeds, and sets seeds aside that are proved hidden, if they are many.
   /// \param buffers  receive the seeds; must outlive this
-  /// \param kept     released by earlier active seeds at the same positions
-  /// \param least_margin  of images in a periodic domain
-  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept,
-         double least_margin);
+  /// \param kept     released by earlier active seeds at the same positions; used where a new tree would be
+  /// the
+  ///                 same but for weights
+  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept);
   Active(const Active&) = delete;
   Active& operator=(const Active&) = delete;
 

@@ -1,7 +1,5 @@
 #include "lib/diagram/state.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "lib/collect/dual.hpp"
@@ -60,16 +58,10 @@ Plan& Diagram::State::plan(PlanKind kind) {
   return *kept;
 }
 
-double Diagram::State::mean_spacing() const {
-  return std::pow(setup.domain.measure() / static_cast<double>(std::max<std::size_t>(input->seeds.size(), 1)),
-                  1.0 / setup.domain.cell_dimension());
-}
-
 Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
   if (!active) {
     const Stopwatch watch(setup.device);
-    active.emplace(setup, *input, seed_buffers, std::exchange(tree, std::nullopt),
-                   spacings_of_margin * mean_spacing());
+    active.emplace(setup, *input, seed_buffers, std::exchange(tree, std::nullopt));
     timings.prepare += watch.seconds();
   }
   return clip(setup, *active, plan(kind), want, workspace, timings);
@@ -94,7 +86,6 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
     }
     if (clipped.margin > 0) {
       active->widen(clipped.margin);
-      spacings_of_margin = clipped.margin / mean_spacing();
       geometry.reset();
     } else if (!clipped.flat.empty()) {
       active->exclude_flat_cells(clipped.flat);
@@ -139,9 +130,9 @@ void Diagram::State::compute(Wanted want) {
 void Diagram::State::certify() {
   const Stopwatch watch(setup.device);
   try {
-    require_certificate({setup.domain, input->seeds, *results.measures,
-                         results.adjacency ? &*results.adjacency : nullptr, setup.float32(), setup.threads,
-                         [this]() -> const Cells& {
+    require_certificate({setup.domain, input->seeds, active->images() ? active->seeds() : input->seeds,
+                         *results.measures, results.adjacency ? &*results.adjacency : nullptr,
+                         setup.float32(), setup.threads, [this]() -> const Cells& {
                            if (!results.cells) pass(PlanKind::geometry, {.cells = true});
                            return *results.cells;
                          }});

@@ -28,7 +28,6 @@ struct Diagram::State {
   SeedBuffers seed_buffers;
   std::optional<KeptTree> tree;  // of the last active seeds, while the positions are the same
   Workspace workspace;
-  double spacings_of_margin = 0;  // that images needed in a periodic domain, in mean spacings of the seeds
 
   State(Device device, Domain domain, Options options)
       : setup(std::move(device), std::move(domain), std::move(options)),
@@ -46,7 +45,6 @@ struct Diagram::State {
   Plan& plan(PlanKind kind);
   /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
   void pass(PlanKind kind, Wanted want);
-  double mean_spacing() const;  ///< of the seeds
   Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);
   /// Checks the laws of the results; discards the results if one fails. \throw Error internal

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <powercell/error.hpp>
 #include <powercell/seeds.hpp>
@@ -14,6 +13,7 @@
 namespace powercell {
 namespace {
 
+constexpr double margin_steps = 8;  ///< of a first margin while it doubles
 /// More than the rounding of fractions.
 constexpr double fraction_rounding = 1e-6;
 /// More than the rounding of the distances compared, relative.
@@ -91,7 +91,9 @@ double first_margin(const Period& period, const SeedSet& seeds) {
   const double reach = spacing * (period.dimension() == 2 ? std::sqrt(ball / 3.14) : std::cbrt(ball / 4.19));
   const double most = *std::max_element(seeds.weights.begin(), seeds.weights.end());
   const double mean = std::accumulate(seeds.weights.begin(), seeds.weights.end(), 0.0) / n;
-  return reach + std::sqrt(reach * reach + std::min(1.5 * (most - mean), 2 * reach * reach));
+  const double margin = reach + std::sqrt(reach * reach + std::min(1.5 * (most - mean), 2 * reach * reach));
+  // In steps, so that new weights mostly need the same images.
+  return std::exp2(std::ceil(margin_steps * std::log2(margin)) / margin_steps);
 }
 
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads) {
@@ -99,9 +101,7 @@ Images make_images(const Period& period, const SeedSet& seeds, double margin, in
   Images images;
   images.seeds = seeds;
   images.own = static_cast<std::uint32_t>(seeds.size());
-  bool complete = true;
-  for (int k = 0; k < period.count(); ++k) complete = complete && is_complete(period, k, margin);
-  images.margin = complete ? std::numeric_limits<double>::infinity() : margin;
+  images.margin = margin;
   const std::array<double, 3> along = margins(period, margin);
   std::vector<double> positions;
   std::vector<std::uint32_t> rank;
@@ -162,7 +162,6 @@ MarginProof::MarginProof(const Period& period, const Images& images, double reac
       factor_((1 + reach_error) * (1 + proof_rounding)) {}
 
 double MarginProof::margin_for(std::uint32_t rank, double reach) const {
-  if (std::isinf(images_.margin)) return 0;
   const double excess = std::max(most_weight_ - images_.seeds.weights[rank], 0.0);
   const double clear = factor_ * (reach + std::sqrt(reach * reach + excess));  // (34b)
   const Period::Row f =
