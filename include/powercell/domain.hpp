@@ -99,6 +99,11 @@ class POWERCELL_API Domain {
   /// The vectors of a lattice as given, or the edges of a periodic box along its periodic axes and 0 along
   /// the others: the units of Adjacency::shift. All 0 unless is_periodic().
   std::array<std::array<double, 3>, 3> periods() const;
+  /// Points moved by whole periods into the domain, but for rounding: the positions that diagrams compute
+  /// with. Images of one point are at the same position. Along bounded axes, and in other domains, as they
+  /// are. \param positions  n x dimension(), row-major, finite \throw Error invalid_argument (size),
+  /// invalid_seed (a point more than 2^28 periods outside)
+  std::vector<double> wrapped(std::span<const double> positions) const;
   std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;
   RegionsView regions() const;             ///< see powercell/regions.hpp

@@ -104,6 +104,8 @@ struct JoinedCells {
   std::vector<std::uint64_t> loop_offset;  ///< faces + 1
   std::vector<std::uint32_t> loop;
   std::vector<Border> edge_border;  ///< per loop entry (polygons and surfaces only)
+  /// Per entry of face_border (volumes) or edge_border in a periodic domain: as in Adjacency; else empty.
+  std::vector<std::array<std::int32_t, 3>> shift;
 };
 
 /// The regular triangulation restricted to the domain: one simplex for each point of the domain in which d+1

@@ -61,12 +61,7 @@ std::vector<double> wrap(const Period& period, const SeedsView& view, int thread
     std::copy_n(w.position.begin(), d, &wrapped[i * d]);
     return w.is_far;
   });
-  if (far < view.size())
-    throw Error(
-        ErrorCode::invalid_seed,
-        "seed " + std::to_string(far) +
-            " is more than 2^28 periods outside the periodic domain, where its position is too coarse; "
-            "move it by a multiple of the period");
+  if (far < view.size()) refuse_far(far);
   return wrapped;
 }
 

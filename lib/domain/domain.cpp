@@ -3,6 +3,7 @@
 #include <powercell/regions.hpp>
 
 #include "lib/domain/build.hpp"
+#include "lib/domain/period.hpp"
 #include "lib/domain/region_mesh.hpp"
 #include "lib/report/log.hpp"
 
@@ -55,6 +56,20 @@ std::array<std::array<double, 3>, 3> Domain::periods() const {
   std::array<std::array<double, 3>, 3> vectors{};
   for (int k = 0; k < 3 && is_periodic(); ++k) vectors[static_cast<std::size_t>(k)] = mesh_->period->given(k);
   return vectors;
+}
+
+std::vector<double> Domain::wrapped(std::span<const double> positions) const {
+  const auto d = static_cast<std::size_t>(dimension());
+  if (positions.size() % d != 0)
+    throw Error(ErrorCode::invalid_argument,
+                std::to_string(positions.size()) + " coordinates of points of " + std::to_string(d));
+  std::vector<double> result(positions.begin(), positions.end());
+  for (std::size_t i = 0; is_periodic() && i < positions.size() / d; ++i) {
+    const Period::Wrapped at = mesh_->period->wrap(&positions[i * d]);
+    if (at.is_far) refuse_far(i);
+    std::copy_n(at.position.begin(), d, &result[i * d]);
+  }
+  return result;
 }
 
 DomainKind Domain::kind() const {

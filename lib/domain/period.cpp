@@ -39,6 +39,7 @@ double length(const Period::Row& v) {
 Period Period::of_box(std::span<const double> low, std::span<const double> high, std::array<bool, 3> axes) {
   Period period;
   period.dimension_ = static_cast<int>(low.size());
+  period.is_box_ = true;
   double shortest = 0, longest = 0;
   for (std::size_t k = 0; k < low.size(); ++k) {
     period.origin_[k] = low[k];
@@ -103,13 +104,13 @@ Period Period::of_lattice(std::span<const double> vectors, std::span<const doubl
   return period;
 }
 
-/// The quantum of a coordinate is 2^-52 or more of the largest that an image may have.
+/// The quantum of a coordinate is at most 2^-51 of the largest that an image may have.
 void Period::set_quanta() {
   for (std::size_t c = 0; c < 3; ++c) {
     quantum_[c] = 0;
     if (!rounded_[c]) continue;
     double most = std::fabs(origin_[c]);
-    for (int k = 0; k < count_; ++k) most += 8 * std::fabs(vector(k)[c]);
+    for (int k = 0; k < count_; ++k) most += (is_box_ ? 2 : 4) * std::fabs(vector(k)[c]);
     int exponent = 0;
     std::frexp(most, &exponent);
     quantum_[c] = std::ldexp(1.0, exponent - 52);
@@ -187,6 +188,43 @@ Period::Row Period::sum_given(const Shift& shift) const {
   return sum;
 }
 
+/// Moves a position that rounding has left beyond a border, exactly. \return the shift applied
+Shift Period::settle_in_box(Row& position) const {
+  Shift by{};
+  for (int k = 0; k < count_; ++k)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double size = vector(k)[c];
+      if (size == 0) continue;
+      const double low = std::ceil(origin_[c] / quantum_[c]) * quantum_[c];
+      if (position[c] < low) by[at(k)] = 1;
+      if (position[c] >= low + size) by[at(k)] = -1;
+      position[c] += by[at(k)] * size;
+    }
+  return by;
+}
+
+/// Of the images near the border, which rounding may have put on either side, takes the one first in the
+/// order of coordinates: so equal images are wrapped to equal positions. \return the shift applied
+Shift Period::settle_in_lattice(Row& position) const {
+  const Row first = position, f = fraction(first.data());
+  Shift best{}, v;
+  bool found = false;
+  const auto near = [&](int k, int by) {
+    return k < count_ ? std::fabs(f[at(k)] + by - 0.5) <= 0.5 + fraction_rounding : by == 0;
+  };
+  for (v[0] = -1; v[0] <= 1; ++v[0])
+    for (v[1] = -1; v[1] <= 1 && near(0, v[0]); ++v[1])
+      for (v[2] = -1; v[2] <= 1 && near(1, v[1]); ++v[2]) {
+        if (!near(2, v[2])) continue;
+        const Row candidate = moved(first.data(), v);
+        if (found && !(candidate < position)) continue;
+        found = true;
+        position = candidate;
+        best = v;
+      }
+  return best;
+}
+
 Period::Wrapped Period::wrap(const double* x) const {
   Wrapped result{{}, {}, false};
   const auto d = static_cast<std::size_t>(dimension_);
@@ -205,33 +243,21 @@ Period::Wrapped Period::wrap(const double* x) const {
     result.position[c] =
         quantum_[c] > 0 ? static_cast<double>(std::nearbyint(rest / quantum_[c]) * quantum_[c]) : x[c];
   }
-  // Of points at the border, which rounding may have put on either side, the one first in the order of
-  // coordinates: so equal images are wrapped to equal positions.
-  const Row first = result.position;
-  const Row f = fraction(first.data());
-  Shift best{};
-  bool found = false;
-  Shift v;
-  const auto near = [&](int k, int by) {
-    return k < count_ ? std::fabs(f[at(k)] + by - 0.5) <= 0.5 + fraction_rounding : by == 0;
-  };
-  for (v[0] = -1; v[0] <= 1; ++v[0])
-    for (v[1] = -1; v[1] <= 1; ++v[1])
-      for (v[2] = -1; v[2] <= 1; ++v[2]) {
-        if (!near(0, v[0]) || !near(1, v[1]) || !near(2, v[2])) continue;
-        const Row candidate = moved(first.data(), v);
-        if (found && !(candidate < result.position)) continue;
-        found = true;
-        result.position = candidate;
-        best = v;
-      }
-  for (std::size_t k = 0; k < 3; ++k) shift[k] -= best[k];
+  const Shift by = is_box_ ? settle_in_box(result.position) : settle_in_lattice(result.position);
+  for (std::size_t k = 0; k < 3; ++k) shift[k] -= by[k];
   const std::array<std::int64_t, 3> given = as_given(shift);
   for (std::size_t k = 0; k < 3; ++k) {
     result.is_far = result.is_far || std::llabs(given[k]) > most_given;
     result.shift[k] = static_cast<std::int32_t>(given[k]);
   }
   return result;
+}
+
+void refuse_far(std::size_t index) {
+  throw Error(ErrorCode::invalid_seed,
+              "seed " + std::to_string(index) +
+                  " is more than 2^28 periods outside the periodic domain, where its position is too coarse; "
+                  "move it by a multiple of the period");
 }
 
 }  // namespace powercell

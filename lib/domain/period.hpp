@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -48,7 +49,7 @@ class Period {
   Row sum_given(const Shift& shift) const;
 
   struct Wrapped {
-    Row position;  ///< with fractions from 0 to 1, but for rounding
+    Row position;  ///< with fractions from 0 to below 1, but for rounding
     Shift shift;   ///< from there to the point, in the vectors as given
     bool is_far;   ///< the point is more than 2^28 vectors away; the rest is then not good
   };
@@ -56,17 +57,23 @@ class Period {
 
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
+  Shift settle_in_box(Row& position) const;
+  Shift settle_in_lattice(Row& position) const;
   void set_quanta();
   void set_room();
   void set_dual();
   void set_reach();
 
   int dimension_ = 0, count_ = 0;
+  bool is_box_ = false;
   std::array<bool, 3> periodic_{}, rounded_{};  ///< by vector as given; by coordinate
   std::array<Row, 3> given_{}, vector_{}, dual_{};
   std::array<std::array<std::int64_t, 3>, 3> of_given_{};  ///< per vector of the reduced basis
   Row origin_{}, quantum_{}, spacing_{}, reach_{}, room_low_{}, room_high_{};
   double measure_ = 0;
 };
+
+/// \throw Error invalid_seed: Wrapped::is_far of seed `index`
+[[noreturn]] void refuse_far(std::size_t index);
 
 }  // namespace powercell

@@ -41,7 +41,7 @@ void set_weights(Images& images, const SeedSet& seeds, int threads);
 /// \param hidden  by rank
 Images without_hidden(const Images& images, const std::vector<std::uint8_t>& hidden);
 
-/// Proves that no image outside the margin cuts a cell (docs/mathematics.md (34a), (34b)).
+/// Proves that no image outside the margin cuts a cell (docs/mathematics.md (34b)).
 class MarginProof {
  public:
   /// \param reach_error  of margin_for(), relative
