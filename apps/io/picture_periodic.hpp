@@ -24,7 +24,8 @@ struct FlatBox {
   }
 };
 
-/// The periods, and their sums with whole factors, that bring the box to overlap that of the domain. Only
+/// The periods, and their sums with whole factors, that bring the box to overlap that of the domain with the
+/// margin of a picture. Only
 /// zero in a domain that is not periodic, whether they overlap or not.
 std::vector<Translation> translations_into_view(const Domain& domain, const FlatBox& box);
 
