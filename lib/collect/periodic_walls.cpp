@@ -82,10 +82,12 @@ std::uint64_t PeriodicWalls::other_side(std::uint32_t rank, std::uint64_t wall) 
     while (at < end && neighbor_[at] != rank) ++at;
     return at;
   }
-  const Shift back = opposite(images.shift_of(other));
-  while (at < end && (neighbor_[at] < images.own || images.seed_of(neighbor_[at]) != rank ||
-                      images.shift_of(neighbor_[at]) != back))
-    ++at;
+  const std::int32_t back = -images.code[other - images.own];
+  const auto is_back = [&](std::uint32_t image) {
+    return image >= images.own && images.rank[image - images.own] == rank &&
+           images.code[image - images.own] == back;
+  };
+  while (at < end && !is_back(neighbor_[at])) ++at;
   return at;
 }
 
@@ -100,7 +102,7 @@ PeriodicWalls::Difference PeriodicWalls::match(std::uint32_t rank) {
       measure_[wall] = 0;
       continue;
     }
-    if (j < rank || (j == rank && Shift{} < images.shift_of(neighbor_[wall]))) continue;
+    if (j < rank || (j == rank && images.code[neighbor_[wall] - images.own] > 0)) continue;
     const std::uint64_t other = other_side(rank, wall);
     if (other == first_[j + std::size_t{1}]) continue;
     const double difference = std::fabs(measure_[wall] - measure_[other]);
@@ -148,10 +150,9 @@ std::uint64_t PeriodicWalls::kept_walls(std::uint32_t rank) const {
 /// Whether some wall of a row may have a shift.
 bool PeriodicWalls::has_shifts(std::uint32_t rank) const {
   const Images& images = placement_.images;
-  const auto wrapped = [&](std::uint32_t r) { return placement_.wrapped[images.seeds.input[r]] != Shift{}; };
-  if (wrapped(rank)) return true;
+  if (is_moved_[rank]) return true;
   for (std::uint64_t wall = first_[rank]; wall < first_[rank + std::size_t{1}]; ++wall)
-    if (neighbor_[wall] >= images.own || wrapped(neighbor_[wall])) return true;
+    if (neighbor_[wall] >= images.own || is_moved_[neighbor_[wall]]) return true;
   return false;
 }
 
@@ -161,8 +162,10 @@ void PeriodicWalls::write_row(std::uint32_t rank, std::span<const Missing> missi
   const std::uint64_t begin = first_[rank], count = first_[rank + std::size_t{1}] - begin;
   const std::uint64_t to = out.offset[images.seeds.input[rank]];
   if (missing.empty() && kept_walls(rank) == count && !has_shifts(rank)) {
-    std::vector<std::uint32_t> neighbor(count);
-    std::vector<double> wall(count);
+    thread_local std::vector<std::uint32_t> neighbor;
+    thread_local std::vector<double> wall;
+    neighbor.resize(count);
+    wall.resize(count);
     for (std::uint64_t k = 0; k < count; ++k) {
       neighbor[k] = images.seeds.input[neighbor_[begin + k]];
       wall[k] = std::fabs(measure_[begin + k]) * unit;
@@ -189,6 +192,8 @@ Adjacency PeriodicWalls::finish(const std::vector<SeedStatus>& status, double un
   const Images& images = placement_.images;
   first_.resize(std::size_t{images.own} + 1, neighbor_.size());
   ok_.resize(images.own);
+  is_moved_.resize(images.own);
+  for (std::uint32_t rank = 0; rank < images.own; ++rank) is_moved_[rank] = !placement_.is_inside(rank);
   for (std::uint32_t rank = 0; rank < images.own; ++rank)
     ok_[rank] = status[images.seeds.input[rank]] == SeedStatus::ok;
   Difference worst;

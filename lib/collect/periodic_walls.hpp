@@ -60,6 +60,7 @@ class PeriodicWalls {
   std::vector<double> measure_;          // by wall: below 0 if both cells have it
   std::vector<std::uint64_t> first_;     // by rank of a seed, and the end
   std::vector<std::uint8_t> ok_;         // by rank of a seed: it has a cell
+  std::vector<std::uint8_t> is_moved_;   // by rank of a seed: it was wrapped to another place
 };
 
 }  // namespace powercell

@@ -30,6 +30,12 @@ void check_lengths(double shortest, double longest, const std::string& what) {
          "bounded axis of a periodic box");
 }
 
+/// The nearest multiple of a power of two; |x| below 2^62 times that.
+double rounded(long double x, double quantum) {
+  constexpr long double to_whole = 0x1.8p63L;  // a sum with it has no digits below 1
+  return static_cast<double>((x / quantum + to_whole) - to_whole) * quantum;
+}
+
 double length(const Period::Row& v) {
   return norm(Vector3<double>(v));
 }
@@ -240,8 +246,7 @@ Period::Wrapped Period::wrap(const double* x) const {
   for (std::size_t c = 0; c < d; ++c) {
     long double rest = x[c];
     for (int k = 0; k < count_; ++k) rest -= static_cast<long double>(shift[at(k)]) * vector(k)[c];
-    result.position[c] =
-        quantum_[c] > 0 ? static_cast<double>(std::nearbyint(rest / quantum_[c]) * quantum_[c]) : x[c];
+    result.position[c] = quantum_[c] > 0 ? rounded(rest, quantum_[c]) : x[c];
   }
   const Shift by = is_box_ ? settle_in_box(result.position) : settle_in_lattice(result.position);
   for (std::size_t k = 0; k < 3; ++k) shift[k] -= by[k];

@@ -49,6 +49,12 @@ void for_images(const Period& period, const Period::Row& f, const std::array<dou
         if (s != Shift{}) use(s);
 }
 
+/// A linear function with different values for the shifts of images, whose components are small.
+std::int32_t code_of(const Shift& shift) {
+  constexpr std::int32_t step = 64;
+  return (shift[0] * step + shift[1]) * step + shift[2];
+}
+
 void check_count(std::size_t count) {
   if (count > most_seeds_of_diagram)
     throw Error(ErrorCode::unsupported, "the seeds and their images in the periodic domain are more than " +
@@ -67,6 +73,7 @@ void append_sorted(Images& images, std::span<const double> positions, std::span<
   all.input.resize(own + count);
   images.rank.resize(count);
   images.shift.resize(count);
+  images.code.resize(count);
   parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t from = order[k];
@@ -75,6 +82,7 @@ void append_sorted(Images& images, std::span<const double> positions, std::span<
       all.input[own + k] = all.input[rank[from]];
       images.rank[k] = rank[from];
       images.shift[k] = shift[from];
+      images.code[k] = code_of(shift[from]);
     }
   });
 }
@@ -144,6 +152,7 @@ Images without_hidden(const Images& images, const std::vector<std::uint8_t>& hid
     } else {
       kept.rank.push_back(new_rank[seed]);
       kept.shift.push_back(images.shift_of(r));
+      kept.code.push_back(images.code[r - images.own]);
     }
     kept.seeds.input.push_back(images.seeds.input[r]);
     kept.seeds.weights.push_back(images.seeds.weights[r]);

@@ -21,6 +21,7 @@ struct Images {
   std::uint32_t own = 0;            ///< seeds; the images have the ranks from here on
   std::vector<std::uint32_t> rank;  ///< per image: of its seed
   std::vector<Shift> shift;         ///< per image: from its seed, in the reduced basis
+  std::vector<std::int32_t> code;   ///< per image: a number for its shift, minus that of the opposite one
   double margin = 0;                ///< a distance
 
   std::uint32_t seed_of(std::uint32_t r) const { return r < own ? r : rank[r - own]; }
