@@ -32,7 +32,7 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inpu
     report.files.push_back(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, diagram.adjacency(), inputs.view());
+    io::write_walls(arguments.walls, diagram.adjacency(), inputs.view(), shift_axes(diagram.domain()));
     report.files.push_back(arguments.walls);
   }
 }
@@ -96,7 +96,9 @@ Command add_diagram(CLI::App& app) {
   command->add_option("--table", arguments->table, "CSV with one row for each seed")->type_name("FILE.csv");
   command
       ->add_option("--walls", arguments->walls,
-                   "CSV with one row for each side of a wall: seed,neighbor,measure")
+                   "CSV with one row for each side of a wall: seed,neighbor,measure, and in a periodic "
+                   "domain sx,sy[,sz]: "
+                   "the periods by which the neighbour is moved")
       ->type_name("FILE.csv");
   add_common_options(*command, *arguments);
   command->footer(examples);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <powercell/error.hpp>
 
+#include "apps/io/domain_box.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_text.hpp"
@@ -142,7 +143,9 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
       .add_option(
           "--domain", arguments.domain,
           "A file (.geojson .json .gpkg .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt), or "
-          "square, cube, disk, ball, sphere, torus (with :N for resolution)")
+          "square, cube, disk, ball, sphere, torus (with :N for resolution), box:LX,LY[,LZ]:HX,HY[,HZ], or "
+          "the "
+          "periodic lattice:ax,ay/bx,by or lattice:ax,ay,az/bx,by,bz/cx,cy,cz")
       ->required(required);
   command
       .add_option(
@@ -158,12 +161,21 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
       .add_option("--kind", arguments.kind,
                   "polygon, surface or volume, for files that can be read as more than one")
       ->check(CLI::IsMember({"polygon", "surface", "volume"}));
+  add_periodic(command, arguments.periodic);
   add_columns(command, arguments);
   add_map_options(command, arguments);
 }
 
+void add_periodic(CLI::App& command, std::string& axes) {
+  command.add_flag(
+      "--periodic{xyz}", axes,
+      "Identify opposite sides of the box, square or cube: along all axes, or those given, as in "
+      "--periodic=xz");
+}
+
 Inputs read_inputs(const InputArguments& arguments) {
   io::DomainArrays arrays = io::read_domain_arrays(arguments.domain, io::domain_kind(arguments.kind));
+  io::make_periodic(arrays, arguments.periodic, arguments.domain);
   const int dimension = arrays.kind == DomainKind::polygon ? 2 : 3;
   const bool random = io::is_random_spec(arguments.seeds);
   io::SeedTable seeds;
@@ -183,8 +195,8 @@ Inputs read_inputs(const InputArguments& arguments) {
     if (plane)
       inputs.seeds.given = map_points(inputs.seeds.positions, [&](auto p) { return plane->to_map(p); });
   } else {
-    outside =
-        move_seeds(inputs, place, made.kind() == DomainKind::polygon ? map_box : seed_box(made), arguments);
+    const bool on_map = made.kind() == DomainKind::polygon && !made.is_periodic();
+    outside = move_seeds(inputs, place, on_map ? map_box : seed_box(made), arguments);
   }
   inputs.notes.push_back(inputs.domain.description);
   for (std::string& note : place.notes) inputs.notes.push_back(std::move(note));

@@ -17,7 +17,7 @@ class App;
 namespace powercell::app {
 
 struct InputArguments : MapArguments {
-  std::string domain, kind, seeds;
+  std::string domain, kind, seeds, periodic;
   io::ColumnChoice columns;
   std::string scale_weights;  // a number or "auto"
   bool allow_outside = false;
@@ -25,6 +25,14 @@ struct InputArguments : MapArguments {
 
 /// Adds --domain, --kind, --seeds and the options on their columns and maps.
 void add_inputs(CLI::App& command, InputArguments& arguments, bool required);
+
+/// Adds --periodic[=xyz], which sets `axes`.
+void add_periodic(CLI::App& command, std::string& axes);
+
+/// The coordinates of shifts in tables of walls.
+inline int shift_axes(const Domain& domain) {
+  return domain.is_periodic() ? domain.dimension() : 0;
+}
 
 struct Inputs {
   io::LoadedDomain domain;

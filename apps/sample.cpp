@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
+#include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/output.hpp"
@@ -25,7 +26,6 @@ struct SampleArguments : CommonOptions {
   SourceArguments source;
   std::size_t count = 1000;
   std::string mode = "blue", descent = "auto", analysis;
-  bool periodic = false;
   int iterations = 0, runs = 1;
   double movement = 1e-4, hexatic = 0.61, tolerance = 1e-6;
   std::uint64_t random_seed = 1;
@@ -38,7 +38,6 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
   options.mode = arguments.mode == "blue" ? SamplingMode::blue : SamplingMode::quantise;
   if (arguments.descent == "lloyd") options.descent = SamplingDescent::lloyd;
   if (arguments.descent == "lbfgs") options.descent = SamplingDescent::lbfgs;
-  options.periodic = arguments.periodic;
   options.iterations = arguments.iterations;
   options.hexatic = arguments.hexatic;
   options.movement = arguments.movement;
@@ -129,11 +128,18 @@ std::string shortfall(const SamplingResult& points, const SamplingOptions& optio
       options.descent == SamplingDescent::lloyd ? ", use --descent lbfgs, which needs fewer" : "");
 }
 
+/// Whether the waves of a spectrum fit the domain: it is a box of the plane, periodic along both axes.
+bool has_spectrum(const Domain& domain) {
+  const auto periods = domain.periods();
+  return domain.dimension() == 2 && periods[0][0] != 0 && periods[0][1] == 0 && periods[1][0] == 0 &&
+         periods[1][1] != 0;
+}
+
 /// Spectra take time that grows with the square of the number of points: they are computed for few points or
 /// on request.
-bool wants_spectra(const SampleArguments& arguments) {
+bool wants_spectra(const SampleArguments& arguments, const Domain& domain) {
   constexpr std::size_t quick = 4096;
-  return arguments.periodic && (arguments.count <= quick || !arguments.analysis.empty());
+  return has_spectrum(domain) && (arguments.count <= quick || !arguments.analysis.empty());
 }
 
 /// Of the domain, for notes.
@@ -143,11 +149,6 @@ std::string name_of(const SampleArguments& arguments) {
 }
 
 int run(const SampleArguments& arguments) {
-  if (arguments.periodic && !arguments.cells.empty())
-    throw Error(
-        ErrorCode::invalid_argument,
-        "--cells: cells that continue at the opposite side of a periodic box cannot be written; leave out "
-        "--cells or --periodic");
   std::vector<std::string> files = arguments.outputs;
   files.insert(files.end(), arguments.cells.begin(), arguments.cells.end());
   check_writable(std::move(files), {arguments.analysis}, arguments.json);
@@ -161,8 +162,8 @@ int run(const SampleArguments& arguments) {
   const Device device = open_device(arguments);
   progress.begin(sampling_stage);
   const SamplingOptions options = sampling_options(arguments, source);
-  const Study study =
-      run_study(device, source, arguments.count, options, arguments.runs, wants_spectra(arguments), progress);
+  const Study study = run_study(device, source, arguments.count, options, arguments.runs,
+                                wants_spectra(arguments, source.domain), progress);
   progress.begin(stage::writing);
   const std::vector<std::string> written = write_files(arguments, device, source, study);
   progress.finish();
@@ -223,8 +224,7 @@ Command add_sample(CLI::App& app) {
                    "lloyd moves points to the centroids of their cells, lbfgs rests after fewer moves; auto: "
                    "lloyd for blue, lbfgs for quantise")
       ->check(CLI::IsMember({"auto", "lloyd", "lbfgs"}));
-  command->add_flag("--periodic", arguments->periodic,
-                    "Identify opposite sides of the box; uniform density only");
+  add_periodic(*command, arguments->source.periodic);
   command
       ->add_option("--iterations", arguments->iterations, "Largest number of moves; 0 for the mode's default")
       ->check(not_below_zero());

@@ -51,6 +51,9 @@ Border border_of(const json& value, std::size_t cells) {
 class Reader {
  public:
   SavedFile read(const json& whole) {
+    if (whole.at("domain").contains("periods"))
+      throw std::invalid_argument(
+          "the diagram is periodic; only bounded ones can be verified from their file");
     file_.kind = named(whole.at("domain").at("kind"), io::domain_kind, "kind of domain");
     file_.cells.dimension = file_.measures.dimension = file_.kind == DomainKind::polygon ? 2 : 3;
     file_.cells.cell_dimension = file_.kind == DomainKind::volume ? 3 : 2;

@@ -185,6 +185,16 @@ bool SeedBox::contains(const double* point) const {
 
 SeedBox seed_box(const Domain& domain) {
   SeedBox box{static_cast<std::size_t>(domain.dimension()), domain.low(), domain.high(), 0};
+  if (domain.is_periodic()) {
+    // Seeds outside stand for their images inside, except along bounded axes.
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < box.dimension; ++k)
+      if (domain.periods()[k] != std::array<double, 3>{}) {
+        box.low[k] = -infinity;
+        box.high[k] = infinity;
+      }
+    return box;
+  }
   box.margin = (domain.kind() == DomainKind::surface ? 0.5 : rounding) * diagonal(box);
   return box;
 }

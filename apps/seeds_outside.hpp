@@ -23,6 +23,7 @@ struct SeedBox {
 };
 
 /// The box of a domain; of a surface, whose seeds may lie off it, with a margin of half its diagonal.
+/// Infinite along periodic axes.
 SeedBox seed_box(const Domain& domain);
 /// The box of polygons.
 SeedBox seed_box(const std::vector<PolygonPart>& parts);

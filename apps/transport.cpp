@@ -76,7 +76,8 @@ void write_files(const TransportArguments& arguments, TransportSolver& solver, c
     written(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, solver.diagram().adjacency(), inputs.view());
+    io::write_walls(arguments.walls, solver.diagram().adjacency(), inputs.view(),
+                    shift_axes(solver.diagram().domain()));
     written(arguments.walls);
   }
   if (!arguments.log.empty()) {
@@ -266,7 +267,9 @@ Command add_transport(CLI::App& app) {
       ->type_name("FILE.csv");
   command
       ->add_option("--walls", arguments->walls,
-                   "CSV with one row for each side of a wall: seed,neighbor,measure")
+                   "CSV with one row for each side of a wall: seed,neighbor,measure, and in a periodic "
+                   "domain sx,sy[,sz]: "
+                   "the periods by which the neighbour is moved")
       ->type_name("FILE.csv");
   command->add_option("--log", arguments->log, "JSON Lines: one object for each step of the solver")
       ->type_name("FILE.jsonl");

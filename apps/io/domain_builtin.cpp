@@ -5,6 +5,7 @@
 #include <charconv>
 #include <powercell/shapes.hpp>
 
+#include "apps/io/domain_box.hpp"
 #include "apps/io/read_domain.hpp"
 
 namespace powercell::io {
@@ -44,35 +45,21 @@ int resolution(const Builtin& builtin, const std::string& spec) {
   return value;
 }
 
-// The unit cube as six tetrahedra around its diagonal, one for each order of the axes.
-DomainArrays cube() {
-  DomainArrays arrays;
-  arrays.kind = DomainKind::volume;
-  for (int corner = 0; corner < 8; ++corner) {
-    for (int axis = 0; axis < 3; ++axis) arrays.vertices.push_back(corner >> axis & 1);
-  }
-  for (unsigned first = 1; first < 8; first *= 2) {
-    for (unsigned second = 1; second < 8; second *= 2) {
-      if (second != first) arrays.elements.insert(arrays.elements.end(), {0u, first, first | second, 7u});
-    }
-  }
-  return arrays;
-}
-
 }  // namespace
 
 bool is_builtin_domain(const std::string& spec) {
-  return find(spec) != nullptr;
+  return find(spec) != nullptr || is_box_spec(spec);
 }
 
 DomainArrays builtin_domain(const std::string& spec) {
+  if (is_box_spec(spec)) return parse_box(spec);
   const Builtin* builtin = find(spec);
   if (builtin == nullptr)
     throw Error(ErrorCode::invalid_argument, fmt::format("domain {} is not a built-in shape", spec));
   const int n = resolution(*builtin, spec);
   const std::string name = builtin->name;
-  if (name == "square") return {DomainKind::polygon, {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}}, {}, {}};
-  if (name == "cube") return cube();
+  if (name == "square") return parse_box("box:0,0:1,1");
+  if (name == "cube") return parse_box("box:0,0,0:1,1,1");
   if (name == "disk") return {DomainKind::polygon, {{disk(n), {}}}, {}, {}};
   if (name == "ball") {
     TetrahedralMesh mesh = ball(n);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/io/picture_outline.hpp"
+#include "apps/io/picture_periodic.hpp"
 
 namespace powercell::io {
 namespace {
@@ -42,6 +43,13 @@ std::string label(const DiagramOutput& output, std::size_t i) {
   return fmt::format("seed {}: weight {:.6g}, area {:.6g}", i, w, output.measures.mass[i]);
 }
 
+FlatBox box_of(const JoinedCells& joined, std::size_t cell) {
+  FlatBox box;
+  for (std::uint64_t v = joined.vertex_offset[cell]; v < joined.vertex_offset[cell + 1]; ++v)
+    box.add(&joined.vertices[2 * v]);
+  return box;
+}
+
 void add_cells(Scene& scene, const DiagramOutput& output, const Placement& placement) {
   const JoinedCells& joined = output.joined;
   const std::size_t n = output.measures.mass.size();
@@ -49,13 +57,14 @@ void add_cells(Scene& scene, const DiagramOutput& output, const Placement& place
   for (std::size_t i = 0; i + 1 < joined.face_offset.size(); ++i) {
     if (joined.face_offset[i] == joined.face_offset[i + 1]) continue;
     Scene::Cell cell{static_cast<std::uint32_t>(i), colours[i], scene.cell_rings.size(), 0, {}};
-    for (std::uint64_t f = joined.face_offset[i]; f < joined.face_offset[i + 1]; ++f) {
-      for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
-        const double* v = &joined.vertices[2 * (joined.vertex_offset[i] + joined.loop[e])];
-        scene.cell_rings.add(placement.x(v[0]), placement.y(v[1]));
+    for (const Translation& by : translations_into_view(output.domain, box_of(joined, i)))
+      for (std::uint64_t f = joined.face_offset[i]; f < joined.face_offset[i + 1]; ++f) {
+        for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
+          const double* v = &joined.vertices[2 * (joined.vertex_offset[i] + joined.loop[e])];
+          scene.cell_rings.add(placement.x(v[0] + by[0]), placement.y(v[1] + by[1]));
+        }
+        scene.cell_rings.end_ring();
       }
-      scene.cell_rings.end_ring();
-    }
     cell.end_ring = scene.cell_rings.size();
     if (n <= most_labels) cell.label = label(output, i);
     scene.cells.push_back(std::move(cell));
@@ -83,8 +92,13 @@ std::vector<Scene::Disc> make_discs(const DiagramOutput& output, const Placement
   std::vector<Scene::Disc> weights, dots, without_cell;
   const double dot = std::clamp(0.045 * spacing * placement.scale, 0.8, 3.2);
   for (std::size_t i = 0; i < output.seeds.size(); ++i) {
-    const double x = placement.x(output.seeds.positions[2 * i]);
-    const double y = placement.y(output.seeds.positions[2 * i + 1]);
+    FlatBox at;
+    at.add(&output.seeds.positions[2 * i]);
+    // In a periodic domain the image of the seed in the picture.
+    const std::vector<Translation> into = translations_into_view(output.domain, at);
+    if (into.empty()) continue;
+    const double x = placement.x(at.low[0] + into.front()[0]);
+    const double y = placement.y(at.low[1] + into.front()[1]);
     if (!(x >= 0 && x <= width && y >= 0 && y <= height)) continue;
     const auto seed = static_cast<std::uint32_t>(i);
     const SeedStatus status = output.measures.status[i];

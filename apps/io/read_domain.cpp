@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "apps/io/domain_box.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_geopackage.hpp"
@@ -31,9 +32,8 @@ DomainArrays polygon_arrays(std::vector<PolygonPart> parts, NamedCrs crs, std::o
   return arrays;
 }
 
-Domain make_domain(const DomainArrays& arrays, const std::string& spec) {
-  if (spec == "square") return Domain::box(std::array{0.0, 0.0}, std::array{1.0, 1.0});
-  if (spec == "cube") return Domain::box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0});
+Domain make_domain(const DomainArrays& arrays) {
+  if (arrays.exact) return *arrays.exact;
   switch (arrays.kind) {
     case DomainKind::polygon:
       return Domain::polygon(arrays.parts);
@@ -47,6 +47,8 @@ Domain make_domain(const DomainArrays& arrays, const std::string& spec) {
 }  // namespace
 
 std::string describe(const DomainArrays& arrays, const std::string& spec) {
+  if (arrays.exact && (is_box_spec(spec) || arrays.exact->is_periodic()))
+    return describe_box(*arrays.exact, spec);
   if (arrays.kind == DomainKind::polygon) {
     std::size_t holes = 0, points = 0;
     for (const PolygonPart& part : arrays.parts) {
@@ -88,7 +90,7 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
       fmt::format(
           "unknown extension '{}'; a domain is .geojson .json .gpkg .wkt .svg (polygon), .off .obj .ply "
           ".stl (surface), .mesh .msh .vtu .vtk .tet (tetrahedra), .txt (plain), or one of square cube "
-          "disk ball sphere torus",
+          "disk ball sphere torus, box:LX,LY[,LZ]:HX,HY[,HZ], lattice:ax,ay/bx,by",
           extension));
 }
 
@@ -109,7 +111,7 @@ DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKin
 
 LoadedDomain load_domain(DomainArrays arrays, const std::string& spec) {
   try {
-    Domain domain = make_domain(arrays, spec);
+    Domain domain = make_domain(arrays);
     std::string description = describe(arrays, spec);
     return {std::move(domain),          std::move(description),     std::move(arrays.parts),
             std::move(arrays.vertices), std::move(arrays.elements), std::move(arrays.crs)};
@@ -119,8 +121,11 @@ LoadedDomain load_domain(DomainArrays arrays, const std::string& spec) {
   }
 }
 
-LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind) {
-  return load_domain(read_domain_arrays(spec, kind), spec);
+LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind,
+                         const std::string& periodic) {
+  DomainArrays arrays = read_domain_arrays(spec, kind);
+  make_periodic(arrays, periodic, spec);
+  return load_domain(std::move(arrays), spec);
 }
 
 }  // namespace powercell::io

@@ -25,10 +25,12 @@ struct LoadedDomain {
 
 /// \param spec  a file (.geojson .json .gpkg .wkt .svg; .off .obj .ply .stl; .mesh .msh .vtu .vtk .tet; .txt
 ///   of the paper's kind), or square, cube (unit, from 0 to 1), disk[:N], ball[:N], sphere[:N] (radius 1
-///   about 0), torus[:N] (N: resolution)
+///   about 0), torus[:N] (N: resolution), or as parse_box() says (domain_box.hpp)
 /// \param kind  for files that can be read as more than one kind (a mesh with faces and solids)
+/// \param periodic  axes along which a box becomes periodic, e.g. "xz"; empty for none
 /// \throw Error invalid_file (file and line), invalid_domain (file and element), invalid_argument
-LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind = std::nullopt);
+LoadedDomain read_domain(const std::string& spec, std::optional<DomainKind> kind = std::nullopt,
+                         const std::string& periodic = {});
 
 /// The two steps of it: the arrays of a file or a built-in shape, which may be projected
 /// (map_projection.hpp), and the domain that they make.

@@ -62,6 +62,33 @@ void write_borders(AtomicFile& file, const JoinedCells& joined, std::size_t cell
   }
 }
 
+void write_shift(AtomicFile& file, const std::array<std::int32_t, 3>& shift, int dimension) {
+  file.write('[');
+  for (int k = 0; k < dimension; ++k) {
+    if (k > 0) file.write(',');
+    file.write(std::to_string(shift[static_cast<std::size_t>(k)]));
+  }
+  file.write(']');
+}
+
+/// Of a periodic domain: shifts parallel to the borders.
+void write_shifts(AtomicFile& file, const JoinedCells& joined, std::size_t cell) {
+  file.write("],\"shifts\":[");
+  for (std::uint64_t f = joined.face_offset[cell]; f < joined.face_offset[cell + 1]; ++f) {
+    if (f > joined.face_offset[cell]) file.write(',');
+    if (joined.cell_dimension == 3) {
+      write_shift(file, joined.shift[f], joined.dimension);
+      continue;
+    }
+    file.write('[');
+    for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
+      if (e > joined.loop_offset[f]) file.write(',');
+      write_shift(file, joined.shift[e], joined.dimension);
+    }
+    file.write(']');
+  }
+}
+
 void write_geometry(AtomicFile& file, const JoinedCells& joined, std::size_t cell) {
   const auto d = static_cast<std::size_t>(joined.dimension);
   file.write(",\"vertices\":[");
@@ -73,6 +100,7 @@ void write_geometry(AtomicFile& file, const JoinedCells& joined, std::size_t cel
   write_faces(file, joined, cell);
   file.write("],\"borders\":[");
   write_borders(file, joined, cell);
+  if (!joined.shift.empty()) write_shifts(file, joined, cell);
   file.write(']');
 }
 
@@ -110,6 +138,16 @@ void write_head(AtomicFile& file, const DiagramOutput& output) {
              name(output.domain.kind()) + "\",\"dimension\":" + std::to_string(output.domain.dimension()) +
              ",\"measure\":");
   write_number(file, output.domain.measure());
+  if (output.domain.is_periodic()) {
+    const auto periods = output.domain.periods();
+    const auto d = static_cast<std::size_t>(output.domain.dimension());
+    file.write(",\"periods\":[");
+    for (std::size_t k = 0; k < d; ++k) {
+      if (k > 0) file.write(',');
+      write_point(file, periods[k].data(), d);
+    }
+    file.write(']');
+  }
   if (output.inputs.map && !output.inputs.map->crs.empty())
     file.write(",\"crs\":" + json_string(output.inputs.map->crs));
   if (const MapPlane* plane = output.inputs.plane())

@@ -22,12 +22,15 @@ void write_table(const std::string& path, const SeedsView& seeds, const Measures
   rows.commit();
 }
 
-void write_walls(const std::string& path, const Adjacency& adjacency, const InputView& inputs) {
+void write_walls(const std::string& path, const Adjacency& adjacency, const InputView& inputs,
+                 int shift_axes) {
   const SeedTable* table = inputs.table;
   const bool like_table = table != nullptr && table->text.columns > 0;
   const bool ids = like_table && table->columns.id.has_value();
   FieldWriter file(path, like_table ? table->text.separator : ',', like_table ? table->text.mark : '.');
   for (const char* column : {"seed", "neighbor", "measure"}) file.text(column);
+  const auto axes = static_cast<std::size_t>(shift_axes);
+  for (std::size_t k = 0; k < axes; ++k) file.text(std::string("s") + "xyz"[k]);
   if (ids)
     for (const char* column : {"id", "neighbor_id"}) file.text(column);
   file.end_row();
@@ -36,6 +39,7 @@ void write_walls(const std::string& path, const Adjacency& adjacency, const Inpu
       file.count(i);
       file.count(adjacency.neighbor[e]);
       file.number(adjacency.wall[e]);
+      for (std::size_t k = 0; k < axes; ++k) file.number(static_cast<double>(adjacency.shift[e][k]));
       if (ids)
         for (const std::size_t seed : {i, std::size_t{adjacency.neighbor[e]}})
           file.text(table->text.field(seed, *table->columns.id));

@@ -18,7 +18,9 @@ void write_table(const std::string& path, const SeedsView& seeds, const Measures
                  const Adjacency& adjacency, const InputView& inputs = {});
 
 /// CSV `seed,neighbor,measure`, both directions of each wall, ascending; if a column of ids was chosen, also
-/// `id,neighbor_id`. \throw Error write_failed
-void write_walls(const std::string& path, const Adjacency& adjacency, const InputView& inputs = {});
+/// `id,neighbor_id`. \param shift_axes  in a periodic domain its dimension, for columns `sx,sy[,sz]` after
+/// the measure: Adjacency::shift. \throw Error write_failed
+void write_walls(const std::string& path, const Adjacency& adjacency, const InputView& inputs = {},
+                 int shift_axes = 0);
 
 }  // namespace powercell::io

@@ -55,14 +55,20 @@ Source image_source(const SourceArguments& arguments) {
 Source read_source(const SourceArguments& arguments) {
   check(arguments);
   if (arguments.paper != 0) {
-    if (!(arguments.density + arguments.image + arguments.domain).empty())
+    if (!(arguments.density + arguments.image + arguments.domain + arguments.periodic).empty())
       throw Error(ErrorCode::invalid_argument,
-                  "--paper cannot be combined with --domain, --density or --image");
+                  "--paper cannot be combined with --domain, --density, --image or --periodic");
     return paper_source(arguments.paper);
   }
-  if (!arguments.image.empty()) return image_source(arguments);
+  if (!arguments.image.empty()) {
+    if (!arguments.periodic.empty())
+      throw Error(ErrorCode::unsupported,
+                  "--periodic: in a periodic domain the density must be constant; leave "
+                  "out --image or --periodic");
+    return image_source(arguments);
+  }
   const std::string spec = arguments.domain.empty() ? "square" : arguments.domain;
-  const io::LoadedDomain loaded = io::read_domain(spec, io::domain_kind(arguments.kind));
+  const io::LoadedDomain loaded = io::read_domain(spec, io::domain_kind(arguments.kind), arguments.periodic);
   return {loaded.domain, description_of(loaded), read_density(arguments, loaded.domain), std::nullopt};
 }
 

@@ -12,7 +12,7 @@
 namespace powercell::app {
 
 struct SourceArguments : DensityArguments {
-  std::string domain, kind;
+  std::string domain, kind, periodic;
   double dot_contrast = 0.3;  ///< share of the darkness shown by the sizes of dots instead of their number
   int paper = 0;              ///< 2 or 3 for the experiment of the paper in that dimension
 };

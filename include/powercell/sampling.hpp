@@ -45,7 +45,8 @@ struct SamplingOptions {
   Density density = Density::constant(1);
   SamplingMode mode = SamplingMode::blue;
   SamplingDescent descent = SamplingDescent::automatic;
-  /// The domain is a box of the plane with its opposite sides identified. The density must be constant.
+  /// The domain is a box with its opposite sides identified: short for Domain::periodic_box. In a periodic
+  /// domain the density must be constant.
   bool periodic = false;
   /// Limit on iterations. 0 means 100 for blue in the plane, 20 for blue elsewhere, 10,000 for quantise.
   int iterations = 0;
@@ -109,7 +110,7 @@ struct SamplingResult {
 /// energy are those of cells on the surface as it is, which reach through to other layers (`apart`).
 /// \param n  number of points; they start at random with the density (random_points)
 /// \throw Error invalid_argument (no points; an option out of range), unsupported (a periodic domain that is
-///   not a box of the plane, or a density that is not constant there), interrupted; as TransportSolver and
+///   not a box, or a density that is not constant there), interrupted; as TransportSolver and
 ///   random_points
 POWERCELL_API SamplingResult sample(const Device& device, const Domain& domain, std::size_t n,
                                     const SamplingOptions& options = {});

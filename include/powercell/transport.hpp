@@ -47,8 +47,9 @@ struct TransportStep {
 struct TransportOptions {
   /// Mass per unit of area or volume.
   Density density = Density::constant(1);
-  /// The domain is a box of the plane with its opposite sides identified. The density must be constant. Seeds
-  /// outside the box stand for their copies inside; the centroids are near the seeds as given.
+  /// The domain is a box with its opposite sides identified: short for Domain::periodic_box. In a periodic
+  /// domain the density must be constant. Seeds outside stand for their images inside; the centroids are near
+  /// the seeds as given.
   bool periodic = false;
   /// Converged when max |m_i / v_i - 1| and the quadrature errors relative to v_i are below this value, in
   /// [0, 1). 0 means 1e-6, in single precision 1e-3.
@@ -113,7 +114,7 @@ struct POWERCELL_API TransportResult {
 class POWERCELL_API TransportSolver {
  public:
   /// \throw Error invalid_argument (an option out of range), no_fp64, unsupported (periodic, and the domain
-  ///   is not a box of the plane or the density not constant)
+  ///   is not a box or the density not constant)
   TransportSolver(Device device, Domain domain, TransportOptions options = {});
   TransportSolver(TransportSolver&&) noexcept;
   TransportSolver& operator=(TransportSolver&&) noexcept;
@@ -151,8 +152,7 @@ class POWERCELL_API TransportSolver {
   const TransportResult& result() const;
 
   /// The diagram of all seeds with the weights of the last solve.
-  /// \throw Error invalid_argument (before the first solve, or if seeds were set or moved since), unsupported
-  ///   (a periodic box)
+  /// \throw Error invalid_argument (before the first solve, or if seeds were set or moved since)
   Diagram& diagram();
 
   struct State;  ///< library-internal

@@ -39,10 +39,7 @@ void append(const CellWeld& weld, const JoinedFaces& faces, std::vector<std::uin
   out.face_offset.push_back(out.loop_offset.size() - 1);
 }
 
-}  // namespace
-
-JoinedCells join(const Domain& domain, const Cells& cells) {
-  check(domain, cells);
+JoinedCells join_pieces(const Domain& domain, const Cells& cells) {
   JoinedCells out;
   out.dimension = cells.dimension;
   out.cell_dimension = cells.cell_dimension;
@@ -63,6 +60,30 @@ JoinedCells join(const Domain& domain, const Cells& cells) {
     append(weld, faces, number, out);
   }
   return out;
+}
+
+/// A face per image: borders become numbers of faces, so that walls with images of one seed stay apart.
+JoinedCells join_periodic(const Domain& domain, Cells cells) {
+  const std::vector<Border> border = cells.border;
+  for (std::size_t f = 0; f < border.size(); ++f)
+    if (border[f].kind == Border::Kind::wall) cells.border[f].index = static_cast<std::uint32_t>(f);
+  JoinedCells joined = join_pieces(domain, cells);
+  std::vector<Border>& of_joined = joined.cell_dimension == 3 ? joined.face_border : joined.edge_border;
+  joined.shift.resize(of_joined.size());
+  for (std::size_t k = 0; k < of_joined.size(); ++k) {
+    if (of_joined[k].kind != Border::Kind::wall) continue;
+    const std::uint32_t f = of_joined[k].index;
+    of_joined[k] = border[f];
+    joined.shift[k] = cells.shift[f];
+  }
+  return joined;
+}
+
+}  // namespace
+
+JoinedCells join(const Domain& domain, const Cells& cells) {
+  check(domain, cells);
+  return cells.shift.empty() ? join_pieces(domain, cells) : join_periodic(domain, cells);
 }
 
 }  // namespace powercell

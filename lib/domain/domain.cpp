@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <powercell/domain.hpp>
 #include <powercell/regions.hpp>
 
 #include "lib/domain/build.hpp"
+#include "lib/domain/period.hpp"
 #include "lib/domain/region_mesh.hpp"
 #include "lib/report/log.hpp"
 
@@ -31,6 +33,43 @@ Domain Domain::volume(std::span<const double> vertices, std::span<const std::uin
 
 Domain Domain::box(std::span<const double> low, std::span<const double> high) {
   return Domain(build_box(low, high));
+}
+
+Domain Domain::periodic_box(std::span<const double> low, std::span<const double> high,
+                            std::span<const bool> periodic) {
+  return Domain(build_periodic_box(low, high, periodic));
+}
+
+Domain Domain::periodic_box(std::span<const double> low, std::span<const double> high) {
+  constexpr bool all[] = {true, true, true};
+  return periodic_box(low, high, std::span(all).first(std::min<std::size_t>(low.size(), 3)));
+}
+
+Domain Domain::lattice(std::span<const double> vectors, std::span<const double> origin) {
+  return Domain(build_lattice(vectors, origin));
+}
+
+bool Domain::is_periodic() const {
+  return mesh_->period != nullptr;
+}
+std::array<std::array<double, 3>, 3> Domain::periods() const {
+  std::array<std::array<double, 3>, 3> vectors{};
+  for (int k = 0; k < 3 && is_periodic(); ++k) vectors[static_cast<std::size_t>(k)] = mesh_->period->given(k);
+  return vectors;
+}
+
+std::vector<double> Domain::wrapped(std::span<const double> positions) const {
+  const auto d = static_cast<std::size_t>(dimension());
+  if (positions.size() % d != 0)
+    throw Error(ErrorCode::invalid_argument,
+                std::to_string(positions.size()) + " coordinates of points of " + std::to_string(d));
+  std::vector<double> result(positions.begin(), positions.end());
+  for (std::size_t i = 0; is_periodic() && i < positions.size() / d; ++i) {
+    const Period::Wrapped at = mesh_->period->wrap(&positions[i * d]);
+    if (at.is_far) refuse_far(i);
+    std::copy_n(at.position.begin(), d, &result[i * d]);
+  }
+  return result;
 }
 
 DomainKind Domain::kind() const {

@@ -29,6 +29,11 @@ void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
 
 std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const VerifyOptions& options) {
   check_same_seeds(diagram, seeds);
+  if (diagram.domain().is_periodic())
+    throw Error(
+        ErrorCode::unsupported,
+        "the laws of a periodic diagram cannot be checked here; Options::certify checks those that hold in "
+        "a periodic domain");
   const Domain& domain = diagram.domain();
   const Rounding rounding(extent_of(domain), seeds, diagram.precision());
   const Cells& cells = diagram.cells();

@@ -24,6 +24,16 @@ TEST_CASE("built-in shapes") {
   CHECK(read_domain("ball").domain.measure() == doctest::Approx(4 * pi / 3).epsilon(0.05));
   CHECK(read_domain("torus").domain.kind() == DomainKind::surface);
   CHECK(read_domain("sphere:3").elements.size() < read_domain("sphere:20").elements.size());
+  const LoadedDomain slab = read_domain("box:-1,0,2:3,1,2.5", {}, "xy");
+  CHECK(slab.domain.measure() == 2);
+  CHECK(slab.domain.periods()[0] == std::array<double, 3>{4, 0, 0});
+  CHECK(slab.domain.periods()[2] == std::array<double, 3>{0, 0, 0});
+  CHECK(Domain::volume(slab.vertices, slab.elements).measure() == doctest::Approx(2));
+  const LoadedDomain skew = read_domain("lattice:1,0/0.5,0.8");
+  CHECK(skew.domain.is_periodic());
+  CHECK(skew.domain.measure() == doctest::Approx(0.8));
+  CHECK(Domain::polygon(skew.parts).measure() == doctest::Approx(0.8));
+  CHECK(read_domain("lattice:0,1,0/1,0,0/0,0,2").domain.measure() == doctest::Approx(2));
   CHECK(says(refusal([] { read_domain("sphere:0"); }), "invalid_argument: domain sphere:0: the resolution"));
   CHECK(says(refusal([] { read_domain("disk:9x"); }), "the resolution is not a whole number"));
   CHECK(says(refusal([] { read_domain("square:4"); }), "square takes no resolution"));

@@ -53,6 +53,10 @@ DensityIntegrals integrate(Diagram& diagram, const Density& density, const Integ
                                                  "; it must be 0 or between 0 and 1");
   IntegrationOptions resolved = options;
   resolved.threads = thread_count(options.threads);
+  if (diagram.domain().is_periodic() && !density.is_constant())
+    throw Error(ErrorCode::unsupported,
+                "in a periodic domain the density must be constant, since a function of the position has no "
+                "periods; use Density::constant");
   DensityIntegrals result = density.model().integrate(diagram, resolved);
   result.domain_mass = density.total(diagram.domain(), options.threads);
   return result;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/applications/periodic/periodic_diagram.hpp"
+#include "lib/applications/transport/periodic_domain.hpp"
 
 namespace powercell {
 namespace {
@@ -78,37 +78,29 @@ template <class Check>
 NeighbourStatistics measure_neighbours(const Device& device, const Domain& domain,
                                        std::span<const double> positions, bool periodic, bool uniform,
                                        const Options& options, const Check& check) {
+  Diagram diagram(device, periodic_domain(domain, periodic), options);
+  diagram.set_seeds({domain.dimension(), positions, {}});
   const auto d = static_cast<std::size_t>(domain.dimension());
   const std::size_t n = positions.size() / d;
-  Accumulator statistics(d == 2);
-  const auto accumulate = [&](const Measures& measures, const std::vector<std::uint64_t>& offset,
-                              const auto& step_of) {
-    check(measures);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (measures.status[i] != SeedStatus::ok) continue;
-      for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) statistics.add(step_of(i, k));
-      const double measure = uniform ? domain.measure() / static_cast<double>(n) : measures.mass[i];
-      statistics.finish_point(lattice_distance(measure, domain.cell_dimension()));
-    }
-  };
-  if (periodic) {
-    PeriodicDiagram diagram(device, domain, options);
-    diagram.set_seeds(positions, {});
-    const std::vector<PeriodicDiagram::Wall>& walls = diagram.walls();
-    accumulate(diagram.measures(), diagram.wall_offset(), [&](std::size_t, std::uint64_t k) {
-      return Step{walls[k].step[0], walls[k].step[1], 0};
-    });
-    return statistics.result();
-  }
-  Diagram diagram(device, domain, options);
-  diagram.set_seeds({domain.dimension(), positions, {}});
   const Adjacency& adjacency = diagram.adjacency();
-  accumulate(diagram.measures(), adjacency.offset, [&](std::size_t i, std::uint64_t k) {
-    Step step{};
-    for (std::size_t c = 0; c < d; ++c)
-      step[c] = positions[adjacency.neighbor[k] * d + c] - positions[i * d + c];
-    return step;
-  });
+  const Measures& measures = diagram.measures();
+  check(measures);
+  const auto periods = diagram.domain().periods();
+  Accumulator statistics(d == 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (measures.status[i] != SeedStatus::ok) continue;
+    for (std::uint64_t k = adjacency.offset[i]; k < adjacency.offset[i + 1]; ++k) {
+      Step step{};
+      for (std::size_t c = 0; c < d; ++c) {
+        step[c] = positions[adjacency.neighbor[k] * d + c] - positions[i * d + c];
+        for (std::size_t axis = 0; axis < d && !adjacency.shift.empty(); ++axis)
+          step[c] += adjacency.shift[k][axis] * periods[axis][c];
+      }
+      statistics.add(step);
+    }
+    const double measure = uniform ? domain.measure() / static_cast<double>(n) : measures.mass[i];
+    statistics.finish_point(lattice_distance(measure, domain.cell_dimension()));
+  }
   return statistics.result();
 }
 

@@ -6,6 +6,7 @@
 
 #include "lib/applications/sampling/apart.hpp"
 #include "lib/applications/sampling/nearest.hpp"
+#include "lib/applications/transport/periodic_domain.hpp"
 
 namespace powercell {
 namespace {
@@ -23,7 +24,7 @@ TransportOptions transport_options(const SamplingOptions& options) {
 SamplingState::SamplingState(const Device& device, const Domain& domain, const SamplingOptions& options,
                              std::vector<double> positions)
     : device_(device),
-      domain_(domain),
+      domain_(periodic_domain(domain, options.periodic)),
       options_(options),
       dimension_(static_cast<std::size_t>(domain.dimension())),
       positions_(std::move(positions)),
@@ -78,20 +79,13 @@ double SamplingState::capacity_error() const {
 }
 
 std::vector<double> SamplingState::wrapped() const {
-  std::vector<double> result = positions_;
-  if (!options_.periodic) return result;
-  const auto low = domain_.low(), high = domain_.high();
-  for (std::size_t k = 0; k < result.size(); ++k) {
-    const double size = high[k % 2] - low[k % 2];
-    result[k] -= std::floor((result[k] - low[k % 2]) / size) * size;
-  }
-  return result;
+  return domain_.wrapped(positions_);
 }
 
 std::vector<double> SamplingState::in_domain(bool at_centroids) {
   std::vector<double> result = positions_;
   // The cells of a convex domain are convex and contain their centroids.
-  if (options_.periodic || (at_centroids && domain_.region_count() == 1)) return result;
+  if (domain_.is_periodic() || (at_centroids && domain_.region_count() == 1)) return result;
   const Cells& geometry = solver_.diagram().cells();
   for (std::size_t i = 0; i < size(); ++i) {
     if (geometry.cell_offset[i] == geometry.cell_offset[i + 1]) continue;

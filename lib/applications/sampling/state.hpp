@@ -12,7 +12,7 @@ namespace powercell {
 /// Points and their cells of equal mass. Moving the points is the expensive operation: it solves a transport.
 class SamplingState {
  public:
-  /// Device, domain and options are kept by reference.
+  /// Device and options are kept by reference.
   /// \param positions  n x d
   SamplingState(const Device& device, const Domain& domain, const SamplingOptions& options,
                 std::vector<double> positions);
@@ -53,7 +53,7 @@ class SamplingState {
 
  private:
   const Device& device_;
-  const Domain& domain_;
+  const Domain domain_;
   const SamplingOptions& options_;
   std::size_t dimension_;
   std::vector<double> positions_;

@@ -166,7 +166,11 @@ void Evaluator::measure(Iterate& at) {
   diagram_.set_weights({at.weights.data(), static_cast<std::size_t>(at.weights.size())});
   if (diagram_.domain().kind() == DomainKind::surface) diagram_.compute(true, true);
   at.cells = spread_ > 0 ? integrate_blend() : integrate_density();
-  if (!at.cells.walls.offset.empty()) at.conductance = conductances(diagram_, at.cells.walls, positions_);
+  if (at.cells.walls.offset.empty()) return;
+  if (diagram_.domain().is_periodic())
+    join_images(diagram_.domain(), positions_, at);
+  else
+    at.conductance = conductances(diagram_, at.cells.walls, positions_);
 }
 
 Iterate Evaluator::evaluate(Vector weights) {

@@ -6,7 +6,6 @@
 #include <powercell/transport.hpp>
 
 #include "lib/applications/linear/laplacian.hpp"
-#include "lib/applications/periodic/periodic_diagram.hpp"
 
 namespace powercell {
 
@@ -61,8 +60,6 @@ class Evaluator {
   /// \param threads    for the integrals; 0 means all
   Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, const Goal& goal,
             int threads);
-  virtual ~Evaluator() = default;
-
   /// Subtracts the mean from the weights and evaluates them. They remain set in the diagram.
   Iterate evaluate(Vector weights);
 
@@ -93,11 +90,9 @@ class Evaluator {
   std::size_t diagrams() const { return diagrams_; }            ///< computed so far
   double seconds() const { return seconds_; }                   ///< wall-clock time of these
 
- protected:
-  /// Computes cells and conductances of at.weights.
-  virtual void measure(Iterate& at);
-
  private:
+  /// Computes cells and conductances of at.weights.
+  void measure(Iterate& at);
   double integral_tolerance(double error) const;
   DensityIntegrals integrate_density();
   DensityIntegrals integrate_blend();
@@ -117,23 +112,12 @@ class Evaluator {
   double seconds_ = 0;
 };
 
-/// Evaluates weights in a periodic diagram. The density must be constant.
-class PeriodicEvaluator : public Evaluator {
- public:
-  /// All but the last two arguments are kept by reference. `diagram` only provides the domain.
-  /// \param positions  n x 2
-  PeriodicEvaluator(Diagram& diagram, PeriodicDiagram& periodic, const Density& density,
-                    std::span<const double> positions, const Goal& goal, int threads);
-
- private:
-  void measure(Iterate& at) override;
-
-  PeriodicDiagram& periodic_;
-  double density_value_;
-};
-
 /// Conductances of `walls`, parallel to walls.wall. On a surface a wall crosses many triangles and moves at a
 /// different speed in each, which takes the geometry of the cells.
 std::vector<double> conductances(Diagram& diagram, const Adjacency& walls, std::span<const double> positions);
+
+/// Sets the conductances in a periodic domain. Joins the walls of two seeds through several images into one,
+/// and removes those of a seed with images of itself, which no weight moves.
+void join_images(const Domain& domain, std::span<const double> positions, Iterate& at);
 
 }  // namespace powercell

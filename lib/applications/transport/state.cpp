@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "lib/applications/transport/periodic_domain.hpp"
 #include "lib/applications/transport/phases.hpp"
 #include "lib/base/positions.hpp"
 #include "lib/base/text.hpp"
@@ -34,20 +35,9 @@ Vector vector_of(const std::vector<double>& values) {
 TransportSolver::State::State(Device device, Domain domain, TransportOptions given)
     : options(std::move(given)),
       tolerance(options.tolerance),
-      diagram(std::move(device), std::move(domain), options.diagram) {
-  if (!options.periodic) return;
-  if (!options.density.is_constant())
-    throw Error(ErrorCode::unsupported, "in a periodic box the density must be constant");
-  periodic.emplace(diagram.device(), diagram.domain(), options.diagram);
-}
-
-std::unique_ptr<Evaluator> TransportSolver::State::evaluator(std::span<const double> kept_positions,
-                                                             const Vector& target) {
-  const Goal goal{target, used_tolerance()};
-  if (periodic)
-    return std::make_unique<PeriodicEvaluator>(diagram, *periodic, options.density, kept_positions, goal,
-                                               options.diagram.threads);
-  return std::make_unique<Evaluator>(diagram, options.density, kept_positions, goal, options.diagram.threads);
+      diagram(std::move(device), periodic_domain(domain, options.periodic), options.diagram) {
+  if (diagram.domain().is_periodic() && !options.density.is_constant())
+    throw Error(ErrorCode::unsupported, "in a periodic domain the density must be constant");
 }
 
 double TransportSolver::State::used_tolerance() const {
@@ -87,7 +77,7 @@ const TransportResult& TransportSolver::State::solve() {
 
   TransportResult next;
   const std::size_t d = dimension();
-  next.merged_with = first_at_position(periodic ? periodic->inside(positions) : positions, d);
+  next.merged_with = first_at_position(diagram.domain().wrapped(positions), d);
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < size(); ++i)
     if (next.merged_with[i] == i) kept.push_back(i);
@@ -106,11 +96,12 @@ const TransportResult& TransportSolver::State::solve() {
   next.tolerance = used_tolerance();
   next.target = target;
   const Vector kept_target = vector_of(rows(joined, kept, 1));
-  const std::unique_ptr<Evaluator> cells = evaluator(kept_positions, kept_target);
-  SolveContext context(*cells, options, next.tolerance, tolerance > 0, kept_target);
+  Evaluator cells(diagram, options.density, kept_positions, {kept_target, used_tolerance()},
+                  options.diagram.threads);
+  SolveContext context(cells, options, next.tolerance, tolerance > 0, kept_target);
   const Iterate at = run_phases(context, vector_of(kept_weights));
   next.steps = context.steps();
-  next.diagrams = cells->diagrams();
+  next.diagrams = cells.diagrams();
   next.error = at.error(kept_target);
   next.quadrature_error = at.quadrature_error(kept_target);
   next.rounding_error = at.rounding_error(kept_target);
@@ -120,7 +111,7 @@ const TransportResult& TransportSolver::State::solve() {
   next.dual = at.dual(kept_target);
   result = std::move(next);
   fill_result(at, kept);
-  diagram_has_weights = cells->last_weights() == at.weights;
+  diagram_has_weights = cells.last_weights() == at.weights;
   solved = true;
   return result;
 }

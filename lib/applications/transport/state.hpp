@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <powercell/transport.hpp>
 
 #include "lib/applications/transport/evaluator.hpp"
@@ -14,8 +13,7 @@ struct TransportSolver::State {
   TransportOptions options;
   double tolerance = 0;  ///< as in TransportOptions
   Diagram diagram;
-  std::optional<PeriodicDiagram> periodic;  ///< used instead of `diagram` if the options are periodic
-  bool diagram_has_all = false;             ///< the diagram has all seeds; else those that are not merged
+  bool diagram_has_all = false;      ///< the diagram has all seeds; else those that are not merged
   bool diagram_has_weights = false;  ///< the diagram has the weights of the result; else of a trial step
 
   std::vector<double> positions, weights, masses;  ///< of all seeds; masses may be empty: equal
@@ -32,8 +30,6 @@ struct TransportSolver::State {
   const TransportResult& solve();
 
  private:
-  /// The arguments are kept by reference. They are those of the seeds that are not merged.
-  std::unique_ptr<Evaluator> evaluator(std::span<const double> kept_positions, const Vector& target);
   /// The target masses of all seeds, with the sum `total`.
   /// \throw Error invalid_argument
   std::vector<double> targets(double total) const;

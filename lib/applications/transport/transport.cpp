@@ -123,7 +123,6 @@ const TransportResult& TransportSolver::result() const {
 Diagram& TransportSolver::diagram() {
   State& s = *state_;
   if (!s.solved) refuse("diagram before solve: there are no weights for these seeds yet");
-  if (s.periodic) throw Error(ErrorCode::unsupported, "a periodic transport has no diagram of its seeds");
   if (!s.diagram_has_all) {
     s.diagram.set_seeds({s.diagram.domain().dimension(), s.positions, s.result.weights});
     s.diagram_has_all = true;

@@ -2,9 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <powercell/diagram.hpp>
+#include <powercell/sampling.hpp>
 #include <powercell/transport.hpp>
 
-#include "lib/applications/periodic/periodic_diagram.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/setups.hpp"
 
@@ -17,6 +18,10 @@ const std::array<double, 2> low{-1, 2}, high{2, 4};
 
 Domain box() {
   return Domain::box(low, high);
+}
+
+Domain periodic() {
+  return Domain::periodic_box(low, high);
 }
 
 SeedArray seeds_in_box(std::size_t n, WeightRange range, Random& random) {
@@ -47,8 +52,8 @@ TEST_CASE("periodic cells agree with those among all copies") {
     for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
       INFO(n << " seeds, weights " << name(range));
       const SeedArray seeds = seeds_in_box(n, range, random);
-      PeriodicDiagram diagram(setup.device, box(), setup.options);
-      diagram.set_seeds(seeds.positions, seeds.weights);
+      Diagram diagram(setup.device, periodic(), setup.options);
+      diagram.set_seeds(seeds.view());
       const Measures found = diagram.measures(), expected = among_all_copies(seeds);
       REQUIRE(found.mass.size() == n);
       CHECK(found.total() == doctest::Approx(6).epsilon(1e-12));
@@ -64,8 +69,8 @@ TEST_CASE("one heavy seed: the margin grows until the areas sum to the area of t
   SeedArray seeds = seeds_in_box(400, WeightRange::W0, random);
   seeds.weights[0] = 0.8;  // a disc of radius 0.9, cut by copies farther away than three spacings
   const Setup& setup = main_setups().front();
-  PeriodicDiagram diagram(setup.device, box(), setup.options);
-  diagram.set_seeds(seeds.positions, seeds.weights);
+  Diagram diagram(setup.device, periodic(), setup.options);
+  diagram.set_seeds(seeds.view());
   const Measures expected = among_all_copies(seeds);
   CHECK(expected.mass[0] > 1);
   for (std::size_t i = 0; i < seeds.size(); ++i)
@@ -83,8 +88,8 @@ TEST_CASE("single precision: cuts by copies beyond the first margin are not lost
     // Discs of radius 0.933 to 0.943 in a box of height 2: copies cut off 1e-5 of the cell.
     seeds.weights[0] = 0.87 + 0.001 * step;
     CAPTURE(seeds.weights[0]);
-    PeriodicDiagram diagram(setup.device, box(), setup.options);
-    diagram.set_seeds(seeds.positions, seeds.weights);
+    Diagram diagram(setup.device, periodic(), setup.options);
+    diagram.set_seeds(seeds.view());
     const Measures expected = among_all_copies(seeds);
     double off = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i)
@@ -99,14 +104,14 @@ TEST_CASE("walls of periodic cells are symmetric, and seeds outside the box stan
   Random random(test_seed());
   const SeedArray seeds = seeds_in_box(50, WeightRange::W1, random);
   const Setup& setup = main_setups().front();
-  PeriodicDiagram diagram(setup.device, box(), setup.options), moved(setup.device, box(), setup.options);
-  diagram.set_seeds(seeds.positions, seeds.weights);
+  Diagram diagram(setup.device, periodic(), setup.options), moved(setup.device, periodic(), setup.options);
+  diagram.set_seeds(seeds.view());
   SeedArray far = seeds;
   for (std::size_t i = 0; i < far.size(); ++i) {
     far.coordinate(i, 0) += 3 * static_cast<double>(i % 4);
     far.coordinate(i, 1) -= 2 * static_cast<double>(i % 3);
   }
-  moved.set_seeds(far.positions, far.weights);
+  moved.set_seeds(far.view());
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     CHECK(std::abs(diagram.measures().mass[i] - moved.measures().mass[i]) < 1e-11);
     REQUIRE(diagram.measures().status[i] == moved.measures().status[i]);
@@ -114,19 +119,17 @@ TEST_CASE("walls of periodic cells are symmetric, and seeds outside the box stan
       CHECK(std::abs((diagram.measures().centroid[2 * i + k] - seeds.positions[2 * i + k]) -
                      (moved.measures().centroid[2 * i + k] - far.positions[2 * i + k])) < 1e-10);
   }
-  const auto& walls = diagram.walls();
-  const auto& offset = diagram.wall_offset();
+  const Adjacency& here = diagram.adjacency();
   std::size_t met = 0;
   for (std::size_t i = 0; i < seeds.size(); ++i)
-    for (std::uint64_t k = offset[i]; k < offset[i + 1]; ++k) {
-      if (walls[k].measure < 1e-9) continue;
-      const std::uint32_t j = walls[k].seed;
+    for (std::uint64_t k = here.offset[i]; k < here.offset[i + 1]; ++k) {
+      const std::uint32_t j = here.neighbor[k];
       double back = 0;
-      for (std::uint64_t other = offset[j]; other < offset[j + 1]; ++other)
-        if (walls[other].seed == i && std::abs(walls[other].step[0] + walls[k].step[0]) < 1e-9 &&
-            std::abs(walls[other].step[1] + walls[k].step[1]) < 1e-9)
-          back = walls[other].measure;
-      CHECK(back == doctest::Approx(walls[k].measure).epsilon(1e-9));
+      for (std::uint64_t other = here.offset[j]; other < here.offset[j + 1]; ++other)
+        if (here.neighbor[other] == i && here.shift[other][0] == -here.shift[k][0] &&
+            here.shift[other][1] == -here.shift[k][1])
+          back = here.wall[other];
+      CHECK(back == here.wall[k]);
       ++met;
     }
   CHECK(met > 4 * seeds.size());
@@ -156,7 +159,7 @@ TEST_CASE("transport in a periodic box converges, and is invariant under transla
   }
 }
 
-TEST_CASE("copies of one seed are merged, and seeds are mapped into the box from any distance") {
+TEST_CASE("copies of one seed are merged, and seeds are mapped into the box from afar") {
   const Setup& setup = main_setups().front();
   TransportOptions options;
   options.diagram = setup.options;
@@ -168,12 +171,36 @@ TEST_CASE("copies of one seed are merged, and seeds are mapped into the box from
   CHECK(found.merged == 2);
   CHECK(found.merged_with == std::vector<std::uint32_t>{0, 0, 2, 0});
   CHECK(found.mass[0] == doctest::Approx(4.5).epsilon(1e-5));
-  const PeriodicDiagram diagram(setup.device, box(), setup.options);
-  const std::vector<double> far{1e17, -1e300, -1 - 1e-18, 4};
-  const std::vector<double> inside = diagram.inside(far);
+  const std::vector<double> far{-1e6 - 1, 1e6, -1 - 1e-18, 4};
+  const std::vector<double> inside = periodic().wrapped(far);
   for (std::size_t k = 0; k < inside.size(); ++k) {
     CHECK(inside[k] >= low[k % 2]);
     CHECK(inside[k] < high[k % 2]);
+  }
+}
+
+TEST_CASE("transport and sampling in periodic boxes of space and in lattices") {
+  const Setup& setup = main_setups().front();
+  const std::vector<double> skew{1, 0, 0, 0.3, 1.1, 0, -0.2, 0.4, 0.9}, flat_skew{1, 0, 0.5, 0.8};
+  for (const Domain& domain : {unit_box(3), Domain::lattice(skew), Domain::lattice(flat_skew)}) {
+    SamplingOptions options;
+    options.periodic = domain.dimension() == 3 && !domain.is_periodic();
+    options.diagram = setup.options;
+    options.iterations = 5;
+    options.mode = SamplingMode::quantise;
+    options.movement = 0;
+    const SamplingResult found = sample(setup.device, domain, 40, options);
+    CHECK(found.converged);
+    CHECK(found.steps.back().energy < 0.95 * found.steps.front().energy);
+    for (const double mass : found.mass) CHECK(mass == doctest::Approx(domain.measure() / 40).epsilon(1e-5));
+    // The weights give these masses in a diagram of the periodic domain, and the centroids near the points.
+    const Domain torus = options.periodic
+                             ? Domain::periodic_box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0})
+                             : domain;
+    Diagram diagram(setup.device, torus, setup.options);
+    diagram.set_seeds({torus.dimension(), found.positions, found.weights});
+    for (const double mass : diagram.measures().mass)
+      CHECK(mass == doctest::Approx(domain.measure() / 40).epsilon(1e-5));
   }
 }
 
@@ -191,7 +218,9 @@ TEST_CASE("domains and densities that cannot be periodic are refused") {
     return ErrorCode::internal;
   };
   const Density one = Density::constant(1);
-  CHECK(code(unit_box(3), one) == ErrorCode::unsupported);
+  CHECK(code(Domain::volume(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1},
+                            std::vector<std::uint32_t>{0, 1, 2, 3}),
+             one) == ErrorCode::unsupported);
   CHECK(code(Domain::polygon(square_with_holes()), one) == ErrorCode::unsupported);
   CHECK(code(Domain::polygon(std::vector<PolygonPart>{{{{0, 0}, {1, 0}, {0, 1}}, {}}}), one) ==
         ErrorCode::unsupported);

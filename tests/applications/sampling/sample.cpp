@@ -304,7 +304,9 @@ TEST_CASE("invalid options and domains are refused, and progress may interrupt")
   CHECK(code(5, options) == ErrorCode::invalid_argument);
   options = {};
   options.periodic = true;
-  CHECK(code(5, options, unit_box(3)) == ErrorCode::unsupported);
+  const std::vector<double> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::vector<std::uint32_t> tetrahedron{0, 1, 2, 3};
+  CHECK(code(5, options, Domain::volume(corners, tetrahedron)) == ErrorCode::unsupported);
   options.density = Density::formula("1+x");
   CHECK(code(5, options) == ErrorCode::unsupported);
   options = {};

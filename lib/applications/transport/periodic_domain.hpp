@@ -1,0 +1,13 @@
+/// \file
+/// Boxes that an option declares periodic. Internal.
+#pragma once
+
+#include <powercell/domain.hpp>
+
+namespace powercell {
+
+/// The domain, or if `periodic` and it is not periodic yet, its box with opposite sides identified.
+/// \throw Error unsupported unless such a domain is a box
+Domain periodic_domain(const Domain& domain, bool periodic);
+
+}  // namespace powercell
