@@ -45,10 +45,13 @@ class HostClipper {
   /// or _FLAT), writes its 2 + dimension moments and appends its row. \throw Error internal if the result
   /// contradicts itself: a defect (names the seed by its rank)
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;
+  /// Whether infinitesimals (86) decided anything about the last piece.
+  virtual bool met_tie() const = 0;
 
   /// \param scene     must outlive the clipper
   /// \param geometry  whether rows have vertices
-  static std::unique_ptr<HostClipper> make(const HostScene& scene, bool geometry);
+  /// \param perturbed  as ClipOptions::perturbed
+  static std::unique_ptr<HostClipper> make(const HostScene& scene, bool geometry, bool perturbed = false);
 };
 
 }  // namespace powercell

@@ -58,6 +58,7 @@ struct PieceSet {
   std::vector<std::uint32_t> status;  ///< per pair: PIECE_DONE, _EMPTY or _FLAT
   std::vector<std::uint32_t> batch;   ///< per pair: its batch
   std::vector<std::uint32_t> row;     ///< per pair: its row in the batch
+  std::vector<std::uint32_t> tied;    ///< pairs, ascending, in which infinitesimals (86) decided
   std::vector<PieceBatch> batches;    ///< those in use come first
   std::size_t used = 0;               ///< number of batches in use; the others keep their memory
 

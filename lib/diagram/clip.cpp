@@ -7,6 +7,7 @@
 #include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
+#include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
 #include "lib/integrate/moment_sums.hpp"
@@ -26,8 +27,8 @@ constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
-int outputs_of(Wanted want) {
-  return OUTPUT_MOMENTS | (want.adjacency ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
+int outputs_of(Wanted want, bool walls) {
+  return OUTPUT_MOMENTS | (walls ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
 }
 
 /// The number of pairs of a chunk, of `total`.
@@ -52,7 +53,8 @@ class Pass {
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact),
         measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
-        walls_(want.adjacency ? active.seeds().size() : 0, setup.threads, std::exchange(workspace.walls, {})),
+        walls_(collects_walls() ? active.seeds().size() : 0, setup.threads,
+               std::exchange(workspace.walls, {})),
         geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {}
 
   Clipped run(Timings& timings) {
@@ -66,6 +68,8 @@ class Pass {
 
  private:
   void clip_all(Timings& timings);
+  /// Cells that the boundary does not cut lie on the side of their neighbours, which are needed for that.
+  bool collects_walls() const { return want_.adjacency || plan_.solid; }
   /// Clips and collects the pairs [begin, end).
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
   void set_chunk_seeds(std::uint64_t begin, std::uint64_t end);
@@ -115,7 +119,7 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   if (exact_)
     for (std::size_t k = 0; k < pair_seed_.size(); ++k)
       if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_seed_[k]);
-  if (want_.adjacency) walls_.add(pair_seed_, pieces);
+  if (collects_walls()) walls_.add(pair_seed_, pieces);
   if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
   collect_seconds_ += watch.seconds();
 }
@@ -124,13 +128,13 @@ void Pass::clip_all(Timings& timings) {
   const std::uint64_t total = plan_.pairs.region.size();
   Candidates& candidates = *plan_.candidates;
   const auto make_clipper = [&](std::optional<ClipMemory> memory) {
-    clipper_.emplace(active_.scene(), candidates, outputs_of(want_), ClipOptions{exact_, setup_.threads},
-                     std::move(memory));
+    clipper_.emplace(active_.scene(), candidates, outputs_of(want_, collects_walls()),
+                     ClipOptions{exact_, setup_.threads}, std::move(memory));
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const std::function<bool(double)>& progress = setup_.options.progress;
   const double list_seconds_before = candidates.host_seconds();
-  ClipStatistics done, before;  // of discarded clippers; at the beginning of a chunk
+  ClipStatistics done = plan_.solid_statistics, before;  // of discarded clippers; at the beginning of a chunk
   const Stopwatch watch(setup_.device);
   in_chunks(
       total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
@@ -169,7 +173,14 @@ void Pass::keep_wall_memory() {
 Clipped Pass::finish() {
   const SeedSet& seeds = active_.seeds();
   Clipped results;
+  std::vector<std::uint32_t> outside;
+  if (plan_.solid) {
+    const SolidSides sides = add_solid_cells(setup_, active_, plan_, measures_, walls_);
+    results.unclear = sides.unclear;
+    outside = sides.outside;
+  }
   Measures measures = measures_.finish();
+  for (const std::uint32_t rank : outside) clear_cell(measures, seeds.input[rank]);
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
   std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
   results.flat = std::move(flat_);

@@ -35,6 +35,15 @@ Options checked(Options options) {
   return options;
 }
 
+/// Whether measures and walls come from the boundary of the domain. Where tetrahedra overlap, points inside
+/// have no definite side; the other conditions are those of exact decisions on double precision.
+bool goes_by_boundary(const Setup& setup) {
+  const RegionMesh& mesh = setup.domain.mesh();
+  return setup.has_inside && mesh.shape == RegionShape::tetrahedron && mesh.report.overlaps == 0 &&
+         !setup.float32() && setup.neighbors == Neighbors::tree &&
+         setup.options.decisions == Decisions::exact;
+}
+
 }  // namespace
 
 Setup::Setup(Device device_in, Domain domain_in, Options options_in)
@@ -49,6 +58,8 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
       clip_mesh(has_inside ? with_container(domain.mesh()) : RegionMesh{}),
       on_device(device.context(), has_inside ? clip_mesh : domain.mesh(), precision == Precision::float32),
       pairs(domain.mesh(), threads) {
+  if (goes_by_boundary(*this))
+    boundary = std::make_unique<SolidBoundary>(device.context(), boundary_surface(domain.mesh()), threads);
   if (options.progress)
     options.progress = [stages = progress](double fraction) { return stages->report(fraction); };
 }

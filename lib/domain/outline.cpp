@@ -44,6 +44,48 @@ RegionMesh boundary_of(const RegionMesh& mesh) {
   return boundary;
 }
 
+RegionMesh boundary_surface(const RegionMesh& mesh) {
+  RegionMesh surface = boundary_of(mesh);
+  surface.kind = DomainKind::surface;
+  surface.vertices.clear();
+  constexpr std::uint32_t unused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> number(mesh.vertices.size() / 3, unused);
+  for (std::uint32_t& v : surface.region_vertex) {
+    if (number[v] == unused) {
+      number[v] = static_cast<std::uint32_t>(surface.vertices.size() / 3);
+      surface.vertices.insert(surface.vertices.end(), &mesh.vertices[3 * std::size_t{v}],
+                              &mesh.vertices[3 * std::size_t{v}] + 3);
+    }
+    v = number[v];
+  }
+  surface.facet_offset = surface.region_offset;
+  surface.facet.assign(surface.region_vertex.size(), {Border::Kind::boundary, 0});
+  return surface;
+}
+
+RegionMesh boxes_around(const RegionMesh& mesh, std::span<const double> corners) {
+  RegionMesh boxes;
+  boxes.kind = DomainKind::volume;
+  boxes.dimension = boxes.cell_dimension = 3;
+  boxes.shape = RegionShape::box;
+  boxes.low = mesh.low;
+  boxes.high = mesh.high;
+  boxes.region_offset = boxes.facet_offset = {0};
+  for (std::size_t at = 0; at < corners.size(); at += 6) {
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      const auto coordinate = [&](std::uint32_t axis) {
+        return corners[at + axis + 3 * (corner >> axis & 1)];
+      };
+      add_corner(boxes, {coordinate(0), coordinate(1), coordinate(2)});
+    }
+    boxes.region_offset.push_back(static_cast<std::uint32_t>(boxes.region_vertex.size()));
+    for (std::uint32_t f = 0; f < 6; ++f) boxes.facet.push_back({Border::Kind::boundary, f});
+    boxes.facet_offset.push_back(static_cast<std::uint32_t>(boxes.facet.size()));
+    boxes.source.push_back(static_cast<std::uint32_t>(at / 6));
+  }
+  return boxes;
+}
+
 RegionMesh with_container(const RegionMesh& mesh) {
   RegionMesh all = mesh;
   std::array<double, 3> low{}, size{};
