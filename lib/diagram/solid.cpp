@@ -67,7 +67,9 @@ SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan&
   SolidSides sides;
   for (const std::uint32_t rank : whole) {
     if (side[rank] == solid::Side::outside) sides.outside.push_back(rank);
-    if (side[rank] == solid::Side::unknown) sides.unclear.push_back(rank);
+    if (side[rank] == solid::Side::unknown) {
+      sides.unclear.push_back(rank);
+    }
   }
   for (const SolidCells::UniformCell& cell : solid.uniform) {
     if (side[cell.rank] == solid::Side::unknown) {

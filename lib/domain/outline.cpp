@@ -1,5 +1,8 @@
 #include "lib/domain/outline.hpp"
 
+#include "lib/base/positions.hpp"
+#include "lib/domain/adjacency.hpp"
+
 namespace powercell {
 namespace {
 
@@ -61,6 +64,23 @@ RegionMesh boundary_surface(const RegionMesh& mesh) {
   surface.facet_offset = surface.region_offset;
   surface.facet.assign(surface.region_vertex.size(), {Border::Kind::boundary, 0});
   return surface;
+}
+
+std::vector<std::uint32_t> edge_numbers(const RegionMesh& triangles) {
+  const std::vector<std::uint32_t> same = first_at_position(triangles.vertices, 3);
+  std::vector<FacetKey<2>> edges(triangles.region_vertex.size());
+  for (std::uint32_t slot = 0; slot < edges.size(); ++slot) {
+    const std::uint32_t next = slot % 3 == 2 ? slot - 2 : slot + 1;
+    const auto [a, b] = std::minmax(same[triangles.region_vertex[slot]], same[triangles.region_vertex[next]]);
+    edges[slot] = {{a, b}, slot};
+  }
+  std::vector<std::uint32_t> number(edges.size());
+  std::uint32_t count = 0;
+  for_each_shared(edges, [&](std::span<const FacetKey<2>> shared) {
+    for (const FacetKey<2>& edge : shared) number[edge.slot] = count;
+    ++count;
+  });
+  return number;
 }
 
 RegionMesh boxes_around(const RegionMesh& mesh, std::span<const double> corners) {

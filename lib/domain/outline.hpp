@@ -17,6 +17,9 @@ RegionMesh boundary_of(const RegionMesh& mesh);
 /// of a triangle counts as boundary, because only its shape matters. \pre mesh consists of tetrahedra
 RegionMesh boundary_surface(const RegionMesh& mesh);
 
+/// Numbers of the edges of triangles, by facet slot: the same for all edges between the same two positions.
+std::vector<std::uint32_t> edge_numbers(const RegionMesh& triangles);
+
 /// Boxes as regions, with the frame of `mesh`, a volume. Their facets lie outside.
 /// \param corners  per box: the low corner, then the high one
 RegionMesh boxes_around(const RegionMesh& mesh, std::span<const double> corners);

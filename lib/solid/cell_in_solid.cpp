@@ -12,22 +12,16 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// units of the extent squared times the distance from the seed, and of the extent times that distance.
 constexpr double least_measure = 0x1p-28, least_area = 0x1p-36;
 
-Point point_of(const BoundaryPiece& piece, std::size_t k) {
-  return {piece.vertex[3 * k], piece.vertex[3 * k + 1], piece.vertex[3 * k + 2]};
-}
-
-std::size_t after(const BoundaryPiece& piece, std::size_t k) {
-  return k + 1 == piece.border.size() ? 0 : k + 1;
-}
-
 }  // namespace
 
 void CellInSolid::start(std::uint32_t rank, const WholeCell& cell, std::span<const double> positions) {
   rank_ = rank;
   cell_ = cell;
   positions_ = positions;
-  pieces_.clear();
-  uniform_ = false;
+  ring_.clear();
+  ring_end_.clear();
+  edge_point_.clear();
+  unknown_border_ = uniform_ = false;
   first_.assign(cell.border.size(), none);
   for (auto v = static_cast<std::uint32_t>(cell.vertices()); v-- > 0;)
     for (std::size_t k = 0; k < 3; ++k) first_[cell.link[6 * std::size_t{v} + 3 + k]] = v;
@@ -38,37 +32,69 @@ std::uint32_t CellInSolid::face_of(std::int32_t border) const {
   return found == cell_.border.end() ? none : static_cast<std::uint32_t>(found - cell_.border.begin());
 }
 
-std::uint32_t CellInSolid::edge_between(std::uint32_t left_face, std::uint32_t right_face) const {
-  for (std::uint32_t edge = 0; edge < 3 * cell_.vertices(); ++edge)
-    if (left(edge) == left_face && right(edge) == right_face) return edge;
-  return none;
+void CellInSolid::add(const BoundaryPiece& piece) {
+  const std::size_t count = piece.border.size(), first = ring_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t face = piece.border[k] < 0 ? none : face_of(piece.border[k]);
+    if (piece.border[k] >= 0 && face == none) unknown_border_ = true;
+    ring_.push_back({{piece.vertex[3 * k], piece.vertex[3 * k + 1], piece.vertex[3 * k + 2]}, face});
+  }
+  ring_end_.push_back(ring_.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t before = k == 0 ? count - 1 : k - 1;
+    if ((piece.border[before] < 0) == (piece.border[k] < 0)) continue;
+    const bool comes_in_wall = piece.border[before] >= 0;
+    const std::uint32_t face = ring_[first + (comes_in_wall ? before : k)].face,
+                        edge =
+                            piece.edges[static_cast<std::size_t>(~piece.border[comes_in_wall ? k : before])];
+    Point& at = ring_[first + k].at;
+    const auto known = std::find_if(edge_point_.begin(), edge_point_.end(), [&](const EdgePoint& point) {
+      return point.edge == edge && point.face == face;
+    });
+    if (known == edge_point_.end())
+      edge_point_.push_back({edge, face, at});
+    else
+      at = known->at;
+  }
 }
 
-bool CellInSolid::add_crossing(const BoundaryPiece& piece, std::size_t k) {
-  const std::int32_t in = piece.border[k == 0 ? piece.border.size() - 1 : k - 1], out = piece.border[k];
-  if (in < 0 || out < 0) return true;
-  const std::uint32_t left_face = face_of(in), right_face = face_of(out);
-  if (left_face == none || right_face == none) return false;
-  std::uint32_t edge = edge_between(left_face, right_face);
+void CellInSolid::number_edges() {
+  const std::size_t faces = cell_.border.size();
+  edge_number_.assign(faces * faces, none);
+  for (std::uint32_t edge = 0; edge < 3 * cell_.vertices(); ++edge)
+    edge_number_[left(edge) * faces + right(edge)] = edge;
+}
+
+std::uint32_t CellInSolid::opposite(std::uint32_t edge) const {
+  const std::uint32_t v = edge / 3, there = 3 * next(edge);
+  return next(there) == v ? there : next(there + 1) == v ? there + 1 : there + 2;
+}
+
+bool CellInSolid::add_crossing(std::size_t before, std::size_t k) {
+  if (ring_[before].face == none || ring_[k].face == none) return true;
+  std::uint32_t edge = edge_number_[ring_[before].face * cell_.border.size() + ring_[k].face];
+  if (edge == none) return false;
   int leaves = 1;
-  if (edge != none && !is_lower(edge)) {
-    edge = edge_between(right_face, left_face);
+  if (!is_lower(edge)) {
+    edge = opposite(edge);
     leaves = -1;
   }
-  if (edge == none) return false;
   net_[edge] += leaves;
-  crossings_.push_back({edge, leaves, point_of(piece, k)});
+  crossings_.push_back({edge, leaves, ring_[k].at});
   return true;
 }
 
 bool CellInSolid::find_crossings() {
+  if (unknown_border_) return false;
+  number_edges();
   crossings_.clear();
   net_.assign(3 * cell_.vertices(), 0);
-  for (const BoundaryPiece& piece : pieces_)
-    for (std::size_t k = 0; k < piece.border.size(); ++k) {
-      if (piece.border[k] >= 0 && face_of(piece.border[k]) == none) return false;
-      if (!add_crossing(piece, k)) return false;
-    }
+  std::size_t first = 0;
+  for (const std::size_t last : ring_end_) {
+    for (std::size_t k = first; k < last; ++k)
+      if (!add_crossing(k == first ? last - 1 : k - 1, k)) return false;
+    first = last;
+  }
   return true;
 }
 
@@ -86,9 +112,7 @@ bool CellInSolid::spread() {
     stack_.pop_back();
     for (std::uint32_t edge = 3 * v; edge < 3 * v + 3; ++edge) {
       const std::uint32_t u = next(edge);
-      std::uint32_t lower = edge;
-      if (u < v) lower = edge_between(right(edge), left(edge));
-      if (net_[lower] == 0 && !set_side(u, side_[v])) return false;
+      if (net_[u < v ? opposite(edge) : edge] == 0 && !set_side(u, side_[v])) return false;
     }
   }
   return true;
@@ -141,28 +165,31 @@ void CellInSolid::add_edge_segment(std::uint32_t edge, const Point& a, const Poi
   add_segment(right(edge), a, b, -sign);
 }
 
-void CellInSolid::add_pieces() {
-  for (const BoundaryPiece& piece : pieces_) {
-    const Point a = point_of(piece, 0) - origin_;
-    for (std::size_t k = 2; k < piece.border.size(); ++k) {
-      const Point b = point_of(piece, k - 1) - origin_, c = point_of(piece, k) - origin_;
-      add_tetrahedron(a, b, c, dot(a, cross(b - a, c - a)));
-    }
-    for (std::size_t k = 0; k < piece.border.size(); ++k) reach_ = std::max(reach_, norm(point_of(piece, k)));
-    add_walls_of(piece);
+void CellInSolid::add_wall_edge(std::uint32_t f, const Point& from, const Point& to) {
+  if (!walls_[f].cut) {
+    walls_[f].cut = true;
+    walls_[f].base = from;
+  }
+  add_segment(f, to, from, 1);
+}
+
+void CellInSolid::add_piece(std::size_t first, std::size_t last) {
+  const Point a = ring_[first].at - origin_;
+  Point b = a;
+  for (std::size_t k = first; k < last; ++k) {
+    reach_ = std::max(reach_, dot(ring_[k].at, ring_[k].at));
+    const Point c = k + 1 == last ? a : ring_[k + 1].at - origin_;
+    if (k > first && k + 1 < last) add_tetrahedron(a, b, c, dot(a, cross(b - a, c - a)));
+    if (ring_[k].face != none) add_wall_edge(ring_[k].face, b, c);
+    b = c;
   }
 }
 
-void CellInSolid::add_walls_of(const BoundaryPiece& piece) {
-  for (std::size_t k = 0; k < piece.border.size(); ++k) {
-    if (piece.border[k] < 0) continue;
-    const std::uint32_t f = face_of(piece.border[k]);
-    const Point from = point_of(piece, k) - origin_, to = point_of(piece, after(piece, k)) - origin_;
-    if (!walls_[f].cut) {
-      walls_[f].cut = true;
-      walls_[f].base = from;
-    }
-    add_segment(f, to, from, 1);
+void CellInSolid::add_pieces() {
+  std::size_t first = 0;
+  for (const std::size_t last : ring_end_) {
+    add_piece(first, last);
+    first = last;
   }
 }
 
@@ -192,15 +219,16 @@ void CellInSolid::add_edges() {
 SolidPart CellInSolid::part() {
   six_volumes_ = second_ = extent_ = reach_ = 0;
   first_moment_ = {};
-  origin_ = point_of(pieces_.front(), 0);
+  origin_ = ring_.front().at;
   walls_.assign(cell_.border.size(), {});
   for (std::uint32_t f = 0; f < walls_.size(); ++f)
     if (first_[f] != none) walls_[f].base = vertex(first_[f]) - origin_;
   for (std::uint32_t v = 0; v < side_.size(); ++v)
-    if (side_[v] == Side::inside) reach_ = std::max(reach_, norm(vertex(v)));
+    if (side_[v] == Side::inside) reach_ = std::max(reach_, dot(vertex(v), vertex(v)));
   SolidPart part;
   add_pieces();
   add_edges();
+  reach_ = std::sqrt(reach_);
   finish_walls(part);
   finish_moments(part);
   return part;

@@ -25,10 +25,11 @@ struct WholeCell {
 };
 
 /// The part of a boundary triangle in the cell: a ring, counter-clockwise seen from outside the solid. Edge k
-/// begins at vertex k; its border is a rank, or below 0 for an edge of the triangle.
+/// begins at vertex k.
 struct BoundaryPiece {
-  std::span<const std::int32_t> border;
-  std::span<const double> vertex;  ///< 3 per vertex
+  std::span<const std::int32_t> border;  ///< per edge: a rank, or ~k for edge k of the triangle
+  std::span<const double> vertex;        ///< 3 per vertex
+  std::span<const std::uint32_t> edges;  ///< numbers of the triangle's edges, the same in all triangles there
 };
 
 /// Integrals over the part of a cell in the solid, about the seed, and its walls.
@@ -49,7 +50,7 @@ class CellInSolid {
  public:
   /// Keeps the views until the next call. \param seeds  positions by rank, for the normals of walls
   void start(std::uint32_t rank, const WholeCell& cell, std::span<const double> positions);
-  void add(const BoundaryPiece& piece) { pieces_.push_back(piece); }
+  void add(const BoundaryPiece& piece);
 
   /// Finds which vertices lie inside, from the crossings of edges with the boundary (12f).
   /// \return false if crossings contradict each other or the cell
@@ -92,16 +93,18 @@ class CellInSolid {
   std::uint32_t right(std::uint32_t edge) const { return cell_.link[6 * (edge / 3) + 3 + (edge + 2) % 3]; }
   bool is_lower(std::uint32_t edge) const { return edge / 3 < next(edge); }
 
-  bool find_crossings();
-  /// Adds where `piece` has edges in two walls: its vertex k lies on an edge of the cell.
-  bool add_crossing(const BoundaryPiece& piece, std::size_t k);
   std::uint32_t face_of(std::int32_t border) const;
-  std::uint32_t edge_between(std::uint32_t left, std::uint32_t right) const;
+  void number_edges();
+  std::uint32_t opposite(std::uint32_t edge) const;  ///< the same edge from its other end
+  bool find_crossings();
+  /// Adds the ring vertex k if it lies on an edge of the cell.
+  bool add_crossing(std::size_t before, std::size_t k);
   bool set_side(std::uint32_t vertex, Side side);
   bool spread();
 
   void add_pieces();
-  void add_walls_of(const BoundaryPiece& piece);
+  void add_piece(std::size_t first, std::size_t last);
+  void add_wall_edge(std::uint32_t f, const Point& from, const Point& to);
   void add_edges();
   /// Adds the triangle between the base of face f and the segment from a to b, `sign` times.
   void add_segment(std::uint32_t f, const Point& a, const Point& b, double sign);
@@ -114,8 +117,25 @@ class CellInSolid {
   std::uint32_t rank_ = 0;
   WholeCell cell_;
   std::span<const double> positions_;
-  std::vector<BoundaryPiece> pieces_;
   std::vector<std::uint32_t> first_;  // per face: a vertex
+
+  // The pieces: rings one after the other.
+  struct RingVertex {
+    Point at;
+    std::uint32_t face;  // that the edge from here to the next one lies in, or none
+  };
+  /// Where an edge of the boundary meets a wall. All triangles there must have the same point: of an edge
+  /// that is nearly parallel to the wall, each places it differently along the edge.
+  struct EdgePoint {
+    std::uint32_t edge, face;
+    Point at;
+  };
+  std::vector<RingVertex> ring_;
+  std::vector<std::size_t> ring_end_;
+  std::vector<EdgePoint> edge_point_;
+  bool unknown_border_ = false;
+
+  std::vector<std::uint32_t> edge_number_;  // by left and right face
   std::vector<Crossing> crossings_;
   std::vector<int> net_;  // per edge, 3 * vertex + slot: how often it leaves the solid more than it enters it
   std::vector<Side> side_;

@@ -20,9 +20,10 @@ struct SidesInput {
   std::span<const std::uint32_t> outer;  ///< ranks of cells with vertices outside
 };
 
-/// The side of each one-sided cell; unknown for others, and for those about which neighbours contradict each
-/// other. One-sided neighbours lie on the same side, as they share vertices (docs/mathematics.md, "Solids by
-/// their boundary").
+/// The side of each one-sided cell; unknown for others, and for all if some contradict each other. One-sided
+/// neighbours lie on the same side, as they share vertices. A neighbour of which a cell has seen nothing lies
+/// outside: their wall is beyond the box that the cell was clipped in, and there the solid has no part in it
+/// (docs/mathematics.md, "Solids by their boundary").
 std::vector<solid::Side> find_sides(const SidesInput& input);
 
 }  // namespace powercell

@@ -36,12 +36,14 @@ WholeCell whole_cell(const PieceSet& pieces, std::size_t pair) {
           std::span(batch.link).subspan(6 * std::size_t{vertex}, 6 * std::size_t{vertices})};
 }
 
-BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair) {
+/// \param edges  of the triangle
+BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair, std::span<const std::uint32_t> edges) {
   const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
   const std::uint32_t row = pieces.row[pair], vertices = batch.vertices(row);
   return {
       std::span(batch.border).subspan(batch.face_offset[row], vertices),
-      std::span(batch.vertex).subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{vertices})};
+      std::span(batch.vertex).subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{vertices}),
+      edges};
 }
 
 /// One chunk of ranks.
@@ -75,7 +77,8 @@ class Chunk {
                SideHints& hints);
   void compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_t pair, const Touched& touched,
                    bool in_container, Outcome& outcome, SideHints& hints) const;
-  void leave_hints(const CellInSolid& in_solid, const WholeCell& cell, SideHints& hints) const;
+  void leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
+                   SideHints& hints) const;
 
   const SolidCellsInput& input_;
   std::span<const std::uint32_t> ranks_;
@@ -102,7 +105,7 @@ void Chunk::find_touched() {
     double square = -1;
     for (last = first; last < pair_seed_.size() && pair_seed_[last] == pair_seed_[first]; ++last) {
       if (pieces_->status[last] == PIECE_EMPTY) continue;
-      const std::span<const double> x = boundary_piece(*pieces_, last).vertex;
+      const std::span<const double> x = boundary_piece(*pieces_, last, {}).vertex;
       for (std::size_t v = 0; v < x.size(); v += 3)
         square = std::max(square, x[v] * x[v] + x[v + 1] * x[v + 1] + x[v + 2] * x[v + 2]);
     }
@@ -185,12 +188,14 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
   const WholeCell cell = whole_cell(cells, pair);
   in_solid.start(touched.rank, cell, input_.scene.seeds.positions);
   for (std::size_t p = touched.first; p < touched.last; ++p)
-    if (pieces_->status[p] != PIECE_EMPTY) in_solid.add(boundary_piece(*pieces_, p));
+    if (pieces_->status[p] != PIECE_EMPTY)
+      in_solid.add(boundary_piece(
+          *pieces_, p, std::span(input_.boundary.edges).subspan(3 * std::size_t{pair_region_[p]}, 3)));
   if (!in_solid.label()) return;
   if (!in_solid.uniform()) {
     if (in_solid.is_open()) return;
     outcome.part[0] = in_solid.part();
-    leave_hints(in_solid, cell, hints);
+    leave_hints(touched.rank, in_solid, cell, hints);
     outcome.kind = touched.tied || outcome.part[0].thin ? Kind::unclear : Kind::done;
     return;
   }
@@ -208,7 +213,12 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
   outcome.kind = touched.tied ? Kind::unclear : Kind::uniform;
 }
 
-void Chunk::leave_hints(const CellInSolid& in_solid, const WholeCell& cell, SideHints& hints) const {
+void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
+                        SideHints& hints) const {
+  const auto add = [&](std::uint32_t seen_rank, std::uint8_t what) {
+    std::atomic_ref(hints.seen[seen_rank]).fetch_or(what, std::memory_order_relaxed);
+  };
+  add(rank, SideHints::looked);
   for (std::uint32_t v = 0; v < cell.vertices(); ++v) {
     const std::uint32_t* const faces = &cell.link[6 * std::size_t{v} + 3];
     const bool is_vertex =
@@ -217,8 +227,7 @@ void Chunk::leave_hints(const CellInSolid& in_solid, const WholeCell& cell, Side
     for (std::size_t k = 0; k < 3; ++k)
       // A face that the boundary does not meet lies on one side, however much of it the cube has cut off.
       if (cell.border[faces[k]] >= 0 && (is_vertex || !in_solid.is_cut(faces[k])))
-        std::atomic_ref(hints.seen[static_cast<std::uint32_t>(cell.border[faces[k]])])
-            .fetch_or(seen, std::memory_order_relaxed);
+        add(static_cast<std::uint32_t>(cell.border[faces[k]]), seen);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/clip/clipper.hpp"
+#include "lib/domain/outline.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #include "lib/pairs/pair_finder.hpp"
 #include "lib/solid/cell_in_solid.hpp"
@@ -20,8 +21,13 @@ struct SolidBoundary {
   DomainBuffers on_device;
   PairFinder pairs;
 
+  std::vector<std::uint32_t> edges;  ///< per slot of a triangle: the number of its edge
+
   SolidBoundary(const std::shared_ptr<cl::Context>& context, RegionMesh triangles, int threads)
-      : mesh(std::move(triangles)), on_device(context, mesh, false), pairs(mesh, threads) {}
+      : mesh(std::move(triangles)),
+        on_device(context, mesh, false),
+        pairs(mesh, threads),
+        edges(edge_numbers(mesh)) {}
   SolidBoundary(const SolidBoundary&) = delete;
   SolidBoundary& operator=(const SolidBoundary&) = delete;
 };
@@ -29,6 +35,7 @@ struct SolidBoundary {
 /// Where vertices of each cell were seen from neighbouring cells, by rank.
 struct SideHints {
   static constexpr std::uint8_t outside = 1, inside = 2;
+  static constexpr std::uint8_t looked = 4;  ///< the sides of the cell's own vertices are known
   std::vector<std::uint8_t> seen;
 };
 

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <functional>
 #include <powercell/diagram.hpp>
 
 #include "lib/diagram/state.hpp"
@@ -17,21 +16,6 @@ using namespace powercell::test;
 namespace {
 
 using Point = std::array<double, 3>;
-
-/// The elements of a mesh for whose centroids `keep` is true.
-Mesh part_of(Mesh mesh, const std::function<bool(const Point&)>& keep) {
-  std::vector<std::uint32_t> elements;
-  for (std::size_t e = 0; e < mesh.elements.size(); e += 4) {
-    Point centroid{};
-    for (std::size_t c = 0; c < 4; ++c)
-      for (std::size_t k = 0; k < 3; ++k) centroid[k] += mesh.vertices[3 * mesh.elements[e + c] + k] / 4;
-    if (keep(centroid))
-      elements.insert(elements.end(), mesh.elements.begin() + static_cast<std::ptrdiff_t>(e),
-                      mesh.elements.begin() + static_cast<std::ptrdiff_t>(e + 4));
-  }
-  mesh.elements = std::move(elements);
-  return mesh;
-}
 
 void add(Mesh& to, const Mesh& from, const Point& by) {
   const auto first = static_cast<std::uint32_t>(to.vertex_count());
