@@ -172,6 +172,16 @@ void WallCollector::set_row(std::uint32_t rank, std::span<const std::uint32_t> n
   }
 }
 
+void WallCollector::subtract(std::uint32_t rank, std::uint32_t neighbor, double measure) {
+  constexpr double rounding = 0x1p-36;  // relative
+  const WallRow row = rows_.row(rank);
+  for (std::size_t k = 0; k < row.count(); ++k) {
+    if (row.neighbors()[k] != neighbor) continue;
+    double& wall = row.measures()[k];
+    wall = wall - measure > rounding * wall ? wall - measure : 0;
+  }
+}
+
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                                 double negligible) {
   parts_.clear();

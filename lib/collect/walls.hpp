@@ -69,6 +69,9 @@ class WallCollector {
   /// Replaces the walls of a rank, after all chunks. \param neighbors  distinct
   void set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors,
                std::span<const double> measures);
+  /// Subtracts from the wall of a rank with a neighbour, if it has that wall. What is left within rounding
+  /// counts as 0, so that there is no wall.
+  void subtract(std::uint32_t rank, std::uint32_t neighbor, double measure);
   /// The neighbours of a rank as added.
   std::span<const std::uint32_t> neighbors(std::uint32_t rank) {
     const WallRow row = rows_.row(rank);

@@ -178,6 +178,8 @@ Clipped Pass::finish() {
     const SolidSides sides = add_solid_cells(setup_, active_, plan_, measures_, walls_);
     results.unclear = sides.unclear;
     outside = sides.outside;
+    flat_.insert(flat_.end(), sides.flat.begin(), sides.flat.end());
+    std::sort(flat_.begin(), flat_.end());
   }
   Measures measures = measures_.finish();
   for (const std::uint32_t rank : outside) clear_cell(measures, seeds.input[rank]);

@@ -113,11 +113,12 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, Timings& timings
   std::vector<bool> excluded(active.seeds().size());
   for (const SolidCells::Cell& cell : plan.solid->cells) excluded[cell.rank] = true;
   for (const SolidCells::UniformCell& cell : plan.solid->uniform) excluded[cell.rank] = true;
+  for (const std::uint32_t rank : plan.solid->flat) excluded[rank] = true;
   std::vector<std::uint32_t> by_region = plan.solid->unclear;
   by_region.insert(by_region.end(), active.by_region.begin(), active.by_region.end());
   std::sort(by_region.begin(), by_region.end());
   by_region.erase(std::unique(by_region.begin(), by_region.end()), by_region.end());
-  if (by_region.empty()) {
+  if (by_region.empty() || setup.domain.is_solid()) {
     plan.pairs = whole_cells(setup, active, excluded);
     plan.candidates = std::make_unique<TreeCandidates>(std::move(tree));
   } else {

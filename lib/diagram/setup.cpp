@@ -39,6 +39,16 @@ Options checked(Options options) {
 /// have no definite side; the other conditions are those of exact decisions on double precision.
 bool goes_by_boundary(const Setup& setup) {
   const RegionMesh& mesh = setup.domain.mesh();
+  if (mesh.solid_boundary) {
+    if (setup.float32())
+      throw Error(
+          ErrorCode::unsupported,
+          "solids need double precision; use it, or a tetrahedral mesh of the solid (Domain::volume)");
+    if (setup.neighbors != Neighbors::tree)
+      throw Error(ErrorCode::unsupported,
+                  "solids need the tree; use it, or a tetrahedral mesh of the solid (Domain::volume)");
+    return true;
+  }
   return setup.has_inside && mesh.shape == RegionShape::tetrahedron && mesh.report.overlaps == 0 &&
          !setup.float32() && setup.neighbors == Neighbors::tree &&
          setup.options.decisions == Decisions::exact;

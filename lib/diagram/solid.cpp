@@ -27,6 +27,12 @@ std::uint32_t outermost_rank(const RegionMesh& domain, const SeedSet& seeds) {
   return best;
 }
 
+[[noreturn]] void refuse_contradiction(const SeedSet& seeds, std::uint32_t rank) {
+  throw Error(ErrorCode::internal, "the cell of seed " + std::to_string(seeds.input[rank]) +
+                                       " contradicts itself about which of its vertices lie in the solid; "
+                                       "please report the input");
+}
+
 void add_part(std::uint32_t rank, const solid::SolidPart& part, MomentSums& measures, WallCollector& walls) {
   measures.set(rank, part.moments);
   walls.set_row(rank, part.neighbors, part.areas);
@@ -38,6 +44,7 @@ SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan&
                            WallCollector& walls) {
   const SolidCells& solid = *plan.solid;
   const SeedSet& seeds = active.seeds();
+  if (setup.domain.is_solid() && !solid.unclear.empty()) refuse_contradiction(seeds, solid.unclear.front());
   const std::size_t container = setup.domain.region_count();
   for (const SolidCells::Cell& cell : solid.cells) add_part(cell.rank, cell.part, measures, walls);
 
@@ -77,11 +84,17 @@ SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan&
       continue;
     }
     const solid::SolidPart& part = cell.part[side[cell.rank] == solid::Side::inside];
-    if (part.thin)
-      sides.unclear.push_back(cell.rank);
+    if (setup.domain.is_solid() ? part.flat : part.thin)
+      (setup.domain.is_solid() ? sides.flat : sides.unclear).push_back(cell.rank);
     else
       add_part(cell.rank, part, measures, walls);
   }
+  for (const auto& [rank, neighbor, area] : solid.coincidences) {
+    walls.subtract(rank, neighbor, area);
+    walls.subtract(neighbor, rank, area);
+  }
+  sides.flat.insert(sides.flat.end(), solid.flat.begin(), solid.flat.end());
+  if (setup.domain.is_solid() && !sides.unclear.empty()) refuse_contradiction(seeds, sides.unclear.front());
   return sides;
 }
 

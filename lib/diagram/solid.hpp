@@ -14,6 +14,7 @@ namespace powercell {
 struct SolidSides {
   std::vector<std::uint32_t> outside;  ///< ranks of cells clipped as wholes that lie outside
   std::vector<std::uint32_t> unclear;  ///< ranks of cells whose side contradicts itself
+  std::vector<std::uint32_t> flat;     ///< ranks of cells in a solid no thicker than rounding
 };
 
 /// \pre plan.solid, and all pairs of the plan were added to `measures` and `walls`

@@ -15,6 +15,7 @@ using RegionMeshPtr = std::shared_ptr<const RegionMesh>;
 RegionMeshPtr build_box(std::span<const double> low, std::span<const double> high);
 RegionMeshPtr build_polygon(std::span<const PolygonPart> parts);
 RegionMeshPtr build_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
+RegionMeshPtr build_solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
 using Repeated = std::vector<std::array<std::uint32_t, 2>>;  ///< see MeshReport::repeated

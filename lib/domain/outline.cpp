@@ -15,6 +15,7 @@ void add_corner(RegionMesh& mesh, const std::array<double, 3>& x) {
 }  // namespace
 
 bool has_inside(const RegionMesh& mesh) {
+  if (mesh.solid_boundary) return true;
   return mesh.dimension == mesh.cell_dimension && mesh.region_count() > 1 && mesh.shape != RegionShape::box;
 }
 
@@ -48,6 +49,7 @@ RegionMesh boundary_of(const RegionMesh& mesh) {
 }
 
 RegionMesh boundary_surface(const RegionMesh& mesh) {
+  if (mesh.solid_boundary) return *mesh.solid_boundary;
   RegionMesh surface = boundary_of(mesh);
   surface.kind = DomainKind::surface;
   surface.vertices.clear();

@@ -14,7 +14,8 @@ namespace powercell {
 RegionMesh boundary_of(const RegionMesh& mesh);
 
 /// The boundary facets of tetrahedra as triangles of a surface, outward, with the frame of `mesh`. Every edge
-/// of a triangle counts as boundary, because only its shape matters. \pre mesh consists of tetrahedra
+/// of a triangle counts as boundary, because only its shape matters. \pre mesh is a solid, or consists of
+/// tetrahedra
 RegionMesh boundary_surface(const RegionMesh& mesh);
 
 /// Numbers of the edges of triangles, by facet slot: the same for all edges between the same two positions.

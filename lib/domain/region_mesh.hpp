@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <powercell/regions.hpp>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct RegionMesh {
   double measure = 0;
   std::array<double, 3> low{}, high{};  ///< bounding box of the regions
   MeshReport report;
+  /// Of a solid, which has no regions: its boundary as outward triangles (boundary_surface). Else null.
+  std::shared_ptr<const RegionMesh> solid_boundary;
 
   std::size_t region_count() const { return source.size(); }
 };

@@ -11,6 +11,8 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// Least measure, and least area of a wall, whose sign is beyond doubt and whose digits are worth having, in
 /// units of the extent squared times the distance from the seed, and of the extent times that distance.
 constexpr double least_measure = 0x1p-28, least_area = 0x1p-36;
+/// The same for those that are rounding errors alone.
+constexpr double rounding = 0x1p-42;
 
 }  // namespace
 
@@ -56,6 +58,14 @@ void CellInSolid::add(const BoundaryPiece& piece) {
     else
       at = known->at;
   }
+}
+
+double CellInSolid::piece_area(std::size_t k) const {
+  const std::size_t first = k == 0 ? 0 : ring_end_[k - 1];
+  Point twice{};
+  for (std::size_t v = first + 2; v < ring_end_[k]; ++v)
+    twice = twice + cross(ring_[v - 1].at - ring_[first].at, ring_[v].at - ring_[first].at);
+  return norm(twice) / 2;
 }
 
 void CellInSolid::number_edges() {
@@ -247,7 +257,9 @@ void CellInSolid::finish_walls(SolidPart& part) {
     }
     const Point q = difference<double>(&positions_[3 * std::size_t{neighbor}], here);
     const double area = 0.5 * dot(q, walls_[f].area) / norm(q), extent = std::sqrt(walls_[f].extent);
-    if (!(area > least_area * extent * (extent + reach_))) part.thin = true;
+    const double unit = extent * (extent + reach_);
+    if (!(area > least_area * unit)) part.thin = true;
+    if (!(area > rounding * unit)) continue;
     part.neighbors.push_back(neighbor);
     part.areas.push_back(area);
   }
@@ -258,6 +270,7 @@ void CellInSolid::finish_moments(SolidPart& part) const {
   const Point first = 1.0 / 24 * first_moment_;
   const double far = std::sqrt(extent_) + reach_;
   if (!(measure > least_measure * extent_ * far)) part.thin = true;
+  if (!(measure > rounding * extent_ * far)) part.flat = true;
   part.moments[0] = measure;
   for (std::size_t k = 0; k < 3; ++k) part.moments[1 + k] = first[k] + measure * origin_[k];
   part.moments[4] = second_ / 120 + 2 * dot(origin_, first) + measure * dot(origin_, origin_);

@@ -37,8 +37,10 @@ struct SolidPart {
   std::array<double, 5> moments{};       ///< measure, first moments, second moment
   std::vector<std::uint32_t> neighbors;  ///< of the walls
   std::vector<double> areas;             ///< of the walls
-  /// Whether rounding may have changed the sign of the measure or of the area of a wall.
+  /// Whether rounding may have changed the sign of the measure or of the area of a wall (12g).
   bool thin = false;
+  /// Whether the part is no thicker than rounding. Walls that are not wider than rounding are left out.
+  bool flat = false;
 };
 
 /// Whether a vertex of a cell lies in the solid.
@@ -51,6 +53,8 @@ class CellInSolid {
   /// Keeps the views until the next call. \param seeds  positions by rank, for the normals of walls
   void start(std::uint32_t rank, const WholeCell& cell, std::span<const double> positions);
   void add(const BoundaryPiece& piece);
+  /// The area of the piece added as number k.
+  double piece_area(std::size_t k) const;
 
   /// Finds which vertices lie inside, from the crossings of edges with the boundary (12f).
   /// \return false if crossings contradict each other or the cell

@@ -8,6 +8,7 @@
 
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
+#include "lib/clip/exact_planes.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/domain/outline.hpp"
 
@@ -49,7 +50,8 @@ BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair, std::span
 /// One chunk of ranks.
 class Chunk {
  public:
-  Chunk(const SolidCellsInput& input, std::span<const std::uint32_t> ranks) : input_(input), ranks_(ranks) {}
+  Chunk(const SolidCellsInput& input, std::span<const std::uint32_t> ranks)
+      : input_(input), ranks_(ranks), has_tetrahedra_(!input.domain.solid_boundary) {}
 
   void clip_facets(Clipper& clipper);
   /// Clips the whole cells that the boundary meets, and computes their parts.
@@ -57,12 +59,13 @@ class Chunk {
   void append_to(SolidCells& all);
 
  private:
-  enum class Kind : std::uint8_t { done, uniform, unclear, again };
+  enum class Kind : std::uint8_t { done, uniform, flat, unclear, again };
   struct Outcome {
     Kind kind = Kind::unclear;
     std::array<solid::SolidPart, 2> part;  // the first only, unless uniform
     std::vector<std::uint32_t> neighbors;
     bool reaches_out = false;
+    std::vector<SolidCells::Coincidence> coincidences;
   };
   struct Touched {
     std::uint32_t rank;
@@ -77,11 +80,15 @@ class Chunk {
                SideHints& hints);
   void compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_t pair, const Touched& touched,
                    bool in_container, Outcome& outcome, SideHints& hints) const;
+  void find_coincidences(const CellInSolid& in_solid, const WholeCell& cell, const Touched& touched,
+                         Outcome& outcome) const;
   void leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
                    SideHints& hints) const;
 
   const SolidCellsInput& input_;
   std::span<const std::uint32_t> ranks_;
+  const bool has_tetrahedra_;
+  std::optional<HostScene> host_scene_;  // of the triangles, if seeds of a solid tie with them
   std::vector<std::uint32_t> pair_seed_, pair_region_;
   const PieceSet* pieces_ = nullptr;
   std::vector<Touched> touched_;
@@ -97,6 +104,9 @@ void Chunk::clip_facets(Clipper& clipper) {
     }
   pieces_ = &clipper.clip(pair_seed_, pair_region_);
   find_touched();
+  if (!has_tetrahedra_ && !pieces_->tied.empty())
+    host_scene_ = make_host_scene(
+        {input_.boundary.on_device, input_.scene.buffers, input_.scene.seeds, input_.scene.tree});
 }
 
 void Chunk::find_touched() {
@@ -192,11 +202,15 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
       in_solid.add(boundary_piece(
           *pieces_, p, std::span(input_.boundary.edges).subspan(3 * std::size_t{pair_region_[p]}, 3)));
   if (!in_solid.label()) return;
+  if (touched.tied && !has_tetrahedra_) find_coincidences(in_solid, cell, touched, outcome);
   if (!in_solid.uniform()) {
     if (in_solid.is_open()) return;
     outcome.part[0] = in_solid.part();
     leave_hints(touched.rank, in_solid, cell, hints);
-    outcome.kind = touched.tied || outcome.part[0].thin ? Kind::unclear : Kind::done;
+    if (has_tetrahedra_)
+      outcome.kind = touched.tied || outcome.part[0].thin ? Kind::unclear : Kind::done;
+    else
+      outcome.kind = outcome.part[0].flat ? Kind::flat : Kind::done;
     return;
   }
   if (!in_container) return;  // its side is that of its neighbours, all of which must be known
@@ -210,7 +224,34 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
     in_solid.set_sides(side);
     outcome.part[side == Side::inside] = in_solid.part();
   }
-  outcome.kind = touched.tied ? Kind::unclear : Kind::uniform;
+  outcome.kind = touched.tied && has_tetrahedra_ ? Kind::unclear : Kind::uniform;
+}
+
+/// A triangle in the plane of a wall whose inner side is that of the neighbour bounds nothing of this cell
+/// but an infinitesimal slice.
+void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell, const Touched& touched,
+                              Outcome& outcome) const {
+  const RegionMesh& mesh = input_.boundary.mesh;
+  const std::vector<double>& seeds = input_.scene.seeds.positions;
+  outcome.coincidences.clear();
+  std::size_t piece = 0;
+  for (std::size_t p = touched.first; p < touched.last; ++p) {
+    if (pieces_->status[p] == PIECE_EMPTY) continue;
+    const std::uint32_t* const corner = &mesh.region_vertex[3 * std::size_t{pair_region_[p]}];
+    const auto at = [&](std::size_t k) { return &mesh.vertices[3 * std::size_t{corner[k]}]; };
+    const solid::Point normal = cross(difference<double>(at(1), at(0)), difference<double>(at(2), at(0)));
+    for (const std::int32_t border : cell.border) {
+      if (border < 0) continue;
+      const auto neighbor = static_cast<std::uint32_t>(border);
+      const solid::Point q =
+          difference<double>(&seeds[3 * std::size_t{neighbor}], &seeds[3 * std::size_t{touched.rank}]);
+      const bool in_plane = dot(normal, q) < 0 && std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+                              return corner_side(*host_scene_, touched.rank, v, border) == 0;
+                            });
+      if (in_plane) outcome.coincidences.push_back({touched.rank, neighbor, in_solid.piece_area(piece)});
+    }
+    ++piece;
+  }
 }
 
 void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
@@ -240,6 +281,8 @@ void Chunk::append_to(SolidCells& all) {
       all.uniform.push_back(
           {rank, std::move(outcome.neighbors), outcome.reaches_out, std::move(outcome.part)});
     if (outcome.kind == Kind::unclear) all.unclear.push_back(rank);
+    if (outcome.kind == Kind::flat) all.flat.push_back(rank);
+    all.coincidences.insert(all.coincidences.end(), outcome.coincidences.begin(), outcome.coincidences.end());
   }
 }
 

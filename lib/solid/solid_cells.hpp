@@ -52,9 +52,19 @@ struct SolidCells {
     bool reaches_out = false;                ///< beyond the container, so that its vertices lie outside
     std::array<solid::SolidPart, 2> part{};  ///< if its vertices lie outside, and inside
   };
-  std::vector<Cell> cells;             ///< ranks ascend
-  std::vector<UniformCell> uniform;    ///< ranks ascend
-  std::vector<std::uint32_t> unclear;  ///< ascending: cells that must be computed in another way
+  std::vector<Cell> cells;           ///< ranks ascend
+  std::vector<UniformCell> uniform;  ///< ranks ascend
+  /// Ascending: cells that must be computed by tetrahedra. Of a solid without any, only those that contradict
+  /// themselves, which is a defect.
+  std::vector<std::uint32_t> unclear;
+  // Of solids without tetrahedra:
+  std::vector<std::uint32_t> flat;  ///< ascending: cells with parts no thicker than rounding
+  /// The part of a wall that lies in a boundary triangle, and so is none.
+  struct Coincidence {
+    std::uint32_t rank, neighbor;
+    double area;
+  };
+  std::vector<Coincidence> coincidences;
   SideHints hints;
 };
 

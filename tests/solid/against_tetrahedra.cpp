@@ -1,60 +1,21 @@
 // Volumes by their boundary and by their tetrahedra.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "tests/solid/both_ways.hpp"
 #include "tests/support/domains.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
 
-namespace {
-
-using Point = std::array<double, 3>;
-
-struct NamedMesh {
-  std::string name;
-  Mesh mesh;
-};
-
-std::vector<NamedMesh> meshes(Random& random) {
-  const Mesh cube = cube_tetrahedra(4, 0.2, random), plain = cube_tetrahedra(4, 0, random),
-             fine = cube_tetrahedra(8, 0.1, random);
-  return {
-      {"cube", cube},
-      {"ball", ball_tetrahedra(2)},
-      {"cube without a corner",
-       part_of(plain,
-               [](const Point& x) {
-                 return std::max({x[0], x[1], x[2]}) < 0.5 || std::min({x[0], x[1], x[2]}) < 0.5;
-               })},
-      {"cube with a cavity",
-       part_of(fine,
-               [](const Point& x) {
-                 return std::max({std::abs(x[0] - .5), std::abs(x[1] - .5), std::abs(x[2] - .5)}) > .2;
-               })},
-      {"slabs", part_of(plain, [](const Point& x) { return x[0] < 0.25 || x[0] > 0.5; })},
-      {"sponge", part_of(fine,
-                         [](const Point& x) {
-                           const double turns = 4 * std::acos(-1);
-                           return std::sin(turns * x[0]) * std::cos(turns * x[1]) +
-                                      std::sin(turns * x[1]) * std::cos(turns * x[2]) +
-                                      std::sin(turns * x[2]) * std::cos(turns * x[0]) <
-                                  0.3;
-                         })},
-  };
-}
-
-}  // namespace
-
 TEST_CASE("solid: equal to the tetrahedra") {
   if (!has_double()) return;
   INFO(replay_hint());
   Random random(test_seed());
-  for (const NamedMesh& named : meshes(random)) {
+  for (const NamedMesh& named : solid_meshes(random)) {
     const Domain domain = volume_of(named.mesh);
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
+    CHECK(solid.measure() == doctest::Approx(domain.measure()).epsilon(1e-14));
     for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
       for (const std::size_t n : {1, 2, 3, 8, 60, 1000}) {
         const SeedArray seeds = seeds_for(domain, Distribution::white, range, n, random);
@@ -64,6 +25,7 @@ TEST_CASE("solid: equal to the tetrahedra") {
         CAPTURE(name(range));
         CHECK(differences(both, seeds) == "");
         CHECK(both.unclear <= n / 100);
+        CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
       }
   }
 }
@@ -71,8 +33,10 @@ TEST_CASE("solid: equal to the tetrahedra") {
 TEST_CASE("solid: seeds that tie with the boundary") {
   if (!has_double()) return;
   Random random(1);
-  for (const NamedMesh& named : meshes(random)) {
+  for (const NamedMesh& named : solid_meshes(random)) {
     const Domain domain = volume_of(named.mesh);
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
     // Walls of the second lie in faces of the cubes, seeds of the third in vertices.
     for (const double shift : {0.0, 0.125, 0.25}) {
       SeedArray seeds;
@@ -81,6 +45,7 @@ TEST_CASE("solid: seeds that tie with the boundary") {
       CAPTURE(named.name);
       CAPTURE(shift);
       CHECK(differences(compute_both_ways(domain, seeds), seeds) == "");
+      CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
     }
   }
 }
@@ -88,7 +53,7 @@ TEST_CASE("solid: seeds that tie with the boundary") {
 TEST_CASE("solid: seeds on the surface, far away, and all on one side") {
   if (!has_double()) return;
   Random random(test_seed());
-  for (const NamedMesh& named : meshes(random)) {
+  for (const NamedMesh& named : solid_meshes(random)) {
     CAPTURE(named.name);
     const Domain domain = volume_of(named.mesh);
     SeedArray on_surface, outside, clusters;
@@ -100,7 +65,11 @@ TEST_CASE("solid: seeds on the surface, far away, and all on one side") {
     for (int k = 0; k < 200; ++k)
       clusters.push({.3 + 1e-3 * random.normal(), .3 + 1e-3 * random.normal(), .3 + 1e-3 * random.normal()},
                     1e-6 * random.uniform());
-    for (const SeedArray& seeds : {on_surface, outside, clusters})
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
+    for (const SeedArray& seeds : {on_surface, outside, clusters}) {
       CHECK(differences(compute_both_ways(domain, seeds), seeds) == "");
+      CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
+    }
   }
 }
