@@ -46,6 +46,7 @@ struct DomainArrays {
   std::vector<double> vertices;         ///< surface, volume: nv x 3
   std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4
   NamedCrs crs = {};                    ///< polygon
+  bool solid = false;                   ///< surface: stands for its inside
 };
 
 /// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, all with or without their
