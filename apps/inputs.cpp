@@ -7,6 +7,7 @@
 #include <cmath>
 #include <powercell/error.hpp>
 
+#include "apps/common.hpp"
 #include "apps/io/domain_box.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/printable.hpp"
@@ -99,6 +100,26 @@ void add_columns(CLI::App& command, InputArguments& arguments) {
       ->group("The table of seeds");
 }
 
+io::DomainArrays read_arrays(const InputArguments& arguments) {
+  if (!arguments.solid) return io::read_domain_arrays(arguments.domain, io::domain_kind(arguments.kind));
+  if (!arguments.kind.empty() && arguments.kind != "surface")
+    throw WrongUsage(fmt::format(
+        "--solid takes the inside of a surface, but --kind is {}; leave one of them out", arguments.kind));
+  const std::optional<DomainKind> kind = io::domain_kind(arguments.kind);
+  io::DomainArrays arrays = io::read_domain_arrays(arguments.domain, kind);
+  const DomainKind found = arrays.kind;
+  try {
+    if (found == DomainKind::volume) arrays = io::read_domain_arrays(arguments.domain, DomainKind::surface);
+  } catch (const Error&) {  // it has no triangles beside its tetrahedra
+  }
+  if (arrays.kind != DomainKind::surface)
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("--solid takes the inside of a closed surface, but {} is a {}; leave --solid out",
+                            arguments.domain, io::name(found)));
+  arrays.solid = true;
+  return arrays;
+}
+
 template <class Function>
 std::vector<double> map_points(const std::vector<double>& points, const Function& function) {
   std::vector<double> mapped;
@@ -162,6 +183,10 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
                   "polygon, surface or volume, for files that can be read as more than one")
       ->check(CLI::IsMember({"polygon", "surface", "volume"}));
   add_periodic(command, arguments.periodic);
+  command.add_flag(
+      "--solid", arguments.solid,
+      "Take the inside of a closed surface (.off .obj .ply .stl and others) as the domain: measures and "
+      "walls, for --table and --walls");
   add_columns(command, arguments);
   add_map_options(command, arguments);
 }
@@ -174,7 +199,7 @@ void add_periodic(CLI::App& command, std::string& axes) {
 }
 
 Inputs read_inputs(const InputArguments& arguments) {
-  io::DomainArrays arrays = io::read_domain_arrays(arguments.domain, io::domain_kind(arguments.kind));
+  io::DomainArrays arrays = read_arrays(arguments);
   io::make_periodic(arrays, arguments.periodic, arguments.domain);
   const int dimension = arrays.kind == DomainKind::polygon ? 2 : 3;
   const bool random = io::is_random_spec(arguments.seeds);

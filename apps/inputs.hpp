@@ -21,6 +21,7 @@ struct InputArguments : MapArguments {
   io::ColumnChoice columns;
   std::string scale_weights;  // a number or "auto"
   bool allow_outside = false;
+  bool solid = false;
 };
 
 /// Adds --domain, --kind, --seeds and the options on their columns and maps.

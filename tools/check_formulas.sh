@@ -16,11 +16,11 @@ cd "$(dirname "$0")/.."
   function read_definitions(file, line, number, letter, place, last) {
     while ((getline line < file) > 0) {
       if (line ~ /^## /) heading[substr(line, 4)] = 1
-      if (!match(line, /^    \([0-9]+[a-d]?\)/)) continue
+      if (!match(line, /^    \([0-9]+[a-h]?\)/)) continue
       number = substr(line, 6, RLENGTH - 6)
       letter = number
       gsub(/[0-9]/, "", letter)
-      place = number * 10 + index("abcd", letter) * (letter != "")
+      place = number * 10 + index("abcdefgh", letter) * (letter != "")
       if (place <= last) fault(file ": formula (" number ") follows a larger number")
       last = place
       defined[number] = 1
@@ -52,13 +52,13 @@ cd "$(dirname "$0")/.."
   # Numbers in parentheses, and after the word "mathematics".
   function check_numbers(line, rest, list, word, n, k) {
     rest = line
-    while (match(rest, /(^|[^A-Za-z0-9_\])])\([0-9][0-9]?[a-d]?\)/)) {
+    while (match(rest, /(^|[^A-Za-z0-9_\])])\([0-9][0-9]?[a-h]?\)/)) {
       number = substr(rest, RSTART, RLENGTH)
       rest = substr(rest, RSTART + RLENGTH)
       gsub(/[^0-9a-d]/, "", number)
       check_number(number)
     }
-    if (!match(line, /mathematics(\.md)?\)?,? [0-9]+[a-d]?((-|–)[0-9]+[a-d]?)?/)) return
+    if (!match(line, /mathematics(\.md)?\)?,? [0-9]+[a-h]?((-|–)[0-9]+[a-h]?)?/)) return
     list = substr(line, RSTART, RLENGTH)
     sub(/^[^0-9]*/, "", list)
     n = split(list, word, /-|–/)

@@ -38,7 +38,8 @@ Domain make_domain(const DomainArrays& arrays) {
     case DomainKind::polygon:
       return Domain::polygon(arrays.parts);
     case DomainKind::surface:
-      return Domain::surface(arrays.vertices, arrays.elements);
+      return arrays.solid ? Domain::solid(arrays.vertices, arrays.elements)
+                          : Domain::surface(arrays.vertices, arrays.elements);
     default:
       return Domain::volume(arrays.vertices, arrays.elements);
   }
@@ -63,8 +64,9 @@ std::string describe(const DomainArrays& arrays, const std::string& spec) {
                        counted(holes, "hole"), points);
   }
   const bool volume = arrays.kind == DomainKind::volume;
-  return fmt::format("{}: {}, {} vertices, {} {}", spec, io::name(arrays.kind), arrays.vertices.size() / 3,
-                     arrays.elements.size() / (volume ? 4 : 3), volume ? "tetrahedra" : "triangles");
+  return fmt::format("{}: {}, {} vertices, {} {}", spec, arrays.solid ? "solid" : io::name(arrays.kind),
+                     arrays.vertices.size() / 3, arrays.elements.size() / (volume ? 4 : 3),
+                     volume ? "tetrahedra" : "triangles");
 }
 
 DomainArrays parse_domain(std::string_view bytes, const std::string& extension,

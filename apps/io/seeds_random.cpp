@@ -134,6 +134,17 @@ Vec point_in(const RegionsView& mesh, const std::array<std::uint32_t, 4>& corner
   return p;
 }
 
+SeedTable random_seeds_in_solid(const RandomSeeds& seeds, const Domain& domain) {
+  Generator generator(seeds.seed);
+  SeedTable table;
+  table.dimension = 3;
+  for (const RegionPoint& at : random_points(domain, seeds.count, seeds.seed)) {
+    table.positions.insert(table.positions.end(), at.point.begin(), at.point.end());
+    table.weights.push_back(seeds.low + generator.next() * (seeds.high - seeds.low));
+  }
+  return table;
+}
+
 [[noreturn]] void fail_spec(const std::string& spec, const std::string& what) {
   throw Error(ErrorCode::invalid_argument,
               fmt::format("seeds '{}': {}; write random:N[:LO:HI[:SEED]], e.g. random:1000:0:0.01:7",
@@ -173,6 +184,7 @@ RandomSeeds parse_random_spec(const std::string& spec) {
 }
 
 SeedTable random_seeds(const RandomSeeds& seeds, const Domain& domain) {
+  if (domain.is_solid()) return random_seeds_in_solid(seeds, domain);
   const RegionsView mesh = domain.regions();
   const Pieces pieces = pieces_of(mesh);
   if (pieces.sum.empty())

@@ -75,6 +75,18 @@ class POWERCELL_API Domain {
   /// \throw Error invalid_domain (names the tetrahedra)
   static Domain volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
+  /// The inside of a closed surface, without any tetrahedra: the points from which a ray crosses the surface
+  /// an odd number of times. So shells in shells bound cavities and bodies in cavities in turn; in which
+  /// direction the triangles of a shell are oriented does not matter. \param vertices nv x 3, row-major
+  /// \param triangles nt x 3 indices from 0 Vertices at the same position count as one, and triangles with
+  /// two corners at one position are left out. The surface may touch itself in vertices and edges that
+  /// triangles share. Cells in a solid have measures and walls, but no geometry: Diagram::cells() and all
+  /// that needs it throws Error unsupported, as does single precision. regions() is empty. \throw Error
+  /// invalid_domain (names triangles and the place): an edge with an odd number of triangles, an edge whose
+  /// two triangles are oriented against each other, triangles that cross, overlap or touch otherwise, corners
+  /// in a line
+  static Domain solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
+
   /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain
   static Domain box(std::span<const double> low, std::span<const double> high);
 
@@ -108,6 +120,7 @@ class POWERCELL_API Domain {
   std::array<double, 3> high() const;
   RegionsView regions() const;             ///< see powercell/regions.hpp
   std::size_t region_count() const;        ///< convex pieces, triangles or tetrahedra that were kept
+  bool is_solid() const;                   ///< made by solid()
   const MeshReport& report() const;        ///< the elements of a mesh that were left out or overlap
   std::vector<std::string> notes() const;  ///< the same as sentences, one for each kind of fault
 

@@ -42,11 +42,12 @@ struct RegionsView {
 
 /// A point of a domain and the region that it lies in.
 struct RegionPoint {
-  std::uint32_t region = 0;
+  std::uint32_t region = 0;        ///< 0 in a solid
   std::array<double, 3> point{};  ///< third coordinate 0 in 2D
 };
 
 /// Points uniform in area or volume; the same ones for the same random seed on every machine.
+/// \throw Error unsupported for a solid that fills less than a millionth of its bounding box
 POWERCELL_API std::vector<RegionPoint> random_points(const Domain& domain, std::size_t count,
                                                      std::uint64_t random_seed);
 

@@ -219,6 +219,7 @@ ClipMemory Clipper::release() && {
 Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
                                    std::span<const std::uint32_t> pair_region) {
   memory_.pieces.used = 0;
+  memory_.pieces.tied.clear();
   unmap_rows();
   pair_seed_ = pair_seed;
   pair_region_ = pair_region;

@@ -28,6 +28,9 @@ struct ClipStatistics {
 struct ClipOptions {
   bool exact = true;  ///< clip pairs that rounding may have decided again on the host
   int threads = 1;    ///< of the host
+  /// Pieces finished on the host are those of the weights with their infinitesimals (86): none is flat, and
+  /// every face keeps its own plane. So all of them fit together, whatever seeds tie.
+  bool perturbed = false;
 };
 
 /// The buffers and pieces of a Clipper. A caller that clips again passes them on: to touch new memory page by

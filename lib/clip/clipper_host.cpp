@@ -88,22 +88,26 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
                     first_batch = memory_.pieces.used;
   for (std::size_t task = 0; task < tasks; ++task) memory_.pieces.add_batch().clear();
   std::vector<double> moments(pairs.size() * count);
+  std::vector<std::uint8_t> tied(pairs.size());
   std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
   parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
     std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
-    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0);
+    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0, options_.perturbed);
     const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
     PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t pair = pairs[k];
       const int status = clip_on_host(*host, pair, find_split(split, pair),
                                       std::span(moments).subspan(k * count, count), rows);
+      tied[k] = host->met_tie();
       memory_.pieces.status[pair] = static_cast<std::uint32_t>(status);
       if (outputs_ & OUTPUT_REACH) memory_.pieces.reach[pair] = host->radius();
       memory_.pieces.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
       memory_.pieces.row[pair] = static_cast<std::uint32_t>(k - begin);
     }
   });
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (tied[k]) memory_.pieces.tied.push_back(pairs[k]);
   write_moments(pairs, moments);
   statistics_.on_host += pairs.size();
   write_log(LogLevel::detail, [&] { return "pieces finished on the host: " + std::to_string(pairs.size()); });

@@ -54,6 +54,7 @@ ExactCell::ExactCell(ExactCell&&) noexcept = default;
 void ExactCell::start(std::uint32_t rank, std::uint32_t region) {
   rank_ = rank;
   region_ = region;
+  met_tie_ = false;
   start_kind(scene_->mesh->dimension != scene_->mesh->cell_dimension ? first_kind_on_surfaces : first_kind);
 }
 
@@ -82,6 +83,7 @@ auto ExactCell::with(const std::array<std::int32_t, count>& borders, const Use& 
 
 bool ExactCell::is_outside(const ExactVertex& vertex, std::int32_t other) {
   const auto side = [&](const auto& factor, int determinant, const auto& seed) {
+    met_tie_ = met_tie_ || determinant == 0;
     const int sign = determinant != 0
                          ? determinant
                          : infinitesimal_sign(*scene_, factor, seed, static_cast<std::int32_t>(rank_));

@@ -27,6 +27,8 @@ class ExactCell {
 
   /// From now on all decisions are about the cell of seed `rank` in `region`.
   void start(std::uint32_t rank, std::uint32_t region);
+  /// Whether any side since start() was decided by the infinitesimals.
+  bool met_tie() const { return met_tie_; }
   /// Whether the vertex is beyond the bisector with seed `other`; false if that is one of its planes.
   bool is_outside(const ExactVertex& vertex, std::int32_t other);
   /// The vertex relative to the seed; each coordinate has a relative error of a few rounding units.
@@ -50,6 +52,7 @@ class ExactCell {
 
   const HostScene* scene_;
   std::uint32_t rank_ = 0, region_ = 0;
+  bool met_tie_ = false;
   std::size_t kind_ = 0;  ///< of the integers in use, ascending with their length
   std::unique_ptr<Planes> planes_;
 };

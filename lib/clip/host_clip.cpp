@@ -15,8 +15,10 @@ namespace {
 template <class Cell>
 class PieceClipper final : public HostClipper {
  public:
-  PieceClipper(const HostScene& scene, bool geometry)
-      : scene_(scene), geometry_(geometry), exact_(scene), search_(scene) {}
+  PieceClipper(const HostScene& scene, bool geometry, bool perturbed)
+      : scene_(scene), geometry_(geometry), perturbed_(perturbed), exact_(scene), search_(scene) {}
+
+  bool met_tie() const override { return exact_.met_tie(); }
 
   int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) override {
     start(rank, region);
@@ -27,14 +29,10 @@ class PieceClipper final : public HostClipper {
       cell_.finish({exact_, radius_, true});
       sums = cell_.moments();
       HostWalls<Cell> finished(cell_, exact_, radius_);
-      if (finished.is_flat(sums)) {
-        status = PIECE_FLAT;
-        sums = {};
-      }
-      walls =
-          finished.settle(region_, &scene_.behind[scene_.mesh->facet_offset[region]], status == PIECE_FLAT);
-      const auto is_wall = [](const Wall& wall) { return wall.border >= 0 && wall.measure > 0; };
-      if (status == PIECE_FLAT && std::none_of(walls.begin(), walls.end(), is_wall)) status = PIECE_EMPTY;
+      if (perturbed_)
+        walls = finished.perturbed();
+      else
+        status = drop_infinitesimals(region, finished, sums, walls);
     }
     std::copy_n(sums.begin(), moments.size() - 1, moments.begin());
     moments.back() = sums.back();
@@ -46,6 +44,17 @@ class PieceClipper final : public HostClipper {
 
  private:
   using Wall = typename HostWalls<Cell>::Wall;
+
+  /// \return the status of the piece, which is not empty with the infinitesimals
+  int drop_infinitesimals(std::uint32_t region, HostWalls<Cell>& finished, std::array<double, 5>& sums,
+                          std::vector<Wall>& walls) {
+    const bool flat = finished.is_flat(sums);
+    if (flat) sums = {};
+    walls = finished.settle(region_, &scene_.behind[scene_.mesh->facet_offset[region]], flat);
+    const auto is_wall = [](const Wall& wall) { return wall.border >= 0 && wall.measure > 0; };
+    if (!flat) return PIECE_DONE;
+    return std::any_of(walls.begin(), walls.end(), is_wall) ? PIECE_FLAT : PIECE_EMPTY;
+  }
 
   void start(std::uint32_t rank, std::uint32_t region) {
     const RegionMesh& mesh = *scene_.mesh;
@@ -133,7 +142,7 @@ class PieceClipper final : public HostClipper {
   std::size_t coordinates() const { return static_cast<std::size_t>(scene_.mesh->dimension); }
 
   const HostScene& scene_;
-  const bool geometry_;
+  const bool geometry_, perturbed_;
   ExactCell exact_;
   HostSearch search_;
   Cell cell_;
@@ -175,9 +184,10 @@ HostScene make_host_scene(const Scene& scene) {
   return host;
 }
 
-std::unique_ptr<HostClipper> HostClipper::make(const HostScene& scene, bool geometry) {
-  if (scene.mesh->cell_dimension == 3) return std::make_unique<PieceClipper<HostPolyhedron>>(scene, geometry);
-  return std::make_unique<PieceClipper<HostPolygon>>(scene, geometry);
+std::unique_ptr<HostClipper> HostClipper::make(const HostScene& scene, bool geometry, bool perturbed) {
+  if (scene.mesh->cell_dimension == 3)
+    return std::make_unique<PieceClipper<HostPolyhedron>>(scene, geometry, perturbed);
+  return std::make_unique<PieceClipper<HostPolygon>>(scene, geometry, perturbed);
 }
 
 }  // namespace powercell

@@ -55,10 +55,13 @@ class HostClipper {
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;
   /// At least the distance of the farthest vertex of the last piece from its seed, if it is not empty.
   virtual double radius() const = 0;
+  /// Whether infinitesimals (86) decided anything about the last piece.
+  virtual bool met_tie() const = 0;
 
   /// \param scene     must outlive the clipper
   /// \param geometry  whether rows have vertices
-  static std::unique_ptr<HostClipper> make(const HostScene& scene, bool geometry);
+  /// \param perturbed  as ClipOptions::perturbed
+  static std::unique_ptr<HostClipper> make(const HostScene& scene, bool geometry, bool perturbed = false);
 };
 
 }  // namespace powercell

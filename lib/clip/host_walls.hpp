@@ -41,6 +41,13 @@ class HostWalls {
     return false;
   }
 
+  /// The faces of the cell with the infinitesimals, each in the plane that cut it.
+  std::vector<Wall> perturbed() {
+    std::vector<Wall> walls;
+    for (std::size_t f = 0; f < cell_.faces(); ++f) walls.push_back({cell_.border(f), measure_of(f)});
+    return walls;
+  }
+
   /// The faces of the cell with the borders and measures of its row in PieceBatch.
   /// \param flat    whether the cell is flat
   /// \param behind  what lies behind the facets of the region (BEHIND_NOTHING in kernels/layout.h)
@@ -51,12 +58,9 @@ class HostWalls {
           near_.push_back(facet);
           break;
         }
-    std::vector<Wall> walls;
-    for (std::size_t f = 0; f < cell_.faces(); ++f) {
-      walls.push_back({cell_.border(f), measure_of(f)});
-      if (walls.back().border >= 0 && walls.back().measure > 0 && !near_.empty())
-        settle_in_facets(f, region, behind, flat, walls.back());
-    }
+    std::vector<Wall> walls = perturbed();
+    for (std::size_t f = 0; f < walls.size() && !near_.empty(); ++f)
+      if (walls[f].border >= 0 && walls[f].measure > 0) settle_in_facets(f, region, behind, flat, walls[f]);
     return walls;
   }
 

@@ -60,6 +60,7 @@ struct PieceSet {
   std::vector<std::uint32_t> row;     ///< per pair: its row in the batch
   std::vector<double>
       reach;  ///< per pair, with OUTPUT_REACH: of its farthest vertex from the seed; else empty
+  std::vector<std::uint32_t> tied;  ///< pairs, ascending, in which infinitesimals (86) decided
   std::vector<PieceBatch> batches;  ///< those in use come first
   std::size_t used = 0;             ///< number of batches in use; the others keep their memory
 

@@ -161,6 +161,27 @@ void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet
   });
 }
 
+void WallCollector::set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors,
+                            std::span<const double> measures) {
+  const WallRow row = rows_.add(0, rank, neighbors.size());
+  std::size_t lower = 0, higher = neighbors.size();
+  for (std::size_t f = 0; f < neighbors.size(); ++f) {
+    const std::size_t k = neighbors[f] < rank ? lower++ : --higher;
+    row.neighbors()[k] = neighbors[f];
+    row.measures()[k] = measures[f];
+  }
+}
+
+void WallCollector::subtract(std::uint32_t rank, std::uint32_t neighbor, double measure) {
+  constexpr double rounding = 0x1p-36;  // relative
+  const WallRow row = rows_.row(rank);
+  for (std::size_t k = 0; k < row.count(); ++k) {
+    if (row.neighbors()[k] != neighbor) continue;
+    double& wall = row.measures()[k];
+    wall = wall - measure > rounding * wall ? wall - measure : 0;
+  }
+}
+
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                                 double negligible) {
   parts_.clear();

@@ -66,6 +66,18 @@ class WallCollector {
   /// Adds the pieces of a chunk. Ranks ascend over all chunks; a rank may continue in the next chunk.
   void add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
 
+  /// Replaces the walls of a rank, after all chunks. \param neighbors  distinct
+  void set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors,
+               std::span<const double> measures);
+  /// Subtracts from the wall of a rank with a neighbour, if it has that wall. What is left within rounding
+  /// counts as 0, so that there is no wall.
+  void subtract(std::uint32_t rank, std::uint32_t neighbor, double measure);
+  /// The neighbours of a rank as added.
+  std::span<const std::uint32_t> neighbors(std::uint32_t rank) {
+    const WallRow row = rows_.row(rank);
+    return {row.neighbors(), row.count()};
+  }
+
   /// The adjacency in input order between seeds whose status is ok, walls times `unit`. The two sides of a
   /// wall are averaged. A wall that only one side has is left out as rounding if it is at most `negligible`
   /// times the largest wall of either cell; otherwise it is kept and shows in Adjacency::asymmetry.

@@ -8,6 +8,7 @@
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
+#include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
 #include "lib/integrate/moment_sums.hpp"
@@ -31,8 +32,8 @@ constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
 constexpr double more_than_needed = 1.1;
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
-int outputs_of(Wanted want) {
-  return OUTPUT_MOMENTS | (want.adjacency ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
+int outputs_of(Wanted want, bool walls) {
+  return OUTPUT_MOMENTS | (walls ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
 }
 
 /// The number of pairs of a chunk, of `total`.
@@ -57,7 +58,7 @@ class Pass {
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact),
         measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
-        walls_(want.adjacency && !active.images() ? active.seeds().size() : 0, setup.threads,
+        walls_(collects_walls() && !active.images() ? active.seeds().size() : 0, setup.threads,
                std::exchange(workspace.walls, {})),
         geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {
     if (!active.images()) return;
@@ -79,6 +80,8 @@ class Pass {
 
  private:
   void clip_all(Timings& timings);
+  /// Cells that the boundary does not cut lie on the side of their neighbours, which are needed for that.
+  bool collects_walls() const { return want_.adjacency || plan_.solid; }
   /// Clips and collects the pairs [begin, end).
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
   void prove_reach(const PieceSet& pieces);
@@ -140,7 +143,7 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   if (proof_) prove_reach(pieces);
   if (periodic_walls_)
     periodic_walls_->add(pair_seed_, pieces);
-  else if (want_.adjacency)
+  else if (collects_walls())
     walls_.add(pair_seed_, pieces);
   if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
   collect_seconds_ += watch.seconds();
@@ -157,13 +160,14 @@ void Pass::clip_all(Timings& timings) {
   const std::uint64_t total = plan_.pairs.region.size();
   Candidates& candidates = *plan_.candidates;
   const auto make_clipper = [&](std::optional<ClipMemory> memory) {
-    clipper_.emplace(active_.scene(), candidates, outputs_of(want_) | (proof_ ? OUTPUT_REACH : 0),
+    clipper_.emplace(active_.scene(), candidates,
+                     outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
                      ClipOptions{exact_, setup_.threads}, std::move(memory));
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const std::function<bool(double)>& progress = setup_.options.progress;
   const double list_seconds_before = candidates.host_seconds();
-  ClipStatistics done, before;  // of discarded clippers; at the beginning of a chunk
+  ClipStatistics done = plan_.solid_statistics, before;  // of discarded clippers; at the beginning of a chunk
   const Stopwatch watch(setup_.device);
   in_chunks(
       total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
@@ -215,7 +219,16 @@ Clipped Pass::finish() {
     results.margin = std::min(more_than_needed * margin_, 2 * active_.images()->margin);
     return results;
   }
+  std::vector<std::uint32_t> outside;
+  if (plan_.solid) {
+    const SolidSides sides = add_solid_cells(setup_, active_, plan_, measures_, walls_);
+    results.unclear = sides.unclear;
+    outside = sides.outside;
+    flat_.insert(flat_.end(), sides.flat.begin(), sides.flat.end());
+    std::sort(flat_.begin(), flat_.end());
+  }
   Measures measures = measures_.finish();
+  for (const std::uint32_t rank : outside) clear_cell(measures, seeds.input[rank]);
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
   std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
   results.flat = std::move(flat_);

@@ -63,6 +63,74 @@ Plan plan_by_cells(const Setup& setup, const Active& active, Timings& timings) {
   return plan;
 }
 
+/// The pairs of cells that are neither in `solid` nor cut by regions: each is clipped as a whole.
+Pairs whole_cells(const Setup& setup, const Active& active, const std::vector<bool>& excluded) {
+  Pairs pairs;
+  pairs.offset.push_back(0);
+  for (std::uint32_t rank = 0; rank < active.seeds().size(); ++rank) {
+    if (!excluded[rank]) pairs.region.push_back(static_cast<std::uint32_t>(setup.domain.region_count()));
+    pairs.offset.push_back(pairs.region.size());
+  }
+  return pairs;
+}
+
+/// The pairs with regions of the ranks `by_region`, ascending, and those with the container of all others but
+/// the excluded ones.
+Pairs with_regions(const Setup& setup, const Active& active, const std::vector<std::uint32_t>& by_region,
+                   const std::vector<bool>& excluded, const CellWalls& walls) {
+  const Pairs all = setup.pairs.by_cells(active.seeds(), {by_region, by_region}, walls, false);
+  Pairs pairs;
+  pairs.offset.push_back(0);
+  for (std::uint32_t rank = 0; rank < active.seeds().size(); ++rank) {
+    if (!excluded[rank])
+      pairs.region.insert(pairs.region.end(),
+                          all.region.begin() + static_cast<std::ptrdiff_t>(all.offset[rank]),
+                          all.region.begin() + static_cast<std::ptrdiff_t>(all.offset[rank + 1]));
+    pairs.offset.push_back(pairs.region.size());
+  }
+  return pairs;
+}
+
+/// Computes the cells at the boundary from it. All other cells stay whole, but for those that are clipped
+/// region by region because rounding leaves something open.
+Plan plan_by_boundary(const Setup& setup, const Active& active, Timings& timings) {
+  const Scene scene = active.scene();
+  const SolidBoundary& boundary = *setup.boundary;
+  Plan plan;
+  setup.progress->begin_part(0, boundary_done);
+  const Stopwatch pair_watch(setup.device);
+  Pairs on_facets = boundary.pairs.by_regions(active.seeds(), active.tree(), setup.options.progress);
+  timings.pairs = pair_watch.seconds();
+  timings.pair_count = on_facets.region.size();
+
+  setup.progress->begin_part(boundary_done, pairs_done);
+  const Stopwatch cell_watch(setup.device);
+  TreeCandidates tree(scene);
+  const Scene facets{boundary.on_device, scene.buffers, scene.seeds, scene.tree};
+  RegionCandidates facet_candidates(facets, on_facets.list_offset, on_facets.list_seed, on_facets.all_listed);
+  plan.solid = compute_solid_cells({setup.domain.mesh(), boundary, scene, on_facets, active.by_region,
+                                    facet_candidates, tree, setup.threads, setup.options.progress},
+                                   plan.solid_statistics);
+  std::vector<bool> excluded(active.seeds().size());
+  for (const SolidCells::Cell& cell : plan.solid->cells) excluded[cell.rank] = true;
+  for (const SolidCells::UniformCell& cell : plan.solid->uniform) excluded[cell.rank] = true;
+  for (const std::uint32_t rank : plan.solid->flat) excluded[rank] = true;
+  std::vector<std::uint32_t> by_region = plan.solid->unclear;
+  by_region.insert(by_region.end(), active.by_region.begin(), active.by_region.end());
+  std::sort(by_region.begin(), by_region.end());
+  by_region.erase(std::unique(by_region.begin(), by_region.end()), by_region.end());
+  if (by_region.empty() || setup.domain.is_solid()) {
+    plan.pairs = whole_cells(setup, active, excluded);
+    plan.candidates = std::make_unique<TreeCandidates>(std::move(tree));
+  } else {
+    const CellWalls walls = clip_unrestricted_cells(scene, tree, by_region);
+    plan.pairs = with_regions(setup, active, by_region, excluded, walls);
+    plan.candidates = std::make_unique<CellCandidates>(std::move(tree), walls, CellPlanes{});
+  }
+  timings.neighbors = cell_watch.seconds();
+  return plan;
+}
+
 /// The ranks that have pairs.
 std::vector<std::uint32_t> ranks_of(const Pairs& pairs) {
   std::vector<std::uint32_t> ranks;
@@ -116,10 +184,12 @@ Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings)
 
 Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Timings& timings) {
   if (active.seeds().size() == 0) return {};
-  Plan plan = kind == PlanKind::integrals && setup.has_inside ? plan_by_cells(setup, active, timings)
-                                                              : plan_by_regions(setup, active, timings);
+  timings.pair_count = 0;
+  Plan plan = kind != PlanKind::integrals || !setup.has_inside ? plan_by_regions(setup, active, timings)
+              : setup.boundary                                 ? plan_by_boundary(setup, active, timings)
+                                                               : plan_by_cells(setup, active, timings);
   setup.progress->begin_part(pairs_done, 1);
-  timings.pair_count = plan.pairs.region.size();
+  timings.pair_count += plan.pairs.region.size();
   return plan;
 }
 

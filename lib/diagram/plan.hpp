@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <powercell/results.hpp>
 #include <span>
 #include <vector>
@@ -23,7 +24,10 @@ struct Plan {
   Pairs pairs;
   std::unique_ptr<Candidates> candidates;
   bool unrestricted = false;  ///< pairs with the container are cells inside or outside the domain
-  CellWalls walls;            ///< needed by split(); empty if no cell is cut by planes
+  /// Cells without pairs, computed from the boundary.
+  std::optional<SolidCells> solid;
+  ClipStatistics solid_statistics;
+  CellWalls walls;  ///< needed by split(); empty if no cell is cut by planes
 
   /// The pairs that the host must clip region by region: those of cells cut by planes of the boundary.
   /// \param pair_seed, pair_region  of a chunk of pairs

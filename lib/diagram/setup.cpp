@@ -44,6 +44,25 @@ RegionMesh make_clip_mesh(const RegionMesh& mesh, bool has_inside) {
                     std::span(mesh.period->room_high()).first(d));
 }
 
+/// Whether measures and walls come from the boundary of the domain. Where tetrahedra overlap, points inside
+/// have no definite side; the other conditions are those of exact decisions on double precision.
+bool goes_by_boundary(const Setup& setup) {
+  const RegionMesh& mesh = setup.domain.mesh();
+  if (mesh.solid_boundary) {
+    if (setup.float32())
+      throw Error(
+          ErrorCode::unsupported,
+          "solids need double precision; use it, or a tetrahedral mesh of the solid (Domain::volume)");
+    if (setup.neighbors != Neighbors::tree)
+      throw Error(ErrorCode::unsupported,
+                  "solids need the tree; use it, or a tetrahedral mesh of the solid (Domain::volume)");
+    return true;
+  }
+  return setup.has_inside && mesh.shape == RegionShape::tetrahedron && mesh.report.overlaps == 0 &&
+         !setup.float32() && setup.neighbors == Neighbors::tree &&
+         setup.options.decisions == Decisions::exact;
+}
+
 }  // namespace
 
 Setup::Setup(Device device_in, Domain domain_in, Options options_in)
@@ -59,6 +78,8 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
       on_device(device.context(), has_inside || period() ? clip_mesh : domain.mesh(),
                 precision == Precision::float32),
       pairs(domain.mesh(), threads) {
+  if (goes_by_boundary(*this))
+    boundary = std::make_unique<SolidBoundary>(device.context(), boundary_surface(domain.mesh()), threads);
   if (options.progress)
     options.progress = [stages = progress](double fraction) { return stages->report(fraction); };
 }

@@ -10,6 +10,7 @@
 #include "lib/diagram/stage_progress.hpp"
 #include "lib/pairs/pair_finder.hpp"
 #include "lib/scene/domain_buffers.hpp"
+#include "lib/solid/solid_cells.hpp"
 
 namespace powercell {
 
@@ -30,6 +31,8 @@ struct Setup {
   RegionMesh clip_mesh;
   DomainBuffers on_device;  ///< of `clip_mesh`, or of the domain
   PairFinder pairs;
+  /// Null unless cells at the boundary are computed from it alone.
+  std::unique_ptr<SolidBoundary> boundary;
 
   /// \throw Error no_fp64; invalid_argument, unsupported (options); opencl, out_of_device_memory
   Setup(Device device, Domain domain, Options options);

@@ -116,6 +116,11 @@ void Diagram::State::compute(Wanted want) {
   want.cells = want.cells && !results.cells;
   if (results.measures && !want.adjacency && !want.cells) return;
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
+  if (want.cells && setup.domain.is_solid())
+    throw Error(
+        ErrorCode::unsupported,
+        "cells of a solid have measures and walls, but no geometry; for geometry, and for all that needs "
+        "it, give a tetrahedral mesh of the solid (Domain::volume)");
   const double built_before = setup.device.build_seconds();
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   const Stopwatch watch(setup.device);

@@ -72,6 +72,13 @@ class CellLocator {
 
 }  // namespace
 
+void clear_cell(Measures& measures, std::size_t i) {
+  const auto d = static_cast<std::size_t>(measures.dimension);
+  measures.mass[i] = measures.second_moment[i] = 0;
+  std::fill_n(&measures.centroid[i * d], d, std::numeric_limits<double>::quiet_NaN());
+  measures.status[i] = SeedStatus::hidden;
+}
+
 std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
                                                        const Pairs& pairs, Measures& measures) {
   const CellLocator locator(setup);
@@ -91,9 +98,7 @@ std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const
       // A piece cut by planes of the boundary lies inside, unless regions overlap.
       if (cut && location[rank] == Location::outside) location[rank] = Location::unclear;
       if (location[rank] != Location::outside) continue;
-      measures.mass[i] = measures.second_moment[i] = 0;
-      std::fill_n(&measures.centroid[i * d], d, std::numeric_limits<double>::quiet_NaN());
-      measures.status[i] = SeedStatus::hidden;
+      clear_cell(measures, i);
     }
   });
   std::vector<std::uint32_t> unclear;

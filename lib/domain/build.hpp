@@ -18,6 +18,7 @@ RegionMeshPtr build_periodic_box(std::span<const double> low, std::span<const do
 RegionMeshPtr build_lattice(std::span<const double> vectors, std::span<const double> origin);
 RegionMeshPtr build_polygon(std::span<const PolygonPart> parts);
 RegionMeshPtr build_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
+RegionMeshPtr build_solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);
 
 using Repeated = std::vector<std::array<std::uint32_t, 2>>;  ///< see MeshReport::repeated

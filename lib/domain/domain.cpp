@@ -31,6 +31,10 @@ Domain Domain::volume(std::span<const double> vertices, std::span<const std::uin
   return logged(Domain(build_volume(vertices, tetrahedra)));
 }
 
+Domain Domain::solid(std::span<const double> vertices, std::span<const std::uint32_t> triangles) {
+  return logged(Domain(build_solid(vertices, triangles)));
+}
+
 Domain Domain::box(std::span<const double> low, std::span<const double> high) {
   return Domain(build_box(low, high));
 }
@@ -92,6 +96,10 @@ std::array<double, 3> Domain::high() const {
 }
 std::size_t Domain::region_count() const {
   return mesh_->region_count();
+}
+
+bool Domain::is_solid() const {
+  return mesh_->solid_boundary != nullptr;
 }
 
 const MeshReport& Domain::report() const {

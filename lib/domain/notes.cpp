@@ -14,12 +14,14 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 }  // namespace
 
 std::vector<std::string> Domain::notes() const {
-  const bool solid = cell_dimension() == 3;
+  const bool solid = cell_dimension() == 3 && !is_solid();
   const std::string one = solid ? "tetrahedron" : "triangle", many = solid ? "tetrahedra" : "triangles";
   const MeshReport& found = report();
   std::vector<std::string> notes;
   if (!found.flat.empty())
-    notes.push_back("left out " + counted(found.flat.size(), "flat " + one, "flat " + many) +
+    notes.push_back("left out " +
+                    counted(found.flat.size(), (is_solid() ? "degenerate " : "flat ") + one,
+                            (is_solid() ? "degenerate " : "flat ") + many) +
                     ", the first is " + one + " " + std::to_string(found.flat[0]));
   if (!found.repeated.empty()) {
     const auto [index, earlier] = found.repeated[0];

@@ -61,6 +61,34 @@ int orient2d(const double* a, const double* b, const double* c) {
   return exact_orient2d(a, b, c);
 }
 
+int orient3d(const double* a, const double* b, const double* c, const double* d) {
+  std::array<double, 3> x, y, z;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = b[k] - a[k];
+    y[k] = c[k] - a[k];
+    z[k] = d[k] - a[k];
+  }
+  double sum = 0, size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double left = y[i] * z[j], right = y[j] * z[i];
+    sum += x[k] * (left - right);
+    size += std::fabs(x[k]) * (std::fabs(left) + std::fabs(right));
+  }
+  constexpr double least = 1e-280;  // of products that did not underflow
+  if (size > least && std::fabs(sum) > 16 * std::numeric_limits<double>::epsilon() * size)
+    return sum > 0 ? 1 : -1;
+  std::array<double, 12> positions;
+  for (std::size_t k = 0; k < 3; ++k) {
+    positions[k] = a[k];
+    positions[3 + k] = b[k];
+    positions[6 + k] = c[k];
+    positions[9 + k] = d[k];
+  }
+  constexpr std::array<std::uint32_t, 4> corners{0, 1, 2, 3};
+  return exact_orientation(positions, corners);
+}
+
 bool strictly_between(const double* a, const double* b, const double* c) {
   for (int k = 0; k < 2; ++k) {
     if (a[k] == c[k] ? b[k] != a[k] : (b[k] <= a[k]) == (b[k] <= c[k]) && b[k] != a[k] && b[k] != c[k]) {

@@ -11,6 +11,9 @@ namespace powercell {
 /// doubles, unless products under- or overflow.
 int orient2d(const double* a, const double* b, const double* c);
 
+/// The sign of det(b - a, c - a, d - a): exact for the given doubles.
+int orient3d(const double* a, const double* b, const double* c, const double* d);
+
 /// True if b lies on the open segment from a to c, exactly.
 bool strictly_between(const double* a, const double* b, const double* c);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/base/random.hpp"
+#include "lib/domain/solid_points.hpp"
 
 namespace powercell {
 namespace {
@@ -58,6 +59,7 @@ Vector point_in(const RegionMesh& mesh, const Simplex& simplex, std::mt19937_64&
 }  // namespace
 
 std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std::uint64_t random_seed) {
+  if (mesh.solid_boundary) return random_points_in_solid(mesh, count, random_seed);
   std::mt19937_64 engine(random_seed);
   std::vector<Sample> samples(count);
   if (mesh.shape == RegionShape::box) {

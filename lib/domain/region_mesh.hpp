@@ -35,6 +35,8 @@ struct RegionMesh {
   std::array<double, 3> low{}, high{};  ///< bounding box of the regions
   MeshReport report;
   std::shared_ptr<const Period> period;  ///< of a periodic domain, which is one region; else null
+  /// Of a solid, which has no regions: its boundary as outward triangles (boundary_surface). Else null.
+  std::shared_ptr<const RegionMesh> solid_boundary;
 
   std::size_t region_count() const { return source.size(); }
 };

@@ -1,6 +1,7 @@
 #include "lib/integrate/moment_sums.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -85,9 +86,8 @@ void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, st
       .launch(count);
 }
 
-void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
+void MomentSums::set(std::uint32_t rank, std::span<const double> moments) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
-  const bool float32 = domain_.float32();
   const double scale = domain_.frame().scale, unit = domain_.frame().unit(1);
   // One factor at a time: a power of a long domain's size may overflow although its measure does not.
   const auto unscaled = [&](double integral, int power) {
@@ -95,6 +95,20 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
     return integral;
   };
   const int power = domain_.mesh().cell_dimension;
+  const double mass = moments[0];
+  if (!(mass > 0)) return;
+  const std::size_t i = seeds_.input[rank];
+  measures_.status[i] = SeedStatus::ok;
+  measures_.mass[i] =
+      std::max(unscaled(mass, power), std::numeric_limits<double>::min());  // a cell that is not empty
+  for (std::size_t c = 0; c < d; ++c)
+    measures_.centroid[i * d + c] = seeds_.positions[rank * d + c] + moments[1 + c] / mass / scale;
+  measures_.second_moment[i] = unscaled(moments[1 + d], power + 2);
+}
+
+void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
+  const auto d = static_cast<std::size_t>(measures_.dimension);
+  const bool float32 = domain_.float32();
   parallel_for(threads_for(last - first, threads_, least_shared), last - first,
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t t = begin; t < end; ++t) {
@@ -106,17 +120,9 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
                      prefetch(&measures_.second_moment[next]);
                    }
                    const std::byte* const row = sums + t * row_bytes_;
-                   const double mass = real_at(row, 0, float32);
-                   if (!(mass > 0)) continue;
-                   const std::size_t rank = first + t, i = seeds_.input[rank];
-                   measures_.status[i] = SeedStatus::ok;
-                   measures_.mass[i] =
-                       std::max(unscaled(mass, power),
-                                std::numeric_limits<double>::min());  // a cell that is not empty
-                   for (std::size_t c = 0; c < d; ++c)
-                     measures_.centroid[i * d + c] =
-                         seeds_.positions[rank * d + c] + real_at(row, 1 + c, float32) / mass / scale;
-                   measures_.second_moment[i] = unscaled(real_at(row, 1 + d, float32), power + 2);
+                   std::array<double, 5> moments;
+                   for (std::size_t c = 0; c < columns_; ++c) moments[c] = real_at(row, c, float32);
+                   set(static_cast<std::uint32_t>(first + t), moments);
                  }
                });
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <powercell/results.hpp>
+#include <span>
 #include <vector>
 
 #include "lib/cl/program.hpp"
@@ -27,6 +28,9 @@ class MomentSums {
   /// \param moments      by pair of the chunk, in device memory
   void add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
            std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
+
+  /// Sets the measures of a rank without pairs. \param moments  2 + dimension, in device units
+  void set(std::uint32_t rank, std::span<const double> moments);
 
   const std::vector<SeedStatus>& status() const { return measures_.status; }
   Measures finish() { return std::move(measures_); }

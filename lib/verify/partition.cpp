@@ -20,6 +20,16 @@ class Gradients {
       : mesh_(mesh), sums_(mesh.vertices.size() / static_cast<std::size_t>(mesh.dimension)) {
     for (std::size_t r = 0; r < mesh.region_count(); ++r) add_region(r);
   }
+  /// Of the volume inside the triangles of a surface.
+  static Gradients of_inside(const RegionMesh& boundary) {
+    Gradients gradients(boundary, boundary.vertices.size() / 3);
+    for (std::size_t t = 0; t < boundary.region_vertex.size(); t += 3) {
+      const std::uint32_t* corner = &boundary.region_vertex[t];
+      const Vector normal = cross(gradients.edge(corner[0], corner[1]), gradients.edge(corner[0], corner[2]));
+      for (std::size_t k = 0; k < 3; ++k) gradients.add(corner[k], 1 / 6.0L, normal);
+    }
+    return gradients;
+  }
 
   long double sum_of_lengths() const {
     long double sum = 0;
@@ -28,6 +38,8 @@ class Gradients {
   }
 
  private:
+  Gradients(const RegionMesh& mesh, std::size_t vertices) : mesh_(mesh), sums_(vertices) {}
+
   Vector edge(std::uint32_t from, std::uint32_t to) const {
     const auto d = static_cast<std::size_t>(mesh_.dimension);
     const double *a = &mesh_.vertices[from * d], *b = &mesh_.vertices[to * d];
@@ -136,7 +148,8 @@ long double slanted_area(const Cells& cells, std::size_t seed, std::uint64_t pie
 }  // namespace
 
 long double measure_gradient(const RegionMesh& mesh) {
-  return Gradients(mesh).sum_of_lengths();
+  return (mesh.solid_boundary ? Gradients::of_inside(*mesh.solid_boundary) : Gradients(mesh))
+      .sum_of_lengths();
 }
 
 double partition_tolerance(const RegionMesh& mesh, double usual, double reach) {

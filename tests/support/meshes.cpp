@@ -146,4 +146,18 @@ Mesh ball_tetrahedra(int subdivisions) {
   return mesh;
 }
 
+Mesh part_of(Mesh mesh, const std::function<bool(const std::array<double, 3>&)>& keep) {
+  std::vector<std::uint32_t> elements;
+  for (std::size_t e = 0; e < mesh.elements.size(); e += 4) {
+    std::array<double, 3> centroid{};
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t k = 0; k < 3; ++k) centroid[k] += mesh.vertices[3 * mesh.elements[e + c] + k] / 4;
+    if (keep(centroid))
+      elements.insert(elements.end(), mesh.elements.begin() + static_cast<std::ptrdiff_t>(e),
+                      mesh.elements.begin() + static_cast<std::ptrdiff_t>(e + 4));
+  }
+  mesh.elements = std::move(elements);
+  return mesh;
+}
+
 }  // namespace powercell::test

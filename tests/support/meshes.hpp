@@ -2,7 +2,9 @@
 /// Triangle and tetrahedral meshes of named shapes.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "tests/support/generators.hpp"
@@ -23,6 +25,8 @@ Mesh book(int pages);                ///< non-manifold: rectangles that share on
 /// The unit cube as 6 tetrahedra per grid cell. Inner vertices are moved by up to `jitter` cells, and every
 /// other tetrahedron is inverted, as may occur in files.
 Mesh cube_tetrahedra(int per_axis, double jitter, Random& random);
+/// The tetrahedra of a mesh for whose centroids `keep` is true.
+Mesh part_of(Mesh mesh, const std::function<bool(const std::array<double, 3>&)>& keep);
 Mesh ball_tetrahedra(int subdivisions);  ///< an icosphere's triangles joined to its centre
 
 }  // namespace powercell::test

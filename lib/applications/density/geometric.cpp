@@ -67,6 +67,10 @@ GeometricDensity::Summary GeometricDensity::summary(const Domain& domain, int th
     if (last_summary_ && last_summary_->domain.regions().source.data() == domain.regions().source.data())
       return *last_summary_;
   }
+  if (domain.is_solid())
+    throw Error(ErrorCode::unsupported,
+                "a solid takes no density but a constant one; give a tetrahedral mesh of the solid "
+                "(Domain::volume)");
   const Cells regions = region_cells(domain.regions());
   // Regions may be many times as large as cells and as the features of the density.
   constexpr int extra_depth = 10;

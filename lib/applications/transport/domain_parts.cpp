@@ -17,6 +17,11 @@ DomainParts domain_parts(const Domain& domain) {
     for (std::uint32_t f = view.facet_offset[r]; f < view.facet_offset[r + 1]; ++f)
       if (view.facet[f].kind == Border::Kind::interior) sets.unite(r, view.facet[f].index);
   DomainParts parts;
+  if (domain.is_solid()) {  // which bodies are connected is not known
+    parts.count = 1;
+    parts.of_region = {0};
+    return parts;
+  }
   parts.of_region.resize(view.size());
   for (std::uint32_t r = 0; r < view.size(); ++r) {
     const std::uint32_t root = sets.root(r);  // the least of its set

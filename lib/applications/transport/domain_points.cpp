@@ -57,6 +57,15 @@ DomainPoints domain_points(const Domain& domain, std::size_t count) {
   const auto d = static_cast<std::size_t>(view.dimension);
   DomainPoints result;
   Weighted& points = result.points;
+  if (domain.is_solid()) {
+    for (const RegionPoint& at : random_points(domain, count, 1)) {
+      points.positions.insert(points.positions.end(), at.point.begin(), at.point.end());
+      result.region.push_back(0);
+    }
+    points.mass.assign(count, domain.measure() / static_cast<double>(count));
+    points.weights.assign(count, 0);
+    return result;
+  }
   for (std::uint32_t r = 0; r < view.size(); ++r)
     for (const Simplex& simplex : simplices_of(view, r)) {
       const double measure = simplex.measure();

@@ -1,0 +1,24 @@
+/// \file
+/// Adds the cells computed from the boundary to those clipped as wholes, and finds which of these lie inside.
+/// Internal.
+#pragma once
+
+#include <vector>
+
+#include "lib/collect/walls.hpp"
+#include "lib/diagram/plan.hpp"
+#include "lib/integrate/moment_sums.hpp"
+
+namespace powercell {
+
+struct SolidSides {
+  std::vector<std::uint32_t> outside;  ///< ranks of cells clipped as wholes that lie outside
+  std::vector<std::uint32_t> unclear;  ///< ranks of cells whose side contradicts itself
+  std::vector<std::uint32_t> flat;     ///< ranks of cells in a solid no thicker than rounding
+};
+
+/// \pre plan.solid, and all pairs of the plan were added to `measures` and `walls`
+SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan& plan, MomentSums& measures,
+                           WallCollector& walls);
+
+}  // namespace powercell

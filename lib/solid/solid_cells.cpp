@@ -1,0 +1,324 @@
+#include "lib/solid/solid_cells.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "kernels/layout.h"
+#include "lib/base/threads.hpp"
+#include "lib/clip/exact_planes.hpp"
+#include "lib/clip/in_chunks.hpp"
+#include "lib/domain/outline.hpp"
+
+namespace powercell {
+namespace {
+
+using solid::BoundaryPiece;
+using solid::CellInSolid;
+using solid::Side;
+using solid::WholeCell;
+
+constexpr std::size_t chunk_ranks = std::size_t{1} << 15, least_chunk_ranks = 1024;
+constexpr std::size_t cells_of_task = 64;
+/// Half the edge of the cube that a cell is clipped in, relative to its farthest point on the boundary.
+/// Nearly all cells end within it, and in a smaller cube fewer seeds are tried.
+constexpr double cube_size = 1.25;
+/// Distance of the container from the domain, as a part of its extent.
+constexpr double container_margin = 1.0 / 16;
+
+WholeCell whole_cell(const PieceSet& pieces, std::size_t pair) {
+  const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
+  const std::uint32_t row = pieces.row[pair], face = batch.face_offset[row], faces = batch.faces(row),
+                      vertex = batch.vertex_offset[row], vertices = batch.vertices(row);
+  return {std::span(batch.border).subspan(face, faces), std::span(batch.wall).subspan(face, faces),
+          std::span(batch.vertex).subspan(3 * std::size_t{vertex}, 3 * std::size_t{vertices}),
+          std::span(batch.link).subspan(6 * std::size_t{vertex}, 6 * std::size_t{vertices})};
+}
+
+/// \param edges  of the triangle
+BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair, std::span<const std::uint32_t> edges) {
+  const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
+  const std::uint32_t row = pieces.row[pair], vertices = batch.vertices(row);
+  return {
+      std::span(batch.border).subspan(batch.face_offset[row], vertices),
+      std::span(batch.vertex).subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{vertices}),
+      edges};
+}
+
+/// One chunk of ranks.
+class Chunk {
+ public:
+  Chunk(const SolidCellsInput& input, std::span<const std::uint32_t> ranks)
+      : input_(input), ranks_(ranks), has_tetrahedra_(!input.domain.solid_boundary) {}
+
+  void clip_facets(Clipper& clipper);
+  /// Clips the whole cells that the boundary meets, and computes their parts.
+  void clip_cells(std::optional<ClipMemory>& memory, ClipStatistics& statistics, SideHints& hints);
+  void append_to(SolidCells& all);
+
+ private:
+  enum class Kind : std::uint8_t { done, uniform, flat, unclear, again };
+  struct Outcome {
+    Kind kind = Kind::unclear;
+    std::array<solid::SolidPart, 2> part;  // the first only, unless uniform
+    std::vector<std::uint32_t> neighbors;
+    bool reaches_out = false;
+    std::vector<SolidCells::Coincidence> coincidences;
+  };
+  struct Touched {
+    std::uint32_t rank;
+    std::size_t first, last;  // pairs
+    bool tied;
+    double radius;  // the distance of its farthest boundary piece
+  };
+
+  void find_touched();
+  std::vector<double> boxes() const;
+  void compute(const PieceSet& cells, std::span<const std::size_t> which, bool in_container,
+               SideHints& hints);
+  void compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_t pair, const Touched& touched,
+                   bool in_container, Outcome& outcome, SideHints& hints) const;
+  void find_coincidences(const CellInSolid& in_solid, const WholeCell& cell, const Touched& touched,
+                         Outcome& outcome) const;
+  void leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
+                   SideHints& hints) const;
+
+  const SolidCellsInput& input_;
+  std::span<const std::uint32_t> ranks_;
+  const bool has_tetrahedra_;
+  std::optional<HostScene> host_scene_;  // of the triangles, if seeds of a solid tie with them
+  std::vector<std::uint32_t> pair_seed_, pair_region_;
+  const PieceSet* pieces_ = nullptr;
+  std::vector<Touched> touched_;
+  std::vector<Outcome> outcome_;  // of touched_
+};
+
+void Chunk::clip_facets(Clipper& clipper) {
+  const Pairs& pairs = input_.pairs;
+  for (const std::uint32_t rank : ranks_)
+    for (std::uint64_t p = pairs.offset[rank]; p < pairs.offset[rank + 1]; ++p) {
+      pair_seed_.push_back(rank);
+      pair_region_.push_back(pairs.region[p]);
+    }
+  pieces_ = &clipper.clip(pair_seed_, pair_region_);
+  find_touched();
+  if (!has_tetrahedra_ && !pieces_->tied.empty())
+    host_scene_ = make_host_scene(
+        {input_.boundary.on_device, input_.scene.buffers, input_.scene.seeds, input_.scene.tree});
+}
+
+void Chunk::find_touched() {
+  const std::vector<std::uint32_t>& tied = pieces_->tied;
+  for (std::size_t first = 0, last; first < pair_seed_.size(); first = last) {
+    double square = -1;
+    for (last = first; last < pair_seed_.size() && pair_seed_[last] == pair_seed_[first]; ++last) {
+      if (pieces_->status[last] == PIECE_EMPTY) continue;
+      const std::span<const double> x = boundary_piece(*pieces_, last, {}).vertex;
+      for (std::size_t v = 0; v < x.size(); v += 3)
+        square = std::max(square, x[v] * x[v] + x[v + 1] * x[v + 1] + x[v + 2] * x[v + 2]);
+    }
+    if (square < 0) continue;
+    const auto tie = std::lower_bound(tied.begin(), tied.end(), first);
+    touched_.push_back({pair_seed_[first], first, last, tie != tied.end() && *tie < last, std::sqrt(square)});
+  }
+  outcome_.resize(touched_.size());
+}
+
+std::vector<double> Chunk::boxes() const {
+  const RegionMesh& domain = input_.domain;
+  std::vector<double> corners;
+  std::array<double, 3> low{}, high{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double margin = container_margin * (domain.high[k] - domain.low[k]);
+    low[k] = domain.low[k] - margin;
+    high[k] = domain.high[k] + margin;
+  }
+  const auto add = [&](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    corners.insert(corners.end(), a.begin(), a.end());
+    corners.insert(corners.end(), b.begin(), b.end());
+  };
+  for (const Touched& touched : touched_) {
+    const double reach = cube_size * touched.radius * input_.scene.frame().unit(1);
+    std::array<double, 3> from = low, to = high;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = input_.scene.seeds.positions[3 * std::size_t{touched.rank} + k];
+      from[k] = std::max(low[k], x - reach);
+      to[k] = std::min(high[k], x + reach);
+    }
+    add(from, to);
+  }
+  add(low, high);
+  return corners;
+}
+
+void Chunk::clip_cells(std::optional<ClipMemory>& memory, ClipStatistics& statistics, SideHints& hints) {
+  if (touched_.empty()) return;
+  const RegionMesh boxes_mesh = boxes_around(input_.domain, boxes());
+  const DomainBuffers on_device(input_.scene.context(), boxes_mesh, false);
+  const Scene scene{on_device, input_.scene.buffers, input_.scene.seeds, input_.scene.tree};
+  Clipper clipper(scene, input_.in_space, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY,
+                  {true, input_.threads, true}, std::exchange(memory, std::nullopt));
+  std::vector<std::uint32_t> ranks, regions;
+  std::vector<std::size_t> which;
+  for (std::size_t t = 0; t < touched_.size(); ++t) {
+    which.push_back(t);
+    ranks.push_back(touched_[t].rank);
+    regions.push_back(static_cast<std::uint32_t>(t));
+  }
+  compute(clipper.clip(ranks, regions), which, false, hints);
+  std::erase_if(which, [&](std::size_t t) { return outcome_[t].kind != Kind::again; });
+  if (!which.empty()) {
+    ranks.clear();
+    for (const std::size_t t : which) ranks.push_back(touched_[t].rank);
+    regions.assign(which.size(), static_cast<std::uint32_t>(touched_.size()));
+    compute(clipper.clip(ranks, regions), which, true, hints);
+  }
+  statistics.add(clipper.statistics());
+  memory = std::move(clipper).release();
+}
+
+void Chunk::compute(const PieceSet& cells, std::span<const std::size_t> which, bool in_container,
+                    SideHints& hints) {
+  const std::size_t tasks = (which.size() + cells_of_task - 1) / cells_of_task;
+  std::vector<CellInSolid> in_solid(static_cast<std::size_t>(std::max(1, input_.threads)));
+  parallel_tasks(input_.threads, tasks, [&](int worker, std::size_t task) {
+    const std::size_t end = std::min(which.size(), (task + 1) * cells_of_task);
+    for (std::size_t k = task * cells_of_task; k < end; ++k)
+      compute_one(in_solid[static_cast<std::size_t>(worker)], cells, k, touched_[which[k]], in_container,
+                  outcome_[which[k]], hints);
+  });
+}
+
+void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_t pair,
+                        const Touched& touched, bool in_container, Outcome& outcome, SideHints& hints) const {
+  outcome.kind = in_container ? Kind::unclear : Kind::again;
+  if (cells.status[pair] == PIECE_EMPTY) return;
+  const WholeCell cell = whole_cell(cells, pair);
+  in_solid.start(touched.rank, cell, input_.scene.seeds.positions);
+  for (std::size_t p = touched.first; p < touched.last; ++p)
+    if (pieces_->status[p] != PIECE_EMPTY)
+      in_solid.add(boundary_piece(
+          *pieces_, p, std::span(input_.boundary.edges).subspan(3 * std::size_t{pair_region_[p]}, 3)));
+  if (!in_solid.label()) return;
+  if (touched.tied && !has_tetrahedra_) find_coincidences(in_solid, cell, touched, outcome);
+  if (!in_solid.uniform()) {
+    if (in_solid.is_open()) return;
+    outcome.part[0] = in_solid.part();
+    leave_hints(touched.rank, in_solid, cell, hints);
+    if (has_tetrahedra_)
+      outcome.kind = touched.tied || outcome.part[0].thin ? Kind::unclear : Kind::done;
+    else
+      outcome.kind = outcome.part[0].flat ? Kind::flat : Kind::done;
+    return;
+  }
+  if (!in_container) return;  // its side is that of its neighbours, all of which must be known
+  for (const std::int32_t border : cell.border) {
+    if (border >= 0)
+      outcome.neighbors.push_back(static_cast<std::uint32_t>(border));
+    else
+      outcome.reaches_out = true;
+  }
+  for (const Side side : {Side::outside, Side::inside}) {
+    in_solid.set_sides(side);
+    outcome.part[side == Side::inside] = in_solid.part();
+  }
+  outcome.kind = touched.tied && has_tetrahedra_ ? Kind::unclear : Kind::uniform;
+}
+
+/// A triangle in the plane of a wall whose inner side is that of the neighbour bounds nothing of this cell
+/// but an infinitesimal slice.
+void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell, const Touched& touched,
+                              Outcome& outcome) const {
+  const RegionMesh& mesh = input_.boundary.mesh;
+  const std::vector<double>& seeds = input_.scene.seeds.positions;
+  outcome.coincidences.clear();
+  std::size_t piece = 0;
+  for (std::size_t p = touched.first; p < touched.last; ++p) {
+    if (pieces_->status[p] == PIECE_EMPTY) continue;
+    const std::uint32_t* const corner = &mesh.region_vertex[3 * std::size_t{pair_region_[p]}];
+    const auto at = [&](std::size_t k) { return &mesh.vertices[3 * std::size_t{corner[k]}]; };
+    const solid::Point normal = cross(difference<double>(at(1), at(0)), difference<double>(at(2), at(0)));
+    for (const std::int32_t border : cell.border) {
+      if (border < 0) continue;
+      const auto neighbor = static_cast<std::uint32_t>(border);
+      const solid::Point q =
+          difference<double>(&seeds[3 * std::size_t{neighbor}], &seeds[3 * std::size_t{touched.rank}]);
+      const bool in_plane = dot(normal, q) < 0 && std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+                              return corner_side(*host_scene_, touched.rank, v, border) == 0;
+                            });
+      if (in_plane) outcome.coincidences.push_back({touched.rank, neighbor, in_solid.piece_area(piece)});
+    }
+    ++piece;
+  }
+}
+
+void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
+                        SideHints& hints) const {
+  const auto add = [&](std::uint32_t seen_rank, std::uint8_t what) {
+    std::atomic_ref(hints.seen[seen_rank]).fetch_or(what, std::memory_order_relaxed);
+  };
+  add(rank, SideHints::looked);
+  for (std::uint32_t v = 0; v < cell.vertices(); ++v) {
+    const std::uint32_t* const faces = &cell.link[6 * std::size_t{v} + 3];
+    const bool is_vertex =
+        std::all_of(faces, faces + 3, [&](std::uint32_t f) { return cell.border[f] >= 0; });
+    const std::uint8_t seen = in_solid.side(v) == Side::inside ? SideHints::inside : SideHints::outside;
+    for (std::size_t k = 0; k < 3; ++k)
+      // A face that the boundary does not meet lies on one side, however much of it the cube has cut off.
+      if (cell.border[faces[k]] >= 0 && (is_vertex || !in_solid.is_cut(faces[k])))
+        add(static_cast<std::uint32_t>(cell.border[faces[k]]), seen);
+  }
+}
+
+void Chunk::append_to(SolidCells& all) {
+  for (std::size_t t = 0; t < touched_.size(); ++t) {
+    const std::uint32_t rank = touched_[t].rank;
+    Outcome& outcome = outcome_[t];
+    if (outcome.kind == Kind::done) all.cells.push_back({rank, std::move(outcome.part[0])});
+    if (outcome.kind == Kind::uniform)
+      all.uniform.push_back(
+          {rank, std::move(outcome.neighbors), outcome.reaches_out, std::move(outcome.part)});
+    if (outcome.kind == Kind::unclear) all.unclear.push_back(rank);
+    if (outcome.kind == Kind::flat) all.flat.push_back(rank);
+    all.coincidences.insert(all.coincidences.end(), outcome.coincidences.begin(), outcome.coincidences.end());
+  }
+}
+
+}  // namespace
+
+SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& statistics) {
+  const std::size_t seeds = input.scene.seeds.size();
+  const Scene facets{input.boundary.on_device, input.scene.buffers, input.scene.seeds, input.scene.tree};
+  std::vector<bool> excluded(seeds);
+  for (const std::uint32_t rank : input.excluded) excluded[rank] = true;
+  std::vector<std::uint32_t> ranks;  // that have pairs
+  for (std::uint32_t rank = 0; rank < seeds; ++rank)
+    if (!excluded[rank] && input.pairs.offset[rank + 1] > input.pairs.offset[rank]) ranks.push_back(rank);
+  SolidCells all;
+  all.hints.seen.resize(seeds);
+  std::optional<Clipper> clipper;
+  std::optional<ClipMemory> memory;
+  in_chunks(
+      ranks.size(), {chunk_ranks, least_chunk_ranks, "cells"},
+      [&](std::uint64_t begin, std::uint64_t end) {
+        if (!clipper)
+          clipper.emplace(facets, input.on_facets, OUTPUT_MOMENTS | OUTPUT_GEOMETRY,
+                          ClipOptions{true, input.threads, true});
+        Chunk chunk(input, std::span(ranks).subspan(begin, end - begin));
+        chunk.clip_facets(*clipper);
+        chunk.clip_cells(memory, statistics, all.hints);
+        chunk.append_to(all);
+        if (input.progress && !input.progress(static_cast<double>(end) / static_cast<double>(ranks.size())))
+          throw Error(ErrorCode::interrupted, "stopped by the progress callback while clipping cells");
+      },
+      [&] {
+        clipper.reset();
+        memory.reset();
+      });
+  if (clipper) statistics.add(clipper->statistics());
+  return all;
+}
+
+}  // namespace powercell

@@ -1,0 +1,87 @@
+/// \file
+/// The cells at the boundary of a solid, computed from the boundary alone. Internal.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "lib/clip/clipper.hpp"
+#include "lib/domain/outline.hpp"
+#include "lib/neighbors/tree_candidates.hpp"
+#include "lib/pairs/pair_finder.hpp"
+#include "lib/solid/cell_in_solid.hpp"
+
+namespace powercell {
+
+/// The boundary of a domain, made once. Not movable.
+struct SolidBoundary {
+  RegionMesh mesh;  ///< outward triangles (boundary_surface)
+  DomainBuffers on_device;
+  PairFinder pairs;
+
+  std::vector<std::uint32_t> edges;  ///< per slot of a triangle: the number of its edge
+
+  SolidBoundary(const std::shared_ptr<cl::Context>& context, RegionMesh triangles, int threads)
+      : mesh(std::move(triangles)),
+        on_device(context, mesh, false),
+        pairs(mesh, threads),
+        edges(edge_numbers(mesh)) {}
+  SolidBoundary(const SolidBoundary&) = delete;
+  SolidBoundary& operator=(const SolidBoundary&) = delete;
+};
+
+/// Where vertices of each cell were seen from neighbouring cells, by rank.
+struct SideHints {
+  static constexpr std::uint8_t outside = 1, inside = 2;
+  static constexpr std::uint8_t looked = 4;  ///< the sides of the cell's own vertices are known
+  std::vector<std::uint8_t> seen;
+};
+
+/// The cells that the boundary meets. Lengths are in device units.
+struct SolidCells {
+  struct Cell {
+    std::uint32_t rank;
+    solid::SolidPart part;
+  };
+  /// A cell whose edges the boundary does not cross.
+  struct UniformCell {
+    std::uint32_t rank;
+    std::vector<std::uint32_t> neighbors;    ///< of the whole cell
+    bool reaches_out = false;                ///< beyond the container, so that its vertices lie outside
+    std::array<solid::SolidPart, 2> part{};  ///< if its vertices lie outside, and inside
+  };
+  std::vector<Cell> cells;           ///< ranks ascend
+  std::vector<UniformCell> uniform;  ///< ranks ascend
+  /// Ascending: cells that must be computed by tetrahedra. Of a solid without any, only those that contradict
+  /// themselves, which is a defect.
+  std::vector<std::uint32_t> unclear;
+  // Of solids without tetrahedra:
+  std::vector<std::uint32_t> flat;  ///< ascending: cells with parts no thicker than rounding
+  /// The part of a wall that lies in a boundary triangle, and so is none.
+  struct Coincidence {
+    std::uint32_t rank, neighbor;
+    double area;
+  };
+  std::vector<Coincidence> coincidences;
+  SideHints hints;
+};
+
+struct SolidCellsInput {
+  const RegionMesh& domain;
+  const SolidBoundary& boundary;
+  const Scene& scene;                       ///< the seeds; of any domain with the same frame
+  const Pairs& pairs;                       ///< of the boundary's triangles
+  std::span<const std::uint32_t> excluded;  ///< ranks, in any order, that are computed in another way
+  Candidates& on_facets;                    ///< candidates for the pieces of triangles
+  Candidates& in_space;                     ///< for whole cells
+  int threads;
+  const std::function<bool(double)>& progress;
+};
+
+/// Computes all cells that the boundary meets, with exact decisions.
+/// \throw Error as Clipper::clip; interrupted
+SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& statistics);
+
+}  // namespace powercell

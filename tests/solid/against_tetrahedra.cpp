@@ -1,0 +1,75 @@
+// Volumes by their boundary and by their tetrahedra.
+#include <doctest/doctest.h>
+
+#include "tests/solid/both_ways.hpp"
+#include "tests/support/domains.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+TEST_CASE("solid: equal to the tetrahedra") {
+  if (!has_double()) return;
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const NamedMesh& named : solid_meshes(random)) {
+    const Domain domain = volume_of(named.mesh);
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
+    CHECK(solid.measure() == doctest::Approx(domain.measure()).epsilon(1e-14));
+    for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
+      for (const std::size_t n : {1, 2, 3, 8, 60, 1000}) {
+        const SeedArray seeds = seeds_for(domain, Distribution::white, range, n, random);
+        const BothWays both = compute_both_ways(domain, seeds);
+        CAPTURE(named.name);
+        CAPTURE(n);
+        CAPTURE(name(range));
+        CHECK(differences(both, seeds) == "");
+        CHECK(both.unclear <= n / 100);
+        CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
+      }
+  }
+}
+
+TEST_CASE("solid: seeds that tie with the boundary") {
+  if (!has_double()) return;
+  Random random(1);
+  for (const NamedMesh& named : solid_meshes(random)) {
+    const Domain domain = volume_of(named.mesh);
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
+    // Walls of the second lie in faces of the cubes, seeds of the third in vertices.
+    for (const double shift : {0.0, 0.125, 0.25}) {
+      SeedArray seeds;
+      for (int k = 0; k < 7 * 7 * 7; ++k)
+        seeds.push({(k % 7) * 0.25 - shift, (k / 7 % 7) * 0.25 - shift, (k / 49) * 0.25 - shift}, 0);
+      CAPTURE(named.name);
+      CAPTURE(shift);
+      CHECK(differences(compute_both_ways(domain, seeds), seeds) == "");
+      CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
+    }
+  }
+}
+
+TEST_CASE("solid: seeds on the surface, far away, and all on one side") {
+  if (!has_double()) return;
+  Random random(test_seed());
+  for (const NamedMesh& named : solid_meshes(random)) {
+    CAPTURE(named.name);
+    const Domain domain = volume_of(named.mesh);
+    SeedArray on_surface, outside, clusters;
+    for (std::size_t v = 0; v < named.mesh.vertex_count(); v += 3)
+      on_surface.push(
+          {named.mesh.vertices[3 * v], named.mesh.vertices[3 * v + 1], named.mesh.vertices[3 * v + 2]}, 0);
+    for (int k = 0; k < 50; ++k)
+      outside.push({random.uniform(5, 9), random.uniform(5, 6), random.uniform(-1, 1)}, 0);
+    for (int k = 0; k < 200; ++k)
+      clusters.push({.3 + 1e-3 * random.normal(), .3 + 1e-3 * random.normal(), .3 + 1e-3 * random.normal()},
+                    1e-6 * random.uniform());
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
+    for (const SeedArray& seeds : {on_surface, outside, clusters}) {
+      CHECK(differences(compute_both_ways(domain, seeds), seeds) == "");
+      CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
+    }
+  }
+}
