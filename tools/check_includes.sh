@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 # Stages of the core, each above those before it.
-core="base report cl primitives domain regions seeds scene neighbors clip pairs integrate collect verify diagram"
+core="base report cl primitives domain regions seeds periodic scene neighbors clip pairs integrate collect verify diagram"
 kernels="base cell seeds neighbors clip pairs integrate diagram"
 applications="linear density periodic transport sampling remeshing treemap"
 

@@ -78,10 +78,27 @@ class POWERCELL_API Domain {
   /// The axis-aligned box from `low` to `high` (2 or 3 coordinates each). \throw Error invalid_domain
   static Domain box(std::span<const double> low, std::span<const double> high);
 
+  /// A box whose opposite sides are identified along the axes where `periodic` is true; at least one. The
+  /// others are bounded as in box(). Edges along periodic axes must not differ by more than a factor of 10^6.
+  /// \throw Error invalid_domain, invalid_argument (sizes)
+  static Domain periodic_box(std::span<const double> low, std::span<const double> high,
+                             std::span<const bool> periodic);
+  /// The same, periodic along all axes.
+  static Domain periodic_box(std::span<const double> low, std::span<const double> high);
+
+  /// The plane or space modulo the lattice of two vectors of two coordinates, or three of three, row-major,
+  /// in any basis and orientation. regions() is the parallelogram or parallelepiped from `origin`, by default
+  /// 0. \throw Error invalid_domain (dependent vectors; a reduced basis with lengths 10^6 times apart)
+  static Domain lattice(std::span<const double> vectors, std::span<const double> origin = {});
+
   DomainKind kind() const;
-  int dimension() const;              ///< of the space: 2 or 3
-  int cell_dimension() const;         ///< of the cells: 2 for polygon and surface, 3 for volume
-  double measure() const;             ///< area or volume
+  int dimension() const;       ///< of the space: 2 or 3
+  int cell_dimension() const;  ///< of the cells: 2 for polygon and surface, 3 for volume
+  double measure() const;      ///< area or volume
+  bool is_periodic() const;    ///< along some axis
+  /// The vectors of a lattice as given, or the edges of a periodic box along its periodic axes and 0 along
+  /// the others: the units of Adjacency::shift. All 0 unless is_periodic().
+  std::array<std::array<double, 3>, 3> periods() const;
   std::array<double, 3> low() const;  ///< bounding box (third coordinate 0 in 2D)
   std::array<double, 3> high() const;
   RegionsView regions() const;             ///< see powercell/regions.hpp

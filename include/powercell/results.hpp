@@ -30,11 +30,15 @@ struct POWERCELL_API Measures {
 };
 
 /// The pairs of cells that share a wall inside the domain, as compressed sparse rows. Symmetric: j is in row
-/// i with the same wall measure as i in row j.
+/// i with the same wall measure as i in row j, with the opposite shift.
 struct Adjacency {
-  std::vector<std::uint64_t> offset;          ///< n + 1; row i is [offset[i], offset[i+1])
-  std::vector<std::uint32_t> neighbor;        ///< ascending within a row
-  std::vector<double> wall;                   ///< length (polygon, surface) or area (volume) of the wall
+  std::vector<std::uint64_t> offset;    ///< n + 1; row i is [offset[i], offset[i+1])
+  std::vector<std::uint32_t> neighbor;  ///< ascending within a row
+  std::vector<double> wall;             ///< length (polygon, surface) or area (volume) of the wall
+  /// In a periodic domain (else empty), per entry: the image of the neighbour, in periods of the domain
+  /// (Domain::periods). The wall is with the neighbour as given, moved by the sum of shift[k] times period k.
+  /// A seed may occur several times in a row, with ascending shifts, and so may the row's own seed.
+  std::vector<std::array<std::int32_t, 3>> shift;
   double asymmetry = 0;                       ///< largest |a_ij - a_ji| before the two sides were averaged
   std::array<std::uint32_t, 2> asymmetric{};  ///< i and j of that difference; equal if there was none
 };
@@ -73,7 +77,9 @@ struct POWERCELL_API Cells {
   std::vector<double> vertices;              ///< row-major, d per vertex
   std::vector<std::uint64_t> face_offset;    ///< pieces + 1
   std::vector<Border> border;                ///< per face
-  std::vector<std::uint64_t> loop_offset;    ///< faces + 1 (volumes only)
+  std::vector<std::array<std::int32_t, 3>>
+      shift;                               ///< per face in a periodic domain: as in Adjacency; else empty
+  std::vector<std::uint64_t> loop_offset;  ///< faces + 1 (volumes only)
   std::vector<std::uint32_t> loop;
 
   std::size_t cell_count() const { return cell_offset.empty() ? 0 : cell_offset.size() - 1; }

@@ -10,11 +10,12 @@
       __global const uint *pair_region, __global const seed_t *corners, __global const uint *region_offset, \
       __global const uint *region_vertex, __global const int *behind, __global const region_shape_t *shape, \
       __global uint *status, __global stored_real *moments, __global uint *faces, __global int *border,     \
-      __global stored_real *wall, __global uint *vertices, __global stored_real *vertex, __global uint *link
+      __global stored_real *wall, __global uint *vertices, __global stored_real *vertex,                    \
+      __global uint *link, __global stored_real *reach
 #define REGIONS_OF_ARGUMENTS \
   { corners, region_offset, region_vertex, behind, shape }
 #define OUTPUT_OF_ARGUMENTS \
-  { moments, faces, border, wall, vertices, vertex, link }
+  { moments, faces, border, wall, vertices, vertex, link, reach }
 
 /* Of the kernels that search the packed tree (TreeBlocks::append_arguments). */
 #define TREE_ARGUMENTS                                                                       \

@@ -11,6 +11,7 @@ typedef struct {
   __global uint* vertices;       /* per row: vertices written */
   __global stored_real* vertex;  /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
   __global uint* link;           /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
+  __global stored_real* reach;   /* per row: of a cell that is done, before its vertices are improved */
 } output_t;
 
 /* True if the cell is no thicker than the rounding errors of its vertices. */
@@ -51,6 +52,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
   if (status == PIECE_DONE) {
     find_radius2(&cell->at);
     certain = quickly_certain(&cell->at);
+    if (OUTPUTS & OUTPUT_REACH) out.reach[row] = (stored_real)cell->at.radius;
     cell_finish(cell, !certain);
     certain = certain || done_is_certain(cell);
     cell_moments(cell, moments);

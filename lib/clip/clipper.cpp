@@ -34,10 +34,12 @@ ClipMemory::ClipMemory(const std::shared_ptr<cl::Context>& context)
       border(context),
       moments(context),
       wall(context),
-      vertex(context) {}
+      vertex(context),
+      reach(context) {}
 
 std::size_t ClipMemory::bytes() const {
-  std::size_t sum = border.size() * sizeof(std::int32_t) + moments.bytes() + wall.bytes() + vertex.bytes();
+  std::size_t sum =
+      border.size() * sizeof(std::int32_t) + moments.bytes() + wall.bytes() + vertex.bytes() + reach.bytes();
   for (const cl::Buffer<std::uint32_t>* buffer : {&active, &seed, &region, &status, &faces, &vertices, &link})
     sum += buffer->size() * sizeof(std::uint32_t);
   return sum;
@@ -92,6 +94,7 @@ void Clipper::reserve_rows(std::size_t rows, const Capacity& capacity) {
   memory_.vertices.resize(geometry ? rows + 1 : 0);
   memory_.vertex.reserve(vertices * static_cast<std::size_t>(mesh.dimension) * real);
   memory_.link.resize(mesh.cell_dimension == 3 ? vertices * 6 : 0);
+  memory_.reach.reserve((outputs_ & OUTPUT_REACH) != 0 ? rows * real : 0);
   memory_.faces.zero();
   memory_.vertices.zero();
 }
@@ -139,12 +142,13 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
   call.args(static_cast<cl_uint>(rows), memory_.active, memory_.seed, memory_.region, domain.corners,
             domain.region_offset, domain.region_vertex, domain.behind, domain.shape, memory_.status,
             memory_.moments, memory_.faces, memory_.border, memory_.wall, memory_.vertices, memory_.vertex,
-            memory_.link);
+            memory_.link, memory_.reach);
   candidates_.append_arguments(call);
   call.launch(rows);
 
   const std::size_t first_uncertain = outcome.uncertain.size();
   read_statuses(active, outcome);
+  if (outputs_ & OUTPUT_REACH) read_reach(active);
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
   rows_of_launch.mapped_border = nullptr;
   rows_of_launch.repeats = false;
@@ -178,6 +182,18 @@ void Clipper::read_statuses(std::span<const std::uint32_t> active, Outcome& outc
     if (status == PIECE_FULL) outcome.full.push_back(pair);
     if (status == PIECE_TANGLED) outcome.tangled.push_back(pair);
   }
+}
+
+void Clipper::read_reach(std::span<const std::uint32_t> active) {
+  const auto store = [&](auto rows) {
+    memory_.reach.read(rows.data(), rows.size() * sizeof rows[0]);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      memory_.pieces.reach[active[row]] = static_cast<double>(rows[row]);
+  };
+  if (scene_.float32())
+    store(std::vector<float>(active.size()));
+  else
+    store(std::vector<double>(active.size()));
 }
 
 void Clipper::run(std::size_t number, const List& active, Outcome& outcome) {
@@ -214,6 +230,7 @@ Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
   memory_.pieces.status.resize(count);
   memory_.pieces.batch.resize(count);
   memory_.pieces.row.resize(count);
+  memory_.pieces.reach.resize((outputs_ & OUTPUT_REACH) != 0 ? count : 0);
   List pending(count);
   std::iota(pending.begin(), pending.end(), 0U);
   return pending;

@@ -38,7 +38,7 @@ struct ClipMemory {
 
   cl::Buffer<std::uint32_t> active, seed, region, status, faces, vertices, link;
   cl::Buffer<std::int32_t> border;
-  cl::RawBuffer moments, wall, vertex;
+  cl::RawBuffer moments, wall, vertex, reach;
   PieceSet pieces;
 };
 
@@ -102,6 +102,7 @@ class Clipper {
   /// Allocates the rows of one launch.
   void reserve_rows(std::size_t rows, const Capacity& capacity);
   void read_rows(const Capacity& capacity, PieceBatch& batch);
+  void read_reach(std::span<const std::uint32_t> active);
   /// Copies the mapped rows of this chunk and unmaps them, before the next launch overwrites them.
   void unmap_rows();
   bool wants_rows() const;

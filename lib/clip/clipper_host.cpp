@@ -99,6 +99,7 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
       const int status = clip_on_host(*host, pair, find_split(split, pair),
                                       std::span(moments).subspan(k * count, count), rows);
       memory_.pieces.status[pair] = static_cast<std::uint32_t>(status);
+      if (outputs_ & OUTPUT_REACH) memory_.pieces.reach[pair] = host->radius();
       memory_.pieces.batch[pair] = static_cast<std::uint32_t>(first_batch + task);
       memory_.pieces.row[pair] = static_cast<std::uint32_t>(k - begin);
     }

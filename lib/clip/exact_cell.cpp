@@ -22,21 +22,21 @@ namespace {
 /// Shorter kinds seldom serve on surfaces.
 constexpr std::size_t first_kind = 0, first_kind_on_surfaces = 3;
 
-/// Sign of a determinant with infinitesimals: the first factor of a seed that is not 0, by rank. `seed[k]` is
-/// that of factor k, or below 0; the factor of `self` is minus the sum of theirs.
+/// Sign of a determinant with infinitesimals: the first factor of a seed that is not 0, in the order that
+/// breaks ties. `seed[k]` is that of factor k, or below 0; the factor of `self` is minus the sum of theirs.
 template <class Factor, std::size_t count>
-int infinitesimal_sign(const std::array<Factor, count>& factor, const std::array<std::int32_t, count>& seed,
-                       std::int32_t self) {
-  std::int32_t first = INT32_MAX;
+int infinitesimal_sign(const HostScene& scene, const std::array<Factor, count>& factor,
+                       const std::array<std::int32_t, count>& seed, std::int32_t self) {
+  std::int32_t first = -1;
   int sign = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    if (seed[k] < 0 || seed[k] >= first) continue;
+    if (seed[k] < 0 || (first >= 0 && !scene.breaks_ties_before(seed[k], first))) continue;
     const int sign_here = sign_of(factor[k]);
     if (sign_here == 0) continue;
     first = seed[k];
     sign = sign_here;
   }
-  if (first < self) return sign;
+  if (first >= 0 && scene.breaks_ties_before(first, self)) return sign;
   Factor own{};
   for (std::size_t k = 0; k < count; ++k)
     if (seed[k] >= 0) own = own - factor[k];
@@ -82,8 +82,9 @@ auto ExactCell::with(const std::array<std::int32_t, count>& borders, const Use& 
 
 bool ExactCell::is_outside(const ExactVertex& vertex, std::int32_t other) {
   const auto side = [&](const auto& factor, int determinant, const auto& seed) {
-    const int sign =
-        determinant != 0 ? determinant : infinitesimal_sign(factor, seed, static_cast<std::int32_t>(rank_));
+    const int sign = determinant != 0
+                         ? determinant
+                         : infinitesimal_sign(*scene_, factor, seed, static_cast<std::int32_t>(rank_));
     return sign * sign_of(factor.back()) > 0;
   };
   if (vertex[0] == other || vertex[1] == other) return false;
@@ -146,7 +147,7 @@ bool ExactCell::are_parallel(std::int32_t face, std::int32_t a, std::int32_t b) 
 
 bool ExactCell::is_corner_outside(std::uint32_t corner, std::int32_t other) const {
   const int side = corner_side(*scene_, rank_, corner, other);
-  return side != 0 ? side > 0 : static_cast<std::uint32_t>(other) < rank_;
+  return side != 0 ? side > 0 : scene_->breaks_ties_before(other, static_cast<std::int32_t>(rank_));
 }
 
 bool ExactCell::is_facet_outside(std::uint32_t facet, std::int32_t other) const {

@@ -42,6 +42,8 @@ class PieceClipper final : public HostClipper {
     return status;
   }
 
+  double radius() const override { return radius_; }
+
  private:
   using Wall = typename HostWalls<Cell>::Wall;
 
@@ -164,7 +166,8 @@ HostScene make_host_scene(const Scene& scene) {
                  pack(frame, seeds.dimension, seeds.positions, seeds.weights),
                  {},
                  regions_behind(mesh),
-                 region_shape(mesh.shape)};
+                 region_shape(mesh.shape),
+                 scene.ties_by_position};
   const auto low = pack(frame, tree.dimension, tree.low, tree.weight);
   const auto high = pack(frame, tree.dimension, tree.high, {});
   for (std::size_t k = 0; k < low.size(); ++k)

@@ -3,6 +3,7 @@
 /// device, or that fit none of its variants.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -28,7 +29,14 @@ struct HostScene {
   std::vector<HostNode> nodes;                         ///< numbered as in the tree
   std::vector<std::int32_t> behind;                    ///< of the facets (regions_behind)
   region_shape_t shape{};
+  bool ties_by_position = false;  ///< Scene::ties_by_position
 
+  /// Whether seed `a`, by rank, comes before seed `b` in the order that breaks ties.
+  bool breaks_ties_before(std::int32_t a, std::int32_t b) const {
+    if (!ties_by_position) return a < b;
+    const auto &p = points[static_cast<std::size_t>(a)], &q = points[static_cast<std::size_t>(b)];
+    return std::lexicographical_compare(p.begin(), p.begin() + 3, q.begin(), q.begin() + 3);
+  }
   const HostNode& node(std::uint32_t at, std::int32_t level) const {
     return nodes[tree->level_offset[static_cast<std::size_t>(level)] + at];
   }
@@ -45,6 +53,8 @@ class HostClipper {
   /// or _FLAT), writes its 2 + dimension moments and appends its row. \throw Error internal if the result
   /// contradicts itself: a defect (names the seed by its rank)
   virtual int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) = 0;
+  /// At least the distance of the farthest vertex of the last piece from its seed, if it is not empty.
+  virtual double radius() const = 0;
 
   /// \param scene     must outlive the clipper
   /// \param geometry  whether rows have vertices

@@ -58,8 +58,10 @@ struct PieceSet {
   std::vector<std::uint32_t> status;  ///< per pair: PIECE_DONE, _EMPTY or _FLAT
   std::vector<std::uint32_t> batch;   ///< per pair: its batch
   std::vector<std::uint32_t> row;     ///< per pair: its row in the batch
-  std::vector<PieceBatch> batches;    ///< those in use come first
-  std::size_t used = 0;               ///< number of batches in use; the others keep their memory
+  std::vector<double>
+      reach;  ///< per pair, with OUTPUT_REACH: of its farthest vertex from the seed; else empty
+  std::vector<PieceBatch> batches;  ///< those in use come first
+  std::size_t used = 0;             ///< number of batches in use; the others keep their memory
 
   PieceBatch& add_batch() {
     if (used == batches.size()) batches.emplace_back();

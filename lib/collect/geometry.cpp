@@ -22,9 +22,11 @@ Border GeometryCollector::border(std::int32_t code, std::uint32_t region) const 
 
 void GeometryCollector::add_vertices(const PieceBatch& batch, std::size_t row, std::uint32_t rank) {
   const auto d = static_cast<std::size_t>(mesh_.dimension);
+  const std::array<double, 3> offset = placement_ ? placement_->offset(rank) : std::array<double, 3>{};
   for (std::size_t v = batch.vertex_offset[row]; v < batch.vertex_offset[row + 1]; ++v)
     for (std::size_t k = 0; k < d; ++k)
-      cells_.vertices.push_back(seeds_.positions[rank * d + k] + batch.vertex[v * d + k] / frame_.scale);
+      cells_.vertices.push_back(seeds_.positions[rank * d + k] + batch.vertex[v * d + k] / frame_.scale +
+                                offset[k]);
 }
 
 void GeometryCollector::add_loops(const PieceBatch& batch, std::size_t row) {
@@ -56,8 +58,13 @@ void GeometryCollector::add(std::span<const std::uint32_t> pair_seed,
     piece_rank_.push_back(pair_seed[k]);
     cells_.region.push_back(pair_region[k]);
     add_vertices(batch, row, pair_seed[k]);
-    for (std::size_t f = batch.face_offset[row]; f < batch.face_offset[row + 1]; ++f)
-      cells_.border.push_back(border(batch.border[f], pair_region[k]));
+    for (std::size_t f = batch.face_offset[row]; f < batch.face_offset[row + 1]; ++f) {
+      const std::int32_t code = batch.border[f];
+      cells_.border.push_back(border(code, pair_region[k]));
+      if (placement_)
+        cells_.shift.push_back(
+            code >= 0 ? placement_->shift_of_wall(pair_seed[k], static_cast<std::uint32_t>(code)) : Shift{});
+    }
     if (mesh_.cell_dimension == 3) add_loops(batch, row);
     cells_.vertex_offset.push_back(cells_.vertices.size() / static_cast<std::size_t>(mesh_.dimension));
     cells_.face_offset.push_back(cells_.border.size());
@@ -103,6 +110,7 @@ Cells GeometryCollector::finish(const std::vector<SeedStatus>& status) {
     out.region.push_back(cells_.region[p]);
     append_row(out.vertices, cells_.vertices, cells_.vertex_offset[p], cells_.vertex_offset[p + 1], d);
     append_row(out.border, cells_.border, cells_.face_offset[p], cells_.face_offset[p + 1]);
+    if (placement_) append_row(out.shift, cells_.shift, cells_.face_offset[p], cells_.face_offset[p + 1]);
     out.vertex_offset.push_back(out.vertices.size() / d);
     out.face_offset.push_back(out.border.size());
     if (!loops) continue;

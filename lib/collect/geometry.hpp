@@ -10,6 +10,7 @@
 #include "lib/clip/pieces.hpp"
 #include "lib/domain/frame.hpp"
 #include "lib/domain/region_mesh.hpp"
+#include "lib/periodic/images.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
@@ -17,6 +18,9 @@ namespace powercell {
 class GeometryCollector {
  public:
   GeometryCollector(const RegionMesh& mesh, const SeedSet& seeds, const Frame& frame);
+
+  /// From now on cells are placed near the seeds as given, and faces have shifts. Keeps the reference.
+  void place(const Placement& placement) { placement_ = &placement; }
 
   /// Adds the pieces of a chunk in the order of the pairs. Ranks ascend over all chunks.
   void add(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region,
@@ -33,7 +37,8 @@ class GeometryCollector {
   const RegionMesh& mesh_;
   const SeedSet& seeds_;
   const Frame& frame_;
-  Cells cells_;  // pieces in the order of the pairs; cell_offset is not set
+  const Placement* placement_ = nullptr;  // in a periodic domain
+  Cells cells_;                           // pieces in the order of the pairs; cell_offset is not set
   std::vector<std::uint32_t> piece_rank_;
 };
 

@@ -28,38 +28,72 @@ double excluding_weight(const Domain& domain, const SeedSet& seeds) {
 
 }  // namespace
 
-Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<PackedTree> tree)
+Active::Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept)
     : setup_(setup), input_(input), buffers_(buffers) {
-  if (tree && tree->seeds == seeds().size()) {
-    tree_ = std::move(*tree);
+  if (const Period* const period = setup.period()) {
+    const double margin = first_margin(*period, input.seeds);
+    if (kept && kept->images && kept->images->own == input.seeds.size() && kept->images->margin == margin) {
+      images_ = std::move(kept->images);
+      set_weights(*images_, input.seeds, setup.threads);
+    } else {
+      images_ = make_images(*period, input.seeds, margin, setup.threads);
+      kept.reset();
+    }
+  }
+  if (kept && kept->tree.seeds == seeds().size()) {
+    tree_ = std::move(kept->tree);
     refit_weights(tree_, seeds(), setup.threads);
     buffers_.upload_weights(setup.on_device.frame(), seeds(), tree_, setup.threads);
+    if (setup.neighbors == Neighbors::tree) set_hidden_aside();
   } else {
-    tree_ = build_packed_tree(seeds(), setup.threads);
-    buffers_.upload(setup.on_device.frame(), seeds(), tree_, setup.threads);
+    build();
   }
+}
+
+void Active::build() {
+  tree_ = build_packed_tree(seeds(), setup_.threads);
+  buffers_.upload(setup_.on_device.frame(), seeds(), tree_, setup_.threads);
   // The lists of FLANN are the paper's method and an oracle for the tree, so they use all seeds.
-  if (setup.neighbors == Neighbors::tree) set_hidden_aside();
+  if (setup_.neighbors == Neighbors::tree) set_hidden_aside();
 }
 
 void Active::set_hidden_aside() {
   const std::vector<std::uint8_t> hidden = hidden_seeds_if_many(scene());
   if (hidden.empty()) return;
-  own_ = without_hidden(input_.seeds, hidden, setup_.threads);
+  const std::size_t total = seeds().size();
+  if (images_)
+    images_ = without_hidden(*images_, hidden);
+  else
+    own_ = without_hidden(input_.seeds, hidden, setup_.threads);
   tree_ = build_packed_tree(seeds(), setup_.threads);
   buffers_.upload(setup_.on_device.frame(), seeds(), tree_, setup_.threads);
   write_log(LogLevel::info, [&] {
-    return std::to_string(input_.seeds.size() - seeds().size()) + " of " +
-           std::to_string(input_.seeds.size()) + " seeds are hidden by their neighbours and set aside";
+    return std::to_string(total - seeds().size()) + " of " + std::to_string(total) +
+           " seeds are hidden by their neighbours and set aside";
+  });
+}
+
+void Active::widen(double margin) {
+  images_ = make_images(*setup_.period(), input_.seeds, margin, setup_.threads);
+  build();
+  write_log(LogLevel::info, [&] {
+    return std::to_string(images_->seeds.size() - images_->own) + " images of " +
+           std::to_string(images_->own) + " seeds, because cells reached beyond a narrower margin";
   });
 }
 
 void Active::exclude_flat_cells(std::span<const std::uint32_t> ranks) {
   const double weight = excluding_weight(setup_.domain, input_.seeds);
-  if (!own_) own_ = input_.seeds;
-  for (const std::uint32_t rank : ranks) own_->weights[rank] = weight;
-  refit_weights(tree_, *own_, setup_.threads);
-  buffers_.upload_weights(setup_.on_device.frame(), *own_, tree_, setup_.threads);
+  if (images_) {
+    SeedSet& all = images_->seeds;
+    for (std::uint32_t r = 0; r < all.size(); ++r)
+      if (std::binary_search(ranks.begin(), ranks.end(), images_->seed_of(r))) all.weights[r] = weight;
+  } else {
+    if (!own_) own_ = input_.seeds;
+    for (const std::uint32_t rank : ranks) own_->weights[rank] = weight;
+  }
+  refit_weights(tree_, seeds(), setup_.threads);
+  buffers_.upload_weights(setup_.on_device.frame(), seeds(), tree_, setup_.threads);
   by_region.clear();
   write_log(LogLevel::info,
             [&] { return std::to_string(ranks.size()) + " seeds with flat cells excluded; recomputing"; });

@@ -8,9 +8,16 @@
 
 #include "lib/diagram/input.hpp"
 #include "lib/diagram/setup.hpp"
+#include "lib/periodic/images.hpp"
 #include "lib/scene/scene.hpp"
 
 namespace powercell {
+
+/// A packed tree with the images that it contains in a periodic domain.
+struct KeptTree {
+  PackedTree tree;
+  std::optional<Images> images;
+};
 
 /// The active seeds in Hilbert order, their tree, and both on the device. Not movable, because scenes and
 /// plans refer to it.
@@ -18,14 +25,21 @@ class Active {
  public:
   /// Builds the tree, uploads the seeds, and sets seeds aside that are proved hidden, if they are many.
   /// \param buffers  receive the seeds; must outlive this
-  /// \param tree     released by earlier active seeds at the same positions; used if those were all seeds
-  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<PackedTree> tree);
+  /// \param kept     released by earlier active seeds at the same positions; used where a new tree would be
+  /// the
+  ///                 same but for weights
+  Active(const Setup& setup, const Input& input, SeedBuffers& buffers, std::optional<KeptTree> kept);
   Active(const Active&) = delete;
   Active& operator=(const Active&) = delete;
 
-  const SeedSet& seeds() const { return own_ ? *own_ : input_.seeds; }
+  /// In a periodic domain those of images().
+  const SeedSet& seeds() const { return images_ ? images_->seeds : own_ ? *own_ : input_.seeds; }
+  /// Null unless the domain is periodic.
+  const Images* images() const { return images_ ? &*images_ : nullptr; }
+  /// From wrapped seeds to those given. \pre images()
+  Placement placement() const { return {*setup_.period(), *images_, input_.unwrapped->shift}; }
   const PackedTree& tree() const { return tree_; }
-  Scene scene() const { return {setup_.on_device, buffers_, seeds(), tree_}; }
+  Scene scene() const { return {setup_.on_device, buffers_, seeds(), tree_, images_.has_value()}; }
 
   /// Ranks whose cells must be clipped region by region, because it is unclear whether they lie inside the
   /// domain.
@@ -35,14 +49,19 @@ class Active {
   /// cells on both sides of a flat cell then share its walls.
   void exclude_flat_cells(std::span<const std::uint32_t> ranks);
 
-  PackedTree release_tree() && { return std::move(tree_); }
+  /// Adds images within a wider margin. \pre images()
+  void widen(double margin);
+
+  KeptTree release_tree() && { return {std::move(tree_), std::move(images_)}; }
 
  private:
+  void build();
   void set_hidden_aside();
 
   const Setup& setup_;
   const Input& input_;
   SeedBuffers& buffers_;
+  std::optional<Images> images_;
   std::optional<SeedSet> own_;  // if not all seeds of the input with their weights
   PackedTree tree_;
 };

@@ -7,6 +7,7 @@
 #include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
+#include "lib/collect/periodic_walls.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
 #include "lib/integrate/moment_sums.hpp"
@@ -24,6 +25,10 @@ constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
 /// Larger buffers are freed after a pass, because other work needs the memory.
 constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
+constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
+                 proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);  // (82)
+/// Of a margin that must be widened, since other cells may reach farther still.
+constexpr double more_than_needed = 1.1;
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 int outputs_of(Wanted want) {
@@ -52,8 +57,16 @@ class Pass {
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact),
         measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
-        walls_(want.adjacency ? active.seeds().size() : 0, setup.threads, std::exchange(workspace.walls, {})),
-        geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {}
+        walls_(want.adjacency && !active.images() ? active.seeds().size() : 0, setup.threads,
+               std::exchange(workspace.walls, {})),
+        geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {
+    if (!active.images()) return;
+    placement_.emplace(active.placement());
+    geometry_.place(*placement_);
+    proof_.emplace(*setup.period(), *active.images(),
+                   setup.float32() ? proved_reach_error_float : proved_reach_error_double);
+    if (want.adjacency) periodic_walls_.emplace(*placement_, setup.threads);
+  }
 
   Clipped run(Timings& timings) {
     if (!plan_.pairs.region.empty()) clip_all(timings);
@@ -68,8 +81,11 @@ class Pass {
   void clip_all(Timings& timings);
   /// Clips and collects the pairs [begin, end).
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
+  void prove_reach(const PieceSet& pieces);
   void set_chunk_seeds(std::uint64_t begin, std::uint64_t end);
   std::uint32_t rank_of(std::uint64_t pair) const;
+  /// Moves the centroids from near the wrapped seeds to near those given.
+  void place_centroids(Measures& measures) const;
   Clipped finish();
   void keep_wall_memory();
 
@@ -85,6 +101,11 @@ class Pass {
   GeometryCollector geometry_;
   std::vector<std::uint32_t> pair_seed_;  // of a chunk
   std::vector<std::uint32_t> flat_;       // the rank of each flat piece
+  // In a periodic domain:
+  std::optional<Placement> placement_;
+  std::optional<MarginProof> proof_;
+  std::optional<PeriodicWalls> periodic_walls_;
+  double margin_ = 0;  // needed for cells that reach too far
   double collect_seconds_ = 0;
 };
 
@@ -104,6 +125,7 @@ void Pass::set_chunk_seeds(std::uint64_t begin, std::uint64_t end) {
 }
 
 void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
+  if (margin_ > 0) return;  // the pass must be repeated
   set_chunk_seeds(begin, end);
   const std::span pair_region(plan_.pairs.region.data() + begin, end - begin);
   const std::vector<std::uint32_t> for_host = clipper_->clip_on_device(pair_seed_, pair_region);
@@ -115,17 +137,28 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   if (exact_)
     for (std::size_t k = 0; k < pair_seed_.size(); ++k)
       if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_seed_[k]);
-  if (want_.adjacency) walls_.add(pair_seed_, pieces);
+  if (proof_) prove_reach(pieces);
+  if (periodic_walls_)
+    periodic_walls_->add(pair_seed_, pieces);
+  else if (want_.adjacency)
+    walls_.add(pair_seed_, pieces);
   if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
   collect_seconds_ += watch.seconds();
+}
+
+void Pass::prove_reach(const PieceSet& pieces) {
+  const double unit = setup_.on_device.frame().unit(1);
+  for (std::size_t k = 0; k < pair_seed_.size(); ++k)
+    if (pieces.status[k] == PIECE_DONE || pieces.status[k] == PIECE_FLAT)
+      margin_ = std::max(margin_, proof_->margin_for(pair_seed_[k], pieces.reach[k] * unit));
 }
 
 void Pass::clip_all(Timings& timings) {
   const std::uint64_t total = plan_.pairs.region.size();
   Candidates& candidates = *plan_.candidates;
   const auto make_clipper = [&](std::optional<ClipMemory> memory) {
-    clipper_.emplace(active_.scene(), candidates, outputs_of(want_), ClipOptions{exact_, setup_.threads},
-                     std::move(memory));
+    clipper_.emplace(active_.scene(), candidates, outputs_of(want_) | (proof_ ? OUTPUT_REACH : 0),
+                     ClipOptions{exact_, setup_.threads}, std::move(memory));
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const std::function<bool(double)>& progress = setup_.options.progress;
@@ -166,9 +199,22 @@ void Pass::keep_wall_memory() {
   if (bytes <= kept_bytes) workspace_.walls = std::move(memory);
 }
 
+void Pass::place_centroids(Measures& measures) const {
+  const auto d = static_cast<std::size_t>(measures.dimension);
+  for (std::uint32_t rank = 0; rank < active_.images()->own; ++rank) {
+    if (placement_->is_inside(rank)) continue;
+    const std::array<double, 3> offset = placement_->offset(rank);
+    for (std::size_t c = 0; c < d; ++c) measures.centroid[active_.seeds().input[rank] * d + c] += offset[c];
+  }
+}
+
 Clipped Pass::finish() {
   const SeedSet& seeds = active_.seeds();
   Clipped results;
+  if (margin_ > 0) {
+    results.margin = std::min(more_than_needed * margin_, 2 * active_.images()->margin);
+    return results;
+  }
   Measures measures = measures_.finish();
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
   std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
@@ -176,13 +222,14 @@ Clipped Pass::finish() {
   if (!results.flat.empty()) return results;
   if (plan_.unrestricted) results.unclear = classify_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
   if (!results.unclear.empty()) return results;
-  if (want_.adjacency)
-    results.adjacency = walls_.finish(seeds, measures.status,
-                                      setup_.on_device.frame().unit(setup_.domain.cell_dimension() - 1),
-                                      exact_             ? 0
-                                      : setup_.float32() ? negligible_float
-                                                         : negligible_double);
+  const double unit = setup_.on_device.frame().unit(setup_.domain.cell_dimension() - 1);
+  const double negligible = exact_ ? 0 : setup_.float32() ? negligible_float : negligible_double;
+  if (periodic_walls_)
+    results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
+  else if (want_.adjacency)
+    results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
   if (want_.cells) results.cells = geometry_.finish(measures.status);
+  if (placement_) place_centroids(measures);
   results.measures = std::move(measures);
   return results;
 }

@@ -22,6 +22,7 @@ struct Clipped {
   std::optional<Adjacency> adjacency;
   std::optional<Cells> cells;
   std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
+  double margin = 0;                   ///< of images, if cells reach too far for theirs; else 0
   std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
 };
 

@@ -34,6 +34,11 @@ void require_buffer(const cl::Context& context, cl_mem memory, std::size_t bytes
 }  // namespace
 
 DeviceDiagram::DeviceDiagram(Device device, Domain domain, Options options) {
+  if (domain.is_periodic())
+    throw Error(
+        ErrorCode::unsupported,
+        "a diagram in device memory has no periodic domain, because the images of seeds are found on the "
+        "host; use Diagram");
   if (options.neighbors == Neighbors::flann)
     throw Error(ErrorCode::unsupported,
                 "FLANN makes neighbour lists on the host, so a diagram in device memory cannot use them; use "

@@ -50,6 +50,37 @@ void copy_row(std::size_t d, const double* positions, const double* weights, std
   rows.weights[to] = weights ? weights[from] : 0.0;
 }
 
+/// The wrapped positions. \param shift  by seed, set
+std::vector<double> wrap(const Period& period, const SeedsView& view, int threads,
+                         std::vector<Shift>& shift) {
+  const auto d = static_cast<std::size_t>(view.dimension);
+  std::vector<double> wrapped(view.positions.size());
+  const std::size_t far = first_of(view.size(), threads, [&](std::size_t i) {
+    const Period::Wrapped w = period.wrap(&view.positions[i * d]);
+    shift[i] = w.shift;
+    std::copy_n(w.position.begin(), d, &wrapped[i * d]);
+    return w.is_far;
+  });
+  if (far < view.size())
+    throw Error(
+        ErrorCode::invalid_seed,
+        "seed " + std::to_string(far) +
+            " is more than 2^28 periods outside the periodic domain, where its position is too coarse; "
+            "move it by a multiple of the period");
+  return wrapped;
+}
+
+Input make_bounded_input(const Setup& setup, const SeedsView& view) {
+  const auto d = static_cast<std::size_t>(setup.domain.dimension());
+  Input input{make_seed_set(view, setup.domain.dimension(), setup.threads), {}};
+  require_in_range(setup, view);
+  input.duplicates = with_room(d, input.seeds.duplicate.size());
+  const double* const weights = view.weights.empty() ? nullptr : view.weights.data();
+  for (std::size_t k = 0; k < input.seeds.duplicate.size(); ++k)
+    copy_row(d, view.positions.data(), weights, input.seeds.duplicate[k], input.duplicates, k);
+  return input;
+}
+
 }  // namespace
 
 SeedRows Input::given() const {
@@ -59,17 +90,18 @@ SeedRows Input::given() const {
     copy_row(d, seeds.positions.data(), seeds.weights.data(), rank, rows, seeds.input[rank]);
   for (std::size_t k = 0; k < seeds.duplicate.size(); ++k)
     copy_row(d, duplicates.positions.data(), duplicates.weights.data(), k, rows, seeds.duplicate[k]);
+  if (unwrapped) rows.positions = unwrapped->positions;
   return rows;
 }
 
 Input make_input(const Setup& setup, const SeedsView& view) {
-  const auto d = static_cast<std::size_t>(setup.domain.dimension());
-  Input input{make_seed_set(view, setup.domain.dimension(), setup.threads), {}};
-  require_in_range(setup, view);
-  input.duplicates = with_room(d, input.seeds.duplicate.size());
-  const double* const weights = view.weights.empty() ? nullptr : view.weights.data();
-  for (std::size_t k = 0; k < input.seeds.duplicate.size(); ++k)
-    copy_row(d, view.positions.data(), weights, input.seeds.duplicate[k], input.duplicates, k);
+  const Period* const period = setup.domain.mesh().period.get();
+  if (period == nullptr) return make_bounded_input(setup, view);
+  check_seeds(view, setup.domain.dimension(), setup.threads);
+  Unwrapped unwrapped{{view.positions.begin(), view.positions.end()}, std::vector<Shift>(view.size())};
+  const std::vector<double> wrapped = wrap(*period, view, setup.threads, unwrapped.shift);
+  Input input = make_bounded_input(setup, {view.dimension, wrapped, view.weights});
+  input.unwrapped = std::move(unwrapped);
   return input;
 }
 

@@ -2,6 +2,7 @@
 /// The seeds of a Diagram, as given by the caller. Internal.
 #pragma once
 
+#include <optional>
 #include <powercell/seeds.hpp>
 #include <span>
 #include <vector>
@@ -11,6 +12,12 @@
 
 namespace powercell {
 
+/// Where seeds of a periodic domain were before they were wrapped.
+struct Unwrapped {
+  std::vector<double> positions;  ///< in the caller's order, as given
+  std::vector<Shift> shift;       ///< by the caller's index: from the wrapped seed, in the vectors as given
+};
+
 /// Rows of positions and weights.
 struct SeedRows {
   std::vector<double> positions, weights;
@@ -19,14 +26,16 @@ struct SeedRows {
 /// Validated seeds in Hilbert order, and the duplicates left out of them.
 struct Input {
   SeedSet seeds;
-  SeedRows duplicates;  ///< in the order of SeedSet::duplicate
+  SeedRows duplicates;                      ///< in the order of SeedSet::duplicate
+  std::optional<Unwrapped> unwrapped = {};  ///< in a periodic domain, where the others are wrapped
 
-  /// All seeds in the caller's order.
+  /// All seeds as given, in the caller's order.
   SeedRows given() const;
 };
 
-/// \throw Error invalid_argument (sizes); invalid_seed (NaN, infinity or a square that overflows; names seed
-///        and value)
+/// \throw Error invalid_argument (sizes); invalid_seed (NaN, infinity, a square that overflows, or more than
+/// 2^28
+///        periods outside; names seed and value)
 Input make_input(const Setup& setup, const SeedsView& seeds);
 
 /// The same seeds with new weights, in the caller's order.

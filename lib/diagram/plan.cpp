@@ -1,6 +1,7 @@
 #include "lib/diagram/plan.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "kernels/layout.h"
@@ -85,11 +86,22 @@ std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scen
   return std::make_unique<RegionCandidates>(scene, pairs.list_offset, pairs.list_seed, pairs.all_listed);
 }
 
+/// The pairs of the first `count` ranks with the only region.
+Pairs one_pair_each(std::uint32_t count) {
+  Pairs pairs;
+  pairs.offset.resize(std::size_t{count} + 1);
+  std::iota(pairs.offset.begin(), pairs.offset.end(), std::uint64_t{0});
+  pairs.region.resize(count);
+  return pairs;
+}
+
 Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings) {
   Plan plan;
   setup.progress->begin_part(0, cells_done);
   const Stopwatch pair_watch(setup.device);
-  plan.pairs = setup.pairs.by_regions(active.seeds(), active.tree(), setup.options.progress);
+  plan.pairs = active.images()
+                   ? one_pair_each(active.images()->own)
+                   : setup.pairs.by_regions(active.seeds(), active.tree(), setup.options.progress);
   timings.pairs = pair_watch.seconds();
   setup.progress->begin_part(cells_done, pairs_done);
   const Stopwatch neighbor_watch(setup.device);

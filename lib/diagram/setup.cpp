@@ -1,6 +1,7 @@
 #include "lib/diagram/setup.hpp"
 
 #include "lib/base/threads.hpp"
+#include "lib/domain/build.hpp"
 #include "lib/domain/outline.hpp"
 
 namespace powercell {
@@ -35,6 +36,14 @@ Options checked(Options options) {
   return options;
 }
 
+RegionMesh make_clip_mesh(const RegionMesh& mesh, bool has_inside) {
+  if (has_inside) return with_container(mesh);
+  if (!mesh.period) return {};
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  return *build_box(std::span(mesh.period->room_low()).first(d),
+                    std::span(mesh.period->room_high()).first(d));
+}
+
 }  // namespace
 
 Setup::Setup(Device device_in, Domain domain_in, Options options_in)
@@ -46,8 +55,9 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
       neighbors(choose_neighbors(options.neighbors)),
       threads(thread_count(options.threads)),
       has_inside(powercell::has_inside(domain.mesh())),
-      clip_mesh(has_inside ? with_container(domain.mesh()) : RegionMesh{}),
-      on_device(device.context(), has_inside ? clip_mesh : domain.mesh(), precision == Precision::float32),
+      clip_mesh(make_clip_mesh(domain.mesh(), has_inside)),
+      on_device(device.context(), has_inside || period() ? clip_mesh : domain.mesh(),
+                precision == Precision::float32),
       pairs(domain.mesh(), threads) {
   if (options.progress)
     options.progress = [stages = progress](double fraction) { return stages->report(fraction); };

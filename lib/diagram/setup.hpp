@@ -24,13 +24,16 @@ struct Setup {
   Precision precision;  ///< not automatic
   Neighbors neighbors;  ///< not automatic
   int threads;
-  bool has_inside;          ///< whether a cell inside the domain can meet several of its regions
-  RegionMesh clip_mesh;     ///< if has_inside: the regions, then the container
+  bool has_inside;  ///< whether a cell inside the domain can meet several of its regions
+  /// If has_inside, the regions, then the container; of a periodic domain, the room around all cells of
+  /// wrapped seeds.
+  RegionMesh clip_mesh;
   DomainBuffers on_device;  ///< of `clip_mesh`, or of the domain
   PairFinder pairs;
 
   /// \throw Error no_fp64; invalid_argument, unsupported (options); opencl, out_of_device_memory
   Setup(Device device, Domain domain, Options options);
+  const Period* period() const { return domain.mesh().period.get(); }  ///< null if not periodic
   bool float32() const { return on_device.float32(); }
 };
 

@@ -84,7 +84,10 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       if (clipped.cells) results.cells = std::move(clipped.cells);
       return;
     }
-    if (!clipped.flat.empty()) {
+    if (clipped.margin > 0) {
+      active->widen(clipped.margin);
+      geometry.reset();
+    } else if (!clipped.flat.empty()) {
       active->exclude_flat_cells(clipped.flat);
       geometry.reset();
     } else {
@@ -127,9 +130,9 @@ void Diagram::State::compute(Wanted want) {
 void Diagram::State::certify() {
   const Stopwatch watch(setup.device);
   try {
-    require_certificate({setup.domain, input->seeds, *results.measures,
-                         results.adjacency ? &*results.adjacency : nullptr, setup.float32(), setup.threads,
-                         [this]() -> const Cells& {
+    require_certificate({setup.domain, input->seeds, active->images() ? active->seeds() : input->seeds,
+                         *results.measures, results.adjacency ? &*results.adjacency : nullptr,
+                         setup.float32(), setup.threads, [this]() -> const Cells& {
                            if (!results.cells) pass(PlanKind::geometry, {.cells = true});
                            return *results.cells;
                          }});
@@ -141,6 +144,11 @@ void Diagram::State::certify() {
 }
 
 const Dual& Diagram::State::dual() {
+  if (setup.period())
+    throw Error(
+        ErrorCode::unsupported,
+        "the dual of a periodic diagram is not a list of seeds, since a simplex may have several images "
+        "of one seed; use the adjacency with its shifts, or the cells");
   if (!results.dual) {
     compute({.cells = true});
     const SeedRows given = input->given();

@@ -26,7 +26,7 @@ struct Diagram::State {
 
   // Memory reused by the next values.
   SeedBuffers seed_buffers;
-  std::optional<PackedTree> tree;  // of the last active seeds, while the positions are the same
+  std::optional<KeptTree> tree;  // of the last active seeds, while the positions are the same
   Workspace workspace;
 
   State(Device device, Domain domain, Options options)

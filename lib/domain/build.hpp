@@ -13,6 +13,9 @@ using RegionMeshPtr = std::shared_ptr<const RegionMesh>;
 
 /// The mesh behind the function of Domain with the same name.
 RegionMeshPtr build_box(std::span<const double> low, std::span<const double> high);
+RegionMeshPtr build_periodic_box(std::span<const double> low, std::span<const double> high,
+                                 std::span<const bool> periodic);
+RegionMeshPtr build_lattice(std::span<const double> vectors, std::span<const double> origin);
 RegionMeshPtr build_polygon(std::span<const PolygonPart> parts);
 RegionMeshPtr build_surface(std::span<const double> vertices, std::span<const std::uint32_t> triangles);
 RegionMeshPtr build_volume(std::span<const double> vertices, std::span<const std::uint32_t> tetrahedra);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <powercell/domain.hpp>
 #include <powercell/regions.hpp>
 
@@ -31,6 +32,29 @@ Domain Domain::volume(std::span<const double> vertices, std::span<const std::uin
 
 Domain Domain::box(std::span<const double> low, std::span<const double> high) {
   return Domain(build_box(low, high));
+}
+
+Domain Domain::periodic_box(std::span<const double> low, std::span<const double> high,
+                            std::span<const bool> periodic) {
+  return Domain(build_periodic_box(low, high, periodic));
+}
+
+Domain Domain::periodic_box(std::span<const double> low, std::span<const double> high) {
+  constexpr bool all[] = {true, true, true};
+  return periodic_box(low, high, std::span(all).first(std::min<std::size_t>(low.size(), 3)));
+}
+
+Domain Domain::lattice(std::span<const double> vectors, std::span<const double> origin) {
+  return Domain(build_lattice(vectors, origin));
+}
+
+bool Domain::is_periodic() const {
+  return mesh_->period != nullptr;
+}
+std::array<std::array<double, 3>, 3> Domain::periods() const {
+  std::array<std::array<double, 3>, 3> vectors{};
+  for (int k = 0; k < 3 && is_periodic(); ++k) vectors[static_cast<std::size_t>(k)] = mesh_->period->given(k);
+  return vectors;
 }
 
 DomainKind Domain::kind() const {

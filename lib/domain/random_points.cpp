@@ -61,11 +61,11 @@ std::vector<Sample> random_points(const RegionMesh& mesh, std::size_t count, std
   std::mt19937_64 engine(random_seed);
   std::vector<Sample> samples(count);
   if (mesh.shape == RegionShape::box) {
+    const Vector corner = vertex(mesh, 0);
     for (Sample& sample : samples) {
-      sample = {0, {}};
-      for (std::size_t k = 0; k < 3; ++k)
-        sample.point[k] =
-            mesh.low[k] + (static_cast<long double>(mesh.high[k]) - mesh.low[k]) * uniform(engine);
+      sample = {0, corner};
+      for (const std::uint32_t next : {1U, 2U, 4U})
+        sample.point = sample.point + uniform(engine) * (vertex(mesh, next) - corner);
     }
     return samples;
   }

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <powercell/regions.hpp>
 #include <vector>
+
+#include "lib/domain/period.hpp"
 
 namespace powercell {
 
@@ -31,6 +34,7 @@ struct RegionMesh {
   double measure = 0;
   std::array<double, 3> low{}, high{};  ///< bounding box of the regions
   MeshReport report;
+  std::shared_ptr<const Period> period;  ///< of a periodic domain, which is one region; else null
 
   std::size_t region_count() const { return source.size(); }
 };

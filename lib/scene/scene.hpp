@@ -28,6 +28,8 @@ struct Scene {
   const SeedBuffers& buffers;
   const SeedSet& seeds;
   const PackedTree& tree;
+  /// Break ties by the order of the coordinates instead of the ranks, which translations keep.
+  bool ties_by_position = false;
 
   const std::shared_ptr<cl::Context>& context() const { return domain.context(); }
   const RegionMesh& mesh() const { return domain.mesh(); }

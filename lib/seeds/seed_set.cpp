@@ -53,21 +53,6 @@ std::string spelled(double value) {
                                            "; weights must be finite: correct or remove this seed");
 }
 
-void check_seeds(const SeedsView& seeds, int dimension, int threads) {
-  check_sizes(seeds, dimension);
-  const std::size_t d = static_cast<std::size_t>(dimension);
-  const std::size_t position = first_not_finite(seeds.positions, threads);
-  const std::size_t weight = first_not_finite(seeds.weights, threads);
-  const bool bad_position = position < seeds.positions.size();
-  const bool bad_weight = weight < seeds.weights.size();
-  if (bad_position && (!bad_weight || position / d <= weight))
-    throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(position / d) + ": coordinate " +
-                                             "xyz"[position % d] + " is " +
-                                             spelled(seeds.positions[position]) +
-                                             "; coordinates must be finite: correct or remove this seed");
-  if (bad_weight) refuse_weight(seeds.weights, weight);
-}
-
 /// Positions and weights in the order of `set.input`.
 void gather(const SeedsView& seeds, int threads, SeedSet& set) {
   const auto d = static_cast<std::size_t>(set.dimension);
@@ -121,6 +106,21 @@ std::vector<std::uint32_t> drop_duplicates(const SeedsView& seeds, std::vector<s
 }
 
 }  // namespace
+
+void check_seeds(const SeedsView& seeds, int dimension, int threads) {
+  check_sizes(seeds, dimension);
+  const std::size_t d = static_cast<std::size_t>(dimension);
+  const std::size_t position = first_not_finite(seeds.positions, threads);
+  const std::size_t weight = first_not_finite(seeds.weights, threads);
+  const bool bad_position = position < seeds.positions.size();
+  const bool bad_weight = weight < seeds.weights.size();
+  if (bad_position && (!bad_weight || position / d <= weight))
+    throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(position / d) + ": coordinate " +
+                                             "xyz"[position % d] + " is " +
+                                             spelled(seeds.positions[position]) +
+                                             "; coordinates must be finite: correct or remove this seed");
+  if (bad_weight) refuse_weight(seeds.weights, weight);
+}
 
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads) {
   const int workers = thread_count(threads);

@@ -27,6 +27,9 @@ struct SeedSet {
 /// \throw Error invalid_argument (dimension, sizes), invalid_seed (the first seed with a NaN or infinity)
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads);
 
+/// \throw Error invalid_argument (dimension, sizes), invalid_seed (the first seed with a NaN or infinity)
+void check_seeds(const SeedsView& seeds, int dimension, int threads);
+
 /// \throw Error invalid_seed (the first seed whose weight is NaN or infinite)
 void check_weights(std::span<const double> weights, int threads);
 

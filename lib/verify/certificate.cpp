@@ -98,7 +98,7 @@ void require_numbers(const Certified& r, double outside) {
     if (!(r.measures.mass[i] >= 0) || !(r.measures.second_moment[i] >= 0)) return true;
     if ((r.measures.status[i] == SeedStatus::ok) != (r.measures.mass[i] > 0)) return true;
     if (r.measures.status[i] != SeedStatus::ok) return false;
-    for (std::size_t k = 0; k < d; ++k) {
+    for (std::size_t k = 0; k < d && !r.domain.is_periodic(); ++k) {
       const double x = r.measures.centroid[i * d + k];
       if (!(x >= low[k] - slack && x <= high[k] + slack)) return true;
     }
@@ -158,13 +158,13 @@ std::size_t owner_of(const SeedSet& seeds, const std::array<double, 3>& x) {
 template <std::size_t d>
 std::size_t owner_with_cell(const Certified& r, const std::array<double, 3>& x) {
   const auto has_cell = [&](std::size_t rank) {
-    return r.measures.status[r.seeds.input[rank]] == SeedStatus::ok;
+    return r.measures.status[r.owners.input[rank]] == SeedStatus::ok;
   };
-  const std::size_t owner = owner_of<d>(r.seeds, x);
+  const std::size_t owner = owner_of<d>(r.owners, x);
   if (has_cell(owner)) return owner;
-  const Power least = power<d>(r.seeds, owner, x);
-  for (std::size_t rank = 0; rank < r.seeds.size(); ++rank) {
-    const Power here = power<d>(r.seeds, rank, x);
+  const Power least = power<d>(r.owners, owner, x);
+  for (std::size_t rank = 0; rank < r.owners.size(); ++rank) {
+    const Power here = power<d>(r.owners, rank, x);
     const double rounding = power_roundings * 0x1p-53 * (here.terms + least.terms);
     if (here.value - least.value <= rounding && has_cell(rank)) return rank;
   }
@@ -172,7 +172,7 @@ std::size_t owner_with_cell(const Certified& r, const std::array<double, 3>& x) 
 }
 
 void require_owners(const Certified& r) {
-  if (r.seeds.size() == 0) return;
+  if (r.owners.size() == 0) return;
   const std::vector<Sample> samples = random_points(r.domain.mesh(), points, r.seeds.size());
   std::vector<std::size_t> owner(samples.size());
   parallel_for(r.threads, samples.size(), [&](std::size_t begin, std::size_t end) {
@@ -184,7 +184,7 @@ void require_owners(const Certified& r) {
     }
   });
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const std::size_t i = r.seeds.input[owner[k]];
+    const std::size_t i = r.owners.input[owner[k]];
     if (r.measures.status[i] == SeedStatus::ok) continue;
     refuse("seed " + std::to_string(i) + " has no cell, but owns the point (" +
            digits(static_cast<double>(samples[k].point[0])) + ", " +

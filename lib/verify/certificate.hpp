@@ -14,6 +14,7 @@ namespace powercell {
 struct Certified {
   const Domain& domain;
   const SeedSet& seeds;
+  const SeedSet& owners;  ///< the seeds, in a periodic domain with their images
   const Measures& measures;
   const Adjacency* adjacency;  ///< may be null
   bool float32;
@@ -22,9 +23,9 @@ struct Certified {
 };
 
 /// Checks that the measures sum to the domain's, are numbers and not negative, that centroids lie in the
-/// domain's box, that both sides of a wall have the same measure, and that the seed of least power distance
-/// at some random points, found by trying all seeds, is not hidden. \throw Error internal with the law and
-/// the seeds concerned
+/// domain's box (unless it is periodic), that both sides of a wall have the same measure, and that the seed
+/// of least power distance at some random points, found by trying all seeds, is not hidden. \throw Error
+/// internal with the law and the seeds concerned
 void require_certificate(const Certified& result);
 
 }  // namespace powercell

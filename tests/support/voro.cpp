@@ -72,4 +72,47 @@ RadicalCells radical_cells(const SeedsView& seeds, const Box& box) {
   return cells;
 }
 
+namespace {
+
+template <class Container>
+void put_with_radii(Container& container, const SeedsView& seeds) {
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const double* p = &seeds.positions[3 * i];
+    container.put(static_cast<int>(i), p[0], p[1], p[2], std::sqrt(seeds.weights[i]));
+  }
+}
+
+template <class Loop, class Container>
+std::vector<double> volumes(Container& container, std::size_t n) {
+  std::vector<double> volume(n);
+  voro::voronoicell_neighbor cell;
+  Loop loop(container);
+  if (loop.start()) do
+      if (container.compute_cell(cell, loop)) volume[static_cast<std::size_t>(loop.pid())] = cell.volume();
+    while (loop.inc());
+  return volume;
+}
+
+int blocks_for(const SeedsView& seeds) {
+  return std::max(1, static_cast<int>(std::cbrt(static_cast<double>(seeds.size()) / seeds_per_block)));
+}
+
+}  // namespace
+
+std::vector<double> periodic_volumes(const SeedsView& seeds, const Box& box, std::array<bool, 3> periodic) {
+  const int blocks = blocks_for(seeds);
+  voro::container_poly container(box.low[0], box.high[0], box.low[1], box.high[1], box.low[2], box.high[2],
+                                 blocks, blocks, blocks, periodic[0], periodic[1], periodic[2], 8);
+  put_with_radii(container, seeds);
+  return volumes<voro::c_loop_all>(container, seeds.size());
+}
+
+std::vector<double> triclinic_volumes(const SeedsView& seeds, const std::array<double, 6>& unit) {
+  const int blocks = blocks_for(seeds);
+  voro::container_periodic_poly container(unit[0], unit[1], unit[2], unit[3], unit[4], unit[5], blocks,
+                                          blocks, blocks, 8);
+  put_with_radii(container, seeds);
+  return volumes<voro::c_loop_all_periodic>(container, seeds.size());
+}
+
 }  // namespace powercell::test

@@ -21,4 +21,9 @@ struct RadicalCells {
 /// \pre every seed lies in the box (voro++ ignores others)
 RadicalCells radical_cells(const SeedsView& seeds, const Box& box);
 
+/// The volumes of the cells in a box with periodic axes. Weights must not be negative.
+std::vector<double> periodic_volumes(const SeedsView& seeds, const Box& box, std::array<bool, 3> periodic);
+/// The same in the lattice of (bx, 0, 0), (bxy, by, 0), (bxz, byz, bz). \param unit  bx bxy by bxz byz bz
+std::vector<double> triclinic_volumes(const SeedsView& seeds, const std::array<double, 6>& unit);
+
 }  // namespace powercell::test

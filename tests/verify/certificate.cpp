@@ -76,7 +76,7 @@ TEST_CASE("certificates of cells far from their seeds hold, and wrong ones are r
       Measures measures = diagram.measures();
       measures.mass[7] *= 1.1;
       const SeedSet set = make_seed_set(seeds.view(), 2, 1);
-      CHECK_THROWS_AS(require_certificate({unit_box(2), set, measures, nullptr, false, 1}), Error);
+      CHECK_THROWS_AS(require_certificate({unit_box(2), set, set, measures, nullptr, false, 1}), Error);
     }
   }
 }
@@ -94,7 +94,7 @@ TEST_CASE("certificates of impossible results are refused and name the seed") {
     Adjacency adjacency = diagram.adjacency();
     tamper(measures, adjacency);
     try {
-      require_certificate({domain, set, measures, &adjacency, false, 2});
+      require_certificate({domain, set, set, measures, &adjacency, false, 2});
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::internal);
       return error.what();

@@ -1,0 +1,75 @@
+/// \file
+/// The images of seeds that bound the cells of a periodic domain. Internal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lib/domain/period.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+/// Wrapped seeds, and behind them in rank their images within a margin around the part of the lattice that
+/// seeds are wrapped into. Only the cells of the seeds themselves are clipped. `input` of an image is that of
+/// its seed.
+struct Images {
+  SeedSet seeds;
+  std::uint32_t own = 0;            ///< seeds; the images have the ranks from here on
+  std::vector<std::uint32_t> rank;  ///< per image: of its seed
+  std::vector<Shift> shift;         ///< per image: from its seed, in the reduced basis
+  double margin = 0;                ///< a distance
+
+  std::uint32_t seed_of(std::uint32_t r) const { return r < own ? r : rank[r - own]; }
+  Shift shift_of(std::uint32_t r) const { return r < own ? Shift{} : shift[r - own]; }
+};
+
+/// The margin to try first: what the largest cells of white noise need.
+double first_margin(const Period& period, const SeedSet& seeds);
+
+/// \param seeds  wrapped, in Hilbert order
+/// \throw Error unsupported if there would be more than most_seeds_of_diagram
+Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads);
+
+/// The images of seeds with new weights at the same positions.
+void set_weights(Images& images, const SeedSet& seeds, int threads);
+
+/// Without the seeds whose cells are empty, and images that bound no cell in the room.
+/// \param hidden  by rank
+Images without_hidden(const Images& images, const std::vector<std::uint8_t>& hidden);
+
+/// Proves that no image outside the margin cuts a cell (docs/mathematics.md (34a), (34b)).
+class MarginProof {
+ public:
+  /// \param reach_error  of margin_for(), relative
+  MarginProof(const Period& period, const Images& images, double reach_error);
+  /// The margin that the cell of seed `rank` needs for its proof, 0 if it has it.
+  /// \param reach  no point of the cell is farther from its seed
+  double margin_for(std::uint32_t rank, double reach) const;
+
+ private:
+  const Period& period_;
+  const Images& images_;
+  double most_weight_, factor_;
+};
+
+/// From results near wrapped seeds to results near the seeds as given.
+struct Placement {
+  const Period& period;
+  const Images& images;
+  const std::vector<Shift>& wrapped;  ///< by input index: from the wrapped seed to the given one
+
+  /// The image in which `neighbor`, by rank, borders the cell of `rank`: moves the neighbour as given, in the
+  /// vectors as given.
+  Shift shift_of_wall(std::uint32_t rank, std::uint32_t neighbor) const;
+  bool is_inside(std::uint32_t rank) const { return wrapped[images.seeds.input[rank]] == Shift{}; }
+  /// The seed as given minus the wrapped one.
+  std::array<double, 3> offset(std::uint32_t rank) const {
+    return period.sum_given(wrapped[images.seeds.input[rank]]);
+  }
+};
+
+}  // namespace powercell

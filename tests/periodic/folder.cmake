@@ -1,0 +1,1 @@
+set(library powercell_oracles)
