@@ -70,6 +70,7 @@ def _open(selector: str) -> Any:
 
 def open_device(device: Union[None, str, Device]) -> Any:
     """The opened device: each is opened, tested and given its programs once a process."""
+    _core.require_same_process()
     if device is None:
         return _open("")
     if isinstance(device, str):

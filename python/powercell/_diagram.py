@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,10 +14,6 @@ from ._device import Device, open_device
 from ._domain import Domain
 from ._options import diagram_options
 from ._progress import Progress, fraction_bar
-
-if TYPE_CHECKING:
-    import scipy.sparse
-
 
 class Status(enum.IntEnum):
     """State of a seed."""
@@ -68,13 +64,13 @@ class Adjacency:
         """The neighbours of one seed."""
         return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
 
-    def to_scipy(self) -> scipy.sparse.csr_array:
-        """An (n, n) sparse array of the walls' measures. Images of one neighbour are summed."""
+    def to_scipy(self) -> Any:
+        """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed."""
         from scipy.sparse import csr_array
 
         n = len(self.indptr) - 1
         kind = np.int32 if len(self.indices) < 2**31 else np.int64
-        parts = (np.array(self.data), self.indices.astype(kind), self.indptr.astype(kind))
+        parts: Any = (np.array(self.data), self.indices.astype(kind), self.indptr.astype(kind))
         matrix = csr_array(parts, shape=(n, n))
         if self.shift is not None:
             matrix.sum_duplicates()
@@ -153,7 +149,7 @@ class Diagram:
         self._progress = progress
         self._columns: Optional[Any] = None
         checked = self._checked(positions, weights)
-        self._core = _core.Diagram(open_device(device), domain._core, options)
+        self._core: Any = _core.Diagram(open_device(device), domain._core, options)
         self._set(*checked)
 
     def _checked(
@@ -362,6 +358,7 @@ def regular_triangulation(
         raise ValueError(f"positions has the shape {points.shape}; (n, 2) or (n, 3) is expected")
     given = optional_reals(weights, "weights", (len(points),), ", one for each seed")
     options = diagram_options(precision=precision, threads=threads)
+    dual: Any
     with fraction_bar(progress, "triangulation") as report:
         dual = _core.regular_triangulation(open_device(device), points, given, options, report)
     return dual.simplices  # type: ignore[no-any-return]

@@ -21,6 +21,7 @@ class Domain:
     """
 
     def __init__(self, core: Any, crs: Any = None) -> None:
+        self._core: Any
         if not isinstance(core, _core.Domain):
             raise TypeError("use Domain.box, .lattice, .polygon, .surface, .volume, or read_domain")
         self._core = core
@@ -143,7 +144,7 @@ class Domain:
     @property
     def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """The lower and upper corner of the bounding box."""
-        return self._core.low, self._core.high
+        return tuple(self._core.low), tuple(self._core.high)
 
     @property
     def is_periodic(self) -> bool:

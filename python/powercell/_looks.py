@@ -167,7 +167,7 @@ def to_meshio(diagram: Diagram) -> Any:
             name = {3: "triangle", 4: "quad"}.get(int(size), "polygon")
             blocks.append((name, first[pieces][:, None] + np.arange(size)))
         else:
-            blocks.append((f"polyhedron{size}", [_faces_of(cells, first, p) for p in pieces]))
+            blocks.append((f"polyhedron{size}", [_faces_of(cells, first, int(p)) for p in pieces]))
     data = {
         "seed": [seed[pieces] for pieces in order],
         "mass": [np.asarray(diagram.mass)[seed[pieces]] for pieces in order],

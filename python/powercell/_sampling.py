@@ -73,7 +73,7 @@ def sample(
     try:
         start = operator.index(points)  # type: ignore[arg-type]
     except TypeError:
-        start = reals(points, "points", (None, domain.dimension))  # type: ignore[arg-type]
+        start = reals(points, "points", (None, domain.dimension))
     else:
         if start < 1:
             raise ValueError(f"points is {start}; at least 1 is expected")

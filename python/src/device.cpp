@@ -31,7 +31,11 @@ void bind_devices(nb::module_& m) {
       .def_ro("compute_units", &DeviceInfo::compute_units)
       .def_ro("memory", &DeviceInfo::memory_bytes)
       .def_prop_ro("selector", &DeviceInfo::selector);
-  m.def("devices", &devices);
+  m.def("devices", [] {
+    require_same_process();
+    return devices();
+  });
+  m.def("require_same_process", &require_same_process);
 
   nb::class_<Device>(m, "Device")
       .def_static(
