@@ -50,6 +50,9 @@ class POWERCELL_API Diagram {
   const Cells& cells();
   const Dual& dual();
   const Timings& timings() const;  ///< of the last computation
+  /// Keeps the results of the present seeds, to which the getters refer, alive while it is held, also after
+  /// the seeds change and without the diagram.
+  std::shared_ptr<const void> hold_results() const;
 
   struct State;  ///< library-internal
   /// For the library's own use.

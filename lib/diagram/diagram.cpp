@@ -44,18 +44,22 @@ const Timings& Diagram::timings() const {
 
 const Measures& Diagram::measures() {
   compute(false, false);
-  return *state_->results.measures;
+  return *state_->results->measures;
 }
 const Adjacency& Diagram::adjacency() {
   compute(true, false);
-  return *state_->results.adjacency;
+  return *state_->results->adjacency;
 }
 const Cells& Diagram::cells() {
   compute(false, true);
-  return *state_->results.cells;
+  return *state_->results->cells;
 }
 const Dual& Diagram::dual() {
   return state_->dual();
+}
+
+std::shared_ptr<const void> Diagram::hold_results() const {
+  return state_->results;
 }
 
 Measures measure(const Device& device, const Domain& domain, const SeedsView& seeds, const Options& options) {

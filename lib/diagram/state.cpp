@@ -45,7 +45,7 @@ void Diagram::State::set_weights(std::span<const double> weights) {
 }
 
 void Diagram::State::retire_active() {
-  results = {};
+  results = std::make_shared<Results>();
   integrals.reset();
   geometry.reset();
   if (active) tree = std::move(*active).release_tree();
@@ -79,9 +79,9 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
     }
     if (clipped.measures) {
       // The measures of an earlier pass by unrestricted cells are kept.
-      if (!results.measures) results.measures = std::move(clipped.measures);
-      if (clipped.adjacency) results.adjacency = std::move(clipped.adjacency);
-      if (clipped.cells) results.cells = std::move(clipped.cells);
+      if (!results->measures) results->measures = std::move(clipped.measures);
+      if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
+      if (clipped.cells) results->cells = std::move(clipped.cells);
       return;
     }
     if (clipped.margin > 0) {
@@ -100,7 +100,7 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 void Diagram::State::compute_missing(Wanted want) {
   if (want.cells && setup.has_inside) {
     // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
-    const bool both = !results.measures || want.adjacency;
+    const bool both = !results->measures || want.adjacency;
     setup.progress->begin_pass(0, 0.5);
     if (both) pass(PlanKind::integrals, {.adjacency = want.adjacency});
     setup.progress->begin_pass(both ? 0.5 : 0, 1);
@@ -112,9 +112,9 @@ void Diagram::State::compute_missing(Wanted want) {
 }
 
 void Diagram::State::compute(Wanted want) {
-  want.adjacency = want.adjacency && !results.adjacency;
-  want.cells = want.cells && !results.cells;
-  if (results.measures && !want.adjacency && !want.cells) return;
+  want.adjacency = want.adjacency && !results->adjacency;
+  want.cells = want.cells && !results->cells;
+  if (results->measures && !want.adjacency && !want.cells) return;
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   if (want.cells && setup.domain.is_solid())
     throw Error(
@@ -136,13 +136,13 @@ void Diagram::State::certify() {
   const Stopwatch watch(setup.device);
   try {
     require_certificate({setup.domain, input->seeds, active->images() ? active->seeds() : input->seeds,
-                         *results.measures, results.adjacency ? &*results.adjacency : nullptr,
+                         *results->measures, results->adjacency ? &*results->adjacency : nullptr,
                          setup.float32(), setup.threads, [this]() -> const Cells& {
-                           if (!results.cells) pass(PlanKind::geometry, {.cells = true});
-                           return *results.cells;
+                           if (!results->cells) pass(PlanKind::geometry, {.cells = true});
+                           return *results->cells;
                          }});
   } catch (...) {
-    results = {};
+    results = std::make_shared<Results>();
     throw;
   }
   timings.certify = watch.seconds();
@@ -154,13 +154,13 @@ const Dual& Diagram::State::dual() {
         ErrorCode::unsupported,
         "the dual of a periodic diagram is not a list of seeds, since a simplex may have several images "
         "of one seed; use the adjacency with its shifts, or the cells");
-  if (!results.dual) {
+  if (!results->dual) {
     compute({.cells = true});
     const SeedRows given = input->given();
-    results.dual =
-        make_dual(*results.cells, SeedsView{setup.domain.dimension(), given.positions, given.weights});
+    results->dual =
+        make_dual(*results->cells, SeedsView{setup.domain.dimension(), given.positions, given.weights});
   }
-  return *results.dual;
+  return *results->dual;
 }
 
 }  // namespace powercell

@@ -2,6 +2,7 @@
 /// The state of a Diagram: a chain of values, each made from those before it. Internal.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <powercell/diagram.hpp>
 #include <vector>
@@ -21,7 +22,9 @@ struct Diagram::State {
     std::optional<Adjacency> adjacency;
     std::optional<Cells> cells;
     std::optional<Dual> dual;
-  } results;
+  };
+  /// Shared with callers who hold the results while the seeds change: replaced then, not cleared.
+  std::shared_ptr<Results> results = std::make_shared<Results>();
   Timings timings;
 
   // Memory reused by the next values.

@@ -1,0 +1,61 @@
+"""Checks and conversions of arguments: arrays of the exact type that the extension takes, or ValueError."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Reals = NDArray[np.float64]
+Indices = NDArray[np.uint32]
+
+
+def _text(shape: Sequence[Optional[int]]) -> str:
+    sizes = [letter if size is None else str(size) for size, letter in zip(shape, "nmk")]
+    return "(" + ", ".join(sizes) + ("," if len(sizes) == 1 else "") + ")"
+
+
+def _plain(value: Any, name: str) -> NDArray[Any]:
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} is a masked array with masked entries; fill or remove them")
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise ValueError(f"{name} is not an array: {error}") from None
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name} has the type {array.dtype}; numbers are expected")
+    return array
+
+
+def _check_shape(array: NDArray[Any], name: str, shape: Sequence[Optional[int]], why: str) -> None:
+    fits = array.ndim == len(shape) and all(w is None or w == s for s, w in zip(array.shape, shape))
+    if not fits:
+        raise ValueError(f"{name} has the shape {array.shape}; {_text(shape)} is expected{why}")
+
+
+def reals(value: ArrayLike, name: str, shape: Sequence[Optional[int]], why: str = "") -> Reals:
+    """A C-contiguous array of doubles. Copies only where the argument is something else."""
+    array = _plain(value, name)
+    if array.size == 0 and len(shape) == 2 and array.ndim < 2:
+        array = array.reshape((0, shape[1] or 0))
+    _check_shape(array, name, shape, why)
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def optional_reals(
+    value: Optional[ArrayLike], name: str, shape: Sequence[Optional[int]], why: str = ""
+) -> Optional[Reals]:
+    return None if value is None else reals(value, name, shape, why)
+
+
+def indices(value: ArrayLike, name: str, columns: int) -> Indices:
+    """Rows of indices from 0."""
+    array = _plain(value, name)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name} has the type {array.dtype}; integers are expected")
+    _check_shape(array, name, (None, columns), "")
+    if array.size and (array.min() < 0 or array.max() >= 2**32):
+        row = int(np.argwhere((array < 0) | (array >= 2**32))[0, 0])
+        raise ValueError(f"{name}: row {row} has an index below 0 or above 2^32 - 1")
+    return np.ascontiguousarray(array, dtype=np.uint32)

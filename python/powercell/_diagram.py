@@ -1,0 +1,364 @@
+"""Power diagrams and regular triangulations."""
+
+from __future__ import annotations
+
+import enum
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _looks
+from ._arrays import Indices, Reals, optional_reals, reals
+from ._device import Device, open_device
+from ._domain import Domain
+from ._options import diagram_options
+from ._progress import Progress, fraction_bar
+
+class Status(enum.IntEnum):
+    """State of a seed."""
+
+    OK = 0
+    """Its cell has a positive measure."""
+    HIDDEN = 1
+    """Its cell in the domain is empty."""
+    DUPLICATE = 2
+    """Another seed at the same position has a larger weight, or the same and a lower index."""
+
+
+class Adjacency:
+    """The pairs of cells that share a wall, as compressed sparse rows like those of ``scipy.sparse``.
+
+    Attributes
+    ----------
+    indptr : (n + 1,) uint64
+    indices : (m,) uint32
+        Neighbours, ascending in each row.
+    data : (m,) float64
+        Length or area of the wall.
+    shift : (m, 3) int32 or None
+        In a periodic domain the image of the neighbour, in units of ``Domain.periods``: the wall is with the
+        neighbour moved by ``shift @ periods``.
+    """
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+
+    @property
+    def indptr(self) -> NDArray[np.uint64]:
+        return self._core.indptr  # type: ignore[no-any-return]
+
+    @property
+    def indices(self) -> Indices:
+        return self._core.indices  # type: ignore[no-any-return]
+
+    @property
+    def data(self) -> Reals:
+        return self._core.data  # type: ignore[no-any-return]
+
+    @property
+    def shift(self) -> Optional[NDArray[np.int32]]:
+        return self._core.shift  # type: ignore[no-any-return]
+
+    def neighbors(self, seed: int) -> Indices:
+        """The neighbours of one seed."""
+        return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
+
+    def to_scipy(self) -> Any:
+        """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed."""
+        from scipy.sparse import csr_array
+
+        n = len(self.indptr) - 1
+        kind = np.int32 if len(self.indices) < 2**31 else np.int64
+        parts: Any = (np.array(self.data), self.indices.astype(kind), self.indptr.astype(kind))
+        matrix = csr_array(parts, shape=(n, n))
+        if self.shift is not None:
+            matrix.sum_duplicates()
+        return matrix
+
+    def __repr__(self) -> str:
+        return f"<powercell.Adjacency of {len(self.indptr) - 1} cells with {len(self.indices) // 2} walls>"
+
+
+class Diagram:
+    """The power diagram of weighted seeds in a domain.
+
+    The cell of seed i is the part of the domain where ``|x - p_i|^2 - w_i`` is least. Results are computed when
+    they are first used, and kept until the seeds change. Arrays are read-only views of the library's memory;
+    they stay valid when the seeds change, and then still have the old values.
+
+    Parameters
+    ----------
+    domain : Domain
+    positions : (n, d) array_like
+        Seeds; d is 2 for polygons, 3 for surfaces and volumes. They may lie outside the domain.
+    weights : (n,) array_like, optional
+        Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram.
+    device : Device or str, optional
+        As for :meth:`Device.choose`. Default: the best one.
+    precision : {"auto", "double", "float"}
+    neighbors : {"auto", "tree", "flann"}
+        How candidate neighbours are found; the cells are the same.
+    decisions : {"exact", "fast"}
+        ``"fast"`` accepts cells whose shape rounding may have decided.
+    certify : bool
+        Check each result by laws that need no reference.
+    threads : int
+        On the host; 0 for all.
+    chunk_pairs : int
+        The most pairs of a region and a seed on the device at once; 0 lets the library choose.
+    progress : bool or callable, optional
+        True for a bar, or a function of the fraction done, which may return False to stop.
+
+    Raises
+    ------
+    ValueError
+        An array of the wrong shape or type, by name.
+    Error
+        ``invalid_seed`` (NaN or infinity: which seed), ``no_fp64``, ``out_of_device_memory`` and others.
+
+    Examples
+    --------
+    >>> import powercell as pc
+    >>> d = pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[0.25, 0.5], [0.75, 0.5]], weights=[0.1, 0])
+    >>> d.mass.round(12).tolist()
+    [0.6, 0.4]
+    >>> d.adjacency.indices.tolist(), d.adjacency.data.tolist()
+    ([1, 0], [1.0, 1.0])
+    """
+
+    def __init__(
+        self,
+        domain: Domain,
+        positions: ArrayLike,
+        weights: Optional[ArrayLike] = None,
+        *,
+        device: Union[None, str, Device] = None,
+        precision: str = "auto",
+        neighbors: str = "auto",
+        decisions: str = "exact",
+        certify: bool = False,
+        threads: int = 0,
+        chunk_pairs: int = 0,
+        progress: Progress = None,
+    ) -> None:
+        if not isinstance(domain, Domain):
+            raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+        options = diagram_options(precision, neighbors, decisions, certify, threads, chunk_pairs)
+        self.domain = domain
+        self._progress = progress
+        self._columns: Optional[Any] = None
+        checked = self._checked(positions, weights)
+        self._core: Any = _core.Diagram(open_device(device), domain._core, options)
+        self._set(*checked)
+
+    def _checked(
+        self, positions: ArrayLike, weights: Optional[ArrayLike]
+    ) -> tuple[Reals, Optional[Reals]]:
+        geometry = getattr(positions, "geometry", None)
+        if geometry is not None and hasattr(geometry, "x"):  # points of GeoPandas, with their columns
+            self._columns = positions
+            positions = np.column_stack([geometry.x, geometry.y])
+        d = self.domain.dimension
+        where = "in the plane" if d == 2 else "in space"
+        points = reals(positions, "positions", (None, d), f", since the domain is {where}")
+        return points, optional_reals(weights, "weights", (len(points),), ", one for each seed")
+
+    def _set(self, positions: Reals, weights: Optional[Reals]) -> None:
+        self._core.set_seeds(positions, weights)
+        self._positions, self._weights = positions, weights
+
+    def set_seeds(self, positions: ArrayLike, weights: Optional[ArrayLike] = None) -> None:
+        """Replaces the seeds; memory and programs on the device are reused."""
+        self._columns = None
+        self._set(*self._checked(positions, weights))
+
+    def set_weights(self, weights: ArrayLike) -> None:
+        """New weights for the same positions; only what depends on weights is computed again."""
+        checked = reals(weights, "weights", (len(self._positions),), ", one for each seed")
+        self._core.set_weights(checked)
+        self._weights = checked
+
+    def compute(self, adjacency: bool = True, cells: bool = False) -> Diagram:
+        """Computes the measures, and the adjacency and cells if wanted, in as few passes as possible."""
+        with fraction_bar(self._progress, "power diagram") as report:
+            self._core.compute(adjacency, cells, report)
+        return self
+
+    @property
+    def positions(self) -> Reals:
+        """(n, d): the seeds as given."""
+        return self._positions
+
+    @property
+    def weights(self) -> Reals:
+        """(n,): the weights as given; 0 without any."""
+        return np.zeros(len(self._positions)) if self._weights is None else self._weights
+
+    def __len__(self) -> int:
+        return len(self._positions)
+
+    def _measures(self) -> Any:
+        if self._progress:
+            self.compute(adjacency=False)
+        return self._core.measures()
+
+    @property
+    def mass(self) -> Reals:
+        """(n,): area or volume of each cell; 0 where empty."""
+        return self._measures().mass  # type: ignore[no-any-return]
+
+    @property
+    def centroid(self) -> Reals:
+        """(n, d): of each cell; NaN where empty."""
+        return self._measures().centroid  # type: ignore[no-any-return]
+
+    @property
+    def second_moment(self) -> Reals:
+        """(n,): integral of ``|x - p_i|^2`` over each cell."""
+        return self._measures().second_moment  # type: ignore[no-any-return]
+
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        """(n,): a :class:`Status` of each seed."""
+        return self._measures().status  # type: ignore[no-any-return]
+
+    @property
+    def domain_measure(self) -> float:
+        return float(self._measures().domain_measure)
+
+    @property
+    def relative_error(self) -> float:
+        """``|sum of the masses - domain_measure| / domain_measure``."""
+        return float(self._measures().relative_error)
+
+    @property
+    def adjacency(self) -> Adjacency:
+        if self._progress:
+            self.compute(adjacency=True)
+        return Adjacency(self._core.adjacency())
+
+    @property
+    def cells(self) -> Any:
+        """The cells as convex pieces, one for each region of the domain that a cell meets (``Cells``)."""
+        if self._progress:
+            self.compute(adjacency=False, cells=True)
+        return self._core.cells()
+
+    @property
+    def joined(self) -> Any:
+        """The cells joined across the regions of the domain (``JoinedCells``)."""
+        return self._core.joined()
+
+    @property
+    def dual(self) -> Indices:
+        """(m, 3 or 4): the regular triangulation restricted to the domain, rows of seed indices."""
+        return self._core.dual().simplices  # type: ignore[no-any-return]
+
+    @property
+    def timings(self) -> Any:
+        """Seconds of the last computation by parts, and counts."""
+        return self._core.timings
+
+    @property
+    def precision(self) -> str:
+        return str(self._core.precision)
+
+    @property
+    def device(self) -> Device:
+        return Device(self._core.device.info)
+
+    def verify(self, samples: int = 1000, random_seed: int = 1) -> list[Any]:
+        """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail."""
+        return list(self._core.verify(self._positions, self._weights, samples, random_seed))
+
+    def polygons(self) -> list[Any]:
+        """The cells as Shapely geometries, empty where a seed has none. Polygon domains only."""
+        return _looks.polygons(self)
+
+    def plot(self, ax: Any = None, color: Any = None, **style: Any) -> Any:
+        """Draws cells and seeds with matplotlib. Polygon domains only.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+        color : (n,) array_like or a colour, optional
+            Values mapped to colours, or one colour for all cells.
+        **style
+            Passed to ``PolyCollection``.
+
+        Returns
+        -------
+        matplotlib axes
+        """
+        return _looks.plot(self, ax, color, style)
+
+    def to_geopandas(self) -> Any:
+        """A GeoDataFrame of the cells, with mass, centroid and status, and the columns and CRS that came in."""
+        return _looks.to_geopandas(self)
+
+    def to_pyvista(self) -> Any:
+        """A PyVista mesh of the cells with the arrays ``seed``, ``mass`` and ``weight``."""
+        return _looks.to_pyvista(self)
+
+    def to_meshio(self) -> Any:
+        """A meshio mesh of the pieces of the cells with the arrays ``seed`` and ``mass``."""
+        return _looks.to_meshio(self)
+
+    def _summary(self) -> list[tuple[str, str]]:
+        status = self.status
+        return [
+            ("domain", repr(self.domain)[len("<powercell.Domain: ") : -1]),
+            ("seeds", f"{len(self):,}"),
+            ("cells", f"{int(np.count_nonzero(status == Status.OK)):,}"),
+            ("hidden", f"{int(np.count_nonzero(status == Status.HIDDEN)):,}"),
+            ("duplicate", f"{int(np.count_nonzero(status == Status.DUPLICATE)):,}"),
+            ("sum of measures / domain", f"1 {self._measures().total / self.domain_measure - 1:+.1e}"),
+            ("device", f"{self.device.name}, {self.precision}"),
+            ("time", f"{self.timings.total:.3g} s"),
+        ]
+
+    def __repr__(self) -> str:
+        return f"<powercell.Diagram of {len(self)} seeds in {self.domain!r}>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th>{key}</th><td>{value}</td></tr>" for key, value in self._summary())
+        return f"<table><caption>powercell.Diagram</caption>{rows}</table>"
+
+
+def regular_triangulation(
+    positions: ArrayLike,
+    weights: Optional[ArrayLike] = None,
+    *,
+    device: Union[None, str, Device] = None,
+    precision: str = "auto",
+    threads: int = 0,
+    progress: Progress = None,
+) -> Indices:
+    """The regular triangulation (weighted Delaunay) of seeds in the plane or in space.
+
+    Parameters
+    ----------
+    positions : (n, 2) or (n, 3) array_like
+    weights : (n,) array_like, optional
+
+    Returns
+    -------
+    (m, 3) or (m, 4) uint32
+        Positively oriented simplices, rows of seed indices. Seeds in none are hidden or duplicates.
+
+    Examples
+    --------
+    >>> import powercell as pc
+    >>> pc.regular_triangulation([[0, 0], [1, 0], [0, 1]]).tolist()
+    [[0, 1, 2]]
+    """
+    points = reals(positions, "positions", (None, None))
+    if points.shape[1] not in (2, 3):
+        raise ValueError(f"positions has the shape {points.shape}; (n, 2) or (n, 3) is expected")
+    given = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+    options = diagram_options(precision=precision, threads=threads)
+    dual: Any
+    with fraction_bar(progress, "triangulation") as report:
+        dual = _core.regular_triangulation(open_device(device), points, given, options, report)
+    return dual.simplices  # type: ignore[no-any-return]

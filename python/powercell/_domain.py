@@ -1,0 +1,187 @@
+"""Domains: what a diagram is restricted to."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arrays import reals
+from ._shapes import crs_of, is_geographic, polygon_parts, surface_arrays, volume_arrays
+
+
+class Domain:
+    """A polygon, surface or volume that a diagram is restricted to. Immutable.
+
+    Made by :meth:`box`, :meth:`lattice`, :meth:`polygon`, :meth:`surface`, :meth:`volume` or
+    :func:`read_domain`.
+    """
+
+    def __init__(self, core: Any, crs: Any = None) -> None:
+        self._core: Any
+        if not isinstance(core, _core.Domain):
+            raise TypeError("use Domain.box, .lattice, .polygon, .surface, .volume, or read_domain")
+        self._core = core
+        #: Coordinate system of a map, as it came in; None otherwise.
+        self.crs = crs
+
+    @classmethod
+    def box(
+        cls, low: ArrayLike, high: ArrayLike, periodic: Union[bool, Sequence[bool]] = False
+    ) -> Domain:
+        """An axis-aligned box.
+
+        Parameters
+        ----------
+        low, high : (2,) or (3,) array_like
+            Its corners.
+        periodic : bool or sequence of bool
+            Whether opposite sides are identified: along all axes, or one value an axis.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> pc.Domain.box([0, 0], [2, 3]).measure
+        6.0
+        """
+        first = reals(low, "low", (None,))
+        last = reals(high, "high", (len(first),), " as for low")
+        if len(first) not in (2, 3):
+            raise ValueError(f"low has {len(first)} coordinates; 2 or 3 are expected")
+        axes = [periodic] * len(first) if isinstance(periodic, (bool, np.bool_)) else list(periodic)
+        if len(axes) != len(first):
+            raise ValueError(f"periodic has {len(axes)} values; one for each of {len(first)} axes is expected")
+        return cls(_core.Domain.box(first.tolist(), last.tolist(), [bool(axis) for axis in axes]))
+
+    @classmethod
+    def lattice(cls, vectors: ArrayLike, origin: Optional[ArrayLike] = None) -> Domain:
+        """The plane or space modulo a lattice, in any basis.
+
+        Parameters
+        ----------
+        vectors : (2, 2) or (3, 3) array_like
+            Rows are the lattice's vectors.
+        origin : (d,) array_like, optional
+        """
+        rows = reals(vectors, "vectors", (None, None))
+        if rows.shape not in ((2, 2), (3, 3)):
+            raise ValueError(f"vectors has the shape {rows.shape}; (2, 2) or (3, 3) is expected")
+        start = [] if origin is None else reals(origin, "origin", (len(rows),)).tolist()
+        return cls(_core.Domain.lattice(rows.ravel().tolist(), start))
+
+    @classmethod
+    def polygon(cls, shape: Any, crs: Any = None, *, degrees: bool = False) -> Domain:
+        """A polygon of one or more parts with holes.
+
+        Parameters
+        ----------
+        shape
+            A geometry of Shapely, a GeoSeries or GeoDataFrame, anything with ``__geo_interface__``, a mapping
+            as in GeoJSON; or an (n, 2) array, a sequence of such rings (the outer one, then its holes), or a
+            sequence of parts, each a sequence of rings.
+        crs
+            Coordinate system, kept for results. Default: that of a GeoSeries.
+        degrees : bool
+            Accept longitude and latitude, and take them as a plane.
+        """
+        crs = crs if crs is not None else crs_of(shape)
+        if is_geographic(crs) and not degrees:
+            raise ValueError(
+                "shape is in degrees, whose areas and distances mean little: project it first, e.g. "
+                "shape.to_crs(shape.estimate_utm_crs()), or pass degrees=True to compute with degrees"
+            )
+        return cls(_core.Domain.polygon(polygon_parts(shape)), crs)
+
+    @classmethod
+    def surface(cls, vertices: Any, triangles: Optional[ArrayLike] = None) -> Domain:
+        """A triangle mesh in space: open, closed or non-manifold.
+
+        Parameters
+        ----------
+        vertices : (nv, 3) array_like
+            Or, alone, a mesh of meshio, trimesh or PyVista.
+        triangles : (nt, 3) array_like of int
+            Indices of vertices, from 0.
+        """
+        return cls(_core.Domain.surface(*surface_arrays(vertices, triangles)))
+
+    @classmethod
+    def volume(cls, vertices: Any, tetrahedra: Optional[ArrayLike] = None) -> Domain:
+        """A tetrahedral mesh.
+
+        Parameters
+        ----------
+        vertices : (nv, 3) array_like
+            Or, alone, a mesh of meshio or PyVista.
+        tetrahedra : (nt, 4) array_like of int
+            Indices of vertices, from 0, in either orientation.
+        """
+        return cls(_core.Domain.volume(*volume_arrays(vertices, tetrahedra)))
+
+    @property
+    def kind(self) -> str:
+        """``"polygon"``, ``"surface"`` or ``"volume"``."""
+        return str(self._core.kind)
+
+    @property
+    def dimension(self) -> int:
+        """Of the space: 2 or 3."""
+        return int(self._core.dimension)
+
+    @property
+    def cell_dimension(self) -> int:
+        """Of the cells: 2 for polygons and surfaces, 3 for volumes."""
+        return int(self._core.cell_dimension)
+
+    @property
+    def measure(self) -> float:
+        """Area or volume."""
+        return float(self._core.measure)
+
+    @property
+    def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The lower and upper corner of the bounding box."""
+        return tuple(self._core.low), tuple(self._core.high)
+
+    @property
+    def is_periodic(self) -> bool:
+        return bool(self._core.is_periodic)
+
+    @property
+    def periods(self) -> np.ndarray:
+        """(d, d): the vectors that shifts count; rows of 0 for axes that are not periodic."""
+        return np.array(self._core.periods)
+
+    @property
+    def notes(self) -> list[str]:
+        """What was left out of a mesh, and where it overlaps."""
+        return list(self._core.notes)
+
+    def __repr__(self) -> str:
+        word = "area" if self.cell_dimension == 2 else "volume"
+        periodic = "periodic " if self.is_periodic else ""
+        return f"<powercell.Domain: {periodic}{self.kind} of {word} {self.measure:.6g}>"
+
+
+def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto") -> Domain:
+    """Reads a domain, or makes a built-in one, as the tool's ``--domain`` does.
+
+    Parameters
+    ----------
+    path : str or path
+        A file: .geojson .json .gpkg .wkt .svg, .off .obj .ply .stl, .mesh .msh .vtu .vtk .tet .txt; or square,
+        cube, disk, ball, sphere, torus (with ``:N`` for a resolution).
+    kind : {"auto", "polygon", "surface", "volume"}
+        For files that can be read as more than one.
+
+    Examples
+    --------
+    >>> import powercell as pc
+    >>> pc.read_domain("cube").measure
+    1.0
+    """
+    loaded = _core.read_domain(os.fspath(path), kind)
+    return Domain(loaded.domain, loaded.crs or None)

@@ -1,0 +1,183 @@
+"""Diagrams for other packages, which are imported when used."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._diagram import Diagram
+
+WALL, BOUNDARY, INTERIOR = 0, 1, 2  # Border.kind
+
+
+def _package(name: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        package = name.split(".")[0]
+        raise ImportError(f"this needs the package {package}: pip install {package}") from error
+
+
+def _require_polygon(diagram: Diagram) -> None:
+    if diagram.domain.kind != "polygon":
+        raise ValueError("only cells in the plane are polygons; see to_pyvista() for surfaces and volumes")
+
+
+def _rings(diagram: Diagram) -> list[list[np.ndarray]]:
+    """Per cell its boundary rings, outer ones counter-clockwise."""
+    joined = diagram.joined
+    vertices, loop = joined.vertices, joined.loop
+    first, faces, loops = joined.vertex_offset, joined.face_offset, joined.loop_offset
+    result = []
+    for cell in range(len(diagram)):
+        own = vertices[first[cell] : first[cell + 1]]
+        result.append(
+            [own[loop[loops[f] : loops[f + 1]]] for f in range(int(faces[cell]), int(faces[cell + 1]))]
+        )
+    return result
+
+
+def _signed_area(ring: np.ndarray) -> float:
+    x, y = (ring - ring[0]).T
+    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
+
+
+def polygons(diagram: Diagram) -> list[Any]:
+    _require_polygon(diagram)
+    shapely = _package("shapely")
+    result = []
+    for rings in _rings(diagram):
+        outer = [shapely.Polygon(ring) for ring in rings if _signed_area(ring) > 0]
+        holes = [ring for ring in rings if _signed_area(ring) < 0]
+        if len(outer) == 1:
+            result.append(shapely.Polygon(outer[0].exterior, holes))
+            continue
+        parts = []
+        for polygon in outer:
+            inside = [h for h in holes if polygon.covers(shapely.Point(h[0]))]
+            parts.append(shapely.Polygon(polygon.exterior, inside))
+        result.append(shapely.MultiPolygon(parts) if parts else shapely.Polygon())
+    return result
+
+
+def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
+    _require_polygon(diagram)
+    pyplot = _package("matplotlib.pyplot")
+    paths, patches = _package("matplotlib.path"), _package("matplotlib.collections")
+    if ax is None:
+        ax = pyplot.gca()
+    compound, cell_of = [], []
+    for cell, rings in enumerate(_rings(diagram)):
+        if rings:
+            closed = [paths.Path(np.vstack([ring, ring[:1]]), closed=True) for ring in rings]
+            compound.append(paths.Path.make_compound_path(*closed))
+            cell_of.append(cell)
+    look = {"edgecolor": "0.2", "linewidth": 0.6, **style}
+    values = None if color is None or isinstance(color, str) else np.asarray(color)
+    if values is not None and values.ndim == 1 and len(values) == len(diagram):
+        cells = patches.PathCollection(compound, array=values[cell_of], **look)
+    else:
+        cells = patches.PathCollection(compound, facecolor="0.92" if color is None else color, **look)
+    ax.add_collection(cells)
+    ax.plot(*diagram.positions.T, ".", color="0.2", markersize=2, zorder=3)
+    (low_x, low_y), (high_x, high_y) = diagram.domain.bounds
+    pad = 0.02 * max(high_x - low_x, high_y - low_y)
+    ax.set(xlim=(low_x - pad, high_x + pad), ylim=(low_y - pad, high_y + pad), aspect="equal")
+    return ax
+
+
+def to_geopandas(diagram: Diagram) -> Any:
+    geopandas = _package("geopandas")
+    given = diagram._columns
+    columns: dict[str, Any] = {}
+    if given is not None:
+        columns = {key: np.asarray(given[key]) for key in given.columns if key != given.geometry.name}
+    centroid = diagram.centroid
+    values = {
+        "seed": np.arange(len(diagram)),
+        "weight": diagram.weights,
+        "mass": diagram.mass,
+        "cx": centroid[:, 0],
+        "cy": centroid[:, 1],
+        "status": diagram.status,
+    }
+    for key, value in values.items():
+        columns[key if key not in columns else f"cell_{key}"] = value
+    crs = diagram.domain.crs if diagram.domain.crs is not None else getattr(given, "crs", None)
+    return geopandas.GeoDataFrame(columns, geometry=polygons(diagram), crs=crs)
+
+
+def _space(vertices: np.ndarray) -> np.ndarray:
+    return vertices if vertices.shape[1] == 3 else np.column_stack([vertices, np.zeros(len(vertices))])
+
+
+def _piece_arrays(diagram: Diagram) -> tuple[Any, np.ndarray]:
+    """The cells and, per piece, its seed."""
+    cells = diagram.cells
+    seed = np.repeat(np.arange(len(diagram)), np.diff(cells.cell_offset.astype(np.int64)))
+    return cells, seed
+
+
+def to_pyvista(diagram: Diagram) -> Any:
+    pyvista = _package("pyvista")
+    cells, seed = _piece_arrays(diagram)
+    points = _space(np.asarray(cells.vertices))
+    first = cells.vertex_offset.astype(np.int64)
+    if cells.cell_dimension == 2:
+        faces = [np.r_[b - a, np.arange(a, b)] for a, b in zip(first[:-1], first[1:])]
+        mesh = pyvista.PolyData(points, np.concatenate(faces) if faces else None)
+    else:
+        mesh = pyvista.UnstructuredGrid(*_polyhedra(cells, first), points)
+    mesh.cell_data["seed"] = seed
+    mesh.cell_data["mass"] = np.asarray(diagram.mass)[seed]
+    mesh.cell_data["weight"] = np.asarray(diagram.weights)[seed]
+    return mesh
+
+
+def _polyhedra(cells: Any, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The arrays of a grid of VTK's polyhedra (type 42): per piece its size, faces and their corners."""
+    faces, loops, loop = cells.face_offset.astype(np.int64), cells.loop_offset.astype(np.int64), cells.loop
+    rows = []
+    for p in range(len(first) - 1):
+        row = [np.array([faces[p + 1] - faces[p]])]
+        for f in range(faces[p], faces[p + 1]):
+            corners = loop[loops[f] : loops[f + 1]].astype(np.int64) + first[p]
+            row += [np.array([len(corners)]), corners]
+        body = np.concatenate(row)
+        rows.append(np.r_[len(body), body])
+    count = len(first) - 1
+    return (np.concatenate(rows) if rows else np.zeros(0, np.int64)), np.full(count, 42, np.uint8)
+
+
+def to_meshio(diagram: Diagram) -> Any:
+    meshio = _package("meshio")
+    cells, seed = _piece_arrays(diagram)
+    points = _space(np.asarray(cells.vertices))
+    first = cells.vertex_offset.astype(np.int64)
+    blocks: list[tuple[str, Any]] = []
+    order: list[np.ndarray] = []
+    sizes = np.diff(first)
+    for size in np.unique(sizes):
+        pieces = np.flatnonzero(sizes == size)
+        order.append(pieces)
+        if cells.cell_dimension == 2:
+            name = {3: "triangle", 4: "quad"}.get(int(size), "polygon")
+            blocks.append((name, first[pieces][:, None] + np.arange(size)))
+        else:
+            blocks.append((f"polyhedron{size}", [_faces_of(cells, first, int(p)) for p in pieces]))
+    data = {
+        "seed": [seed[pieces] for pieces in order],
+        "mass": [np.asarray(diagram.mass)[seed[pieces]] for pieces in order],
+    }
+    return meshio.Mesh(points, blocks, cell_data=data)
+
+
+def _faces_of(cells: Any, first: np.ndarray, piece: int) -> list[np.ndarray]:
+    faces, loops = cells.face_offset, cells.loop_offset
+    return [
+        cells.loop[loops[f] : loops[f + 1]].astype(np.int64) + first[piece]
+        for f in range(int(faces[piece]), int(faces[piece + 1]))
+    ]

@@ -1,0 +1,27 @@
+"""Options that diagrams have everywhere."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def diagram_options(
+    precision: str = "auto",
+    neighbors: str = "auto",
+    decisions: str = "exact",
+    certify: bool = False,
+    threads: int = 0,
+    chunk_pairs: int = 0,
+) -> dict[str, Any]:
+    if threads < 0:
+        raise ValueError(f"threads is {threads}; 0 (all) or more are expected")
+    if chunk_pairs < 0:
+        raise ValueError(f"chunk_pairs is {chunk_pairs}; 0 (chosen) or more are expected")
+    return {
+        "precision": precision,
+        "neighbors": neighbors,
+        "decisions": decisions,
+        "certify": certify,
+        "threads": threads,
+        "chunk_pairs": chunk_pairs,
+    }

@@ -1,0 +1,92 @@
+"""Tables of seeds."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _core
+from ._arrays import Reals
+from ._domain import Domain
+from ._errors import Error
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """Seeds of a file, in its order."""
+
+    positions: Reals
+    """(n, d)"""
+    weights: Reals
+    """(n,), length squared; 0 without a column of weights."""
+    columns: dict[str, np.ndarray] = field(default_factory=dict)
+    """All columns of a table with a header, as text or, where all fields are numbers, as numbers."""
+    crs: Optional[str] = None
+    """Coordinate system that the file says; None otherwise."""
+    taken: str = ""
+    """Which columns were taken for what."""
+
+    def __len__(self) -> int:
+        return len(self.weights)
+
+
+def _column(fields: list[str]) -> np.ndarray:
+    try:
+        return np.array([float(text.replace(",", ".")) for text in fields])
+    except ValueError:
+        return np.array(fields)
+
+
+def _read(path: str, dimension: int, weight: str, radius: str) -> Any:
+    return _core.read_seeds(path, dimension, weight, radius)
+
+
+def _find_dimension(path: str, weight: str, radius: str) -> int:
+    try:
+        table = _read(path, 2, weight, radius)
+    except Error:
+        return 3
+    if table.names:
+        return 3 if any(name.strip().lower() in ("z", "z_coord", "pz") for name in table.names) else 2
+    if table.count == 4:
+        return 3
+    if table.count == 3:
+        raise ValueError(
+            f"{path}: rows of three numbers may be 'x y weight' or 'x y z': pass dimension=2 or 3, or domain="
+        )
+    return 2
+
+
+def read_seeds(
+    path: Union[str, os.PathLike[str]],
+    domain: Optional[Domain] = None,
+    *,
+    dimension: Optional[int] = None,
+    weight_column: str = "",
+    radius_column: str = "",
+) -> Seeds:
+    """Reads seeds as the tool's ``--seeds`` does: text, CSV, points in GeoJSON or GeoPackage, .npy.
+
+    Parameters
+    ----------
+    path : str or path
+    domain : Domain, optional
+        Says how many coordinates a seed has.
+    dimension : {2, 3}, optional
+        The same. Without both it is found from the columns, where these leave no doubt.
+    weight_column, radius_column : str
+        A column by its name or number from 1; weights are the squares of radii.
+    """
+    name = os.fspath(path)
+    if dimension is None:
+        found = domain.dimension if domain is not None else _find_dimension(name, weight_column, radius_column)
+    elif dimension in (2, 3):
+        found = dimension
+    else:
+        raise ValueError(f"dimension is {dimension}; 2 or 3 is expected")
+    table = _read(name, found, weight_column, radius_column)
+    columns = {key: _column(table.column(k)) for k, key in enumerate(table.names)}
+    return Seeds(table.positions, table.weights, columns, table.crs or None, table.taken)

@@ -1,0 +1,138 @@
+"""Semi-discrete optimal transport."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, Union
+
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arrays import optional_reals, reals
+from ._density import Density, density_arguments
+from ._device import Device, open_device
+from ._domain import Domain
+from ._options import diagram_options
+from ._progress import Progress, step_bar
+
+
+def _describe(step: Any) -> str:
+    return f"{step.phase}, masses to {step.error:.1e}"
+
+
+class TransportSolver:
+    """Finds weights for which the cells of seeds have given masses, repeatedly as these change.
+
+    Parameters
+    ----------
+    domain : Domain
+        A periodic box of the plane, or any that is not periodic.
+    positions : (n, d) array_like
+    masses : (n,) array_like, optional
+        Target masses, positive. Default: equal ones.
+    density : number, str, callable or array_like, optional
+        Mass per unit of area or volume: a number; a formula in x, y and z; a function of the coordinates, called
+        by several threads, one at a time; an (h, w) image that fills the domain's box, its top row first; or
+        values at the vertices of a mesh. Default: 1.
+    weights : (n,) array_like, optional
+        Weights to start from.
+    tolerance : float
+        Largest relative error of a mass; 0 for 1e-6 (single precision: 1e-3).
+    max_steps : int
+    rescale : bool
+        Scale the masses to sum to the domain's. Otherwise they must, to 1e-9.
+    linear : {"auto", "dense", "direct", "multilevel"}
+    device, precision, neighbors, threads
+        As for :class:`Diagram`.
+    """
+
+    def __init__(
+        self,
+        domain: Domain,
+        positions: ArrayLike,
+        masses: Optional[ArrayLike] = None,
+        density: Density = None,
+        *,
+        weights: Optional[ArrayLike] = None,
+        tolerance: float = 0.0,
+        max_steps: int = 500,
+        rescale: bool = False,
+        linear: str = "auto",
+        device: Union[None, str, Device] = None,
+        precision: str = "auto",
+        neighbors: str = "auto",
+        threads: int = 0,
+    ) -> None:
+        given = {
+            "density": density_arguments(density, domain),
+            "tolerance": tolerance,
+            "max_steps": max_steps,
+            "rescale": rescale,
+            "linear": linear,
+        }
+        options = diagram_options(precision, neighbors, threads=threads)
+        self.domain = domain
+        points = reals(positions, "positions", (None, domain.dimension))
+        start = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+        target = optional_reals(masses, "masses", (len(points),), ", one for each seed")
+        self._count = len(points)
+        self._core = _core.TransportSolver(open_device(device), domain._core, given, options)
+        self._core.set_seeds(points, start)
+        if target is not None:
+            self._core.set_masses(target)
+
+    def move_seeds(self, positions: ArrayLike) -> None:
+        """Moves the seeds; the next solve starts from adjusted weights."""
+        self._core.move_seeds(reals(positions, "positions", (self._count, self.domain.dimension)))
+
+    def set_masses(self, masses: Optional[ArrayLike]) -> None:
+        """Sets the target masses; None for equal ones."""
+        self._core.set_masses(optional_reals(masses, "masses", (self._count,)))
+
+    def set_weights(self, weights: ArrayLike) -> None:
+        """Sets the weights from which the next solve starts."""
+        self._core.set_weights(reals(weights, "weights", (self._count,)))
+
+    def set_tolerance(self, tolerance: float) -> None:
+        self._core.set_tolerance(tolerance)
+
+    def solve(self, progress: Progress = None) -> Any:
+        """Solves from the current weights.
+
+        Parameters
+        ----------
+        progress : bool or callable, optional
+            True for a bar, or a function of a ``TransportStep``, which may return False to stop.
+
+        Returns
+        -------
+        TransportResult
+            With weights, mass, centroid, cost, converged, error and steps. A failure to converge is no error.
+        """
+        with step_bar(progress, "transport", _describe) as report:
+            return self._core.solve(report)
+
+
+def transport(
+    domain: Domain,
+    positions: ArrayLike,
+    masses: Optional[ArrayLike] = None,
+    density: Density = None,
+    tolerance: float = 1e-6,
+    *,
+    progress: Progress = None,
+    **options: Any,
+) -> Any:
+    """Solves once: the weights for which the cells of the seeds have the masses.
+
+    Parameters are those of :class:`TransportSolver`.
+
+    Examples
+    --------
+    >>> import powercell as pc
+    >>> box = pc.Domain.box([0, 0], [1, 1])
+    >>> result = pc.transport(box, [[0.1, 0.5], [0.2, 0.5], [0.3, 0.5]], [0.5, 0.25, 0.25])
+    >>> result.converged, result.centroid[:, 0].round(6).tolist()
+    (True, [0.25, 0.625, 0.875])
+    """
+    solver = TransportSolver(domain, positions, masses, density, tolerance=tolerance, **options)
+    return solver.solve(progress)

@@ -1,0 +1,49 @@
+/// \file
+/// Views of NumPy arrays as spans, and of the library's arrays as read-only NumPy arrays.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace powercell::python {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+// The package checks and converts arrays before they come here, so these accept exact types alone.
+template <class T>
+using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Matrix = nb::ndarray<const T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+template <class Array>
+auto span_of(const Array& array) {
+  return std::span(array.data(), array.size());
+}
+
+/// A read-only array over the values; `owner` keeps them alive.
+template <class T>
+nb::object view(const T* values, std::vector<std::size_t> shape, nb::handle owner) {
+  static const T none{};  // an empty std::vector may have no address
+  return nb::cast(
+      nb::ndarray<nb::numpy, const T>(values ? values : &none, shape.size(), shape.data(), owner));
+}
+template <class T>
+nb::object view(const std::vector<T>& values, nb::handle owner) {
+  return view(values.data(), {values.size()}, owner);
+}
+/// Rows of `columns` values.
+template <class T>
+nb::object rows(const std::vector<T>& values, std::size_t columns, nb::handle owner) {
+  return view(values.data(), {columns ? values.size() / columns : 0, columns}, owner);
+}
+
+}  // namespace powercell::python

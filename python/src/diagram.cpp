@@ -1,0 +1,152 @@
+#include <nanobind/stl/shared_ptr.h>
+
+#include <powercell/diagram.hpp>
+#include <powercell/triangulation.hpp>
+#include <powercell/verify.hpp>
+
+#include "python/src/call.hpp"
+#include "python/src/options.hpp"
+
+namespace powercell::python {
+namespace {
+
+using Weights = std::optional<Vector<double>>;
+
+SeedsView seeds_of(const Matrix<double>& positions, const Weights& weights) {
+  return {static_cast<int>(positions.shape(1)), span_of(positions),
+          weights ? span_of(*weights) : std::span<const double>()};
+}
+
+/// A diagram whose results Python sees in place: they are shared with it.
+class PyDiagram {
+ public:
+  PyDiagram(const Device& device, const Domain& domain, const nb::dict& options)
+      : diagram_(device, domain, with_progress(options_of(options))) {}
+
+  void set_seeds(const Matrix<double>& positions, const Weights& weights) {
+    const SeedsView seeds = seeds_of(positions, weights);
+    slot_.run(nb::none(), [&] {
+      diagram_.set_seeds(seeds);
+      joined_.reset();
+    });
+  }
+  void set_weights(const Vector<double>& weights) {
+    const std::span all = span_of(weights);
+    slot_.run(nb::none(), [&] {
+      diagram_.set_weights(all);
+      joined_.reset();
+    });
+  }
+  void compute(bool adjacency, bool cells, const nb::object& progress) {
+    slot_.run(progress, [&] { diagram_.compute(adjacency, cells); });
+  }
+
+  std::shared_ptr<Measures> measures() { return held(&Diagram::measures); }
+  std::shared_ptr<Adjacency> adjacency() { return held(&Diagram::adjacency); }
+  std::shared_ptr<Cells> cells() { return held(&Diagram::cells); }
+  std::shared_ptr<Dual> dual() { return held(&Diagram::dual); }
+  std::shared_ptr<JoinedCells> joined() {
+    return slot_.run(nb::none(), [&] {
+      if (!joined_) joined_ = std::make_shared<JoinedCells>(join(diagram_.domain(), diagram_.cells()));
+      return joined_;
+    });
+  }
+  std::vector<LawCheck> verify(const Matrix<double>& positions, const Weights& weights, std::size_t samples,
+                               std::uint64_t random_seed) {
+    const SeedsView seeds = seeds_of(positions, weights);
+    return slot_.run(nb::none(), [&] {
+      return powercell::verify(diagram_, seeds, {samples, random_seed, [this](double fraction) {
+                                                   return slot_.report(fraction);
+                                                 }});
+    });
+  }
+
+  const Diagram& diagram() const { return diagram_; }
+
+ private:
+  Options with_progress(Options options) {
+    options.progress = [this](double fraction) { return slot_.report(fraction); };
+    return options;
+  }
+
+  /// A result together with what holds it, in one step: another thread may change the seeds after it.
+  template <class T>
+  std::shared_ptr<T> held(const T& (Diagram::*get)()) {
+    return slot_.run(nb::none(), [&] {
+      const T& result = (diagram_.*get)();
+      return std::shared_ptr<T>(std::const_pointer_cast<void>(diagram_.hold_results()),
+                                const_cast<T*>(&result));  // Python has no const; the properties are
+    });
+  }
+
+  CallSlot slot_;
+  Diagram diagram_;
+  std::shared_ptr<JoinedCells> joined_;
+};
+
+const char* name_of(Precision precision) {
+  return precision == Precision::float32 ? "float" : "double";
+}
+
+nb::object simplices(nb::handle self) {
+  const Dual& dual = nb::cast<Dual&>(self);
+  return rows(dual.simplices, static_cast<std::size_t>(dual.corners), self);
+}
+
+}  // namespace
+
+void bind_diagrams(nb::module_& m) {
+  nb::class_<Measures>(m, "Measures")
+      .def_prop_ro("mass", [](nb::handle self) { return view(nb::cast<Measures&>(self).mass, self); })
+      .def_prop_ro("centroid",
+                   [](nb::handle self) {
+                     const Measures& all = nb::cast<Measures&>(self);
+                     return rows(all.centroid, static_cast<std::size_t>(all.dimension), self);
+                   })
+      .def_prop_ro("second_moment",
+                   [](nb::handle self) { return view(nb::cast<Measures&>(self).second_moment, self); })
+      .def_prop_ro("status",
+                   [](nb::handle self) {
+                     const auto& status = nb::cast<Measures&>(self).status;
+                     return view(reinterpret_cast<const std::uint8_t*>(status.data()), {status.size()}, self);
+                   })
+      .def_ro("domain_measure", &Measures::domain_measure)
+      .def_prop_ro("total", &Measures::total)
+      .def_prop_ro("relative_error", &Measures::relative_error);
+  nb::class_<Dual>(m, "Dual").def_prop_ro("simplices", &simplices);
+  nb::class_<LawCheck>(m, "LawCheck")
+      .def_ro("law", &LawCheck::law)
+      .def_ro("passed", &LawCheck::passed)
+      .def_ro("value", &LawCheck::value)
+      .def_ro("tolerance", &LawCheck::tolerance)
+      .def_ro("detail", &LawCheck::detail);
+
+  nb::class_<PyDiagram>(m, "Diagram")
+      .def(nb::init<const Device&, const Domain&, const nb::dict&>())
+      .def("set_seeds", &PyDiagram::set_seeds, "positions"_a, "weights"_a.none())
+      .def("set_weights", &PyDiagram::set_weights)
+      .def("compute", &PyDiagram::compute, "adjacency"_a, "cells"_a, "progress"_a.none())
+      .def("measures", &PyDiagram::measures)
+      .def("adjacency", &PyDiagram::adjacency)
+      .def("cells", &PyDiagram::cells)
+      .def("joined", &PyDiagram::joined)
+      .def("dual", &PyDiagram::dual)
+      .def("verify", &PyDiagram::verify, "positions"_a, "weights"_a.none(), "samples"_a, "random_seed"_a)
+      .def_prop_ro("timings", [](const PyDiagram& d) { return d.diagram().timings(); })
+      .def_prop_ro("device", [](const PyDiagram& d) { return d.diagram().device(); })
+      .def_prop_ro("precision", [](const PyDiagram& d) { return name_of(d.diagram().precision()); });
+
+  m.def(
+      "regular_triangulation",
+      [](const Device& device, const Matrix<double>& positions, const Weights& weights,
+         const nb::dict& options, nb::object progress) {
+        const SeedsView seeds = seeds_of(positions, weights);
+        Options with = options_of(options);
+        Call call(std::move(progress));
+        with.progress = [&](double fraction) { return call.report(fraction); };
+        return call.run([&] { return regular_triangulation(device, seeds, with); });
+      },
+      "device"_a, "positions"_a, "weights"_a.none(), "options"_a, "progress"_a.none());
+}
+
+}  // namespace powercell::python

@@ -1,0 +1,19 @@
+import numpy as np
+import pytest
+
+import powercell as pc
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(1)
+
+
+@pytest.fixture
+def square():
+    return pc.Domain.box([0, 0], [1, 1])
+
+
+@pytest.fixture
+def cube():
+    return pc.Domain.box([0, 0, 0], [1, 1, 1])

@@ -1,0 +1,148 @@
+"""Progress, exceptions in callbacks, interrupts, threads and forks."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import powercell as pc
+
+
+def test_progress_is_called_and_may_stop(rng, cube):
+    seen = []
+    pc.Diagram(cube, rng.random((3000, 3)), chunk_pairs=1000, progress=seen.append).compute()
+    assert seen and seen == sorted(seen) and 0 <= seen[0] and seen[-1] == 1
+    stopping = pc.Diagram(cube, rng.random((3000, 3)), chunk_pairs=1000, progress=lambda fraction: fraction < 0.5)
+    with pytest.raises(pc.Error) as caught:
+        stopping.compute()
+    assert caught.value.code == "interrupted"
+
+
+class Boom(Exception):
+    pass
+
+
+def boom(*_):
+    raise Boom("as thrown")
+
+
+def test_exceptions_in_callbacks_come_out_unchanged(rng, square):
+    p = rng.random((200, 2))
+    diagram = pc.Diagram(square, p, progress=boom)
+    with pytest.raises(Boom, match="as thrown"):
+        diagram.compute()
+    with pytest.raises(Boom):
+        pc.transport(square, p, progress=boom)
+    with pytest.raises(Boom):
+        pc.transport(square, p, density=boom)
+    with pytest.raises(Boom):
+        pc.sample(square, 50, progress=boom)
+    with pytest.raises(Boom):
+        pc.remesh(*pc.sphere(4), count=50, progress=boom)
+    with pytest.raises(Boom):
+        pc.treemap({str(k): k + 1 for k in range(200)}, progress=boom)
+
+
+def test_a_bar_is_shown_where_tqdm_is(rng, square, capsys):
+    pytest.importorskip("tqdm")
+    pc.Diagram(square, rng.random((100, 2)), progress=True).mass
+    pc.transport(square, rng.random((50, 2)), progress=True)
+    shown = capsys.readouterr().err
+    assert "power diagram" in shown and "transport" in shown
+
+
+def test_ctrl_c_stops_a_long_call():
+    program = """
+import numpy as np, powercell as pc
+box = pc.Domain.box([0, 0, 0], [1, 1, 1])
+p = np.random.default_rng(1).random((5000, 3))
+pc.Diagram(box, p[:10]).mass
+print("running", flush=True)
+try:
+    pc.sample(box, p, mode="quantise", iterations=100000, movement=0)
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+"""
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "running\n"
+    time.sleep(1)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert out == "stopped\n" and process.returncode == 0
+
+
+def test_other_threads_run_meanwhile(rng, cube):
+    p = rng.random((30_000, 3))
+    pc.Diagram(cube, p[:100]).mass
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.monotonic()
+    pc.Diagram(cube, p).mass
+    took = time.monotonic() - start
+    done.set()
+    thread.join()
+    assert len([t for t in ticks if t > start]) > 5 * took  # with the lock held there would be none
+
+
+def test_one_diagram_in_two_threads(rng, cube):
+    p = rng.random((2000, 3))
+    diagram = pc.Diagram(cube, p)
+    want = [pc.Diagram(cube, p, np.full(2000, k) * p[:, 0]).mass.copy() for k in range(2)]
+    wrong = []
+
+    def work(k):
+        for _ in range(10):
+            diagram.set_weights(np.full(2000, k) * p[:, 0])
+            mass = diagram.mass
+            if not any(np.array_equal(mass, one) for one in want):
+                wrong.append(k)
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+def test_a_forked_process_is_told(square):
+    pc.Diagram(square, [[0.5, 0.5]]).mass
+    reader, writer = multiprocessing.Pipe(duplex=False)
+
+    def child():
+        try:
+            pc.Diagram(square, [[0.5, 0.5]]).mass
+            writer.send("no error")
+        except pc.Error as error:
+            writer.send(f"{error.code}: {error}")
+
+    process = multiprocessing.get_context("fork").Process(target=child)
+    process.start()
+    assert reader.poll(30)
+    answer = reader.recv()
+    process.join()
+    assert answer.startswith("unsupported: this process was forked") and "spawn" in answer
+
+
+def test_objects_may_live_when_the_interpreter_ends():
+    program = (
+        "import powercell as pc\n"
+        "d = pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[.5, .5]], progress=lambda f: None)\n"
+        "m = d.mass; s = pc.TransportSolver(d.domain, [[.5, .5]], density=lambda x, y: 1.0); s.solve()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -1,0 +1,178 @@
+"""Diagrams against brute force and other packages, and what their results promise."""
+
+import gc
+import weakref
+
+import numpy as np
+import pytest
+
+import powercell as pc
+
+
+def owners(positions, weights, x):
+    """The seed of least power distance to each point, by trying all."""
+    distance = ((x[:, None, :] - positions[None]) ** 2).sum(axis=2) - weights
+    return distance.argmin(axis=1)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_measures_match_random_points(rng, d):
+    p, w = rng.random((40, d)), rng.random(40) * 0.05
+    diagram = pc.Diagram(pc.Domain.box([0] * d, [1] * d), p, w)
+    x = rng.random((200_000, d))
+    owner = owners(p, w, x)
+    share = np.bincount(owner, minlength=40) / len(x)
+    assert np.abs(diagram.mass - share).max() < 5e-3
+    assert diagram.mass.sum() == pytest.approx(1, abs=1e-13)
+    assert diagram.domain_measure == 1
+    big = int(diagram.mass.argmax())
+    assert np.abs(diagram.centroid[big] - x[owner == big].mean(axis=0)).max() < 5e-3
+    moment = ((x[owner == big] - p[big]) ** 2).sum() / len(x)
+    assert diagram.second_moment[big] == pytest.approx(moment, rel=0.05)
+    hidden = diagram.status == pc.Status.HIDDEN
+    assert np.array_equal(hidden, diagram.mass == 0)
+    assert np.isnan(diagram.centroid[hidden]).all()
+
+
+def test_voronoi_cells_are_those_of_scipy(rng):
+    spatial = pytest.importorskip("scipy.spatial")
+    p = rng.random((300, 3))
+    low, high = -9 * np.ones(3), 10 * np.ones(3)
+    diagram = pc.Diagram(pc.Domain.box(low, high), p)
+    voronoi = spatial.Voronoi(p)
+    bounded = [i for i in range(300) if -1 not in voronoi.regions[voronoi.point_region[i]]]
+    inner = [
+        i
+        for i in bounded
+        if (np.abs(voronoi.vertices[voronoi.regions[voronoi.point_region[i]]]) < 9).all()
+    ]
+    assert len(inner) > 100
+    for i in inner:
+        hull = spatial.ConvexHull(voronoi.vertices[voronoi.regions[voronoi.point_region[i]]])
+        assert diagram.mass[i] == pytest.approx(hull.volume, rel=1e-9)
+    pairs = {tuple(sorted(pair)) for pair in voronoi.ridge_points.tolist()}
+    for i in inner:
+        expected = {a + b - i for a, b in pairs if i in (a, b)}
+        assert set(diagram.adjacency.neighbors(i).tolist()) == expected
+
+
+def test_adjacency_is_a_sparse_matrix(rng, cube):
+    sparse = pytest.importorskip("scipy.sparse")
+    diagram = pc.Diagram(cube, rng.random((200, 3)))
+    matrix = diagram.adjacency.to_scipy()
+    assert sparse.issparse(matrix) and matrix.shape == (200, 200)
+    assert abs(matrix - matrix.T).max() == 0
+    assert matrix.nnz == len(diagram.adjacency.indices)
+
+
+def test_results_are_read_only_views_that_outlive_the_seeds(square):
+    diagram = pc.Diagram(square, [[0.25, 0.5], [0.75, 0.5]])
+    mass, walls = diagram.mass, diagram.adjacency
+    with pytest.raises(ValueError):
+        mass[0] = 3
+    assert np.shares_memory(mass, diagram.mass)
+    diagram.set_weights([0.1, 0])
+    assert mass.tolist() == [0.5, 0.5]
+    assert diagram.mass.round(12).tolist() == [0.6, 0.4]
+    diagram.set_seeds([[0.5, 0.5]])
+    assert diagram.mass.tolist() == [1.0] and mass.tolist() == [0.5, 0.5]
+    del diagram
+    gc.collect()
+    assert mass.tolist() == [0.5, 0.5] and walls.data.tolist() == [1.0, 1.0]
+
+
+def test_compute_makes_measures_and_adjacency_in_one_pass(rng, cube):
+    diagram = pc.Diagram(cube, rng.random((500, 3))).compute(adjacency=True)
+    first = diagram.timings.total
+    diagram.mass, diagram.adjacency.data
+    assert diagram.timings.total == first
+
+
+def test_cells_joined_and_dual(rng):
+    ring = np.array([[0, 0], [4, 0], [4, 4], [0, 4]])
+    hole = np.array([[1, 1], [1, 3], [3, 3], [3, 1]])
+    diagram = pc.Diagram(pc.Domain.polygon([ring, hole]), rng.random((30, 2)) * 4)
+    cells, joined = diagram.cells, diagram.joined
+    assert len(cells.cell_offset) == 31 and cells.vertices.shape[1] == 2
+    assert set(np.unique(cells.border[:, 0])) <= {0, 1, 2}
+    area = 0.0
+    for f in range(len(joined.loop_offset) - 1):
+        cell = np.searchsorted(joined.face_offset, f, side="right") - 1
+        loop = joined.loop[joined.loop_offset[f] : joined.loop_offset[f + 1]]
+        x, y = joined.vertices[joined.vertex_offset[cell] + loop].T
+        area += (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+    assert area == pytest.approx(12)
+    assert diagram.dual.shape[1] == 3 and diagram.dual.max() < 30
+
+
+def test_surface_and_volume(rng):
+    vertices, triangles = pc.sphere(8)
+    surface = pc.Diagram(pc.Domain.surface(vertices, triangles), rng.normal(size=(50, 3)))
+    assert surface.mass.sum() == pytest.approx(surface.domain.measure)
+    assert surface.domain.kind == "surface" and surface.domain.cell_dimension == 2
+    volume = pc.Diagram(pc.Domain.volume(*pc.ball(4)), rng.normal(size=(50, 3)) / 3)
+    assert volume.mass.sum() == pytest.approx(volume.domain.measure)
+    assert volume.dual.shape[1] == 4
+
+
+def test_periodic_box_and_lattice(rng, cube):
+    diagram = pc.Diagram(pc.Domain.box([0] * 3, [1] * 3, periodic=True), [[0.5, 0.5, 0.5]])
+    assert diagram.mass == pytest.approx([1.0], abs=1e-14)
+    walls = diagram.adjacency
+    assert walls.indices.tolist() == [0] * 6 and walls.data == pytest.approx([1.0] * 6)
+    assert sorted(map(tuple, walls.shift.tolist())) == sorted(
+        [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    )
+    some = pc.Diagram(pc.Domain.box([0, 0], [2, 1], periodic=[True, False]), rng.random((20, 2)))
+    assert some.mass.sum() == pytest.approx(2)
+    lattice = pc.Domain.lattice([[1, 0], [0.5, 0.75**0.5]])
+    assert pc.Diagram(lattice, [[0.1, 0.2]]).adjacency.data == pytest.approx([3**-0.5] * 6)
+    assert lattice.periods == pytest.approx(np.array([[1, 0], [0.5, 0.75**0.5]]))
+    assert pc.Diagram(cube, [[0.5] * 3]).adjacency.shift is None
+
+
+def test_laws_hold(rng, cube):
+    diagram = pc.Diagram(cube, rng.random((100, 3)), rng.random(100) * 0.01, certify=True)
+    checks = diagram.verify()
+    assert checks and all(check.passed for check in checks)
+
+
+def test_precision_decisions_and_threads(rng, square):
+    p = rng.random((100, 2))
+    exact = pc.Diagram(square, p, threads=1)
+    fast = pc.Diagram(square, p, decisions="fast", neighbors="tree", chunk_pairs=10)
+    single = pc.Diagram(square, p, precision="float")
+    assert exact.precision == "double" and single.precision == "float"
+    assert np.abs(exact.mass - fast.mass).max() < 1e-12
+    assert np.abs(exact.mass - single.mass).max() < 1e-5
+
+
+def test_regular_triangulation_is_that_of_scipy(rng):
+    spatial = pytest.importorskip("scipy.spatial")
+    p = rng.random((100, 2))
+    ours = {tuple(sorted(row)) for row in pc.regular_triangulation(p).tolist()}
+    assert ours == {tuple(sorted(row)) for row in spatial.Delaunay(p).simplices.tolist()}
+    assert pc.regular_triangulation(p, np.arange(100.0)).shape[1] == 3
+
+
+def test_objects_are_freed(rng, square):
+    diagram = pc.Diagram(square, rng.random((10, 2)))
+    gone = weakref.ref(diagram)
+    mass = diagram.mass
+    del diagram
+    gc.collect()
+    assert gone() is None and len(mass) == 10
+
+
+def test_a_loop_of_diagrams_leaks_nothing(square):
+    resource = pytest.importorskip("resource")
+    p = np.random.default_rng(2).random((50, 2))
+
+    def run(count):
+        for _ in range(count):
+            d = pc.Diagram(square, p)
+            d.adjacency.data, d.mass, d.cells.vertices
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    before = run(300)
+    assert run(2000) - before < 8_000  # KiB; 2,000 diagrams with results have 40,000

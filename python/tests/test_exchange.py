@@ -1,0 +1,76 @@
+"""Exchange with Shapely, GeoPandas, matplotlib, PyVista, meshio and trimesh, where they are installed."""
+
+import numpy as np
+import pytest
+
+import powercell as pc
+
+
+def test_polygons_of_cells(rng):
+    shapely = pytest.importorskip("shapely")
+    domain = pc.Domain.polygon(shapely.Point(0, 0).buffer(1).difference(shapely.Point(0, 0).buffer(0.5)))
+    diagram = pc.Diagram(domain, np.vstack([rng.normal(size=(20, 2)), [[0, 0]]]), [*[0.0] * 20, 0.5])
+    cells = diagram.polygons()
+    assert [cell.area for cell in cells] == pytest.approx(diagram.mass.tolist(), abs=1e-12)
+    assert all(cell.is_valid for cell in cells)
+
+
+def test_geopandas_keeps_columns_and_crs():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    land = geopandas.GeoSeries([shapely.box(0, 0, 1000, 1000)], crs="EPSG:32633")
+    shops = geopandas.GeoDataFrame(
+        {"name": ["north", "south"], "mass": [5, 6]},
+        geometry=geopandas.points_from_xy([500, 500], [750, 250]),
+        crs="EPSG:32633",
+    )
+    areas = pc.Diagram(pc.Domain.polygon(land), shops).to_geopandas()
+    assert areas.crs == land.crs and areas.geometry.area.tolist() == pytest.approx([500_000, 500_000])
+    assert areas["name"].tolist() == ["north", "south"] and areas["mass"].tolist() == [5, 6]
+    assert areas["cell_mass"].tolist() == pytest.approx([500_000, 500_000])
+    with pytest.raises(ValueError, match="degrees"):
+        pc.Domain.polygon(land.to_crs("EPSG:4326"))
+
+
+def test_plot(rng, square):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    diagram = pc.Diagram(square, rng.random((20, 2)))
+    axes = diagram.plot(color=diagram.mass)
+    assert len(axes.collections[0].get_paths()) == 20
+    assert diagram.plot(ax=axes, color="red") is axes
+    with pytest.raises(ValueError, match="in the plane"):
+        pc.Diagram(pc.Domain.box([0] * 3, [1] * 3), rng.random((2, 3))).plot()
+
+
+def test_pyvista(rng, cube):
+    pytest.importorskip("pyvista")
+    diagram = pc.Diagram(cube, rng.random((20, 3)))
+    mesh = diagram.to_pyvista()
+    assert mesh.n_cells == 20 and mesh.volume == pytest.approx(1)
+    assert np.array_equal(mesh["seed"], np.arange(20))
+    flat = pc.Diagram(pc.Domain.box([0, 0], [1, 2]), rng.random((20, 2))).to_pyvista()
+    assert flat.area == pytest.approx(2)
+    sphere = pc.Domain.surface(*pc.sphere(4))
+    surface = pc.Diagram(sphere, rng.normal(size=(10, 3))).to_pyvista()
+    assert surface.area == pytest.approx(sphere.measure)
+    assert pc.Domain.surface(surface.triangulate()).measure == pytest.approx(sphere.measure)
+
+
+def test_meshes_of_other_packages(rng):
+    meshio = pytest.importorskip("meshio")
+    vertices, tetrahedra = pc.ball(3)
+    volume = pc.Domain.volume(meshio.Mesh(vertices, [("tetra", tetrahedra)]))
+    assert volume.measure == pc.Domain.volume(vertices, tetrahedra).measure
+    with pytest.raises(ValueError, match="no cells of the kind triangle"):
+        pc.Domain.surface(meshio.Mesh(vertices, [("tetra", tetrahedra)]))
+    out = pc.Diagram(pc.Domain.box([0, 0], [1, 1]), rng.random((9, 2))).to_meshio()
+    assert sum(len(block.data) for block in out.cells) == 9
+    trimesh = pytest.importorskip("trimesh")
+    box = trimesh.creation.box()
+    assert pc.Domain.surface(box).measure == pytest.approx(6)
+
+
+def test_html(square):
+    text = pc.Diagram(square, [[0.5, 0.5]])._repr_html_()
+    assert "<table>" in text and "polygon of area 1" in text
