@@ -7,9 +7,9 @@
 True
 """
 
-from ._runtime import show_packaged_runtimes
+from ._runtime import show_packaged_runtime
 
-show_packaged_runtimes()
+show_packaged_runtime()
 
 from . import _core  # noqa: E402
 from ._core import version as _version  # noqa: E402

@@ -66,8 +66,7 @@ class Adjacency:
 
     def to_scipy(self) -> Any:
         """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed."""
-        from scipy.sparse import csr_array
-
+        csr_array = _looks.package("scipy.sparse").csr_array
         n = len(self.indptr) - 1
         kind = np.int32 if len(self.indices) < 2**31 else np.int64
         parts: Any = (np.array(self.data), self.indices.astype(kind), self.indptr.astype(kind))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 WALL, BOUNDARY, INTERIOR = 0, 1, 2  # Border.kind
 
 
-def _package(name: str) -> Any:
+def package(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
@@ -47,7 +47,7 @@ def _signed_area(ring: np.ndarray) -> float:
 
 def polygons(diagram: Diagram) -> list[Any]:
     _require_polygon(diagram)
-    shapely = _package("shapely")
+    shapely = package("shapely")
     result = []
     for rings in _rings(diagram):
         outer = [shapely.Polygon(ring) for ring in rings if _signed_area(ring) > 0]
@@ -65,8 +65,8 @@ def polygons(diagram: Diagram) -> list[Any]:
 
 def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
     _require_polygon(diagram)
-    pyplot = _package("matplotlib.pyplot")
-    paths, patches = _package("matplotlib.path"), _package("matplotlib.collections")
+    pyplot = package("matplotlib.pyplot")
+    paths, patches = package("matplotlib.path"), package("matplotlib.collections")
     if ax is None:
         ax = pyplot.gca()
     compound, cell_of = [], []
@@ -90,7 +90,7 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
 
 
 def to_geopandas(diagram: Diagram) -> Any:
-    geopandas = _package("geopandas")
+    geopandas = package("geopandas")
     given = diagram._columns
     columns: dict[str, Any] = {}
     if given is not None:
@@ -122,7 +122,7 @@ def _piece_arrays(diagram: Diagram) -> tuple[Any, np.ndarray]:
 
 
 def to_pyvista(diagram: Diagram) -> Any:
-    pyvista = _package("pyvista")
+    pyvista = package("pyvista")
     cells, seed = _piece_arrays(diagram)
     points = _space(np.asarray(cells.vertices))
     first = cells.vertex_offset.astype(np.int64)
@@ -153,7 +153,7 @@ def _polyhedra(cells: Any, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def to_meshio(diagram: Diagram) -> Any:
-    meshio = _package("meshio")
+    meshio = package("meshio")
     cells, seed = _piece_arrays(diagram)
     points = _space(np.asarray(cells.vertices))
     first = cells.vertex_offset.astype(np.int64)

@@ -7,30 +7,23 @@ import sys
 from importlib import metadata
 from pathlib import Path
 
-_RUNTIMES = ("intel-opencl-rt",)
+VENDORS = Path("/etc/OpenCL/vendors")
+PACKAGE, LIBRARY = "intel-opencl-rt", "libintelocl.so"  # powercell[cpu]
 
 
-def _system_has_one() -> bool:
-    folder = os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors")
-    path = Path(folder)
-    return path.is_file() or any(path.glob("*.icd"))
-
-
-def _library_of(package: str) -> str:
+def packaged_runtime() -> str:
+    """The path of the package's library; empty if it is not installed."""
     try:
-        files = metadata.files(package) or []
+        files = metadata.files(PACKAGE) or []
     except metadata.PackageNotFoundError:
         return ""
-    for file in files:
-        if file.name == "libintelocl.so":
-            return str(Path(str(file.locate())).resolve())
-    return ""
+    return next((str(Path(str(f.locate())).resolve()) for f in files if f.name == LIBRARY), "")
 
 
-def show_packaged_runtimes() -> None:
-    """Called before the extension is loaded: the OpenCL loader reads these variables once."""
-    if not sys.platform.startswith("linux") or "OCL_ICD_FILENAMES" in os.environ or _system_has_one():
+def show_packaged_runtime() -> None:
+    """Called before the extension is loaded: the OpenCL loader reads its variables once. What the user has set
+    stays."""
+    if not sys.platform.startswith("linux") or "OCL_ICD_VENDORS" in os.environ or any(VENDORS.glob("*.icd")):
         return
-    found = [library for library in map(_library_of, _RUNTIMES) if library]
-    if found:
-        os.environ["OCL_ICD_FILENAMES"] = ":".join(found)
+    if library := packaged_runtime():
+        os.environ["OCL_ICD_VENDORS"] = library

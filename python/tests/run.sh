@@ -13,7 +13,7 @@ python3 -m venv --clear "$folder/venv"
 python="$folder/venv/bin/python"
 "$python" -m pip -q install --upgrade pip
 "$python" -m pip -q install pytest pytest-timeout mypy scipy scipy-stubs shapely geopandas matplotlib meshio pyvista \
-  trimesh tqdm
+  trimesh tqdm intel-opencl-rt intel-cmplr-lib-rt
 
 say "the wheel"
 rm -f "$folder"/*.whl

@@ -146,3 +146,29 @@ def test_objects_may_live_when_the_interpreter_ends():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_packaged_runtime_is_used_where_the_system_has_none():
+    program = """
+import importlib.util, pathlib, sys
+import importlib.metadata
+try:
+    importlib.metadata.files("intel-opencl-rt") or sys.exit("none")
+    importlib.metadata.files("intel-cmplr-lib-rt")
+except importlib.metadata.PackageNotFoundError:
+    sys.exit("none")
+folder = pathlib.Path(importlib.util.find_spec("powercell").origin).parent
+spec = importlib.util.spec_from_file_location("runtime", folder / "_runtime.py")
+runtime = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(runtime)
+runtime.VENDORS = pathlib.Path("/no/such/folder")
+runtime.show_packaged_runtime()
+import powercell as pc
+names = [device.platform for device in pc.devices()]
+assert names and all("Intel" in name for name in names), names
+assert abs(pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[.2, .3], [.5, .5]]).mass.sum() - 1) < 1e-12
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=200)
+    if done.stderr.strip() == "none":
+        pytest.skip("powercell[cpu] is not installed")
+    assert done.returncode == 0, done.stderr

@@ -86,14 +86,14 @@ BothWays compute_without_tetrahedra(const Domain& solid, const Domain& domain, c
   first.set_seeds(seeds.view());
   first.compute({.adjacency = true});
   both.unclear = first.integrals->solid->unclear.size() + first.active->by_region.size();
-  both.by_boundary = *first.results.measures;
-  both.walls_by_boundary = *first.results.adjacency;
+  both.by_boundary = *first.results->measures;
+  both.walls_by_boundary = *first.results->adjacency;
   Diagram::State second(double_device().value(), domain, {});
   second.setup.boundary.reset();
   second.set_seeds(seeds.view());
   second.compute({.adjacency = true});
-  both.by_tetrahedra = *second.results.measures;
-  both.walls_by_tetrahedra = *second.results.adjacency;
+  both.by_tetrahedra = *second.results->measures;
+  both.walls_by_tetrahedra = *second.results->adjacency;
   return both;
 }
 
