@@ -121,6 +121,40 @@ class Domain:
         """
         return cls(_core.Domain.volume(*volume_arrays(vertices, tetrahedra)))
 
+    @classmethod
+    def solid(cls, vertices: Any, triangles: Optional[ArrayLike] = None) -> Domain:
+        """The inside of a closed triangle surface, without any tetrahedra.
+
+        Several shells, cavities and bodies in cavities are possible; triangles may have either orientation. Cells
+        in a solid have measures and walls, but no geometry.
+
+        Parameters
+        ----------
+        vertices, triangles
+            As for :meth:`surface`.
+
+        Raises
+        ------
+        Error
+            ``invalid_domain`` for a surface that is open or crosses itself (where).
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> pc.Domain.solid(*pc.sphere(4)).kind
+        'volume'
+        """
+        return cls(_core.Domain.solid(*surface_arrays(vertices, triangles)))
+
+    def wrapped(self, positions: ArrayLike) -> np.ndarray:
+        """(n, d): points moved by whole periods into a periodic domain; elsewhere as they are."""
+        points = reals(positions, "positions", (None, self.dimension))
+        return np.array(self._core.wrapped(points)).reshape(-1, self.dimension)
+
+    @property
+    def is_solid(self) -> bool:
+        return bool(self._core.is_solid)
+
     @property
     def kind(self) -> str:
         """``"polygon"``, ``"surface"`` or ``"volume"``."""

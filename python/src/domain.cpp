@@ -73,6 +73,10 @@ void bind_domains(nb::module_& m) {
       .def_static("polygon", &polygon)
       .def_static("surface", &mesh<&Domain::surface>)
       .def_static("volume", &mesh<&Domain::volume>)
+      .def_static("solid", &mesh<&Domain::solid>)
+      .def("wrapped", [](const Domain& domain,
+                         const Matrix<double>& positions) { return domain.wrapped(span_of(positions)); })
+      .def_prop_ro("is_solid", &Domain::is_solid)
       .def_prop_ro("kind", [](const Domain& d) { return kind_of(d.kind()); })
       .def_prop_ro("dimension", &Domain::dimension)
       .def_prop_ro("cell_dimension", &Domain::cell_dimension)

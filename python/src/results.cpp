@@ -63,7 +63,8 @@ void bind_results(nb::module_& m) {
       .POWERCELL_VECTOR(JoinedCells, loop_offset)
       .POWERCELL_VECTOR(JoinedCells, loop)
       .def_prop_ro("edge_border",
-                   [](nb::handle self) { return borders(nb::cast<JoinedCells&>(self).edge_border, self); });
+                   [](nb::handle self) { return borders(nb::cast<JoinedCells&>(self).edge_border, self); })
+      .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<JoinedCells&>(self), self); });
   nb::class_<Timings>(m, "Timings", "Seconds spent in each part of the last computation, and counts.")
       .def_ro("total", &Timings::total)
       .def_ro("prepare", &Timings::prepare)

@@ -68,6 +68,8 @@ void bind_sampling(nb::module_& m) {
       .def_ro("quadrature_error", &SamplingResult::quadrature_error)
       .def_ro("energy", &SamplingResult::energy)
       .def_ro("relative_energy", &SamplingResult::relative_energy)
+      .def_ro("layers", &SamplingResult::layers)
+      .def_prop_ro("share_apart", [](const SamplingResult& r) { return r.apart.share; })
       .def_ro("steps", &SamplingResult::steps);
   m.def("sample", &sample_from, "device"_a, "domain"_a, "start"_a, "given"_a, "diagram"_a,
         "progress"_a.none());

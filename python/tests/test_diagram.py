@@ -131,6 +131,24 @@ def test_periodic_box_and_lattice(rng, cube):
     assert pc.Diagram(cube, [[0.5] * 3]).adjacency.shift is None
 
 
+def test_solid(rng):
+    vertices, triangles = pc.sphere(8)
+    solid = pc.Domain.solid(vertices, triangles)
+    assert solid.is_solid and not pc.Domain.surface(vertices, triangles).is_solid
+    p = rng.normal(size=(50, 3)) / 2
+    diagram = pc.Diagram(solid, p)
+    assert diagram.mass.sum() == pytest.approx(solid.measure, rel=1e-12)
+    inside = pc.Diagram(pc.Domain.volume(*pc.ball(8)), p)
+    assert np.abs(diagram.mass / diagram.mass.sum() - inside.mass / inside.mass.sum()).max() < 0.01
+    with pytest.raises(pc.Error, match="open|edge"):
+        pc.Domain.solid(vertices, triangles[1:])
+
+
+def test_wrapped_points():
+    box = pc.Domain.box([0, 0], [1, 2], periodic=[True, False])
+    assert box.wrapped([[1.25, 3], [-0.25, 1]]).tolist() == [[0.25, 3], [0.75, 1]]
+
+
 def test_laws_hold(rng, cube):
     diagram = pc.Diagram(cube, rng.random((100, 3)), rng.random(100) * 0.01, certify=True)
     checks = diagram.verify()
