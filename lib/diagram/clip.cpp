@@ -22,8 +22,6 @@ constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_co
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
-/// Larger buffers are freed after a pass, because other work needs the memory.
-constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 

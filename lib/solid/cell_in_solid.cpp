@@ -82,15 +82,12 @@ std::uint32_t CellInSolid::opposite(std::uint32_t edge) const {
 
 bool CellInSolid::add_crossing(std::size_t before, std::size_t k) {
   if (ring_[before].face == none || ring_[k].face == none) return true;
-  std::uint32_t edge = edge_number_[ring_[before].face * cell_.border.size() + ring_[k].face];
+  const std::uint32_t edge = edge_number_[ring_[before].face * cell_.border.size() + ring_[k].face];
   if (edge == none) return false;
-  int leaves = 1;
-  if (!is_lower(edge)) {
-    edge = opposite(edge);
-    leaves = -1;
-  }
-  net_[edge] += leaves;
-  crossings_.push_back({edge, leaves, ring_[k].at});
+  const std::uint32_t back = opposite(edge);
+  ++net_[edge];
+  --net_[back];
+  crossings_.push_back(is_lower(edge) ? Crossing{edge, 1, ring_[k].at} : Crossing{back, -1, ring_[k].at});
   return true;
 }
 
@@ -122,7 +119,7 @@ bool CellInSolid::spread() {
     stack_.pop_back();
     for (std::uint32_t edge = 3 * v; edge < 3 * v + 3; ++edge) {
       const std::uint32_t u = next(edge);
-      if (net_[u < v ? opposite(edge) : edge] == 0 && !set_side(u, side_[v])) return false;
+      if (net_[edge] == 0 && !set_side(u, side_[v])) return false;
     }
   }
   return true;

@@ -141,7 +141,8 @@ class CellInSolid {
 
   std::vector<std::uint32_t> edge_number_;  // by left and right face
   std::vector<Crossing> crossings_;
-  std::vector<int> net_;  // per edge, 3 * vertex + slot: how often it leaves the solid more than it enters it
+  // Per edge, 3 * vertex + slot, so twice each: how often it leaves the solid more than it enters it.
+  std::vector<int> net_;
   std::vector<Side> side_;
   std::vector<std::uint32_t> stack_;
   bool uniform_ = false;

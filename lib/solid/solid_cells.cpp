@@ -20,11 +20,11 @@ using solid::CellInSolid;
 using solid::Side;
 using solid::WholeCell;
 
-constexpr std::size_t chunk_ranks = std::size_t{1} << 15, least_chunk_ranks = 1024;
+constexpr std::size_t chunk_ranks = std::size_t{1} << 14, least_chunk_ranks = 1024;
 constexpr std::size_t cells_of_task = 64;
 /// Half the edge of the cube that a cell is clipped in, relative to its farthest point on the boundary.
 /// Nearly all cells end within it, and in a smaller cube fewer seeds are tried.
-constexpr double cube_size = 1.25;
+constexpr double cube_size = 1.2;
 /// Distance of the container from the domain, as a part of its extent.
 constexpr double container_margin = 1.0 / 16;
 
@@ -257,7 +257,8 @@ void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell
 void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
                         SideHints& hints) const {
   const auto add = [&](std::uint32_t seen_rank, std::uint8_t what) {
-    std::atomic_ref(hints.seen[seen_rank]).fetch_or(what, std::memory_order_relaxed);
+    const std::atomic_ref seen(hints.seen[seen_rank]);
+    if ((seen.load(std::memory_order_relaxed) & what) != what) seen.fetch_or(what, std::memory_order_relaxed);
   };
   add(rank, SideHints::looked);
   for (std::uint32_t v = 0; v < cell.vertices(); ++v) {
@@ -288,7 +289,8 @@ void Chunk::append_to(SolidCells& all) {
 
 }  // namespace
 
-SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& statistics) {
+SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory,
+                               ClipStatistics& statistics) {
   const std::size_t seeds = input.scene.seeds.size();
   const Scene facets{input.boundary.on_device, input.scene.buffers, input.scene.seeds, input.scene.tree};
   std::vector<bool> excluded(seeds);
@@ -299,25 +301,26 @@ SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& sta
   SolidCells all;
   all.hints.seen.resize(seeds);
   std::optional<Clipper> clipper;
-  std::optional<ClipMemory> memory;
   in_chunks(
       ranks.size(), {chunk_ranks, least_chunk_ranks, "cells"},
       [&](std::uint64_t begin, std::uint64_t end) {
         if (!clipper)
           clipper.emplace(facets, input.on_facets, OUTPUT_MOMENTS | OUTPUT_GEOMETRY,
-                          ClipOptions{true, input.threads, true});
+                          ClipOptions{true, input.threads, true}, std::exchange(memory.facets, {}));
         Chunk chunk(input, std::span(ranks).subspan(begin, end - begin));
         chunk.clip_facets(*clipper);
-        chunk.clip_cells(memory, statistics, all.hints);
+        chunk.clip_cells(memory.cells, statistics, all.hints);
         chunk.append_to(all);
         if (input.progress && !input.progress(static_cast<double>(end) / static_cast<double>(ranks.size())))
           throw Error(ErrorCode::interrupted, "stopped by the progress callback while clipping cells");
       },
       [&] {
         clipper.reset();
-        memory.reset();
+        memory = {};
       });
-  if (clipper) statistics.add(clipper->statistics());
+  if (!clipper) return all;
+  statistics.add(clipper->statistics());
+  memory.facets = std::move(*clipper).release();
   return all;
 }
 
