@@ -93,6 +93,7 @@ class Chunk {
   const PieceSet* pieces_ = nullptr;
   std::vector<Touched> touched_;
   std::vector<Outcome> outcome_;  // of touched_
+  std::vector<std::uint32_t> tied_alone_;
 };
 
 void Chunk::clip_facets(Clipper& clipper) {
@@ -119,9 +120,12 @@ void Chunk::find_touched() {
       for (std::size_t v = 0; v < x.size(); v += 3)
         square = std::max(square, x[v] * x[v] + x[v + 1] * x[v + 1] + x[v + 2] * x[v + 2]);
     }
-    if (square < 0) continue;
     const auto tie = std::lower_bound(tied.begin(), tied.end(), first);
-    touched_.push_back({pair_seed_[first], first, last, tie != tied.end() && *tie < last, std::sqrt(square)});
+    const bool is_tied = tie != tied.end() && *tie < last;
+    if (square >= 0)
+      touched_.push_back({pair_seed_[first], first, last, is_tied, std::sqrt(square)});
+    else if (is_tied && has_tetrahedra_)
+      tied_alone_.push_back(pair_seed_[first]);  // a triangle in one of its walls belongs to the cell behind
   }
   outcome_.resize(touched_.size());
 }
@@ -274,6 +278,7 @@ void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const W
 }
 
 void Chunk::append_to(SolidCells& all) {
+  all.unclear.insert(all.unclear.end(), tied_alone_.begin(), tied_alone_.end());
   for (std::size_t t = 0; t < touched_.size(); ++t) {
     const std::uint32_t rank = touched_[t].rank;
     Outcome& outcome = outcome_[t];
@@ -318,6 +323,7 @@ SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory
         clipper.reset();
         memory = {};
       });
+  std::sort(all.unclear.begin(), all.unclear.end());
   if (!clipper) return all;
   statistics.add(clipper->statistics());
   memory.facets = std::move(*clipper).release();

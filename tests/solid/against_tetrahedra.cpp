@@ -73,3 +73,26 @@ TEST_CASE("solid: seeds on the surface, far away, and all on one side") {
     }
   }
 }
+
+TEST_CASE("solid: random sets of tetrahedra, whose boundaries touch themselves everywhere") {
+  if (!has_double()) return;
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (int trial = 0; trial < 40; ++trial) {
+    const double share = random.uniform(0.05, 0.9);
+    const Mesh mesh =
+        part_of(cube_tetrahedra(2 + static_cast<int>(random.index(3)), trial % 2 ? 0.2 : 0, random),
+                [&](const std::array<double, 3>&) { return random.uniform() < share; });
+    if (mesh.elements.size() < 8) continue;
+    const Domain domain = volume_of(mesh);
+    const Mesh surface = boundary_mesh(domain);
+    const Domain solid = Domain::solid(surface.vertices, surface.elements);
+    CHECK(solid.measure() == doctest::Approx(domain.measure()).epsilon(1e-13));
+    SeedArray seeds = random_seeds(Distribution::white, static_cast<WeightRange>(trial % 3),
+                                   1 + random.index(200), 3, random);
+    if (trial % 4 == 0) seeds = grid(3 + trial % 3, 3);
+    CAPTURE(trial);
+    CHECK(differences(compute_both_ways(domain, seeds), seeds) == "");
+    CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
+  }
+}
