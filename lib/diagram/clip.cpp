@@ -49,7 +49,7 @@ class Pass {
         plan_(plan),
         want_(want),
         workspace_(workspace),
-        exact_(setup.options.decisions == Decisions::exact),
+        exact_(setup.options.decisions == Decisions::exact || setup.boundary),
         measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
         walls_(collects_walls() ? active.seeds().size() : 0, setup.threads,
                std::exchange(workspace.walls, {})),
