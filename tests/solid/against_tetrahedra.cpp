@@ -99,3 +99,18 @@ TEST_CASE("solid: random sets of tetrahedra, whose boundaries touch themselves e
       CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
   }
 }
+
+TEST_CASE("solid: a cell with hundreds of walls") {
+  if (!has_double()) return;
+  INFO(replay_hint());
+  Random random(test_seed());
+  const Domain domain = volume_of(solid_meshes(random)[3].mesh);
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 3000, 3, random);
+  seeds.push({0.5, 0.5, 0.5}, 0.09);  // swallows those within 0.3, more than the cavity
+  const BothWays both = compute_both_ways(domain, seeds);
+  CHECK(both.walls_by_boundary.offset[3001] - both.walls_by_boundary.offset[3000] > 150);
+  CHECK(differences(both, seeds) == "");
+  const Mesh surface = boundary_mesh(domain);
+  const Domain solid = Domain::solid(surface.vertices, surface.elements);
+  CHECK(differences(compute_without_tetrahedra(solid, domain, seeds), seeds) == "");
+}
