@@ -120,6 +120,10 @@ POWERCELL_API pc_status pc_domain_surface(const double* vertices, size_t vertex_
 POWERCELL_API pc_status pc_domain_volume(const double* vertices, size_t vertex_count,
                                          const uint32_t* tetrahedra, size_t tetrahedron_count,
                                          pc_domain** domain);
+/** The inside of a closed triangle mesh, without tetrahedra: measures and adjacency. Shells in shells bound
+ * cavities and bodies in turn. Open, self-crossing and partly turned surfaces are an error. */
+POWERCELL_API pc_status pc_domain_solid(const double* vertices, size_t vertex_count,
+                                        const uint32_t* triangles, size_t triangle_count, pc_domain** domain);
 /** An axis-aligned box; low and high: `dimension` (2 or 3) doubles each. */
 POWERCELL_API pc_status pc_domain_box(const double* low, const double* high, int dimension,
                                       pc_domain** domain);

@@ -42,7 +42,7 @@ struct RegionsView {
 
 /// A point of a domain and the region that it lies in.
 struct RegionPoint {
-  std::uint32_t region = 0;        ///< 0 in a solid
+  std::uint32_t region = 0;       ///< 0 in a solid
   std::array<double, 3> point{};  ///< third coordinate 0 in 2D
 };
 

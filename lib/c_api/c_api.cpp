@@ -225,6 +225,15 @@ pc_status pc_domain_surface(const double* vertices, size_t vertex_count, const u
   });
 }
 
+pc_status pc_domain_solid(const double* vertices, size_t vertex_count, const uint32_t* triangles,
+                          size_t triangle_count, pc_domain** domain) {
+  return guarded([&] {
+    require(domain != nullptr, null_result);
+    hand_over(domain, powercell::Domain::solid(rows_view(vertices, vertex_count, 3, "vertices is NULL"),
+                                               rows_view(triangles, triangle_count, 3, "triangles is NULL")));
+  });
+}
+
 pc_status pc_domain_volume(const double* vertices, size_t vertex_count, const uint32_t* tetrahedra,
                            size_t tetrahedron_count, pc_domain** domain) {
   return guarded([&] {

@@ -8,6 +8,10 @@ namespace powercell {
 namespace {
 
 void check(const Domain& domain, const Cells& cells) {
+  if (domain.is_solid())
+    throw Error(
+        ErrorCode::invalid_argument,
+        "a solid has no regions whose pieces could be joined: join cells with the domain of their diagram");
   if (cells.dimension == domain.dimension() && cells.cell_dimension == domain.cell_dimension()) return;
   throw Error(ErrorCode::invalid_argument, "cells of dimension " + std::to_string(cells.cell_dimension) +
                                                " in " + std::to_string(cells.dimension) +

@@ -23,8 +23,6 @@ constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_co
 constexpr std::uint64_t least_chunk_pairs = 1024;
 /// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
 constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
-/// Larger buffers are freed after a pass, because other work needs the memory.
-constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);  // (82)
@@ -56,7 +54,7 @@ class Pass {
         plan_(plan),
         want_(want),
         workspace_(workspace),
-        exact_(setup.options.decisions == Decisions::exact),
+        exact_(setup.options.decisions == Decisions::exact || setup.boundary),
         measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
         walls_(collects_walls() && !active.images() ? active.seeds().size() : 0, setup.threads,
                std::exchange(workspace.walls, {})),

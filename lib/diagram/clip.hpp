@@ -26,12 +26,6 @@ struct Clipped {
   std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
 };
 
-/// Small buffers that are reused by the next pass.
-struct Workspace {
-  std::optional<ClipMemory> clip;
-  WallRows::Memory walls;
-};
-
 /// \param timings  sets `clip`, `collect` and the counts; adds the time of lists to `neighbors`
 /// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
 Clipped clip(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace,

@@ -91,6 +91,11 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       list_(device.context()),
       found_(device.context()),
       moments_(device.context()) {
+  if (domain.is_solid())
+    throw Error(
+        ErrorCode::unsupported,
+        "a diagram in device memory needs regions, which a solid does not have; give a tetrahedral mesh "
+        "of the solid (Domain::volume)");
   upload_frame();
   for (std::size_t capacity = 0; capacity < capacities(domain.cell_dimension()).size(); ++capacity)
     add_capacity(capacity);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
@@ -93,7 +94,7 @@ Pairs with_regions(const Setup& setup, const Active& active, const std::vector<s
 
 /// Computes the cells at the boundary from it. All other cells stay whole, but for those that are clipped
 /// region by region because rounding leaves something open.
-Plan plan_by_boundary(const Setup& setup, const Active& active, Timings& timings) {
+Plan plan_by_boundary(const Setup& setup, const Active& active, Workspace& workspace, Timings& timings) {
   const Scene scene = active.scene();
   const SolidBoundary& boundary = *setup.boundary;
   Plan plan;
@@ -108,9 +109,12 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, Timings& timings
   TreeCandidates tree(scene);
   const Scene facets{boundary.on_device, scene.buffers, scene.seeds, scene.tree};
   RegionCandidates facet_candidates(facets, on_facets.list_offset, on_facets.list_seed, on_facets.all_listed);
+  SolidMemory memory{std::exchange(workspace.facets, {}), std::exchange(workspace.clip, {})};
   plan.solid = compute_solid_cells({setup.domain.mesh(), boundary, scene, on_facets, active.by_region,
                                     facet_candidates, tree, setup.threads, setup.options.progress},
-                                   plan.solid_statistics);
+                                   memory, plan.solid_statistics);
+  workspace.clip = std::move(memory.cells);  // clipping goes on with them
+  if (memory.facets && memory.facets->bytes() <= kept_bytes) workspace.facets = std::move(memory.facets);
   std::vector<bool> excluded(active.seeds().size());
   for (const SolidCells::Cell& cell : plan.solid->cells) excluded[cell.rank] = true;
   for (const SolidCells::UniformCell& cell : plan.solid->uniform) excluded[cell.rank] = true;
@@ -182,12 +186,13 @@ Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings)
 
 }  // namespace
 
-Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Timings& timings) {
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Workspace& workspace,
+               Timings& timings) {
   if (active.seeds().size() == 0) return {};
   timings.pair_count = 0;
   Plan plan = kind != PlanKind::integrals || !setup.has_inside ? plan_by_regions(setup, active, timings)
-              : setup.boundary                                 ? plan_by_boundary(setup, active, timings)
-                                                               : plan_by_cells(setup, active, timings);
+              : setup.boundary ? plan_by_boundary(setup, active, workspace, timings)
+                               : plan_by_cells(setup, active, timings);
   setup.progress->begin_part(pairs_done, 1);
   timings.pair_count += plan.pairs.region.size();
   return plan;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/clip/clipper.hpp"
+#include "lib/collect/walls.hpp"
 #include "lib/diagram/active.hpp"
 
 namespace powercell {
@@ -38,9 +39,20 @@ struct Plan {
                                std::span<const std::uint32_t> for_host) const;
 };
 
+/// Larger buffers are freed after a pass, because other work needs the memory.
+inline constexpr std::size_t kept_bytes = std::size_t{16} << 20;
+
+/// Small buffers that are reused by the next pass.
+struct Workspace {
+  std::optional<ClipMemory> clip;
+  std::optional<ClipMemory> facets;  ///< of clipping the boundary of a solid
+  WallRows::Memory walls;
+};
+
 /// Chooses the strategy, finds the pairs and makes the candidates.
 /// \param timings  sets `pairs`, `neighbors` and `pair_count`
 /// \throw Error interrupted; opencl, out_of_device_memory, build_failed; invalid_argument (options of lists)
-Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Timings& timings);
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Workspace& workspace,
+               Timings& timings);
 
 }  // namespace powercell

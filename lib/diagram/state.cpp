@@ -54,7 +54,7 @@ void Diagram::State::retire_active() {
 
 Plan& Diagram::State::plan(PlanKind kind) {
   std::optional<Plan>& kept = kind == PlanKind::geometry && setup.has_inside ? geometry : integrals;
-  if (!kept) kept = make_plan(setup, *active, kind, timings);
+  if (!kept) kept = make_plan(setup, *active, kind, workspace, timings);
   return *kept;
 }
 
@@ -73,8 +73,9 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
     try {
       clipped = clip_once(kind, want);
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::out_of_device_memory || !workspace.clip) throw;
-      workspace.clip.reset();  // free the cached buffers and retry
+      if (error.code() != ErrorCode::out_of_device_memory || (!workspace.clip && !workspace.facets)) throw;
+      workspace.clip.reset();
+      workspace.facets.reset();  // free the cached buffers and retry
       continue;
     }
     if (clipped.measures) {

@@ -6,7 +6,9 @@
 namespace powercell::solid {
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t none = Lookup::none;
+/// Of cells with more faces edges are looked up in a hash table.
+constexpr std::size_t most_tabulated = 128;
 
 /// Least measure, and least area of a wall, whose sign is beyond doubt and whose digits are worth having, in
 /// units of the extent squared times the distance from the seed, and of the extent times that distance.
@@ -23,21 +25,21 @@ void CellInSolid::start(std::uint32_t rank, const WholeCell& cell, std::span<con
   ring_.clear();
   ring_end_.clear();
   edge_point_.clear();
+  edge_point_number_.clear();
+  face_number_.clear();
+  for (std::uint32_t f = 0; f < cell.border.size(); ++f)
+    if (cell.border[f] >= 0) face_number_.add(static_cast<std::uint32_t>(cell.border[f]), f);
   unknown_border_ = uniform_ = false;
   first_.assign(cell.border.size(), none);
   for (auto v = static_cast<std::uint32_t>(cell.vertices()); v-- > 0;)
     for (std::size_t k = 0; k < 3; ++k) first_[cell.link[6 * std::size_t{v} + 3 + k]] = v;
 }
 
-std::uint32_t CellInSolid::face_of(std::int32_t border) const {
-  const auto found = std::find(cell_.border.begin(), cell_.border.end(), border);
-  return found == cell_.border.end() ? none : static_cast<std::uint32_t>(found - cell_.border.begin());
-}
-
 void CellInSolid::add(const BoundaryPiece& piece) {
   const std::size_t count = piece.border.size(), first = ring_.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t face = piece.border[k] < 0 ? none : face_of(piece.border[k]);
+    const std::uint32_t face =
+        piece.border[k] < 0 ? none : face_number_.find(static_cast<std::uint32_t>(piece.border[k]));
     if (piece.border[k] >= 0 && face == none) unknown_border_ = true;
     ring_.push_back({{piece.vertex[3 * k], piece.vertex[3 * k + 1], piece.vertex[3 * k + 2]}, face});
   }
@@ -50,13 +52,14 @@ void CellInSolid::add(const BoundaryPiece& piece) {
                         edge =
                             piece.edges[static_cast<std::size_t>(~piece.border[comes_in_wall ? k : before])];
     Point& at = ring_[first + k].at;
-    const auto known = std::find_if(edge_point_.begin(), edge_point_.end(), [&](const EdgePoint& point) {
-      return point.edge == edge && point.face == face;
-    });
-    if (known == edge_point_.end())
-      edge_point_.push_back({edge, face, at});
-    else
-      at = known->at;
+    const std::uint64_t key = std::uint64_t{edge} << 32 | face;
+    const std::uint32_t known = edge_point_number_.find(key);
+    if (known == none) {
+      edge_point_number_.add(key, static_cast<std::uint32_t>(edge_point_.size()));
+      edge_point_.push_back(at);
+    } else {
+      at = edge_point_[known];
+    }
   }
 }
 
@@ -70,9 +73,20 @@ double CellInSolid::piece_area(std::size_t k) const {
 
 void CellInSolid::number_edges() {
   const std::size_t faces = cell_.border.size();
-  edge_number_.assign(faces * faces, none);
-  for (std::uint32_t edge = 0; edge < 3 * cell_.vertices(); ++edge)
-    edge_number_[left(edge) * faces + right(edge)] = edge;
+  const bool few = faces <= most_tabulated;
+  edge_number_.assign(few ? faces * faces : 0, none);
+  edge_of_many_.clear();
+  for (std::uint32_t edge = 0; edge < 3 * cell_.vertices(); ++edge) {
+    if (few)
+      edge_number_[left(edge) * faces + right(edge)] = edge;
+    else
+      edge_of_many_.add(std::uint64_t{left(edge)} << 32 | right(edge), edge);
+  }
+}
+
+std::uint32_t CellInSolid::edge_between(std::uint32_t left_face, std::uint32_t right_face) const {
+  if (edge_number_.empty()) return edge_of_many_.find(std::uint64_t{left_face} << 32 | right_face);
+  return edge_number_[left_face * cell_.border.size() + right_face];
 }
 
 std::uint32_t CellInSolid::opposite(std::uint32_t edge) const {
@@ -82,15 +96,12 @@ std::uint32_t CellInSolid::opposite(std::uint32_t edge) const {
 
 bool CellInSolid::add_crossing(std::size_t before, std::size_t k) {
   if (ring_[before].face == none || ring_[k].face == none) return true;
-  std::uint32_t edge = edge_number_[ring_[before].face * cell_.border.size() + ring_[k].face];
+  const std::uint32_t edge = edge_between(ring_[before].face, ring_[k].face);
   if (edge == none) return false;
-  int leaves = 1;
-  if (!is_lower(edge)) {
-    edge = opposite(edge);
-    leaves = -1;
-  }
-  net_[edge] += leaves;
-  crossings_.push_back({edge, leaves, ring_[k].at});
+  const std::uint32_t back = opposite(edge);
+  ++net_[edge];
+  --net_[back];
+  crossings_.push_back(is_lower(edge) ? Crossing{edge, 1, ring_[k].at} : Crossing{back, -1, ring_[k].at});
   return true;
 }
 
@@ -122,7 +133,7 @@ bool CellInSolid::spread() {
     stack_.pop_back();
     for (std::uint32_t edge = 3 * v; edge < 3 * v + 3; ++edge) {
       const std::uint32_t u = next(edge);
-      if (net_[u < v ? opposite(edge) : edge] == 0 && !set_side(u, side_[v])) return false;
+      if (net_[edge] == 0 && !set_side(u, side_[v])) return false;
     }
   }
   return true;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/base/vectors.hpp"
+#include "lib/solid/lookup.hpp"
 
 namespace powercell::solid {
 
@@ -97,8 +98,8 @@ class CellInSolid {
   std::uint32_t right(std::uint32_t edge) const { return cell_.link[6 * (edge / 3) + 3 + (edge + 2) % 3]; }
   bool is_lower(std::uint32_t edge) const { return edge / 3 < next(edge); }
 
-  std::uint32_t face_of(std::int32_t border) const;
   void number_edges();
+  std::uint32_t edge_between(std::uint32_t left, std::uint32_t right) const;
   std::uint32_t opposite(std::uint32_t edge) const;  ///< the same edge from its other end
   bool find_crossings();
   /// Adds the ring vertex k if it lies on an edge of the cell.
@@ -128,20 +129,20 @@ class CellInSolid {
     Point at;
     std::uint32_t face;  // that the edge from here to the next one lies in, or none
   };
-  /// Where an edge of the boundary meets a wall. All triangles there must have the same point: of an edge
-  /// that is nearly parallel to the wall, each places it differently along the edge.
-  struct EdgePoint {
-    std::uint32_t edge, face;
-    Point at;
-  };
   std::vector<RingVertex> ring_;
   std::vector<std::size_t> ring_end_;
-  std::vector<EdgePoint> edge_point_;
+  /// Where edges of the boundary meet walls. All triangles there must have the same point: of an edge that is
+  /// nearly parallel to the wall, each places it differently along the edge.
+  std::vector<Point> edge_point_;
+  Lookup edge_point_number_;  // by edge and face
   bool unknown_border_ = false;
 
+  Lookup face_number_;                      // by border
   std::vector<std::uint32_t> edge_number_;  // by left and right face
+  Lookup edge_of_many_;                     // the same, of a cell with many faces
   std::vector<Crossing> crossings_;
-  std::vector<int> net_;  // per edge, 3 * vertex + slot: how often it leaves the solid more than it enters it
+  // Per edge, 3 * vertex + slot, so twice each: how often it leaves the solid more than it enters it.
+  std::vector<int> net_;
   std::vector<Side> side_;
   std::vector<std::uint32_t> stack_;
   bool uniform_ = false;

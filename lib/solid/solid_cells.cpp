@@ -20,11 +20,11 @@ using solid::CellInSolid;
 using solid::Side;
 using solid::WholeCell;
 
-constexpr std::size_t chunk_ranks = std::size_t{1} << 15, least_chunk_ranks = 1024;
+constexpr std::size_t chunk_ranks = std::size_t{1} << 14, least_chunk_ranks = 1024;
 constexpr std::size_t cells_of_task = 64;
 /// Half the edge of the cube that a cell is clipped in, relative to its farthest point on the boundary.
 /// Nearly all cells end within it, and in a smaller cube fewer seeds are tried.
-constexpr double cube_size = 1.25;
+constexpr double cube_size = 1.2;
 /// Distance of the container from the domain, as a part of its extent.
 constexpr double container_margin = 1.0 / 16;
 
@@ -93,6 +93,7 @@ class Chunk {
   const PieceSet* pieces_ = nullptr;
   std::vector<Touched> touched_;
   std::vector<Outcome> outcome_;  // of touched_
+  std::vector<std::uint32_t> tied_alone_;
 };
 
 void Chunk::clip_facets(Clipper& clipper) {
@@ -119,9 +120,12 @@ void Chunk::find_touched() {
       for (std::size_t v = 0; v < x.size(); v += 3)
         square = std::max(square, x[v] * x[v] + x[v + 1] * x[v + 1] + x[v + 2] * x[v + 2]);
     }
-    if (square < 0) continue;
     const auto tie = std::lower_bound(tied.begin(), tied.end(), first);
-    touched_.push_back({pair_seed_[first], first, last, tie != tied.end() && *tie < last, std::sqrt(square)});
+    const bool is_tied = tie != tied.end() && *tie < last;
+    if (square >= 0)
+      touched_.push_back({pair_seed_[first], first, last, is_tied, std::sqrt(square)});
+    else if (is_tied && has_tetrahedra_)
+      tied_alone_.push_back(pair_seed_[first]);  // a triangle in one of its walls belongs to the cell behind
   }
   outcome_.resize(touched_.size());
 }
@@ -257,7 +261,8 @@ void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell
 void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
                         SideHints& hints) const {
   const auto add = [&](std::uint32_t seen_rank, std::uint8_t what) {
-    std::atomic_ref(hints.seen[seen_rank]).fetch_or(what, std::memory_order_relaxed);
+    const std::atomic_ref seen(hints.seen[seen_rank]);
+    if ((seen.load(std::memory_order_relaxed) & what) != what) seen.fetch_or(what, std::memory_order_relaxed);
   };
   add(rank, SideHints::looked);
   for (std::uint32_t v = 0; v < cell.vertices(); ++v) {
@@ -273,6 +278,7 @@ void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const W
 }
 
 void Chunk::append_to(SolidCells& all) {
+  all.unclear.insert(all.unclear.end(), tied_alone_.begin(), tied_alone_.end());
   for (std::size_t t = 0; t < touched_.size(); ++t) {
     const std::uint32_t rank = touched_[t].rank;
     Outcome& outcome = outcome_[t];
@@ -288,7 +294,8 @@ void Chunk::append_to(SolidCells& all) {
 
 }  // namespace
 
-SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& statistics) {
+SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory,
+                               ClipStatistics& statistics) {
   const std::size_t seeds = input.scene.seeds.size();
   const Scene facets{input.boundary.on_device, input.scene.buffers, input.scene.seeds, input.scene.tree};
   std::vector<bool> excluded(seeds);
@@ -299,25 +306,27 @@ SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& sta
   SolidCells all;
   all.hints.seen.resize(seeds);
   std::optional<Clipper> clipper;
-  std::optional<ClipMemory> memory;
   in_chunks(
       ranks.size(), {chunk_ranks, least_chunk_ranks, "cells"},
       [&](std::uint64_t begin, std::uint64_t end) {
         if (!clipper)
           clipper.emplace(facets, input.on_facets, OUTPUT_MOMENTS | OUTPUT_GEOMETRY,
-                          ClipOptions{true, input.threads, true});
+                          ClipOptions{true, input.threads, true}, std::exchange(memory.facets, {}));
         Chunk chunk(input, std::span(ranks).subspan(begin, end - begin));
         chunk.clip_facets(*clipper);
-        chunk.clip_cells(memory, statistics, all.hints);
+        chunk.clip_cells(memory.cells, statistics, all.hints);
         chunk.append_to(all);
         if (input.progress && !input.progress(static_cast<double>(end) / static_cast<double>(ranks.size())))
           throw Error(ErrorCode::interrupted, "stopped by the progress callback while clipping cells");
       },
       [&] {
         clipper.reset();
-        memory.reset();
+        memory = {};
       });
-  if (clipper) statistics.add(clipper->statistics());
+  std::sort(all.unclear.begin(), all.unclear.end());
+  if (!clipper) return all;
+  statistics.add(clipper->statistics());
+  memory.facets = std::move(*clipper).release();
   return all;
 }
 

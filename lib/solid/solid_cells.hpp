@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lib/clip/clipper.hpp"
@@ -80,8 +81,13 @@ struct SolidCellsInput {
   const std::function<bool(double)>& progress;
 };
 
+/// Buffers for the next call.
+struct SolidMemory {
+  std::optional<ClipMemory> facets, cells;
+};
+
 /// Computes all cells that the boundary meets, with exact decisions.
 /// \throw Error as Clipper::clip; interrupted
-SolidCells compute_solid_cells(const SolidCellsInput& input, ClipStatistics& statistics);
+SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory, ClipStatistics& statistics);
 
 }  // namespace powercell

@@ -141,6 +141,14 @@ TEST_CASE("domains of every kind have the right measure") {
   REQUIRE(pc_domain_measure(surface.handle, &measure) == PC_OK);
   CHECK(measure == doctest::Approx(0.5));
 
+  const uint32_t shell[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  Domain solid;
+  REQUIRE(pc_domain_solid(corner, 4, shell, 4, &solid.handle) == PC_OK);
+  REQUIRE(pc_domain_measure(solid.handle, &measure) == PC_OK);
+  CHECK(measure == doctest::Approx(1.0 / 6));
+  Domain open;
+  CHECK(pc_domain_solid(corner, 4, shell, 3, &open.handle) == PC_INVALID_DOMAIN);
+
   // A square of side 4 with a square hole of side 1, and an island of side 1 beside it.
   const double points[] = {0, 0, 4, 0, 4, 4, 0, 4, 1, 1, 2, 1, 2, 2, 1, 2, 5, 0, 6, 0, 6, 1, 5, 1};
   const size_t ring_offset[] = {0, 4, 8, 12};

@@ -164,6 +164,19 @@ class Diagram(ToolTest):
         for row in rows:
             self.assertEqual(int(row["neighbors"]), sum(1 for i, _ in walls if i == int(row["seed"])))
 
+    def test_solids(self):
+        for shape, holes in (("sphere:10", 0), (DATA / "pretzel.off", 3)):
+            with self.subTest(shape=shape):
+                report = self.report("diagram", "--domain", shape, "--solid", "--seeds", "random:300", "--certify",
+                                     "--table", "t.csv", "--walls", "w.csv")
+                self.assertEqual(report["cells"], 300)
+                self.assertLess(report["relative_error"], 1e-13)
+                self.assertIn("solid", report["notes"][0])
+                self.assertEqual(len((self.folder / "t.csv").read_text().splitlines()), 301)
+                walls = [line.split(",") for line in (self.folder / "w.csv").read_text().splitlines()[1:]]
+                self.assertIn([walls[0][1], walls[0][0], walls[0][2]], walls)
+        self.good("transport", "--domain", "torus:10", "--solid", "--seeds", "random:20", "--table", "t.csv")
+
     def test_few_and_equal_seeds(self):
         for text, cells, duplicate in (("# none\n", 0, 0), ("0.5 0.5 0\n", 1, 0), ("0.5 0.5 0\n" * 3, 1, 2),
                                        ("0.2 0.5 1\n0.8 0.5 1\n", 2, 0)):
@@ -244,6 +257,20 @@ class DiagramErrors(ToolTest):
         self.bad(1, r"m\.off", "diagram", "--domain", "m.off", "--seeds", "random:5")
         self.write("bow.wkt", "POLYGON((0 0, 1 1, 1 0, 0 1, 0 0))")
         self.bad(1, "bow", "diagram", "--domain", "bow.wkt", "--seeds", "random:5")
+
+    def test_solids_that_are_refused(self):
+        pyramid = "OFF\n4 {} 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+        faces = ("3 0 2 1", "3 0 1 3", "3 0 3 2", "3 1 2 3")
+        for name, rows, why in (("open", faces[:3], r"m\.off: .*open.*edge from"),
+                                ("turned", faces[:3] + ("3 1 3 2",), r"m\.off: .*inside out in a part")):
+            with self.subTest(name):
+                self.write("m.off", pyramid.format(len(rows)) + "\n".join(rows) + "\n")
+                self.bad(1, why, "diagram", "--domain", "m.off", "--solid", "--seeds", "random:5")
+        self.bad(1, "--solid takes the inside of a closed surface", "diagram", "--domain", "cube", "--solid",
+                 "--seeds", "random:5")
+        self.bad(2, "--solid.*--kind is volume", "diagram", "--domain", "sphere:3", "--solid", "--kind", "volume",
+                 "--seeds", "random:5")
+        self.bad(1, "no geometry", "diagram", "--domain", "sphere:3", "--solid", "--seeds", "random:5", "-o", "a.vtu")
 
     def test_elements_given_twice_and_overlaps_are_reported(self):
         pyramid = "OFF\n4 {} 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"

@@ -156,6 +156,12 @@ TEST_CASE("solid: what needs geometry is refused") {
   CHECK(code_of([&] { diagram.dual(); }) == ErrorCode::unsupported);
   CHECK(diagram.measures().mass[0] == doctest::Approx(0.45));
   CHECK(diagram.adjacency().wall[0] == doctest::Approx(1));
+  // Fast decisions would not fit together.
+  Options fast;
+  fast.decisions = Decisions::fast;
+  Diagram decided_exactly(setup.device, domain, fast);
+  decided_exactly.set_seeds(seeds.view());
+  CHECK(decided_exactly.measures().mass == diagram.measures().mass);
   Options single;
   single.precision = Precision::float32;
   CHECK(code_of([&] { Diagram(setup.device, domain, single); }) == ErrorCode::unsupported);
