@@ -46,7 +46,8 @@ struct DomainArrays {
   std::vector<double> vertices;         ///< surface, volume: nv x 3
   std::vector<std::uint32_t> elements;  ///< surface: nt x 3; volume: nt x 4
   NamedCrs crs = {};                    ///< polygon
-  std::optional<Domain> exact = {};     ///< a box or a lattice, of which the others are a copy; else made of them
+  std::optional<Domain> exact =
+      {};  ///< a box or a lattice, of which the others are a copy; else made of them
 };
 
 /// Plain text: `nv nf`, nv rows of 2 or 3 coordinates, nf rows of indices from 0, all with or without their

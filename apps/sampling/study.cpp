@@ -85,8 +85,7 @@ Study run_study(const Device& device, const Source& source, std::size_t n, const
       run.spacing = n == 1 ? Spacing{nan, nan, nan}
                            : spacing(device, source.domain, run.points.positions, own.periodic,
                                      source.density.is_constant(), own.diagram);
-      if (spectra)
-        found.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
+      if (spectra) found.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
     });
     study.runs.push_back(std::move(run));
   }
