@@ -105,6 +105,10 @@ Ring treemap_shape(const std::string& spec, std::vector<std::string>& notes) {
   const io::LoadedDomain loaded = io::read_domain(spec);
   if (loaded.domain.kind() != DomainKind::polygon)
     throw Error(ErrorCode::invalid_domain, fmt::format("{}: the shape of a treemap must be a polygon", spec));
+  if (loaded.domain.is_periodic())
+    throw Error(
+        ErrorCode::invalid_domain,
+        fmt::format("{}: the shape of a treemap cannot be periodic; give a file with the polygon", spec));
   if (loaded.parts.size() != 1 || !loaded.parts.front().holes.empty())
     throw Error(
         ErrorCode::invalid_domain,

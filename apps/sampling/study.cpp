@@ -96,8 +96,7 @@ Study run_study(const Device& device, const Source& source, std::size_t n, const
       run.seconds = progress.seconds(sampling_stage) - before;
       run.processor_seconds = processor_seconds() - processor_before;
       run.spacing = spacing_of(device, source, run.points, own);
-      if (spectra)
-        found.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
+      if (spectra) found.push_back(spectrum(source.domain, run.points.positions, 0, own.diagram.threads));
     });
     study.runs.push_back(std::move(run));
   }

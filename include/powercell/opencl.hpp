@@ -45,8 +45,8 @@ class POWERCELL_API DeviceDiagram {
   /// Uploads the domain and builds the kernels; this waits.
   /// \param options  `precision` is that of the caller's arrays and of the computation; `chunk_pairs` is
   ///   the most pairs of one kernel launch; `threads`, `progress`, `decisions` and `certify` are ignored
-  /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a domain whose size is
-  ///   not in the range of the precision); build_failed, opencl
+  /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a periodic domain; a
+  ///   domain whose size is not in the range of the precision); build_failed, opencl
   DeviceDiagram(Device device, Domain domain, Options options = {});
   DeviceDiagram(DeviceDiagram&&) noexcept;
   DeviceDiagram& operator=(DeviceDiagram&&) noexcept;

@@ -117,6 +117,10 @@ struct Dual {
   int corners = 0;                       ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented
                                          ///< (surface: as the triangle it was found in), rows ascending
+  /// Per entry of `simplices` in a periodic domain (else empty): the image of the seed, as in Adjacency. Of
+  /// the simplices that translations make of one another there is one, whose first corner has the shift 0; it
+  /// is positively oriented, or flat to rounding.
+  std::vector<std::array<std::int32_t, 3>> shift;
   std::size_t size() const { return corners ? simplices.size() / static_cast<std::size_t>(corners) : 0; }
 };
 

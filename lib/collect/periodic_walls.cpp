@@ -22,9 +22,7 @@ Shift opposite(const Shift& shift) {
 }  // namespace
 
 PeriodicWalls::PeriodicWalls(const Placement& placement, int threads)
-    : placement_(placement), threads_(threads), first_{0} {
-  first_.reserve(std::size_t{placement.images.own} + 1);
-}
+    : placement_(placement), threads_(threads), first_(placement.images.own), count_(placement.images.own) {}
 
 template <class Body>
 void PeriodicWalls::for_ranks(const Body& body) const {
@@ -34,52 +32,56 @@ void PeriodicWalls::for_ranks(const Body& body) const {
   });
 }
 
-/// Appends a row in which an image may repeat.
-void PeriodicWalls::append_merged(const std::int32_t* border, const double* measure, std::uint32_t count) {
-  const auto begin = static_cast<std::ptrdiff_t>(first_.back());
-  for (std::uint32_t f = 0; f < count; ++f) {
+/// Copies the walls of a cell to their places; sums those of an image that repeats.
+void PeriodicWalls::fill_row(std::uint32_t rank, const PieceBatch& batch, std::uint32_t row) {
+  const std::int32_t* const border = batch.borders(row);
+  const double* const measure = batch.walls(row);
+  std::uint32_t* const neighbor = neighbors_.data() + first_[rank];
+  double* const wall = measures_.data() + first_[rank];
+  std::uint32_t count = 0;
+  for (std::uint32_t f = 0; f < batch.faces(row); ++f) {
     if (border[f] < 0) continue;
     const auto other = static_cast<std::uint32_t>(border[f]);
-    const auto found = std::find(neighbor_.begin() + begin, neighbor_.end(), other);
-    if (found != neighbor_.end()) {
-      measure_[static_cast<std::size_t>(found - neighbor_.begin())] += measure[f];
+    std::uint32_t at =
+        batch.repeats ? static_cast<std::uint32_t>(std::find(neighbor, neighbor + count, other) - neighbor)
+                      : count;
+    if (at < count) {
+      wall[at] += measure[f];
       continue;
     }
-    neighbor_.push_back(other);
-    measure_.push_back(measure[f]);
+    neighbor[count] = other;
+    wall[count++] = measure[f];
   }
+  count_[rank] = count;
 }
 
 void PeriodicWalls::add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces) {
+  const auto has_walls = [&](std::size_t k) {
+    return pieces.status[k] == PIECE_DONE || pieces.status[k] == PIECE_FLAT;
+  };
+  std::uint64_t end = neighbors_.size();
   for (std::size_t k = 0; k < pair_seed.size(); ++k) {
-    first_.resize(pair_seed[k] + std::size_t{1}, neighbor_.size());  // ranks without cells
-    if (pieces.status[k] == PIECE_DONE || pieces.status[k] == PIECE_FLAT) {
-      const PieceBatch& batch = pieces.batches[pieces.batch[k]];
-      const std::uint32_t row = pieces.row[k], count = batch.faces(row);
-      const std::int32_t* const border = batch.borders(row);
-      const double* const measure = batch.walls(row);
-      if (batch.repeats) {
-        append_merged(border, measure, count);
-      } else {
-        for (std::uint32_t f = 0; f < count; ++f) {
-          if (border[f] < 0) continue;
-          neighbor_.push_back(static_cast<std::uint32_t>(border[f]));
-          measure_.push_back(measure[f]);
-        }
-      }
-    }
-    first_.push_back(neighbor_.size());
+    first_[pair_seed[k]] = end;
+    count_[pair_seed[k]] = 0;
+    if (has_walls(k)) end += pieces.batches[pieces.batch[k]].faces(pieces.row[k]);
   }
+  neighbors_.resize(end, 4);  // of some chunks
+  measures_.resize(end, 4);
+  parallel_for(threads_for(pair_seed.size(), threads_, share_count), pair_seed.size(),
+               [&](std::size_t begin, std::size_t stop) {
+                 for (std::size_t k = begin; k < stop; ++k)
+                   if (has_walls(k)) fill_row(pair_seed[k], pieces.batches[pieces.batch[k]], pieces.row[k]);
+               });
 }
 
 /// The wall of the neighbour with this cell in the opposite image, or the end of its row.
 std::uint64_t PeriodicWalls::other_side(std::uint32_t rank, std::uint64_t wall) const {
   const Images& images = placement_.images;
-  const std::uint32_t other = neighbor_[wall], j = images.seed_of(other);
-  std::uint64_t at = first_[j];
-  const std::uint64_t end = first_[j + std::size_t{1}];
+  const std::uint32_t other = neighbors_.data()[wall], j = images.seed_of(other);
+  std::uint64_t at = begin_of(j);
+  const std::uint64_t end = end_of(j);
   if (other < images.own) {
-    while (at < end && neighbor_[at] != rank) ++at;
+    while (at < end && neighbors_.data()[at] != rank) ++at;
     return at;
   }
   const std::int32_t back = -images.code[other - images.own];
@@ -87,7 +89,7 @@ std::uint64_t PeriodicWalls::other_side(std::uint32_t rank, std::uint64_t wall) 
     return image >= images.own && images.rank[image - images.own] == rank &&
            images.code[image - images.own] == back;
   };
-  while (at < end && !is_back(neighbor_[at])) ++at;
+  while (at < end && !is_back(neighbors_.data()[at])) ++at;
   return at;
 }
 
@@ -96,18 +98,19 @@ std::uint64_t PeriodicWalls::other_side(std::uint32_t rank, std::uint64_t wall) 
 PeriodicWalls::Difference PeriodicWalls::match(std::uint32_t rank) {
   const Images& images = placement_.images;
   Difference worst;
-  for (std::uint64_t wall = first_[rank]; wall < first_[rank + std::size_t{1}]; ++wall) {
-    const std::uint32_t j = images.seed_of(neighbor_[wall]);
+  for (std::uint64_t wall = begin_of(rank); wall < end_of(rank); ++wall) {
+    const std::uint32_t j = images.seed_of(neighbors_.data()[wall]);
     if (!ok_[rank] || !ok_[j]) {
-      measure_[wall] = 0;
+      measures_.data()[wall] = 0;
       continue;
     }
-    if (j < rank || (j == rank && images.code[neighbor_[wall] - images.own] > 0)) continue;
+    if (j < rank || (j == rank && images.code[neighbors_.data()[wall] - images.own] > 0)) continue;
     const std::uint64_t other = other_side(rank, wall);
-    if (other == first_[j + std::size_t{1}]) continue;
-    const double difference = std::fabs(measure_[wall] - measure_[other]);
+    if (other == end_of(j)) continue;
+    const double difference = std::fabs(measures_.data()[wall] - measures_.data()[other]);
     if (difference > worst.value) worst = {difference, rank, j};
-    measure_[wall] = measure_[other] = -((measure_[wall] + measure_[other]) / 2);
+    measures_.data()[wall] = measures_.data()[other] =
+        -((measures_.data()[wall] + measures_.data()[other]) / 2);
   }
   return worst;
 }
@@ -116,34 +119,44 @@ std::vector<PeriodicWalls::Missing> PeriodicWalls::settle_one_sided(double negli
   const Images& images = placement_.images;
   const auto largest = [&](std::uint32_t rank) {
     double most = 0;
-    for (std::uint64_t wall = first_[rank]; wall < first_[rank + std::size_t{1}]; ++wall)
-      most = std::max(most, std::fabs(measure_[wall]));
+    for (std::uint64_t wall = begin_of(rank); wall < end_of(rank); ++wall)
+      most = std::max(most, std::fabs(measures_.data()[wall]));
     return most;
   };
   std::vector<Missing> missing;
-  for (std::uint32_t rank = 0; rank < images.own; ++rank)
-    for (std::uint64_t wall = first_[rank]; wall < first_[rank + std::size_t{1}]; ++wall) {
-      const double measure = measure_[wall];
+  std::mutex mutex;
+  const auto settle_row = [&](std::uint32_t rank) {
+    for (std::uint64_t wall = begin_of(rank); wall < end_of(rank); ++wall) {
+      const double measure = measures_.data()[wall];
       if (std::signbit(measure) || measure == 0) continue;
-      const std::uint32_t j = images.seed_of(neighbor_[wall]);
-      if (measure <= negligible * std::max(largest(rank), largest(j))) {
-        measure_[wall] = 0;
+      const std::uint32_t j = images.seed_of(neighbors_.data()[wall]);
+      if (negligible > 0 && measure <= negligible * std::max(largest(rank), largest(j))) {
+        measures_.data()[wall] = 0;
         continue;
       }
-      if (measure > worst.value) worst = {measure, rank, j};
-      missing.push_back(
-          {j,
-           {images.seeds.input[rank], opposite(placement_.shift_of_wall(rank, neighbor_[wall])), measure}});
+      const std::lock_guard lock(mutex);
+      if (measure > worst.value || (measure == worst.value && rank < worst.from)) worst = {measure, rank, j};
+      missing.push_back({j,
+                         {images.seeds.input[rank],
+                          opposite(placement_.shift_of_wall(rank, neighbors_.data()[wall])), measure}});
     }
-  std::stable_sort(missing.begin(), missing.end(),
-                   [](const Missing& a, const Missing& b) { return a.rank < b.rank; });
+  };
+  const auto settle_rows = [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t rank = begin; rank < end; ++rank) settle_row(rank);
+  };
+  if (negligible > 0)
+    settle_rows(0, images.own);  // reads rows of others
+  else
+    for_ranks(settle_rows);
+  std::stable_sort(missing.begin(), missing.end(), [](const Missing& a, const Missing& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.entry < b.entry;
+  });
   return missing;
 }
 
 std::uint64_t PeriodicWalls::kept_walls(std::uint32_t rank) const {
   std::uint64_t kept = 0;
-  for (std::uint64_t wall = first_[rank]; wall < first_[rank + std::size_t{1}]; ++wall)
-    kept += measure_[wall] != 0;
+  for (std::uint64_t wall = begin_of(rank); wall < end_of(rank); ++wall) kept += measures_.data()[wall] != 0;
   return kept;
 }
 
@@ -151,33 +164,35 @@ std::uint64_t PeriodicWalls::kept_walls(std::uint32_t rank) const {
 bool PeriodicWalls::has_shifts(std::uint32_t rank) const {
   const Images& images = placement_.images;
   if (is_moved_[rank]) return true;
-  for (std::uint64_t wall = first_[rank]; wall < first_[rank + std::size_t{1}]; ++wall)
-    if (neighbor_[wall] >= images.own || is_moved_[neighbor_[wall]]) return true;
+  for (std::uint64_t wall = begin_of(rank); wall < end_of(rank); ++wall)
+    if (neighbors_.data()[wall] >= images.own || is_moved_[neighbors_.data()[wall]]) return true;
   return false;
 }
 
 void PeriodicWalls::write_row(std::uint32_t rank, std::span<const Missing> missing, double unit,
                               Adjacency& out) const {
   const Images& images = placement_.images;
-  const std::uint64_t begin = first_[rank], count = first_[rank + std::size_t{1}] - begin;
+  const std::uint64_t begin = begin_of(rank), count = count_[rank];
   const std::uint64_t to = out.offset[images.seeds.input[rank]];
+  if (count == 0 && missing.empty()) return;
   if (missing.empty() && kept_walls(rank) == count && !has_shifts(rank)) {
     thread_local std::vector<std::uint32_t> neighbor;
     thread_local std::vector<double> wall;
     neighbor.resize(count);
     wall.resize(count);
     for (std::uint64_t k = 0; k < count; ++k) {
-      neighbor[k] = images.seeds.input[neighbor_[begin + k]];
-      wall[k] = std::fabs(measure_[begin + k]) * unit;
+      neighbor[k] = images.seeds.input[neighbors_.data()[begin + k]];
+      wall[k] = std::fabs(measures_.data()[begin + k]) * unit;
     }
     sort_row(neighbor.data(), wall.data(), count, &out.neighbor[to], &out.wall[to]);
     return;
   }
   std::vector<Entry> row;
   for (std::uint64_t wall = begin; wall < begin + count; ++wall)
-    if (measure_[wall] != 0)
-      row.push_back({images.seeds.input[neighbor_[wall]], placement_.shift_of_wall(rank, neighbor_[wall]),
-                     std::fabs(measure_[wall]) * unit});
+    if (measures_.data()[wall] != 0)
+      row.push_back({images.seeds.input[neighbors_.data()[wall]],
+                     placement_.shift_of_wall(rank, neighbors_.data()[wall]),
+                     std::fabs(measures_.data()[wall]) * unit});
   for (const Missing& other : missing)
     row.push_back({other.entry.neighbor, other.entry.shift, other.entry.wall * unit});
   std::sort(row.begin(), row.end());
@@ -190,12 +205,14 @@ void PeriodicWalls::write_row(std::uint32_t rank, std::span<const Missing> missi
 
 Adjacency PeriodicWalls::finish(const std::vector<SeedStatus>& status, double unit, double negligible) {
   const Images& images = placement_.images;
-  first_.resize(std::size_t{images.own} + 1, neighbor_.size());
   ok_.resize(images.own);
   is_moved_.resize(images.own);
-  for (std::uint32_t rank = 0; rank < images.own; ++rank) is_moved_[rank] = !placement_.is_inside(rank);
-  for (std::uint32_t rank = 0; rank < images.own; ++rank)
-    ok_[rank] = status[images.seeds.input[rank]] == SeedStatus::ok;
+  for_ranks([&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t rank = begin; rank < end; ++rank) {
+      is_moved_[rank] = !placement_.is_inside(rank);
+      ok_[rank] = status[images.seeds.input[rank]] == SeedStatus::ok;
+    }
+  });
   Difference worst;
   std::mutex mutex;
   for_ranks([&](std::uint32_t begin, std::uint32_t end) {
@@ -217,8 +234,10 @@ Adjacency PeriodicWalls::finish(const std::vector<SeedStatus>& status, double un
   };
   Adjacency out;
   out.offset.assign(images.seeds.input_count + 1, 0);
-  for (std::uint32_t rank = 0; rank < images.own; ++rank)
-    out.offset[std::size_t{images.seeds.input[rank]} + 1] = kept_walls(rank) + missing_of(rank).size();
+  for_ranks([&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t rank = begin; rank < end; ++rank)
+      out.offset[std::size_t{images.seeds.input[rank]} + 1] = kept_walls(rank) + missing_of(rank).size();
+  });
   std::partial_sum(out.offset.begin(), out.offset.end(), out.offset.begin());
   resize_populated(out.neighbor, out.offset.back(), threads_);
   resize_populated(out.wall, out.offset.back(), threads_);

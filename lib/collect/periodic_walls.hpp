@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/base/memory.hpp"
 #include "lib/clip/pieces.hpp"
 #include "lib/periodic/images.hpp"
 
@@ -43,7 +44,10 @@ class PeriodicWalls {
     Entry entry;
   };
 
-  void append_merged(const std::int32_t* border, const double* measure, std::uint32_t count);
+  /// The places of the walls of a rank in the arrays.
+  std::uint64_t begin_of(std::uint32_t rank) const { return first_[rank]; }
+  std::uint64_t end_of(std::uint32_t rank) const { return first_[rank] + count_[rank]; }
+  void fill_row(std::uint32_t rank, const PieceBatch& batch, std::uint32_t row);
   std::uint64_t other_side(std::uint32_t rank, std::uint64_t wall) const;
   Difference match(std::uint32_t rank);
   /// Sets walls to 0 that one cell alone has as rounding, and lists the missing sides of the others.
@@ -56,11 +60,12 @@ class PeriodicWalls {
 
   const Placement& placement_;
   int threads_;
-  std::vector<std::uint32_t> neighbor_;  // by wall: its rank, of a seed or an image
-  std::vector<double> measure_;          // by wall: below 0 if both cells have it
-  std::vector<std::uint64_t> first_;     // by rank of a seed, and the end
-  std::vector<std::uint8_t> ok_;         // by rank of a seed: it has a cell
-  std::vector<std::uint8_t> is_moved_;   // by rank of a seed: it was wrapped to another place
+  GrowingArray<std::uint32_t> neighbors_;  // by wall: its rank, of a seed or an image
+  GrowingArray<double> measures_;          // by wall: below 0 if both cells have it
+  std::vector<std::uint64_t> first_;       // by rank of a seed: its first wall
+  std::vector<std::uint32_t> count_;       // by rank of a seed
+  std::vector<std::uint8_t> ok_;           // by rank of a seed: it has a cell
+  std::vector<std::uint8_t> is_moved_;     // by rank of a seed: it was wrapped to another place
 };
 
 }  // namespace powercell

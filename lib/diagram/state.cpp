@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "lib/collect/dual.hpp"
+#include "lib/collect/periodic_dual.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/report/log.hpp"
 #include "lib/verify/certificate.hpp"
@@ -150,16 +151,13 @@ void Diagram::State::certify() {
 }
 
 const Dual& Diagram::State::dual() {
-  if (setup.period())
-    throw Error(
-        ErrorCode::unsupported,
-        "the dual of a periodic diagram is not a list of seeds, since a simplex may have several images "
-        "of one seed; use the adjacency with its shifts, or the cells");
   if (!results->dual) {
     compute({.cells = true});
     const SeedRows given = input->given();
     results->dual =
-        make_dual(*results->cells, SeedsView{setup.domain.dimension(), given.positions, given.weights});
+        setup.period()
+            ? make_periodic_dual(*results->cells, given.positions, setup.domain.periods())
+            : make_dual(*results->cells, SeedsView{setup.domain.dimension(), given.positions, given.weights});
   }
   return *results->dual;
 }

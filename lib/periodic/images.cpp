@@ -146,7 +146,7 @@ Images without_hidden(const Images& images, const std::vector<std::uint8_t>& hid
   std::vector<std::uint32_t> new_rank(images.own);
   for (std::uint32_t r = 0; r < images.seeds.size(); ++r) {
     const std::uint32_t seed = images.seed_of(r);
-    if (hidden[seed] != 0 || hidden[r] != 0) continue;
+    if (hidden[seed] != 0) continue;
     if (r < images.own) {
       new_rank[r] = kept.own++;
     } else {

@@ -38,8 +38,8 @@ Images make_images(const Period& period, const SeedSet& seeds, double margin, in
 /// The images of seeds with new weights at the same positions.
 void set_weights(Images& images, const SeedSet& seeds, int threads);
 
-/// Without the seeds whose cells are empty, and images that bound no cell in the room.
-/// \param hidden  by rank
+/// Without the seeds whose cells are empty, and their images.
+/// \param hidden  by rank; that of images does not count
 Images without_hidden(const Images& images, const std::vector<std::uint8_t>& hidden);
 
 /// Proves that no image outside the margin cuts a cell (docs/mathematics.md (34b)).

@@ -52,7 +52,7 @@ TEST_CASE("periodic boxes without periods or too thin are refused") {
   CHECK(Domain::periodic_box(low, high, flat).is_periodic());
 }
 
-TEST_CASE("periodic diagrams refuse seeds that are too far, duals and diagrams in device memory") {
+TEST_CASE("periodic diagrams refuse seeds that are too far and diagrams in device memory") {
   const Setup& setup = main_setups().front();
   const double low[] = {0, 0}, high[] = {1, 1};
   const Domain domain = Domain::periodic_box(low, high);

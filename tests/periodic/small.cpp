@@ -21,7 +21,10 @@ void check_all(const PeriodicSpace& space, std::size_t n, Random& random) {
         std::pow(static_cast<double>(space.measure()) / static_cast<double>(n), 1.0 / space.dimension);
     for (double& w : seeds.weights) w = random.uniform() * range * h * h;
     const std::vector<PeriodicCell> expected = periodic_cells(space, seeds);
-    for (const Setup& setup : main_setups()) {
+    std::vector<Setup> setups = main_setups();
+    setups.push_back(setups.front());
+    setups.back().options.precision = Precision::float32;
+    for (const Setup& setup : setups) {
       INFO(setup.name << ", " << n << " seeds, weights to " << range << " h^2");
       Diagram diagram(setup.device, space.domain(), setup.options);
       diagram.set_seeds(seeds.view());
