@@ -31,12 +31,12 @@ std::vector<PolygonPart> parse_wkt(std::string_view text, const std::string& nam
 /// Largest distance between a curve of an SVG file and its polygon, over the diagonal of the drawing.
 inline constexpr double svg_tolerance = 1e-4;
 
-/// All path, polygon, polyline, rect, circle and ellipse elements, whatever their paint, except those in
-/// defs, symbol, clipPath, mask, marker, pattern or foreignObject, those of other namespaces and those with
-/// display: none; of a switch the first child that applies. Transforms are applied, each element is filled by
-/// its fill-rule, and the elements are united. Properties come from attributes, `style` and style sheets with
-/// simple selectors (read_svg_style.hpp). Refused: use, clip-path, mask, transforms in CSS. SVG's y axis
-/// points down: y = -y(SVG).
+/// All path, polygon, polyline, rect, circle and ellipse elements, whatever their paint, and the copies that
+/// `use` makes of elements of the file, except those in defs, symbol, clipPath, mask, marker, pattern or
+/// foreignObject, those of other namespaces and those with display: none; of a switch the first child that
+/// applies. Transforms are applied, each element is filled by its fill-rule, and the elements are united.
+/// Properties come from attributes, `style` and style sheets with simple selectors (read_svg_style.hpp).
+/// Refused: clip-path, mask, transforms in CSS. SVG's y axis points down: y = -y(SVG).
 std::vector<PolygonPart> parse_svg(std::string_view text, const std::string& name);
 
 /// A polygon or a mesh.

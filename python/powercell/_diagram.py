@@ -255,6 +255,12 @@ class Diagram:
         return self._core.dual().simplices  # type: ignore[no-any-return]
 
     @property
+    def dual_shift(self) -> Optional[NDArray[np.int32]]:
+        """(m, 3 or 4, 3): in a periodic domain the image of each corner of :attr:`dual`, as in
+        :class:`Adjacency`; else None."""
+        return self._core.dual().shift  # type: ignore[no-any-return]
+
+    @property
     def timings(self) -> Any:
         """Seconds of the last computation by parts, and counts."""
         return self._core.timings

@@ -25,7 +25,6 @@ class TransportSolver:
     Parameters
     ----------
     domain : Domain
-        A periodic box of the plane, or any that is not periodic.
     positions : (n, d) array_like
     masses : (n,) array_like, optional
         Target masses, positive. Default: equal ones.

@@ -113,7 +113,14 @@ void bind_diagrams(nb::module_& m) {
       .def_ro("domain_measure", &Measures::domain_measure)
       .def_prop_ro("total", &Measures::total)
       .def_prop_ro("relative_error", &Measures::relative_error);
-  nb::class_<Dual>(m, "Dual").def_prop_ro("simplices", &simplices);
+  nb::class_<Dual>(m, "Dual")
+      .def_prop_ro("simplices", &simplices)
+      .def_prop_ro("shift", [](nb::handle self) -> nb::object {
+        const Dual& dual = nb::cast<Dual&>(self);
+        if (dual.shift.empty()) return nb::none();
+        const auto corners = static_cast<std::size_t>(dual.corners);
+        return view(dual.shift.front().data(), {dual.shift.size() / corners, corners, 3}, self);
+      });
   nb::class_<LawCheck>(m, "LawCheck")
       .def_ro("law", &LawCheck::law)
       .def_ro("passed", &LawCheck::passed)
