@@ -98,7 +98,7 @@ PeriodicCell cell_of(const PeriodicSpace& space, const SeedArray& seeds, std::si
     for (const Vec& y : cell.vertices) cuts = cuts || half.excess(y) > 0;
     if (!cuts) return;
     cell = clip(cell, half, {Border::Kind::wall, static_cast<std::uint32_t>(image.size())});
-    image.push_back({j, s});
+    image.emplace_back(j, s);
   });
   PeriodicCell result;
   if (cell.empty()) return result;
@@ -236,10 +236,13 @@ void check_periodic(Diagram& diagram, const PeriodicSpace& space, const SeedArra
         CHECK(std::pair(adjacency.neighbor[k - 1], adjacency.shift[k - 1]) <
               std::pair(adjacency.neighbor[k], adjacency.shift[k]));
     }
-    for (const auto& [image, wall] : left)
-      CHECK_MESSAGE(static_cast<double>(wall) < 1e3 * tolerance * largest,
+    for (const auto& missing : left) {
+      const auto& image = missing.first;
+      const auto wall = static_cast<double>(missing.second);
+      CHECK_MESSAGE(wall < 1e3 * tolerance * largest,
                     "missing: with " << image.first << " shift " << image.second[0] << " " << image.second[1]
-                                     << " " << image.second[2] << ": " << static_cast<double>(wall));
+                                     << " " << image.second[2] << ": " << wall);
+    }
     if (!(m.measure > 1e-3L * mean)) continue;
     const Real c[3] = {m.first.x, m.first.y, m.first.z};
     for (std::size_t k = 0; k < d; ++k)

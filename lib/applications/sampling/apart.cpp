@@ -97,7 +97,7 @@ class Parts {
   void connect(std::uint64_t begin, std::uint64_t end) {
     by_region_.clear();
     for (std::uint64_t p = begin; p < end; ++p)
-      by_region_.push_back({cells_.region[p], static_cast<std::uint32_t>(p)});
+      by_region_.emplace_back(cells_.region[p], static_cast<std::uint32_t>(p));
     std::ranges::sort(by_region_);
     for (std::uint64_t p = begin; p < end; ++p)
       for (std::uint64_t f = cells_.face_offset[p]; f < cells_.face_offset[p + 1]; ++f) {

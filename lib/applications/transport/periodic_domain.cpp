@@ -16,7 +16,7 @@ bool is_box(const Domain& domain) {
 
 }  // namespace
 
-Domain periodic_domain(const Domain& domain, bool periodic) {
+Domain periodic_domain(Domain domain, bool periodic) {
   if (!periodic || domain.is_periodic()) return domain;
   if (!is_box(domain))
     throw Error(ErrorCode::unsupported,

@@ -8,6 +8,6 @@ namespace powercell {
 
 /// The domain, or if `periodic` and it is not periodic yet, its box with opposite sides identified.
 /// \throw Error unsupported unless such a domain is a box
-Domain periodic_domain(const Domain& domain, bool periodic);
+Domain periodic_domain(Domain domain, bool periodic);
 
 }  // namespace powercell

@@ -35,7 +35,7 @@ Vector vector_of(const std::vector<double>& values) {
 TransportSolver::State::State(Device device, Domain domain, TransportOptions given)
     : options(std::move(given)),
       tolerance(options.tolerance),
-      diagram(std::move(device), periodic_domain(domain, options.periodic), options.diagram) {
+      diagram(std::move(device), periodic_domain(std::move(domain), options.periodic), options.diagram) {
   if (diagram.domain().is_periodic() && !options.density.is_constant())
     throw Error(ErrorCode::unsupported, "in a periodic domain the density must be constant");
 }
