@@ -14,6 +14,7 @@ from ._device import Device, open_device
 from ._domain import Domain
 from ._options import diagram_options
 from ._progress import Progress, fraction_bar
+from ._shapes import require_same_crs
 
 class Status(enum.IntEnum):
     """State of a seed."""
@@ -156,6 +157,7 @@ class Diagram:
     ) -> tuple[Reals, Optional[Reals]]:
         geometry = getattr(positions, "geometry", None)
         if geometry is not None and hasattr(geometry, "x"):  # points of GeoPandas, with their columns
+            require_same_crs(positions, self.domain.crs)
             self._columns = positions
             positions = np.column_stack([geometry.x, geometry.y])
         d = self.domain.dimension

@@ -91,9 +91,9 @@ def plot(diagram: Diagram, ax: Any, color: Any, style: dict[str, Any]) -> Any:
 
 def to_geopandas(diagram: Diagram) -> Any:
     geopandas = package("geopandas")
-    given = diagram._columns
+    given: Any = diagram._columns
     columns: dict[str, Any] = {}
-    if given is not None:
+    if hasattr(given, "columns"):  # a GeoSeries has none
         columns = {key: np.asarray(given[key]) for key in given.columns if key != given.geometry.name}
     centroid = diagram.centroid
     values = {

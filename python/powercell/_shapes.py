@@ -53,6 +53,15 @@ def crs_of(shape: Any) -> Optional[Any]:
     return getattr(shape, "crs", None)
 
 
+def require_same_crs(points: Any, domain_crs: Any) -> None:
+    crs = crs_of(points)
+    if crs is not None and domain_crs is not None and crs != domain_crs:
+        raise ValueError(
+            f"positions are in {crs.to_string()}, but the domain is in {domain_crs}: bring them together, e.g. "
+            "positions.to_crs(domain.crs)"
+        )
+
+
 def is_geographic(crs: Any) -> bool:
     return bool(getattr(crs, "is_geographic", False))
 

@@ -28,8 +28,11 @@ def test_geopandas_keeps_columns_and_crs():
     assert areas.crs == land.crs and areas.geometry.area.tolist() == pytest.approx([500_000, 500_000])
     assert areas["name"].tolist() == ["north", "south"] and areas["mass"].tolist() == [5, 6]
     assert areas["cell_mass"].tolist() == pytest.approx([500_000, 500_000])
+    assert pc.Diagram(pc.Domain.polygon(land), shops.geometry).to_geopandas().crs == land.crs
     with pytest.raises(ValueError, match="degrees"):
         pc.Domain.polygon(land.to_crs("EPSG:4326"))
+    with pytest.raises(ValueError, match="positions are in EPSG:4326"):
+        pc.Diagram(pc.Domain.polygon(land), shops.to_crs("EPSG:4326"))
 
 
 def test_plot(rng, square):
