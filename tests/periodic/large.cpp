@@ -88,6 +88,18 @@ TEST_CASE("cells in a periodic box are those among copies") {
       }
 }
 
+namespace {
+
+void check_volumes(Diagram& diagram, const std::vector<double>& volume) {
+  const double mean = diagram.domain().measure() / static_cast<double>(volume.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < volume.size(); ++i)
+    different += !(std::abs(diagram.measures().mass[i] - volume[i]) < 1e-9 * mean);
+  CHECK(different == 0);
+}
+
+}  // namespace
+
 TEST_CASE("periodic boxes of space agree with voro++") {
   INFO(replay_hint());
   Random random(test_seed());
@@ -104,11 +116,7 @@ TEST_CASE("periodic boxes of space agree with voro++") {
     Diagram diagram(setup.device, Domain::periodic_box(low, edge, periodic), setup.options);
     if (diagram.precision() == Precision::float32) continue;
     diagram.set_seeds(seeds.view());
-    const double mean = diagram.domain().measure() / static_cast<double>(n);
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      different += !(std::abs(diagram.measures().mass[i] - volume[i]) < 1e-9 * mean);
-    CHECK(different == 0);
+    check_volumes(diagram, volume);
   }
 }
 
@@ -131,10 +139,6 @@ TEST_CASE("triclinic cells of space agree with voro++") {
     Diagram diagram(setup.device, Domain::lattice(vectors), setup.options);
     if (diagram.precision() == Precision::float32) continue;
     diagram.set_seeds(seeds.view());
-    const double mean = diagram.domain().measure() / static_cast<double>(n);
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      different += !(std::abs(diagram.measures().mass[i] - volume[i]) < 1e-9 * mean);
-    CHECK(different == 0);
+    check_volumes(diagram, volume);
   }
 }
