@@ -145,7 +145,8 @@ void Sampling::place_on_curves(std::size_t most) {
   if (count > most)
     throw Error(ErrorCode::invalid_argument,
                 "too few points: corners, boundaries and sharp edges alone need " + std::to_string(count) +
-                    "; ask for more, or keep fewer edges by a larger sharp angle");
+                    "; ask for several times as many, since edges then become shorter there too, or keep "
+                    "fewer edges by a larger sharp angle");
   // In random order: along curves, the cells of the last seeds would extend over the rest of the surface.
   std::vector<std::pair<std::uint32_t, std::size_t>> order;
   for (std::uint32_t c = 0; c < curves_.size(); ++c) {
