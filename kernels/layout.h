@@ -41,7 +41,7 @@
 #define KEY_FINE 2   /* Hilbert curve within a grid cell */
 #define KEY_COARSE 3 /* Hilbert curve over all seeds */
 
-/* What a clip kernel writes besides the status: a sum of these is its define OUTPUTS. */
+/* What a clip kernel writes besides the status: a sum of these is its argument. */
 #define OUTPUT_MOMENTS 1
 #define OUTPUT_WALLS 2
 #define OUTPUT_GEOMETRY 4

@@ -65,7 +65,7 @@ cl::Kernel& Clipper::kernel(std::size_t number) {
   const auto found = kernels_.find(number);
   if (found != kernels_.end()) return found->second;
   const RegionMesh& mesh = scene_.mesh();
-  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number), outputs_};
+  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number)};
   auto program = scene_.context()->program(candidates_.file(), variant.defines());
   program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, number); });
   return kernels_
@@ -139,10 +139,10 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
 
   const DomainBuffers& domain = scene_.domain;
   cl::Kernel& call = kernel(number);
-  call.args(static_cast<cl_uint>(rows), memory_.active, memory_.seed, memory_.region, domain.corners,
-            domain.region_offset, domain.region_vertex, domain.behind, domain.shape, memory_.status,
-            memory_.moments, memory_.faces, memory_.border, memory_.wall, memory_.vertices, memory_.vertex,
-            memory_.link, memory_.reach);
+  call.args(static_cast<cl_uint>(rows), static_cast<cl_uint>(outputs_), memory_.active, memory_.seed,
+            memory_.region, domain.corners, domain.region_offset, domain.region_vertex, domain.behind,
+            domain.shape, memory_.status, memory_.moments, memory_.faces, memory_.border, memory_.wall,
+            memory_.vertices, memory_.vertex, memory_.link, memory_.reach);
   candidates_.append_arguments(call);
   call.launch(rows);
 

@@ -26,8 +26,7 @@ constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
-  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
-          OUTPUT_MOMENTS};
+  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity};
 }
 
 /// The defines of kernels that hold no cell.

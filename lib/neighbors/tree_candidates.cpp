@@ -37,7 +37,7 @@ std::vector<std::uint32_t> plane_offsets(const CellPlanes& planes, std::size_t s
 }  // namespace
 
 Variant without_cells(const Scene& scene) {
-  return {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}, 0};
+  return {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}};
 }
 
 TreeBlocks::Tree device_tree(const Scene& scene) {
