@@ -184,13 +184,60 @@ Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings)
   return plan;
 }
 
+/// The pairs of `rank` alone, row by row.
+Pairs pairs_of(const Pairs& all, const std::vector<std::uint32_t>& rank) {
+  Pairs pairs;
+  pairs.offset.push_back(0);
+  for (const std::uint32_t r : rank) {
+    pairs.region.insert(pairs.region.end(), all.region.begin() + static_cast<std::ptrdiff_t>(all.offset[r]),
+                        all.region.begin() + static_cast<std::ptrdiff_t>(all.offset[r + 1]));
+    pairs.offset.push_back(pairs.region.size());
+  }
+  return pairs;
+}
+
+/// Clips the selected cells alone: as wholes first where the domain has an inside, and then in the regions
+/// that these meet. On a surface, whose regions are searched for seeds, all pairs are found.
+Plan plan_by_selection(const Setup& setup, const Active& active, const Selection& selection,
+                       Timings& timings) {
+  const Scene scene = active.scene();
+  const SeedSet& seeds = active.seeds();
+  Plan plan;
+  plan.selected = make_rows(
+      selection, seeds, active.images() ? active.images()->own : static_cast<std::uint32_t>(seeds.size()));
+  const std::vector<std::uint32_t>& rank = plan.selected->rank;
+  setup.progress->begin_part(0, pairs_done);
+  const Stopwatch watch(setup.device);
+  plan.candidates = make_lists(setup, scene);
+  if (active.images() || setup.domain.region_count() == 1) {
+    plan.pairs = one_pair_each(static_cast<std::uint32_t>(rank.size()));
+    if (!plan.candidates) plan.candidates = std::make_unique<TreeCandidates>(scene);
+  } else if (setup.has_inside) {
+    std::optional<TreeCandidates> tree;
+    if (!plan.candidates) tree.emplace(scene);
+    const CellWalls walls = clip_unrestricted_cells(
+        scene, tree ? static_cast<Candidates&>(*tree) : *plan.candidates, rank, setup.options.progress);
+    plan.pairs = pairs_of(setup.pairs.by_cells(seeds, {rank, rank}, walls, false), rank);
+    if (tree) plan.candidates = std::make_unique<CellCandidates>(std::move(*tree), walls, CellPlanes{});
+  } else {
+    const Pairs all = setup.pairs.by_regions(seeds, active.tree(), setup.options.progress);
+    plan.pairs = pairs_of(all, rank);
+    if (!plan.candidates)
+      plan.candidates =
+          std::make_unique<RegionCandidates>(scene, all.list_offset, all.list_seed, all.all_listed);
+  }
+  timings.pairs = watch.seconds();
+  return plan;
+}
+
 }  // namespace
 
-Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Workspace& workspace,
-               Timings& timings) {
-  if (active.seeds().size() == 0) return {};
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Selection* selection,
+               Workspace& workspace, Timings& timings) {
   timings.pair_count = 0;
-  Plan plan = kind != PlanKind::integrals || !setup.has_inside ? plan_by_regions(setup, active, timings)
+  if (active.seeds().size() == 0) return {};
+  Plan plan = selection ? plan_by_selection(setup, active, *selection, timings)
+              : kind != PlanKind::integrals || !setup.has_inside ? plan_by_regions(setup, active, timings)
               : setup.boundary ? plan_by_boundary(setup, active, workspace, timings)
                                : plan_by_cells(setup, active, timings);
   setup.progress->begin_part(pairs_done, 1);

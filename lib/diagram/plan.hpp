@@ -11,10 +11,12 @@
 #include "lib/clip/clipper.hpp"
 #include "lib/collect/walls.hpp"
 #include "lib/diagram/active.hpp"
+#include "lib/diagram/selection.hpp"
 
 namespace powercell {
 
-/// The results that a plan computes. On surfaces and in domains of one region both kinds are the same.
+/// The results that a plan computes. On surfaces, in domains of one region and for a selection both kinds are
+/// the same.
 enum class PlanKind {
   integrals,  ///< measures and adjacency: only cells at the boundary are cut by region
   geometry,   ///< every cell is cut along the regions of the domain
@@ -22,6 +24,8 @@ enum class PlanKind {
 
 /// The pairs to clip, and their candidates. Refers to the setup and the active seeds it was made for.
 struct Plan {
+  /// The cells to compute if they are not all; the rows of `pairs` are then these instead of ranks.
+  std::optional<SelectedRows> selected;
   Pairs pairs;
   std::unique_ptr<Candidates> candidates;
   bool unrestricted = false;  ///< pairs with the container are cells inside or outside the domain
@@ -50,9 +54,10 @@ struct Workspace {
 };
 
 /// Chooses the strategy, finds the pairs and makes the candidates.
+/// \param selection  null for all cells; else those to compute, in a domain that is not a solid
 /// \param timings  sets `pairs`, `neighbors` and `pair_count`
 /// \throw Error interrupted; opencl, out_of_device_memory, build_failed; invalid_argument (options of lists)
-Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Workspace& workspace,
-               Timings& timings);
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Selection* selection,
+               Workspace& workspace, Timings& timings);
 
 }  // namespace powercell

@@ -29,8 +29,26 @@ void Diagram::State::set_seeds(const SeedsView& seeds) {
   retire_active();
   tree.reset();
   input = std::move(next);
+  selection.reset();
   timings = {};
   timings.prepare = watch.seconds();
+}
+
+void Diagram::State::select(std::span<const std::uint32_t> seeds) {
+  if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
+  if (setup.options.certify)
+    throw Error(ErrorCode::unsupported,
+                "the laws that Options::certify checks are those of all cells; turn it off, or select none");
+  Selection next = checked_selection(seeds, input->seeds.input_count);
+  select_all();
+  selection = std::move(next);
+}
+
+void Diagram::State::select_all() {
+  results = std::make_shared<Results>();
+  integrals.reset();
+  geometry.reset();
+  selection.reset();
 }
 
 void Diagram::State::set_weights(std::span<const double> weights) {
@@ -54,8 +72,9 @@ void Diagram::State::retire_active() {
 }
 
 Plan& Diagram::State::plan(PlanKind kind) {
-  std::optional<Plan>& kept = kind == PlanKind::geometry && setup.has_inside ? geometry : integrals;
-  if (!kept) kept = make_plan(setup, *active, kind, workspace, timings);
+  std::optional<Plan>& kept =
+      kind == PlanKind::geometry && setup.has_inside && !selection ? geometry : integrals;
+  if (!kept) kept = make_plan(setup, *active, kind, selection ? &*selection : nullptr, workspace, timings);
   return *kept;
 }
 
@@ -100,7 +119,9 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 }
 
 void Diagram::State::compute_missing(Wanted want) {
-  if (want.cells && setup.has_inside) {
+  if (selection && setup.domain.is_solid()) {
+    compute_in_solid(want);
+  } else if (want.cells && setup.has_inside && !selection) {
     // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
     const bool both = !results->measures || want.adjacency;
     setup.progress->begin_pass(0, 0.5);
@@ -111,6 +132,26 @@ void Diagram::State::compute_missing(Wanted want) {
     setup.progress->begin_pass(0, 1);
     pass(PlanKind::integrals, want);
   }
+}
+
+void Diagram::State::compute_in_solid(Wanted want) {
+  // The caller may refer to results that are there already, so they are not replaced.
+  std::shared_ptr<Results> selected = std::exchange(results, std::make_shared<Results>());
+  std::optional<Selection> asked = std::exchange(selection, std::nullopt);
+  const auto restore = [&] {
+    selection = std::move(asked);
+    std::swap(results, selected);
+  };
+  try {
+    compute_missing(want);
+  } catch (...) {
+    restore();
+    throw;
+  }
+  restore();
+  const Results& all = *selected;
+  if (!results->measures) results->measures = select_rows(*all.measures, *selection);
+  if (all.adjacency) results->adjacency = select_rows(*all.adjacency, *selection);
 }
 
 void Diagram::State::compute(Wanted want) {
@@ -152,6 +193,8 @@ void Diagram::State::certify() {
 
 const Dual& Diagram::State::dual() {
   if (!results->dual) {
+    if (selection)
+      throw Error(ErrorCode::unsupported, "the dual is that of all cells; call select_all() before it");
     compute({.cells = true});
     const SeedRows given = input->given();
     results->dual =

@@ -14,6 +14,7 @@ namespace powercell {
 struct Diagram::State {
   Setup setup;
   std::optional<Input> input;
+  std::optional<Selection> selection;       // of the input; without one all cells are computed
   std::optional<Active> active;             // of the input
   std::optional<Plan> integrals, geometry;  // of the active seeds, by PlanKind
 
@@ -38,6 +39,8 @@ struct Diagram::State {
 
   void set_seeds(const SeedsView& seeds);
   void set_weights(std::span<const double> weights);
+  void select(std::span<const std::uint32_t> seeds);
+  void select_all();
   /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
   void compute(Wanted want);
   const Dual& dual();
@@ -50,6 +53,8 @@ struct Diagram::State {
   void pass(PlanKind kind, Wanted want);
   Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);
+  /// Computes the selected cells of a solid: all cells, of which the others are dropped.
+  void compute_in_solid(Wanted want);
   /// Checks the laws of the results; discards the results if one fails. \throw Error internal
   void certify();
 };
