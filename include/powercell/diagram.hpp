@@ -58,6 +58,8 @@ class POWERCELL_API Diagram {
   const Measures& measures();
   const Adjacency& adjacency();
   const Cells& cells();
+  /// The facets of the domain that the cells have, in a pass of its own over the regions at the boundary.
+  const BoundaryWalls& boundary_walls();
   /// \throw Error unsupported if seeds are selected
   const Dual& dual();
   const Timings& timings() const;  ///< of the last computation

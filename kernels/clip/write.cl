@@ -49,7 +49,8 @@ static inline bool measure_is_good(const cell_t* cell, real measure) {
 static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
   real moments[2 + DIMENSION];
   const bool geometry = (out.wanted & OUTPUT_GEOMETRY) != 0,
-             rows = geometry || (out.wanted & OUTPUT_WALLS) != 0;
+             rows = geometry || (out.wanted & OUTPUT_WALLS) != 0,
+             all = geometry || (out.wanted & OUTPUT_FACETS) != 0;
   bool certain = cell->at.gap > 0;
   UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   if (status == PIECE_DONE) {
@@ -67,7 +68,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     }
     if (rows) {
       const size_t at = (size_t)row * FACE_CAPACITY;
-      out.faces[row] = (uint)cell_write_walls(cell, geometry, out.border + at, out.wall + at);
+      out.faces[row] = (uint)cell_write_walls(cell, all, out.border + at, out.wall + at);
     }
     if (geometry) {
       const size_t at = (size_t)row * VERTEX_CAPACITY;

@@ -92,7 +92,7 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
   std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
   parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
     std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
-    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0, options_.perturbed);
+    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & (OUTPUT_GEOMETRY | OUTPUT_FACETS)) != 0, options_.perturbed);
     const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
     PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {

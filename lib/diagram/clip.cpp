@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "kernels/layout.h"
-#include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
 #include "lib/collect/selected_walls.hpp"
+#include "lib/diagram/chunk_pairs.hpp"
 #include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
@@ -18,12 +18,6 @@ namespace powercell {
 
 namespace {
 
-/// Pairs of a chunk, unless Options::chunk_pairs is set. A GPU needs many to be busy. A core of a CPU needs a
-/// few groups, and collects the output of a small chunk from its cache.
-constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 14;
-constexpr std::uint64_t least_chunk_pairs = 1024;
-/// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
-constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);  // (82)
@@ -33,18 +27,6 @@ constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 int outputs_of(Wanted want, bool walls) {
   return OUTPUT_MOMENTS | (walls ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
-}
-
-/// The number of pairs of a chunk, of `total`.
-std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
-  if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
-  const DeviceInfo& device = setup.device.info();
-  const std::uint64_t busy = device.type != DeviceInfo::Type::cpu
-                                 ? chunk_pairs_gpu
-                                 : std::max(1u, device.compute_units) * chunk_pairs_core;
-  const std::uint64_t most = std::min(busy, cl::quirks_of(device).launch_limit);
-  // Chunks of equal size, because a small last chunk would not keep all cores busy.
-  return (total - 1) / ((total - 1) / most + 1) + 1;
 }
 
 class Pass {

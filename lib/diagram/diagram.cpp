@@ -60,6 +60,9 @@ const Cells& Diagram::cells() {
   compute(false, true);
   return *state_->results->cells;
 }
+const BoundaryWalls& Diagram::boundary_walls() {
+  return state_->boundary_walls();
+}
 const Dual& Diagram::dual() {
   return state_->dual();
 }

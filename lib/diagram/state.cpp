@@ -4,6 +4,7 @@
 
 #include "lib/collect/dual.hpp"
 #include "lib/collect/periodic_dual.hpp"
+#include "lib/diagram/facets.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/report/log.hpp"
 #include "lib/verify/certificate.hpp"
@@ -87,15 +88,20 @@ Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
   return clip(setup, *active, plan(kind), want, workspace, timings);
 }
 
+bool Diagram::State::release_memory() {
+  if (!workspace.clip && !workspace.facets) return false;
+  workspace.clip.reset();
+  workspace.facets.reset();
+  return true;
+}
+
 void Diagram::State::pass(PlanKind kind, Wanted want) {
   for (;;) {
     Clipped clipped;
     try {
       clipped = clip_once(kind, want);
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::out_of_device_memory || (!workspace.clip && !workspace.facets)) throw;
-      workspace.clip.reset();
-      workspace.facets.reset();  // free the cached buffers and retry
+      if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;
       continue;
     }
     if (clipped.measures) {
@@ -189,6 +195,27 @@ void Diagram::State::certify() {
     throw;
   }
   timings.certify = watch.seconds();
+}
+
+const BoundaryWalls& Diagram::State::boundary_walls() {
+  if (results->boundary_walls) return *results->boundary_walls;
+  if (setup.domain.is_solid())
+    throw Error(
+        ErrorCode::unsupported,
+        "the facets of cells are found by the regions of the domain, which a solid does not have; give a "
+        "tetrahedral mesh of the solid (Domain::volume)");
+  compute({});  // excludes flat cells, and has images enough
+  setup.progress->begin_computation();
+  setup.progress->begin_pass(0, 1);
+  for (;;) {
+    try {
+      results->boundary_walls =
+          clip_facets(setup, *active, plan(PlanKind::geometry), results->measures->status);
+      return *results->boundary_walls;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;
+    }
+  }
 }
 
 const Dual& Diagram::State::dual() {

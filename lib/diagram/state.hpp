@@ -23,6 +23,7 @@ struct Diagram::State {
     std::optional<Adjacency> adjacency;
     std::optional<Cells> cells;
     std::optional<Dual> dual;
+    std::optional<BoundaryWalls> boundary_walls;
   };
   /// Shared with callers who hold the results while the seeds change: replaced then, not cleared.
   std::shared_ptr<Results> results = std::make_shared<Results>();
@@ -44,6 +45,7 @@ struct Diagram::State {
   /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
   void compute(Wanted want);
   const Dual& dual();
+  const BoundaryWalls& boundary_walls();
 
  private:
   /// Discards everything that depends on the seeds, except their tree.
@@ -51,6 +53,8 @@ struct Diagram::State {
   Plan& plan(PlanKind kind);
   /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
   void pass(PlanKind kind, Wanted want);
+  /// Frees the kept buffers of the device; false if there are none.
+  bool release_memory();
   Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);
   /// Computes the selected cells of a solid: all cells, of which the others are dropped.
