@@ -43,7 +43,8 @@ class Pass {
                setup.threads, std::exchange(workspace.walls, {})),
         geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {
     if (!active.images()) {
-      if (plan.selected && want.adjacency) selected_walls_.emplace(active.seeds(), nullptr);
+      if (plan.selected && want.adjacency)
+        selected_walls_.emplace(active.seeds(), row_seeds().size(), nullptr, setup.threads);
       return;
     }
     placement_.emplace(active.placement());
@@ -51,7 +52,7 @@ class Pass {
     proof_.emplace(*setup.period(), *active.images(),
                    setup.float32() ? proved_reach_error_float : proved_reach_error_double);
     if (want.adjacency && plan.selected)
-      selected_walls_.emplace(active.seeds(), &*placement_);
+      selected_walls_.emplace(active.seeds(), row_seeds().size(), &*placement_, setup.threads);
     else if (want.adjacency)
       periodic_walls_.emplace(*placement_, setup.threads);
   }

@@ -143,10 +143,16 @@ std::vector<std::uint32_t> ranks_of(const Pairs& pairs) {
   return ranks;
 }
 
-std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scene& scene,
-                                                  const Pairs& pairs) {
+/// The search of all seeds, which does not depend on the pairs.
+std::unique_ptr<Candidates> search_all(const Scene& scene, Workspace& workspace) {
+  if (workspace.search) return std::move(workspace.search);
+  return std::make_unique<TreeCandidates>(scene);
+}
+
+std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scene& scene, const Pairs& pairs,
+                                                  Workspace& workspace) {
   if (std::unique_ptr<Candidates> lists = make_lists(setup, scene)) return lists;
-  if (setup.domain.region_count() == 1) return std::make_unique<TreeCandidates>(scene);
+  if (setup.domain.region_count() == 1) return search_all(scene, workspace);
   if (setup.has_inside) {
     const std::vector<std::uint32_t> ranks = ranks_of(pairs);
     if (pairs.region.size() > pieces_that_pay * ranks.size()) {
@@ -167,7 +173,7 @@ Pairs one_pair_each(std::uint32_t count) {
   return pairs;
 }
 
-Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings) {
+Plan plan_by_regions(const Setup& setup, const Active& active, Workspace& workspace, Timings& timings) {
   Plan plan;
   setup.progress->begin_part(0, cells_done);
   const Stopwatch pair_watch(setup.device);
@@ -177,7 +183,7 @@ Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings)
   timings.pairs = pair_watch.seconds();
   setup.progress->begin_part(cells_done, pairs_done);
   const Stopwatch neighbor_watch(setup.device);
-  plan.candidates = candidates_by_regions(setup, active.scene(), plan.pairs);
+  plan.candidates = candidates_by_regions(setup, active.scene(), plan.pairs, workspace);
   plan.pairs.list_offset = {};  // the device has them now
   plan.pairs.list_seed = {};
   timings.neighbors = neighbor_watch.seconds();
@@ -199,7 +205,7 @@ Pairs pairs_of(const Pairs& all, const std::vector<std::uint32_t>& rank) {
 /// Clips the selected cells alone: as wholes first where the domain has an inside, and then in the regions
 /// that these meet. On a surface, whose regions are searched for seeds, all pairs are found.
 Plan plan_by_selection(const Setup& setup, const Active& active, const Selection& selection,
-                       Timings& timings) {
+                       Workspace& workspace, Timings& timings) {
   const Scene scene = active.scene();
   const SeedSet& seeds = active.seeds();
   Plan plan;
@@ -211,7 +217,7 @@ Plan plan_by_selection(const Setup& setup, const Active& active, const Selection
   plan.candidates = make_lists(setup, scene);
   if (active.images() || setup.domain.region_count() == 1) {
     plan.pairs = one_pair_each(static_cast<std::uint32_t>(rank.size()));
-    if (!plan.candidates) plan.candidates = std::make_unique<TreeCandidates>(scene);
+    if (!plan.candidates) plan.candidates = search_all(scene, workspace);
   } else if (setup.has_inside) {
     std::optional<TreeCandidates> tree;
     if (!plan.candidates) tree.emplace(scene);
@@ -236,8 +242,9 @@ Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Se
                Workspace& workspace, Timings& timings) {
   timings.pair_count = 0;
   if (active.seeds().size() == 0) return {};
-  Plan plan = selection ? plan_by_selection(setup, active, *selection, timings)
-              : kind != PlanKind::integrals || !setup.has_inside ? plan_by_regions(setup, active, timings)
+  Plan plan = selection ? plan_by_selection(setup, active, *selection, workspace, timings)
+              : kind != PlanKind::integrals || !setup.has_inside
+                  ? plan_by_regions(setup, active, workspace, timings)
               : setup.boundary ? plan_by_boundary(setup, active, workspace, timings)
                                : plan_by_cells(setup, active, timings);
   setup.progress->begin_part(pairs_done, 1);

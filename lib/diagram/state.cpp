@@ -47,6 +47,9 @@ void Diagram::State::select(std::span<const std::uint32_t> seeds) {
 
 void Diagram::State::select_all() {
   results = std::make_shared<Results>();
+  // In a domain of one region all selections are searched for in the same way.
+  const bool same_search = setup.domain.region_count() == 1 && setup.neighbors == Neighbors::tree;
+  if (integrals && same_search) workspace.search = std::move(integrals->candidates);
   integrals.reset();
   geometry.reset();
   selection.reset();
@@ -66,6 +69,7 @@ void Diagram::State::set_weights(std::span<const double> weights) {
 
 void Diagram::State::retire_active() {
   results = std::make_shared<Results>();
+  workspace.search.reset();
   integrals.reset();
   geometry.reset();
   if (active) tree = std::move(*active).release_tree();
