@@ -13,6 +13,8 @@ namespace {
 
 /// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
+/// Moments of up to so many pairs are read with the statuses.
+constexpr std::size_t few_pairs = 1024;
 
 }  // namespace
 
@@ -147,7 +149,8 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
   call.launch(rows);
 
   const std::size_t first_uncertain = outcome.uncertain.size();
-  read_statuses(active, outcome);
+  read_launch(rows, capacity(number));
+  sort_statuses(active, outcome);
   if (outputs_ & OUTPUT_REACH) read_reach(active);
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
   rows_of_launch.mapped_border = nullptr;
@@ -160,11 +163,27 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
       [&](std::uint32_t pair) { return rows_of_launch.row_repeats(memory_.pieces.row[pair]); });
 }
 
-void Clipper::read_statuses(std::span<const std::uint32_t> active, Outcome& outcome) {
+void Clipper::read_launch(std::size_t rows, const Capacity& capacity) {
+  launch_status_.resize(rows);
+  const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
+  cl::Reads reads(scene_.context());
+  reads.add(memory_.status.raw(), launch_status_.data(), rows * sizeof launch_status_[0]);
+  if ((outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) == OUTPUT_WALLS) {
+    if (!reader_) reader_.emplace(scene_.context());
+    reader_->read_ahead(reads, memory_.faces, static_cast<std::size_t>(capacity.faces), memory_.border,
+                        memory_.wall, real);
+  }
+  moments_read_ = rows == pair_seed_.size() && rows <= few_pairs;
+  if (moments_read_) {
+    host_moments_.resize(rows * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
+    reads.add(memory_.moments, host_moments_.data(), host_moments_.size());
+  }
+  reads.wait();
+}
+
+void Clipper::sort_statuses(std::span<const std::uint32_t> active, Outcome& outcome) {
   PieceSet& pieces = memory_.pieces;
   const std::size_t rows = active.size();
-  launch_status_.resize(rows);
-  memory_.status.download(std::span(launch_status_));
   const auto batch = static_cast<std::uint32_t>(pieces.used);
   std::uint32_t worst = PIECE_DONE;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -218,6 +237,7 @@ ClipMemory Clipper::release() && {
 
 Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
                                    std::span<const std::uint32_t> pair_region) {
+  moments_read_ = false;
   memory_.pieces.used = 0;
   memory_.pieces.tied.clear();
   unmap_rows();

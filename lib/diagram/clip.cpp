@@ -138,7 +138,8 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
       clipper_->finish_on_host(for_host, plan_.split(setup_, active_, pair_seed_, pair_region, for_host));
   const Stopwatch watch(setup_.device);
   // This step may run out of device memory, and then adds nothing. No later step uses device memory.
-  measures_.add(plan_.pairs.offset, begin, end, pair_row_.front(), pair_row_.back(), clipper_->moments());
+  measures_.add(plan_.pairs.offset, begin, end, pair_row_.front(), pair_row_.back(), clipper_->moments(),
+                clipper_->moments_on_host());
   if (exact_)
     for (std::size_t k = 0; k < pair_row_.size(); ++k)
       if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_row_[k]);

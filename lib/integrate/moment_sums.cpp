@@ -128,8 +128,10 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
+                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments,
+                     const std::byte* on_host) {
   const bool summed = one_pair_per_rank(pair_offset, begin, end, first, last);
+  if (summed && on_host) return set_measures(first, last + 1, on_host);
   if (!summed) sum_on_device(pair_offset, begin, end, first, last, moments);
   const std::size_t ranks = std::size_t{last} - first + 1;
   cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);

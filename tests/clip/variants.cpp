@@ -30,7 +30,7 @@ class BlindCandidates : public TreeCandidates {
               1,
               1,
               1},
-        blocks_(scene.context(), without_cells(scene)) {
+        blocks_(scene.context(), without_cells(scene), scene.buffers.blocks) {
     blocks_.enqueue(tree_);
   }
   void append_arguments(cl::Kernel& kernel) const override { blocks_.append_arguments(kernel, tree_); }
