@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t row_budget = std::size_t{192} << 20;
 /// Moments of up to so many pairs are read with the statuses.
 constexpr std::size_t few_pairs = 1024;
+/// In passes of up to so many pairs only the first capacity is used.
+constexpr std::uint64_t one_capacity_pairs = 5000;
 
 }  // namespace
 
@@ -272,7 +274,8 @@ const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
 std::vector<std::uint32_t> Clipper::clip_on_device(std::span<const std::uint32_t> pair_seed,
                                                    std::span<const std::uint32_t> pair_region) {
   List pending = begin_chunk(pair_seed, pair_region), for_host;
-  const std::size_t numbers = capacities(scene_.mesh().cell_dimension).size();
+  const std::size_t numbers =
+      options_.pairs <= one_capacity_pairs ? 1 : capacities(scene_.mesh().cell_dimension).size();
   for (std::size_t number = 0; number < numbers && !pending.empty(); ++number) {
     if (number > 0) {
       statistics_.retried += pending.size();

@@ -31,6 +31,9 @@ struct ClipOptions {
   /// Pieces finished on the host are those of the weights with their infinitesimals (86): none is flat, and
   /// every face keeps its own plane. So all of them fit together, whatever seeds tie.
   bool perturbed = false;
+  /// The number of pairs of the whole pass, if it is known. Of few pairs, those too large for the first
+  /// capacity are finished on the host: compiling a larger program would take longer.
+  std::uint64_t pairs = ~std::uint64_t{0};
 };
 
 /// The buffers and pieces of a Clipper. A caller that clips again passes them on: to touch new memory page by

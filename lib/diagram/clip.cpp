@@ -165,9 +165,9 @@ void Pass::clip_all(Timings& timings) {
   const std::uint64_t total = plan_.pairs.region.size();
   Candidates& candidates = *plan_.candidates;
   const auto make_clipper = [&](std::optional<ClipMemory> memory) {
-    clipper_.emplace(active_.scene(), candidates,
-                     outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
-                     ClipOptions{exact_, setup_.threads}, std::move(memory));
+    clipper_.emplace(
+        active_.scene(), candidates, outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
+        ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total}, std::move(memory));
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const std::function<bool(double)>& progress = setup_.options.progress;

@@ -53,7 +53,9 @@ BoundaryWalls clip_facets(const Setup& setup, const Active& active, const Plan& 
         [&](std::uint64_t begin, std::uint64_t end) {
           if (!clipper)
             clipper.emplace(active.scene(), *plan.candidates, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_FACETS,
-                            ClipOptions{setup.options.decisions == Decisions::exact, setup.threads});
+                            ClipOptions{.exact = setup.options.decisions == Decisions::exact,
+                                        .threads = setup.threads,
+                                        .pairs = total});
           const auto chunk = [&](const std::vector<std::uint32_t>& all) {
             return std::span(all).subspan(begin, end - begin);
           };

@@ -17,8 +17,9 @@
 namespace powercell {
 namespace {
 
-/// With more pieces per cell it is faster to clip unrestricted cells first (docs/performance.md).
-constexpr std::size_t pieces_that_pay = 3;
+/// With more pieces per cell it is faster to clip unrestricted cells first (docs/performance.md); with few
+/// pairs too, because the programs that it takes are those of the measures.
+constexpr std::size_t pieces_that_pay = 3, few_pairs = 5000;
 
 /// Shares of a pass, as measured for volumes: the search at the boundary, unrestricted cells, and the pairs.
 constexpr double boundary_done = 0.05, cells_done = 0.2, pairs_done = 0.3;
@@ -155,7 +156,7 @@ std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scen
   if (setup.domain.region_count() == 1) return search_all(scene, workspace);
   if (setup.has_inside) {
     const std::vector<std::uint32_t> ranks = ranks_of(pairs);
-    if (pairs.region.size() > pieces_that_pay * ranks.size()) {
+    if (pairs.region.size() > pieces_that_pay * ranks.size() || pairs.region.size() <= few_pairs) {
       TreeCandidates tree(scene);
       const CellWalls walls = clip_unrestricted_cells(scene, tree, ranks, setup.options.progress);
       return std::make_unique<CellCandidates>(std::move(tree), walls, CellPlanes{});
