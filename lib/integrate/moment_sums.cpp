@@ -18,7 +18,7 @@ constexpr std::size_t ahead = 16;           // ranks between a prefetch and its 
 cl::Kernel gather_kernel(const DomainBuffers& domain) {
   Variant variant;
   variant.dimension = domain.mesh().dimension;
-  variant.cell_dimension = domain.mesh().cell_dimension;
+  variant.cell_dimension = variant.dimension;  // which does not matter: one program for both
   variant.float32 = domain.float32();
   variant.capacity = {1, 1};
   return {domain.context(), domain.context()->program("integrate/gather.cl", variant.defines()), "gather"};
