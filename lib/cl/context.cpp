@@ -1,6 +1,5 @@
 #include "lib/cl/context.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -116,10 +115,7 @@ cl_int Event::state() const {
 }
 
 cl_int Event::wait() const {
-  const cl_int before = state();
-  if (before <= CL_COMPLETE) return before;
-  const cl_int waited = clWaitForEvents(1, &handle);
-  return waited == CL_SUCCESS ? std::min(state(), CL_COMPLETE) : waited;
+  return clWaitForEvents(1, &handle);
 }
 
 bool Event::is_pending() const {

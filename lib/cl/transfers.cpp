@@ -9,27 +9,27 @@ namespace powercell::cl {
 
 StagedWrite& StagedWrite::operator=(StagedWrite&& other) noexcept {
   if (this == &other) return *this;
-  wait();
+  settle();
   bytes_ = std::move(other.bytes_);
   write_ = std::move(other.write_);
   return *this;
 }
 
 StagedWrite::~StagedWrite() {
-  wait();
+  settle();
 }
 
-cl_int StagedWrite::wait() {
-  if (!write_) return CL_SUCCESS;
-  const cl_int status = write_->wait();
+void StagedWrite::settle() {
+  if (!write_) return;
   // A driver that cannot even say when it is done keeps the bytes for ever.
-  if (status != CL_SUCCESS && write_->is_pending()) new std::vector<std::byte>(std::move(bytes_));
+  if (write_->state() > CL_COMPLETE && write_->wait() != CL_SUCCESS && write_->is_pending())
+    new std::vector<std::byte>(std::move(bytes_));
   write_.reset();
-  return status;
 }
 
 std::byte* StagedWrite::stage(std::size_t bytes) {
-  check(wait(), "writing " + std::to_string(bytes_.size()) + " bytes to a device");
+  if (write_) check(write_->wait(), "writing " + std::to_string(bytes_.size()) + " bytes to a device");
+  write_.reset();
   bytes_.resize(bytes);
   return bytes_.data();
 }

@@ -30,8 +30,8 @@ class StagedWrite {
   void enqueue(Context& context, cl_mem memory, std::size_t offset);
 
  private:
-  /// Waits until the write is done or has failed. \return CL_SUCCESS, or why it failed
-  cl_int wait();
+  /// Ends the use of the bytes, whatever became of the write.
+  void settle();
   std::vector<std::byte> bytes_;
   std::shared_ptr<const Event> write_;  // null if there is none
 };
