@@ -41,13 +41,16 @@ class POWERCELL_API Diagram {
   Precision precision() const;  ///< as chosen: float64 or float32
   Neighbors neighbors() const;  ///< as chosen: tree or flann
 
-  /// Computes the measures, and the adjacency and cells where requested, in as few passes as possible. The
-  /// getters below compute what is missing, each in a pass of its own.
+  /// Computes the measures, and the adjacency and cells (of a solid the joined cells) where requested, in as
+  /// few passes as possible. The getters below compute what is missing, each in a pass of its own.
   void compute(bool adjacency, bool cells);
 
   const Measures& measures();
   const Adjacency& adjacency();
+  /// \throw Error unsupported in a solid, which has no regions that cells could be cut along: see joined()
   const Cells& cells();
+  /// The cells as wholes, in every kind of domain: of a solid by themselves, else as join() makes them.
+  const JoinedCells& joined();
   const Dual& dual();
   const Timings& timings() const;  ///< of the last computation
   /// Keeps the results of the present seeds, to which the getters refer, alive while it is held, also after

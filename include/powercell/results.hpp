@@ -93,7 +93,12 @@ struct POWERCELL_API Cells {
 /// Polygon: the faces of a cell are its boundary rings, outer ones counter-clockwise, holes
 /// clockwise, and `edge_border` is the border of the edge that starts at each loop entry.
 /// Surface: a face is a polygon in one triangle of the domain; `edge_border` as for polygons.
-/// Volume: a face is a polygon on the cell's boundary, and `face_border` its border.
+/// Volume: a face is a polygon on the cell's boundary, counter-clockwise seen from outside, and `face_border`
+/// its border. A polygon has no holes: a wall that has some, or several parts, is several faces with the same
+/// border.
+/// Solid: as volume, but each face is convex (up to rounding), so that a wall that is not is several faces; a
+/// boundary facet is a triangle of the surface as given to Domain::solid without those left out, and of a
+/// cell each edge occurs as often in one direction as in the other.
 struct JoinedCells {
   int dimension = 0;
   int cell_dimension = 0;

@@ -58,7 +58,8 @@ class Pass {
         measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
         walls_(collects_walls() && !active.images() ? active.seeds().size() : 0, setup.threads,
                std::exchange(workspace.walls, {})),
-        geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {
+        geometry_(plan.solid ? setup.clip_mesh : setup.domain.mesh(), active.seeds(),
+                  setup.on_device.frame()) {
     if (!active.images()) return;
     placement_.emplace(active.placement());
     geometry_.place(*placement_);
@@ -218,10 +219,12 @@ Clipped Pass::finish() {
     return results;
   }
   std::vector<std::uint32_t> outside;
+  std::vector<CellAtBoundary> at_boundary;
   if (plan_.solid) {
     const SolidSides sides = add_solid_cells(setup_, active_, plan_, measures_, walls_);
     results.unclear = sides.unclear;
     outside = sides.outside;
+    at_boundary = sides.geometry;
     flat_.insert(flat_.end(), sides.flat.begin(), sides.flat.end());
     std::sort(flat_.begin(), flat_.end());
   }
@@ -239,7 +242,11 @@ Clipped Pass::finish() {
     results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
-  if (want_.cells) results.cells = geometry_.finish(measures.status);
+  if (want_.cells && plan_.solid)
+    results.solid = join_solid(setup_.domain, geometry_.finish(measures.status), at_boundary, seeds,
+                               setup_.on_device.frame(), measures.status);
+  else if (want_.cells)
+    results.cells = geometry_.finish(measures.status);
   if (placement_) place_centroids(measures);
   results.measures = std::move(measures);
   return results;

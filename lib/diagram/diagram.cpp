@@ -51,8 +51,10 @@ const Adjacency& Diagram::adjacency() {
   return *state_->results->adjacency;
 }
 const Cells& Diagram::cells() {
-  compute(false, true);
-  return *state_->results->cells;
+  return state_->cells();
+}
+const JoinedCells& Diagram::joined() {
+  return state_->joined();
 }
 const Dual& Diagram::dual() {
   return state_->dual();

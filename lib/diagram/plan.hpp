@@ -17,7 +17,7 @@ namespace powercell {
 /// The results that a plan computes. On surfaces and in domains of one region both kinds are the same.
 enum class PlanKind {
   integrals,  ///< measures and adjacency: only cells at the boundary are cut by region
-  geometry,   ///< every cell is cut along the regions of the domain
+  geometry,   ///< every cell is cut along the regions of the domain; in a solid all results
 };
 
 /// The pairs to clip, and their candidates. Refers to the setup and the active seeds it was made for.

@@ -84,6 +84,11 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       if (!results->measures) results->measures = std::move(clipped.measures);
       if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
       if (clipped.cells) results->cells = std::move(clipped.cells);
+      if (clipped.solid) {
+        results->joined = std::move(clipped.solid->joined);
+        results->simplices = std::move(clipped.solid->simplices);
+        geometry.reset();  // it has all cells at the boundary
+      }
       return;
     }
     if (clipped.margin > 0) {
@@ -100,7 +105,10 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 }
 
 void Diagram::State::compute_missing(Wanted want) {
-  if (want.cells && setup.has_inside) {
+  if (want.cells && setup.domain.is_solid()) {
+    setup.progress->begin_pass(0, 1);
+    pass(PlanKind::geometry, want);
+  } else if (want.cells && setup.has_inside) {
     // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
     const bool both = !results->measures || want.adjacency;
     setup.progress->begin_pass(0, 0.5);
@@ -115,14 +123,9 @@ void Diagram::State::compute_missing(Wanted want) {
 
 void Diagram::State::compute(Wanted want) {
   want.adjacency = want.adjacency && !results->adjacency;
-  want.cells = want.cells && !results->cells;
+  want.cells = want.cells && !results->cells && !results->simplices;
   if (results->measures && !want.adjacency && !want.cells) return;
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
-  if (want.cells && setup.domain.is_solid())
-    throw Error(
-        ErrorCode::unsupported,
-        "cells of a solid have measures and walls, but no geometry; for geometry, and for all that needs "
-        "it, give a tetrahedral mesh of the solid (Domain::volume)");
   const double built_before = setup.device.build_seconds();
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   const Stopwatch watch(setup.device);
@@ -150,15 +153,35 @@ void Diagram::State::certify() {
   timings.certify = watch.seconds();
 }
 
-const Dual& Diagram::State::dual() {
-  if (!results->dual) {
+const Cells& Diagram::State::cells() {
+  if (setup.domain.is_solid())
+    throw Error(ErrorCode::unsupported,
+                "cells of a solid are not cut into convex pieces; their geometry is that of the joined cells "
+                "(Diagram::joined); for pieces, and for all that needs them, give a tetrahedral mesh of the "
+                "solid (Domain::volume)");
+  compute({.cells = true});
+  return *results->cells;
+}
+
+const JoinedCells& Diagram::State::joined() {
+  if (setup.domain.is_solid())
     compute({.cells = true});
-    const SeedRows given = input->given();
-    results->dual =
-        setup.period()
-            ? make_periodic_dual(*results->cells, given.positions, setup.domain.periods())
-            : make_dual(*results->cells, SeedsView{setup.domain.dimension(), given.positions, given.weights});
-  }
+  else if (!results->joined)
+    results->joined = join(setup.domain, cells());
+  return *results->joined;
+}
+
+const Dual& Diagram::State::dual() {
+  if (results->dual) return *results->dual;
+  compute({.cells = true});
+  const SeedRows given = input->given();
+  const SeedsView seeds{setup.domain.dimension(), given.positions, given.weights};
+  if (results->simplices)
+    results->dual = extend_dual({4, {}, {}}, *results->simplices, seeds);
+  else if (setup.period())
+    results->dual = make_periodic_dual(*results->cells, given.positions, setup.domain.periods());
+  else
+    results->dual = make_dual(*results->cells, seeds);
   return *results->dual;
 }
 

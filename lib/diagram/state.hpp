@@ -21,6 +21,8 @@ struct Diagram::State {
     std::optional<Measures> measures;
     std::optional<Adjacency> adjacency;
     std::optional<Cells> cells;
+    std::optional<JoinedCells> joined;
+    std::optional<std::vector<std::uint32_t>> simplices;  ///< of a solid (SolidGeometry)
     std::optional<Dual> dual;
   };
   /// Shared with callers who hold the results while the seeds change: replaced then, not cleared.
@@ -40,6 +42,9 @@ struct Diagram::State {
   void set_weights(std::span<const double> weights);
   /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
   void compute(Wanted want);
+  /// \throw Error unsupported for a solid
+  const Cells& cells();
+  const JoinedCells& joined();
   const Dual& dual();
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 
 using solid::BoundaryPiece;
 using solid::CellInSolid;
+using solid::make_cell_faces;
 using solid::Side;
 using solid::WholeCell;
 
@@ -37,21 +39,34 @@ WholeCell whole_cell(const PieceSet& pieces, std::size_t pair) {
           std::span(batch.link).subspan(6 * std::size_t{vertex}, 6 * std::size_t{vertices})};
 }
 
-/// \param edges  of the triangle
-BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair, std::span<const std::uint32_t> edges) {
+std::span<const double> vertices_of(const PieceSet& pieces, std::size_t pair) {
   const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
-  const std::uint32_t row = pieces.row[pair], vertices = batch.vertices(row);
-  return {
-      std::span(batch.border).subspan(batch.face_offset[row], vertices),
-      std::span(batch.vertex).subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{vertices}),
-      edges};
+  const std::uint32_t row = pieces.row[pair];
+  return std::span(batch.vertex)
+      .subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{batch.vertices(row)});
+}
+
+BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair, const SolidBoundary& boundary,
+                             std::uint32_t triangle) {
+  const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
+  const std::uint32_t row = pieces.row[pair];
+  const std::size_t slot = 3 * std::size_t{triangle};
+  return {std::span(batch.border).subspan(batch.face_offset[row], batch.vertices(row)),
+          vertices_of(pieces, pair), std::span(boundary.edges).subspan(slot, 3), triangle,
+          std::span(boundary.mesh.region_vertex).subspan(slot, 3)};
 }
 
 /// One chunk of ranks.
 class Chunk {
  public:
   Chunk(const SolidCellsInput& input, std::span<const std::uint32_t> ranks)
-      : input_(input), ranks_(ranks), has_tetrahedra_(!input.domain.solid_boundary) {}
+      : input_(input), ranks_(ranks), has_tetrahedra_(!input.domain.solid_boundary) {
+    const RegionMesh& mesh = input.boundary.mesh;
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      reach = std::max({reach, std::fabs(mesh.low[k]), std::fabs(mesh.high[k])});
+    rounding_ = 4 * std::numeric_limits<double>::epsilon() * reach * input.scene.frame().scale;
+  }
 
   void clip_facets(Clipper& clipper);
   /// Clips the whole cells that the boundary meets, and computes their parts.
@@ -63,6 +78,7 @@ class Chunk {
   struct Outcome {
     Kind kind = Kind::unclear;
     std::array<solid::SolidPart, 2> part;  // the first only, unless uniform
+    std::array<solid::CellFaces, 2> faces;
     std::vector<std::uint32_t> neighbors;
     bool reaches_out = false;
     std::vector<SolidCells::Coincidence> coincidences;
@@ -84,10 +100,12 @@ class Chunk {
                          Outcome& outcome) const;
   void leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
                    SideHints& hints) const;
+  std::vector<BoundaryPiece> pieces_of(const Touched& touched) const;
 
   const SolidCellsInput& input_;
   std::span<const std::uint32_t> ranks_;
   const bool has_tetrahedra_;
+  double rounding_;                      // of coordinates
   std::optional<HostScene> host_scene_;  // of the triangles, if seeds of a solid tie with them
   std::vector<std::uint32_t> pair_seed_, pair_region_;
   const PieceSet* pieces_ = nullptr;
@@ -116,7 +134,7 @@ void Chunk::find_touched() {
     double square = -1;
     for (last = first; last < pair_seed_.size() && pair_seed_[last] == pair_seed_[first]; ++last) {
       if (pieces_->status[last] == PIECE_EMPTY) continue;
-      const std::span<const double> x = boundary_piece(*pieces_, last, {}).vertex;
+      const std::span<const double> x = vertices_of(*pieces_, last);
       for (std::size_t v = 0; v < x.size(); v += 3)
         square = std::max(square, x[v] * x[v] + x[v + 1] * x[v + 1] + x[v + 2] * x[v + 2]);
     }
@@ -201,15 +219,14 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
   if (cells.status[pair] == PIECE_EMPTY) return;
   const WholeCell cell = whole_cell(cells, pair);
   in_solid.start(touched.rank, cell, input_.scene.seeds.positions);
-  for (std::size_t p = touched.first; p < touched.last; ++p)
-    if (pieces_->status[p] != PIECE_EMPTY)
-      in_solid.add(boundary_piece(
-          *pieces_, p, std::span(input_.boundary.edges).subspan(3 * std::size_t{pair_region_[p]}, 3)));
+  const std::vector<BoundaryPiece> pieces = pieces_of(touched);
+  for (const BoundaryPiece& piece : pieces) in_solid.add(piece);
   if (!in_solid.label()) return;
   if (touched.tied && !has_tetrahedra_) find_coincidences(in_solid, cell, touched, outcome);
   if (!in_solid.uniform()) {
     if (in_solid.is_open()) return;
     outcome.part[0] = in_solid.part();
+    if (input_.faces) outcome.faces[0] = make_cell_faces({in_solid, pieces, rounding_});
     leave_hints(touched.rank, in_solid, cell, hints);
     if (has_tetrahedra_)
       outcome.kind = touched.tied || outcome.part[0].thin ? Kind::unclear : Kind::done;
@@ -227,8 +244,18 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
   for (const Side side : {Side::outside, Side::inside}) {
     in_solid.set_sides(side);
     outcome.part[side == Side::inside] = in_solid.part();
+    if (input_.faces && !(side == Side::inside && outcome.reaches_out))
+      outcome.faces[side == Side::inside] = make_cell_faces({in_solid, pieces, rounding_});
   }
   outcome.kind = touched.tied && has_tetrahedra_ ? Kind::unclear : Kind::uniform;
+}
+
+std::vector<BoundaryPiece> Chunk::pieces_of(const Touched& touched) const {
+  std::vector<BoundaryPiece> pieces;
+  for (std::size_t p = touched.first; p < touched.last; ++p)
+    if (pieces_->status[p] != PIECE_EMPTY)
+      pieces.push_back(boundary_piece(*pieces_, p, input_.boundary, pair_region_[p]));
+  return pieces;
 }
 
 /// A triangle in the plane of a wall whose inner side is that of the neighbour bounds nothing of this cell
@@ -282,10 +309,11 @@ void Chunk::append_to(SolidCells& all) {
   for (std::size_t t = 0; t < touched_.size(); ++t) {
     const std::uint32_t rank = touched_[t].rank;
     Outcome& outcome = outcome_[t];
-    if (outcome.kind == Kind::done) all.cells.push_back({rank, std::move(outcome.part[0])});
+    if (outcome.kind == Kind::done)
+      all.cells.push_back({rank, std::move(outcome.part[0]), std::move(outcome.faces[0])});
     if (outcome.kind == Kind::uniform)
-      all.uniform.push_back(
-          {rank, std::move(outcome.neighbors), outcome.reaches_out, std::move(outcome.part)});
+      all.uniform.push_back({rank, std::move(outcome.neighbors), outcome.reaches_out, std::move(outcome.part),
+                             std::move(outcome.faces)});
     if (outcome.kind == Kind::unclear) all.unclear.push_back(rank);
     if (outcome.kind == Kind::flat) all.flat.push_back(rank);
     all.coincidences.insert(all.coincidences.end(), outcome.coincidences.begin(), outcome.coincidences.end());

@@ -12,6 +12,7 @@
 #include "lib/domain/outline.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #include "lib/pairs/pair_finder.hpp"
+#include "lib/solid/cell_faces.hpp"
 #include "lib/solid/cell_in_solid.hpp"
 
 namespace powercell {
@@ -45,13 +46,15 @@ struct SolidCells {
   struct Cell {
     std::uint32_t rank;
     solid::SolidPart part;
+    solid::CellFaces faces;  ///< empty unless asked for
   };
   /// A cell whose edges the boundary does not cross.
   struct UniformCell {
     std::uint32_t rank;
-    std::vector<std::uint32_t> neighbors;    ///< of the whole cell
-    bool reaches_out = false;                ///< beyond the container, so that its vertices lie outside
-    std::array<solid::SolidPart, 2> part{};  ///< if its vertices lie outside, and inside
+    std::vector<std::uint32_t> neighbors;     ///< of the whole cell
+    bool reaches_out = false;                 ///< beyond the container, so that its vertices lie outside
+    std::array<solid::SolidPart, 2> part{};   ///< if its vertices lie outside, and inside
+    std::array<solid::CellFaces, 2> faces{};  ///< likewise
   };
   std::vector<Cell> cells;           ///< ranks ascend
   std::vector<UniformCell> uniform;  ///< ranks ascend
@@ -77,6 +80,7 @@ struct SolidCellsInput {
   std::span<const std::uint32_t> excluded;  ///< ranks, in any order, that are computed in another way
   Candidates& on_facets;                    ///< candidates for the pieces of triangles
   Candidates& in_space;                     ///< for whole cells
+  bool faces;                               ///< whether to make the surfaces of the parts too
   int threads;
   const std::function<bool(double)>& progress;
 };

@@ -36,7 +36,9 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
         "a periodic domain");
   const Domain& domain = diagram.domain();
   const Rounding rounding(extent_of(domain), seeds, diagram.precision());
-  const Cells& cells = diagram.cells();
+  const bool solid = domain.is_solid();
+  const Cells of_solid = solid ? pieces_of(diagram.joined(), diagram.measures().status) : Cells{};
+  const Cells& cells = solid ? of_solid : diagram.cells();
   const Measures& measures = diagram.measures();
 
   std::vector<LawCheck> checks;
@@ -51,6 +53,10 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   add(check_walls(diagram.adjacency(), &domain.mesh(), rounding));
   for (LawCheck& check : check_pieces(measures, cells, rounding)) add(std::move(check));
   add(check_bisectors(cells, rounding));
+  if (solid) {  // without convex pieces whether a point lies in a cell is not simply seen
+    add(check_vertices(cells, rounding, options));
+    return checks;
+  }
   const std::size_t samples = seeds.size() > 0 ? options.samples : 0;
   add(check_owners(random_points(domain.mesh(), samples, options.random_seed), domain.mesh(), cells,
                    rounding));
