@@ -60,40 +60,53 @@ class Joining {
   JoinedCells out_;
 };
 
-}  // namespace
+/// Positions in the caller's order, of seeds that have cells.
+std::vector<double> positions_of(const SeedSet& seeds) {
+  std::vector<double> positions(3 * seeds.input_count);
+  for (std::size_t rank = 0; rank < seeds.size(); ++rank)
+    std::copy_n(&seeds.positions[3 * rank], 3, &positions[3 * std::size_t{seeds.input[rank]}]);
+  return positions;
+}
 
-SolidGeometry join_solid(const Domain& domain, const Cells& whole,
-                         std::span<const CellAtBoundary> at_boundary, const SeedSet& seeds,
-                         const Frame& frame, const std::vector<SeedStatus>& status) {
-  std::vector<const CellAtBoundary*> by_seed(status.size());
-  for (const CellAtBoundary& cell : at_boundary) by_seed[seeds.input[cell.rank]] = &cell;
-  const JoinedCells joined = join_pieces(domain, whole);
-  Joining joining(joined, seeds, frame);
-  const solid::CellFaces no_faces;
-  for (std::size_t i = 0; i < status.size(); ++i) {
-    const bool ok = status[i] == SeedStatus::ok;
-    if (ok && by_seed[i])
-      joining.add(*by_seed[i]);
-    else if (ok)
-      joining.add_whole(i);
-    else
-      joining.add({0, &no_faces});
-  }
-  SolidGeometry geometry{joining.finish(), corners_of_cells(whole)};
-  for (const CellAtBoundary& cell : at_boundary)
-    for (const std::array<std::uint32_t, 3>& ranks : cell.faces->corners)
-      geometry.simplices.insert(geometry.simplices.end(), {seeds.input[cell.rank], seeds.input[ranks[0]],
-                                                           seeds.input[ranks[1]], seeds.input[ranks[2]]});
-  std::vector<std::uint32_t>& rows = geometry.simplices;
+std::vector<std::uint32_t> simplices_of(const SolidGeometryInput& input) {
+  std::vector<std::uint32_t> rows = corners_of_cells(input.whole);
+  const std::vector<std::uint32_t>& seed = input.seeds.input;
+  for (const CellAtBoundary& cell : input.at_boundary)
+    for (const auto& [a, b, c] : cell.faces->corners)
+      rows.insert(rows.end(), {seed[cell.rank], seed[a], seed[b], seed[c]});
   std::size_t kept = 0;
   for (std::size_t row = 0; row < rows.size(); row += 4) {
     const auto first = rows.begin() + static_cast<std::ptrdiff_t>(row);
-    if (!std::all_of(first, first + 4, [&](std::uint32_t i) { return status[i] == SeedStatus::ok; }))
-      continue;
+    const bool all_have_cells =
+        std::all_of(first, first + 4, [&](std::uint32_t i) { return input.status[i] == SeedStatus::ok; });
+    if (!all_have_cells) continue;
     std::copy(first, first + 4, rows.begin() + static_cast<std::ptrdiff_t>(kept));
     kept += 4;
   }
   rows.resize(kept);
+  return rows;
+}
+
+}  // namespace
+
+SolidGeometry join_solid(const SolidGeometryInput& input) {
+  const std::size_t n = input.status.size();
+  std::vector<const CellAtBoundary*> by_seed(n);
+  for (const CellAtBoundary& cell : input.at_boundary) by_seed[input.seeds.input[cell.rank]] = &cell;
+  const JoinedCells whole = join_pieces(input.domain, input.whole);
+  Joining joining(whole, input.seeds, input.frame);
+  const solid::CellFaces no_faces;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (input.status[i] != SeedStatus::ok)
+      joining.add({0, &no_faces});
+    else if (by_seed[i])
+      joining.add(*by_seed[i]);
+    else
+      joining.add_whole(i);
+  }
+  SolidGeometry geometry{joining.finish(), simplices_of(input)};
+  if (!input.coincident.empty())
+    geometry.joined = without_coincident_walls(geometry.joined, input.coincident, positions_of(input.seeds));
   return geometry;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/collect/coincident_walls.hpp"
 #include "lib/domain/frame.hpp"
 #include "lib/seeds/seed_set.hpp"
 #include "lib/solid/cell_faces.hpp"
@@ -26,10 +27,16 @@ struct SolidGeometry {
   std::vector<std::uint32_t> simplices;
 };
 
-/// \param whole  the cells that lie inside as wholes, one piece each
-/// \param at_boundary  all others
-SolidGeometry join_solid(const Domain& domain, const Cells& whole,
-                         std::span<const CellAtBoundary> at_boundary, const SeedSet& seeds,
-                         const Frame& frame, const std::vector<SeedStatus>& status);
+struct SolidGeometryInput {
+  const Domain& domain;
+  const Cells& whole;                           ///< the cells that lie inside as wholes, one piece each
+  std::span<const CellAtBoundary> at_boundary;  ///< all others
+  std::vector<CoincidentWall> coincident;       ///< in seeds of the caller
+  const SeedSet& seeds;
+  const Frame& frame;
+  const std::vector<SeedStatus>& status;
+};
+
+SolidGeometry join_solid(const SolidGeometryInput& input);
 
 }  // namespace powercell

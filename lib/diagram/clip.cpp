@@ -88,6 +88,7 @@ class Pass {
   std::uint32_t rank_of(std::uint64_t pair) const;
   /// Moves the centroids from near the wrapped seeds to near those given.
   void place_centroids(Measures& measures) const;
+  std::vector<CoincidentWall> coincident_walls(const std::vector<SeedStatus>& status) const;
   Clipped finish();
   void keep_wall_memory();
 
@@ -211,6 +212,15 @@ void Pass::place_centroids(Measures& measures) const {
   }
 }
 
+std::vector<CoincidentWall> Pass::coincident_walls(const std::vector<SeedStatus>& status) const {
+  std::vector<CoincidentWall> walls;
+  const std::vector<std::uint32_t>& seed = active_.seeds().input;
+  for (const SolidCells::Coincidence& c : plan_.solid->coincidences)
+    if (status[seed[c.rank]] == SeedStatus::ok && status[seed[c.neighbor]] == SeedStatus::ok)
+      walls.push_back({seed[c.rank], seed[c.neighbor], c.triangle});
+  return walls;
+}
+
 Clipped Pass::finish() {
   const SeedSet& seeds = active_.seeds();
   Clipped results;
@@ -243,8 +253,9 @@ Clipped Pass::finish() {
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
   if (want_.cells && plan_.solid)
-    results.solid = join_solid(setup_.domain, geometry_.finish(measures.status), at_boundary, seeds,
-                               setup_.on_device.frame(), measures.status);
+    results.solid =
+        join_solid({setup_.domain, geometry_.finish(measures.status), at_boundary,
+                    coincident_walls(measures.status), seeds, setup_.on_device.frame(), measures.status});
   else if (want_.cells)
     results.cells = geometry_.finish(measures.status);
   if (placement_) place_centroids(measures);

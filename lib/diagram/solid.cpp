@@ -93,7 +93,7 @@ SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan&
     add_part(cell.rank, part, measures, walls);
     sides.geometry.push_back({cell.rank, &cell.faces[inside]});
   }
-  for (const auto& [rank, neighbor, area] : solid.coincidences) {
+  for (const auto& [rank, neighbor, triangle, area] : solid.coincidences) {
     walls.subtract(rank, neighbor, area);
     walls.subtract(neighbor, rank, area);
   }

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "lib/base/disjoint_sets.hpp"
-#include "lib/solid/flat_parts.hpp"
+#include "lib/solid/tile.hpp"
 
 namespace powercell::solid {
 namespace {
@@ -14,54 +13,9 @@ constexpr std::uint32_t none = Lookup::none;
 
 /// An edge of the part within a wall of the cell, with the wall on its left seen from outside.
 struct WallEdge {
-  std::uint32_t wall, from, to;
+  std::uint32_t wall;
+  DirectedEdge edge;
 };
-
-/// The edges that are left when those in opposite directions cancel.
-std::vector<WallEdge> without_opposite(std::vector<WallEdge> edges) {
-  const auto ends = [](const WallEdge& e) { return std::minmax(e.from, e.to); };
-  const auto key = [&](const WallEdge& e) { return std::tuple(ends(e).first, ends(e).second, e.from); };
-  std::sort(edges.begin(), edges.end(),
-            [&](const WallEdge& a, const WallEdge& b) { return key(a) < key(b); });
-  std::vector<WallEdge> left;
-  for (std::size_t first = 0, last; first < edges.size(); first = last) {
-    std::size_t up = 0;
-    for (last = first; last < edges.size() && ends(edges[last]) == ends(edges[first]); ++last)
-      up += edges[last].from < edges[last].to;
-    const std::size_t down = last - first - up;
-    for (std::size_t k = down; k < up; ++k) left.push_back(edges[first]);
-    for (std::size_t k = up; k < down; ++k) left.push_back(edges[last - 1]);
-  }
-  return left;
-}
-
-/// The loops that edges form, none of which passes a vertex twice. Loops of two edges are left out.
-/// \param edges  between the vertices 0 .. count-1, as many from each as to it
-Polygons simple_loops(std::span<const WallEdge> edges, std::size_t count) {
-  std::vector<std::vector<std::uint32_t>> to(count);
-  for (const WallEdge& edge : edges) to[edge.from].push_back(edge.to);
-  std::vector<std::uint32_t> path;
-  std::vector<bool> on_path(count);
-  Polygons loops;
-  for (std::uint32_t start = 0; start < count; ++start) {
-    for (std::uint32_t v = start; !to[start].empty() || v != start;) {
-      path.push_back(v);
-      on_path[v] = true;
-      const std::uint32_t next = to[v].back();
-      to[v].pop_back();
-      v = next;
-      if (!on_path[v]) continue;
-      const auto first = std::find(path.begin(), path.end(), v);
-      if (path.end() - first > 2) {
-        loops.vertex.insert(loops.vertex.end(), first, path.end());
-        loops.end.push_back(loops.vertex.size());
-      }
-      for (auto k = first; k != path.end(); ++k) on_path[*k] = false;
-      path.erase(first, path.end());
-    }
-  }
-  return loops;
-}
 
 class Maker {
  public:
@@ -94,7 +48,7 @@ class Maker {
   /// Drops repeated vertices, and loops of two: their edges cancel.
   void append_face(std::vector<std::uint32_t> loop, std::int32_t border);
   void append_walls();
-  void append_wall(std::vector<WallEdge> edges);
+  void append_wall(std::int32_t border, const std::vector<DirectedEdge>& edges);
   void add_corners();
 
   const CellFacesInput& input_;
@@ -145,8 +99,8 @@ void Maker::add_pieces() {
     const std::size_t count = piece.border.size();
     for (std::size_t k = 0; k < count; ++k)
       if (piece.border[k] >= 0)
-        wall_edges_.push_back(
-            {cell_.ring()[first + k].face, piece_[first + (k + 1 == count ? 0 : k + 1)], piece_[first + k]});
+        wall_edges_.push_back({cell_.ring()[first + k].face,
+                               {piece_[first + (k + 1 == count ? 0 : k + 1)], piece_[first + k]}});
     first += count;
   }
 }
@@ -166,8 +120,8 @@ void Maker::add_cell_edge(std::uint32_t edge, std::span<const std::uint32_t> cro
   std::sort(in.begin(), in.end());
   std::sort(out.begin(), out.end());
   for (std::size_t k = 0; k < in.size(); ++k) {
-    wall_edges_.push_back({cell_.left(edge), in[k].second, out[k].second});
-    wall_edges_.push_back({cell_.right(edge), out[k].second, in[k].second});
+    wall_edges_.push_back({cell_.left(edge), {in[k].second, out[k].second}});
+    wall_edges_.push_back({cell_.right(edge), {out[k].second, in[k].second}});
   }
 }
 
@@ -195,11 +149,8 @@ void Maker::weld() {
   for (std::size_t p = 0, k = 0; p < piece_end_.size(); ++p)
     for (const std::size_t first = k; k < piece_end_[p]; ++k)
       unite_short(piece_[k], piece_[k + 1 == piece_end_[p] ? first : k + 1]);
-  for (const WallEdge& edge : wall_edges_) unite_short(edge.from, edge.to);
-  for (WallEdge& edge : wall_edges_) {
-    edge.from = welded_.root(edge.from);
-    edge.to = welded_.root(edge.to);
-  }
+  for (const auto& [wall, edge] : wall_edges_) unite_short(edge.from, edge.to);
+  for (auto& [wall, edge] : wall_edges_) edge = {welded_.root(edge.from), welded_.root(edge.to)};
   number_.assign(at_.size(), none);
 }
 
@@ -226,45 +177,24 @@ void Maker::append_face(std::vector<std::uint32_t> loop, std::int32_t border) {
 }
 
 void Maker::append_walls() {
-  std::erase_if(wall_edges_, [](const WallEdge& edge) { return edge.from == edge.to; });
   std::stable_sort(wall_edges_.begin(), wall_edges_.end(),
                    [](const WallEdge& a, const WallEdge& b) { return a.wall < b.wall; });
+  std::vector<DirectedEdge> edges;
   for (std::size_t first = 0, last; first < wall_edges_.size(); first = last) {
-    for (last = first; last < wall_edges_.size() && wall_edges_[last].wall == wall_edges_[first].wall;)
-      ++last;
-    const auto begin = wall_edges_.begin();
-    append_wall(without_opposite(
-        {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)}));
+    edges.clear();
+    for (last = first; last < wall_edges_.size() && wall_edges_[last].wall == wall_edges_[first].wall; ++last)
+      edges.push_back(wall_edges_[last].edge);
+    append_wall(cell_.cell().border[wall_edges_[first].wall], edges);
   }
 }
 
-void Maker::append_wall(std::vector<WallEdge> edges) {
-  if (edges.empty()) return;
-  const auto rank = static_cast<std::uint32_t>(cell_.cell().border[edges[0].wall]);
-  const Point normal = difference<double>(&cell_.positions()[3 * std::size_t{rank}],
+void Maker::append_wall(std::int32_t border, const std::vector<DirectedEdge>& edges) {
+  const Point normal = difference<double>(&cell_.positions()[3 * static_cast<std::size_t>(border)],
                                           &cell_.positions()[3 * std::size_t{cell_.rank()}]);
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
-  std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-  if (normal[axis] < 0) std::swap(x, y);
-  std::vector<std::uint32_t> distinct;
-  for (const WallEdge& edge : edges) distinct.push_back(edge.from);
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  std::vector<std::array<double, 2>> position;
-  for (const std::uint32_t v : distinct) position.push_back({at_[v][x], at_[v][y]});
-  const auto local = [&](std::uint32_t v) {
-    return static_cast<std::uint32_t>(std::lower_bound(distinct.begin(), distinct.end(), v) -
-                                      distinct.begin());
-  };
-  for (WallEdge& edge : edges) edge = {edge.wall, local(edge.from), local(edge.to)};
-  Polygons parts;
-  append_convex_parts(simple_loops(edges, distinct.size()), position, parts);
-  for (std::size_t p = 0, k = 0; p < parts.end.size(); ++p) {
-    std::vector<std::uint32_t> face;
-    for (; k < parts.end[p]; ++k) face.push_back(distinct[parts.vertex[k]]);
-    append_face(std::move(face), static_cast<std::int32_t>(rank));
+  const Polygons parts = tile(edges, at_, normal);
+  for (std::size_t p = 0; p < parts.end.size(); ++p) {
+    const std::span<const std::uint32_t> part = parts.loop(p);
+    append_face({part.begin(), part.end()}, border);
   }
 }
 

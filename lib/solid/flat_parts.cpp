@@ -17,11 +17,6 @@ using Position = std::span<const std::array<double, 2>>;
 /// Vertices nearer than this part of a loop's extent to the line between those around them are straight.
 constexpr double straight = 0x1p-40;
 
-std::span<const std::uint32_t> loop_of(const Polygons& all, std::size_t k) {
-  const std::size_t begin = k == 0 ? 0 : all.end[k - 1];
-  return std::span(all.vertex).subspan(begin, all.end[k] - begin);
-}
-
 void append(Polygons& out, std::span<const std::uint32_t> loop) {
   out.vertex.insert(out.vertex.end(), loop.begin(), loop.end());
   out.end.push_back(out.vertex.size());
@@ -35,7 +30,7 @@ double cross(const std::array<double, 2>& a, const std::array<double, 2>& b, con
 class Straightened {
  public:
   Straightened(const Polygons& loops, Position position) : position_(position) {
-    for (std::size_t k = 0; k < loops.end.size(); ++k) add(loop_of(loops, k));
+    for (std::size_t k = 0; k < loops.end.size(); ++k) add(loops.loop(k));
   }
 
   /// Whether some loop is no more than an edge.
@@ -142,7 +137,7 @@ void append_convex_parts(const Polygons& loops, Position position, Polygons& out
   if (thin_loop || straightened.is_convex()) return append(out, loops.vertex);
   if (!straightened.flat() && append_exact(straightened, position, out)) return;
   for (std::size_t k = 0; k < loops.end.size(); ++k) {
-    const std::span<const std::uint32_t> loop = loop_of(loops, k);
+    const std::span<const std::uint32_t> loop = loops.loop(k);
     for (std::size_t v = 2; v < loop.size(); ++v) append(out, std::array{loop[0], loop[v - 1], loop[v]});
   }
 }

@@ -9,10 +9,15 @@
 
 namespace powercell::solid {
 
-/// Polygons by the numbers of their vertices: polygon p is vertex[end[p - 1] .. end[p]).
+/// Polygons by the numbers of their vertices.
 struct Polygons {
   std::vector<std::uint32_t> vertex;
   std::vector<std::size_t> end;
+
+  std::span<const std::uint32_t> loop(std::size_t p) const {
+    const std::size_t begin = p == 0 ? 0 : end[p - 1];
+    return std::span(vertex).subspan(begin, end[p] - begin);
+  }
 };
 
 /// Appends convex polygons that tile the region on the left of closed loops: outer ones counter-clockwise,

@@ -340,7 +340,8 @@ void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell
                               return corner_side(*host_scene_, touched.rank, v, border) == 0;
                             });
       if (in_plane)
-        outcome.coincidences.push_back({touched.rank, neighbor, in_solid.piece_area(p - touched.first)});
+        outcome.coincidences.push_back(
+            {touched.rank, neighbor, piece_[p].triangle, in_solid.piece_area(p - touched.first)});
     }
   }
 }

@@ -63,9 +63,10 @@ struct SolidCells {
   std::vector<std::uint32_t> unclear;
   // Of solids without tetrahedra:
   std::vector<std::uint32_t> flat;  ///< ascending: cells with parts no thicker than rounding
-  /// The part of a wall that lies in a boundary triangle, and so is none.
+  /// The part of a wall that lies in a boundary triangle, and so is none: that of the cell which has only an
+  /// infinitesimal slice there.
   struct Coincidence {
-    std::uint32_t rank, neighbor;
+    std::uint32_t rank, neighbor, triangle;
     double area;
   };
   std::vector<Coincidence> coincidences;
