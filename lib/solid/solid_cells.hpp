@@ -17,19 +17,29 @@
 
 namespace powercell {
 
-/// The boundary of a domain, made once. Not movable.
+/// The boundary of a domain, kept with it.
+struct BoundaryTriangles {
+  RegionMesh mesh;                   ///< outward triangles (boundary_surface)
+  std::vector<std::uint32_t> edges;  ///< per slot of a triangle: the number of its edge
+
+  explicit BoundaryTriangles(const RegionMesh& domain)
+      : mesh(boundary_surface(domain)), edges(edge_numbers(mesh)) {}
+};
+
+/// The same for one diagram. Not movable.
 struct SolidBoundary {
-  RegionMesh mesh;  ///< outward triangles (boundary_surface)
+  std::shared_ptr<const BoundaryTriangles> kept;
+  const RegionMesh& mesh;
+  const std::vector<std::uint32_t>& edges;
   DomainBuffers on_device;
   PairFinder pairs;
 
-  std::vector<std::uint32_t> edges;  ///< per slot of a triangle: the number of its edge
-
-  SolidBoundary(const std::shared_ptr<cl::Context>& context, RegionMesh triangles, int threads)
-      : mesh(std::move(triangles)),
+  SolidBoundary(const std::shared_ptr<cl::Context>& context, const RegionMesh& domain, int threads)
+      : kept(domain.kept.get<BoundaryTriangles>([&] { return std::make_shared<BoundaryTriangles>(domain); })),
+        mesh(kept->mesh),
+        edges(kept->edges),
         on_device(context, mesh, false),
-        pairs(mesh, threads),
-        edges(edge_numbers(mesh)) {}
+        pairs(mesh, threads) {}
   SolidBoundary(const SolidBoundary&) = delete;
   SolidBoundary& operator=(const SolidBoundary&) = delete;
 };
