@@ -119,6 +119,11 @@ Peer::Function on_mesh(const std::string& name, int corners, Function function) 
 
 /// By domain and provider.
 const std::map<std::string, std::map<std::string, Peer::Function>>& peer_functions() {
+  const auto on_tetrahedra = [](const char* name) {
+    return std::map<std::string, Peer::Function>{
+        {"cgal-parallel", on_mesh(name, 4, cgal_parallel_measures_on)},
+        {"cgal", on_mesh(name, 4, cgal_measures_on)}};
+  };
   static const std::map<std::string, std::map<std::string, Peer::Function>> list = {
       {"box2", {{"cgal-parallel", in_box(cgal_parallel_measures_2d)}, {"cgal", in_box(cgal_measures_2d)}}},
       {"box3",
@@ -129,9 +134,9 @@ const std::map<std::string, std::map<std::string, Peer::Function>>& peer_functio
       {"surface",
        {{"cgal-parallel", on_mesh("surface", 3, cgal_parallel_measures_on)},
         {"cgal", on_mesh("surface", 3, cgal_measures_on)}}},
-      {"tets",
-       {{"cgal-parallel", on_mesh("tets", 4, cgal_parallel_measures_on)},
-        {"cgal", on_mesh("tets", 4, cgal_measures_on)}}},
+      {"tets", on_tetrahedra("tets")},
+      {"bracket", on_tetrahedra("bracket")},
+      {"gyroid", on_tetrahedra("gyroid")},
   };
   return list;
 }

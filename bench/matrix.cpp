@@ -37,8 +37,8 @@ void add_works(CLI::App& app, Arguments& a) {
       {"white", Distribution::white}, {"blue", Distribution::blue}, {"cluster", Distribution::cluster}};
   static const std::map<std::string, WeightRange> ranges{
       {"W0", WeightRange::W0}, {"W1", WeightRange::W1}, {"W2", WeightRange::W2}};
-  app.add_option("--domain", a.domains, "box2, box3, surface, tets, islands")
-      ->check(CLI::IsMember({"box2", "box3", "surface", "tets", "islands"}));
+  app.add_option("--domain", a.domains, "box2, box3, surface, tets, bracket, gyroid, islands")
+      ->check(CLI::IsMember({"box2", "box3", "surface", "tets", "bracket", "gyroid", "islands"}));
   app.add_option("--distribution", a.distributions, "white, blue, cluster")
       ->transform(CLI::CheckedTransformer(distributions));
   app.add_option("--weights", a.weights, "W0, W1, W2")->transform(CLI::CheckedTransformer(ranges));

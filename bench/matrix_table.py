@@ -6,7 +6,7 @@ import sys
 from results import Results, count, fields_of
 
 PROVIDERS = ["cgal-parallel", "cgal", "voro++-parallel", "voro++"]
-NAMES = {"box2": "square", "box3": "cube", "surface": "surface", "tets": "tetrahedra"}
+NAMES = {"box2": "square", "box3": "cube", "surface": "surface", "tets": "tetrahedra", "bracket": "bracket", "gyroid": "gyroid"}
 
 
 def seconds(results, **wanted):

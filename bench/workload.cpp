@@ -1,6 +1,7 @@
 #include "bench/workload.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <powercell/shapes.hpp>
 #include <stdexcept>
@@ -47,6 +48,46 @@ std::string Work::name(const std::string& stage, const std::string& precision,
          "/" + provider + "/" + std::to_string(n);
 }
 
+namespace {
+
+/// The vertices and tetrahedra of a Medit file without other elements.
+Mesh read_tetrahedra(const std::string& path) {
+  std::ifstream file(path);
+  Mesh mesh;
+  for (std::string word; file >> word;) {
+    std::size_t count = 0;
+    if (word == "Vertices" || word == "Tetrahedra") file >> count;
+    for (std::size_t row = 0; row < count; ++row) {
+      for (int k = 0; k < (word == "Vertices" ? 3 : 4); ++k) {
+        double number = 0;
+        file >> number;
+        if (word == "Vertices")
+          mesh.vertices.push_back(number);
+        else
+          mesh.elements.push_back(static_cast<std::uint32_t>(number) - 1);
+      }
+      double reference = 0;
+      file >> reference;
+    }
+  }
+  if (!file.eof() || mesh.elements.empty()) throw std::invalid_argument("cannot read " + path);
+  return mesh;
+}
+
+/// Tetrahedra on one side of a gyroid, three of its cells along each axis of the cube: a body as full of
+/// channels as a bone.
+Mesh gyroid() {
+  Random random(7);
+  return part_of(cube_tetrahedra(30, 0, random), [](const std::array<double, 3>& x) {
+    const double turns = 6 * std::numbers::pi;
+    return std::sin(turns * x[0]) * std::cos(turns * x[1]) + std::sin(turns * x[1]) * std::cos(turns * x[2]) +
+               std::sin(turns * x[2]) * std::cos(turns * x[0]) <
+           -0.4;
+  });
+}
+
+}  // namespace
+
 Mesh mesh_of(const std::string& name) {
   if (name == "surface") {
     TriangleMesh mesh = torus(32);
@@ -56,6 +97,8 @@ Mesh mesh_of(const std::string& name) {
     Random random(7);  // fixed, since the shape is part of the work
     return cube_tetrahedra(14, 0.15, random);
   }
+  if (name == "bracket") return read_tetrahedra(POWERCELL_DATA "/bracket.mesh");
+  if (name == "gyroid") return gyroid();
   throw std::invalid_argument("unknown mesh '" + name + "'");
 }
 
@@ -77,7 +120,7 @@ int dimension_of(const std::string& domain) {
 
 SeedArray seeds_of(const Work& work) {
   Random random(1);
-  if (work.domain == "islands")
+  if (work.domain == "islands" || work.domain == "bracket")
     return seeds_for(domain_of(work.domain), work.distribution, work.weights, work.n, random);
   if (work.domain != "surface")
     return random_seeds(work.distribution, work.weights, work.n, dimension_of(work.domain), random);

@@ -25,18 +25,18 @@ struct Work {
 };
 
 /// "box2", "box3": the unit square and cube. "surface": a torus of 5,120 triangles. "tets": the unit cube as
-/// 16,464 tetrahedra of uneven shape. "islands": a polygon of three parts with a hole.
-/// \throw std::invalid_argument
+/// 16,464 tetrahedra of uneven shape. "bracket": the machine part of examples/data. "gyroid": a porous body
+/// of tetrahedra. "islands": a polygon of three parts with a hole. \throw std::invalid_argument
 Domain domain_of(const std::string& name);
 bool is_box(const std::string& domain);
 int dimension_of(const std::string& domain);  ///< of the space
-/// The triangles or tetrahedra of "surface" and "tets". \throw std::invalid_argument
+/// The triangles or tetrahedra of "surface", "tets", "bracket" and "gyroid". \throw std::invalid_argument
 test::Mesh mesh_of(const std::string& name);
 
-/// The seeds of a work, a function of the work alone. They lie in the domain, except for "islands" (in its
-/// bounding box) and "surface": these are mapped from the unit square to the smooth torus, preserving ratios
-/// of areas, and then moved by up to half of their spacing along each axis. (Exactly on a torus, whole
-/// circles of seeds would be cospherical, the worst case for a triangulation in space.)
+/// The seeds of a work, a function of the work alone. They lie in the domain, except for "islands", "bracket"
+/// and "gyroid" (in its bounding box) and "surface": these are mapped from the unit square to the smooth
+/// torus, preserving ratios of areas, and then moved by up to half of their spacing along each axis. (Exactly
+/// on a torus, whole circles of seeds would be cospherical, the worst case for a triangulation in space.)
 SeedArray seeds_of(const Work& work);
 
 }  // namespace powercell::bench

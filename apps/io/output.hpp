@@ -17,7 +17,7 @@ struct DiagramOutput {
   const Domain& domain;
   SeedsView seeds;
   const Measures& measures;
-  const Cells& cells;
+  const Cells& cells;  ///< of a solid, which has no regions: the joined cells, one piece each
   const JoinedCells& joined;
   const Adjacency& adjacency;
   /// Whether flat pictures show a weight w as a disc of radius sqrt(w). It makes no sense for weights that

@@ -51,13 +51,17 @@ class POWERCELL_API Diagram {
   Precision precision() const;  ///< as chosen: float64 or float32
   Neighbors neighbors() const;  ///< as chosen: tree or flann
 
-  /// Computes the measures, and the adjacency and cells where requested, in as few passes as possible. The
-  /// getters below compute what is missing, each in a pass of its own.
+  /// Computes the measures, and the adjacency and cells (of a solid the joined cells) where requested, in as
+  /// few passes as possible. The getters below compute what is missing, each in a pass of its own.
   void compute(bool adjacency, bool cells);
 
   const Measures& measures();
   const Adjacency& adjacency();
+  /// \throw Error unsupported in a solid, which has no regions that cells could be cut along: see joined()
   const Cells& cells();
+  /// The cells as wholes, in every kind of domain: of a solid by themselves, else as join() makes them.
+  /// \throw Error unsupported in a solid if seeds are selected
+  const JoinedCells& joined();
   /// The facets of the domain that the cells have, in a pass of its own over the regions at the boundary.
   const BoundaryWalls& boundary_walls();
   /// \throw Error unsupported if seeds are selected

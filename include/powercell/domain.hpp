@@ -80,8 +80,9 @@ class POWERCELL_API Domain {
   /// direction the triangles of a shell are oriented does not matter. \param vertices nv x 3, row-major
   /// \param triangles nt x 3 indices from 0 Vertices at the same position count as one, and triangles with
   /// two corners at one position are left out. The surface may touch itself in vertices and edges that
-  /// triangles share. Cells in a solid have measures and walls, but no geometry: Diagram::cells() and all
-  /// that needs it throws Error unsupported, as does single precision. regions() is empty. \throw Error
+  /// triangles share. The geometry of cells in a solid is that of Diagram::joined(), without convex pieces:
+  /// Diagram::cells() and all that needs it throws Error unsupported, as does single precision. regions() is
+  /// empty. \throw Error
   /// invalid_domain (names triangles and the place): an edge with an odd number of triangles, an edge whose
   /// two triangles are oriented against each other, triangles that cross, overlap or touch otherwise, corners
   /// in a line

@@ -101,7 +101,13 @@ struct POWERCELL_API Cells {
 /// Polygon: the faces of a cell are its boundary rings, outer ones counter-clockwise, holes
 /// clockwise, and `edge_border` is the border of the edge that starts at each loop entry.
 /// Surface: a face is a polygon in one triangle of the domain; `edge_border` as for polygons.
-/// Volume: a face is a polygon on the cell's boundary, and `face_border` its border.
+/// Volume: a face is a polygon on the cell's boundary, counter-clockwise seen from outside, and `face_border`
+/// its border. A polygon has no holes: a wall that has some, or several parts, is several faces with the same
+/// border.
+/// Solid: as volume, but each face is convex (up to rounding, and to spikes without width where seeds tie
+/// with the surface), so that a wall that is not is several faces; a boundary facet is a triangle of the
+/// surface as given to Domain::solid without those left out, and of a cell each edge occurs as often in one
+/// direction as in the other.
 struct JoinedCells {
   int dimension = 0;
   int cell_dimension = 0;
@@ -119,8 +125,8 @@ struct JoinedCells {
 /// The regular triangulation restricted to the domain: one simplex for each point of the domain in which d+1
 /// cells meet (three on polygons and surfaces, four in volumes). With exact decisions no more than d+1 cells
 /// meet in a point: the order of the positions breaks ties, so that the simplices form a triangulation for
-/// any seeds. All corners have cells: a seed whose cell only touches the domain from outside is hidden, and
-/// not a corner.
+/// any seeds (in a solid a point exactly on the surface counts or not by the same order). All corners have
+/// cells: a seed whose cell only touches the domain from outside is hidden, and not a corner.
 struct Dual {
   int corners = 0;                       ///< 3 or 4
   std::vector<std::uint32_t> simplices;  ///< rows of `corners` seed indices, positively oriented

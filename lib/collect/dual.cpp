@@ -210,6 +210,16 @@ Dual extended(const Dual& dual, const std::vector<std::uint32_t>& more, const Se
 
 }  // namespace
 
+std::vector<std::uint32_t> corners_of_cells(const Cells& cells) {
+  std::vector<std::uint32_t> rows;
+  Incidence around;
+  for (std::uint32_t i = 0; i < cells.cell_count(); ++i)
+    for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
+      corners_of_polyhedron(cells, i, p, around,
+                            [&](const Row<4>& row) { rows.insert(rows.end(), row.begin(), row.end()); });
+  return rows;
+}
+
 Dual extend_dual(const Dual& dual, const std::vector<std::uint32_t>& rows, const SeedsView& seeds) {
   return dual.corners == 3 ? extended<3>(dual, rows, seeds) : extended<4>(dual, rows, seeds);
 }

@@ -15,6 +15,10 @@ namespace powercell {
 /// \pre pieces are simple, as the clipper makes them: three faces meet at each vertex of a polyhedron
 Dual make_dual(const Cells& cells, const SeedsView& seeds);
 
+/// Rows of four seeds whose cells meet at a vertex of a polyhedral piece, as in make_dual(), with
+/// repetitions.
+std::vector<std::uint32_t> corners_of_cells(const Cells& cells);
+
 /// `dual` with further simplices of a polygon or volume; repeated ones have no effect.
 /// \param rows  of seed indices, in any order
 Dual extend_dual(const Dual& dual, const std::vector<std::uint32_t>& rows, const SeedsView& seeds);

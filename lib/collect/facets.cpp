@@ -1,10 +1,12 @@
 #include "lib/collect/facets.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
 #include "kernels/layout.h"
+#include "lib/base/vectors.hpp"
 
 namespace powercell {
 
@@ -43,6 +45,41 @@ BoundaryWalls FacetCollector::finish(std::span<const std::uint32_t> place,
     out.measure.push_back(measure * unit);
   }
   std::partial_sum(out.offset.begin(), out.offset.end(), out.offset.begin());
+  return out;
+}
+
+namespace {
+
+/// The area of face f of cell i, a convex polygon.
+double area_of(const JoinedCells& cells, std::size_t i, std::uint64_t f) {
+  const auto corner = [&](std::uint64_t k) {
+    const double* x = &cells.vertices[3 * (cells.vertex_offset[i] + cells.loop[k])];
+    return Vector3<double>{x[0], x[1], x[2]};
+  };
+  Vector3<double> twice{};
+  const Vector3<double> first = corner(cells.loop_offset[f]);
+  for (std::uint64_t k = cells.loop_offset[f] + 2; k < cells.loop_offset[f + 1]; ++k)
+    twice = twice + cross(corner(k - 1) - first, corner(k) - first);
+  return norm(twice) / 2;
+}
+
+}  // namespace
+
+BoundaryWalls facets_of(const JoinedCells& cells) {
+  BoundaryWalls out;
+  out.offset.push_back(0);
+  for (std::size_t i = 0; i + 1 < cells.face_offset.size(); ++i) {
+    std::map<std::uint32_t, double> area;
+    for (std::uint64_t f = cells.face_offset[i]; f < cells.face_offset[i + 1]; ++f)
+      if (cells.face_border[f].kind == Border::Kind::boundary)
+        area[cells.face_border[f].index] += area_of(cells, i, f);
+    for (const auto& [facet, measure] : area) {
+      if (!(measure > 0)) continue;
+      out.facet.push_back(facet);
+      out.measure.push_back(measure);
+    }
+    out.offset.push_back(out.facet.size());
+  }
   return out;
 }
 

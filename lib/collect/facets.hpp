@@ -35,4 +35,7 @@ class FacetCollector {
   std::vector<Part> parts_;
 };
 
+/// The same from the joined cells of a solid.
+BoundaryWalls facets_of(const JoinedCells& cells);
+
 }  // namespace powercell

@@ -9,9 +9,9 @@ namespace {
 
 void check(const Domain& domain, const Cells& cells) {
   if (domain.is_solid())
-    throw Error(
-        ErrorCode::invalid_argument,
-        "a solid has no regions whose pieces could be joined: join cells with the domain of their diagram");
+    throw Error(ErrorCode::invalid_argument,
+                "a solid has no regions whose pieces could be joined; Diagram::joined() has the cells of its "
+                "diagrams");
   if (cells.dimension == domain.dimension() && cells.cell_dimension == domain.cell_dimension()) return;
   throw Error(ErrorCode::invalid_argument, "cells of dimension " + std::to_string(cells.cell_dimension) +
                                                " in " + std::to_string(cells.dimension) +
@@ -43,6 +43,8 @@ void append(const CellWeld& weld, const JoinedFaces& faces, std::vector<std::uin
   out.face_offset.push_back(out.loop_offset.size() - 1);
 }
 
+}  // namespace
+
 JoinedCells join_pieces(const Domain& domain, const Cells& cells) {
   JoinedCells out;
   out.dimension = cells.dimension;
@@ -65,6 +67,8 @@ JoinedCells join_pieces(const Domain& domain, const Cells& cells) {
   }
   return out;
 }
+
+namespace {
 
 /// A face per image: borders become numbers of faces, so that walls with images of one seed stay apart.
 JoinedCells join_periodic(const Domain& domain, Cells cells) {

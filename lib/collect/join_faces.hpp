@@ -30,4 +30,7 @@ void join_triangles(const CellWeld& weld, JoinedFaces& faces);
 /// removes vertices that only split an edge between two walls.
 void join_polyhedron(const CellWeld& weld, JoinedFaces& faces);
 
+/// The pieces of each cell, joined: join() of a domain that is not periodic.
+JoinedCells join_pieces(const Domain& domain, const Cells& cells);
+
 }  // namespace powercell

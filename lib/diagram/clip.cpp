@@ -41,7 +41,8 @@ class Pass {
         measures_(setup.on_device, row_seeds(), setup.domain.measure(), setup.threads),
         walls_(collects_walls() && !active.images() && !plan.selected ? active.seeds().size() : 0,
                setup.threads, std::exchange(workspace.walls, {})),
-        geometry_(setup.domain.mesh(), active.seeds(), setup.on_device.frame()) {
+        geometry_(plan.solid ? setup.clip_mesh : setup.domain.mesh(), active.seeds(),
+                  setup.on_device.frame()) {
     if (!active.images()) {
       if (plan.selected && want.adjacency)
         selected_walls_.emplace(active.seeds(), row_seeds().size(), nullptr, setup.threads);
@@ -82,6 +83,7 @@ class Pass {
   std::uint32_t row_of(std::uint64_t pair) const;
   /// Moves the centroids from near the wrapped seeds to near those given.
   void place_centroids(Measures& measures) const;
+  std::vector<CoincidentWall> coincident_walls(const std::vector<SeedStatus>& status) const;
   Clipped finish();
   void keep_wall_memory();
 
@@ -218,6 +220,15 @@ void Pass::place_centroids(Measures& measures) const {
   }
 }
 
+std::vector<CoincidentWall> Pass::coincident_walls(const std::vector<SeedStatus>& status) const {
+  std::vector<CoincidentWall> walls;
+  const std::vector<std::uint32_t>& seed = active_.seeds().input;
+  for (const SolidCells::Coincidence& c : plan_.solid->coincidences)
+    if (status[seed[c.rank]] == SeedStatus::ok && status[seed[c.neighbor]] == SeedStatus::ok)
+      walls.push_back({seed[c.rank], seed[c.neighbor], c.triangle});
+  return walls;
+}
+
 Clipped Pass::finish() {
   const SeedSet& seeds = row_seeds();
   Clipped results;
@@ -226,10 +237,12 @@ Clipped Pass::finish() {
     return results;
   }
   std::vector<std::uint32_t> outside;
+  std::vector<CellAtBoundary> at_boundary;
   if (plan_.solid) {
     const SolidSides sides = add_solid_cells(setup_, active_, plan_, measures_, walls_);
     results.unclear = sides.unclear;
     outside = sides.outside;
+    at_boundary = sides.geometry;
     flat_.insert(flat_.end(), sides.flat.begin(), sides.flat.end());
     std::sort(flat_.begin(), flat_.end());
   }
@@ -250,7 +263,11 @@ Clipped Pass::finish() {
     results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
-  if (want_.cells)
+  if (want_.cells && plan_.solid)
+    results.solid =
+        join_solid({setup_.domain, geometry_.finish(measures.status, seeds), at_boundary,
+                    coincident_walls(measures.status), seeds, setup_.on_device.frame(), measures.status});
+  else if (want_.cells)
     results.cells =
         geometry_.finish(measures.status, seeds, plan_.selected ? &plan_.selected->rank : nullptr);
   if (placement_) place_centroids(measures);

@@ -6,6 +6,7 @@
 #include <powercell/results.hpp>
 #include <vector>
 
+#include "lib/collect/join_solid.hpp"
 #include "lib/collect/walls.hpp"
 #include "lib/diagram/plan.hpp"
 
@@ -13,7 +14,8 @@ namespace powercell {
 
 /// The results to compute besides the measures.
 struct Wanted {
-  bool adjacency = false, cells = false;
+  bool adjacency = false;
+  bool cells = false;  ///< the geometry: of a solid the joined cells
 };
 
 /// The outcome of a pass: results, or ranks because of which it must be repeated.
@@ -21,6 +23,7 @@ struct Clipped {
   std::optional<Measures> measures;
   std::optional<Adjacency> adjacency;
   std::optional<Cells> cells;
+  std::optional<SolidGeometry> solid;  ///< in place of cells
   std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
   double margin = 0;                   ///< of images, if cells reach too far for theirs; else 0
   std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region

@@ -57,8 +57,10 @@ const Adjacency& Diagram::adjacency() {
   return *state_->results->adjacency;
 }
 const Cells& Diagram::cells() {
-  compute(false, true);
-  return *state_->results->cells;
+  return state_->cells();
+}
+const JoinedCells& Diagram::joined() {
+  return state_->joined();
 }
 const BoundaryWalls& Diagram::boundary_walls() {
   return state_->boundary_walls();

@@ -95,7 +95,9 @@ Pairs with_regions(const Setup& setup, const Active& active, const std::vector<s
 
 /// Computes the cells at the boundary from it. All other cells stay whole, but for those that are clipped
 /// region by region because rounding leaves something open.
-Plan plan_by_boundary(const Setup& setup, const Active& active, Workspace& workspace, Timings& timings) {
+/// \param faces  whether to make the surfaces of the cells at the boundary
+Plan plan_by_boundary(const Setup& setup, const Active& active, bool faces, Workspace& workspace,
+                      Timings& timings) {
   const Scene scene = active.scene();
   const SolidBoundary& boundary = *setup.boundary;
   Plan plan;
@@ -112,7 +114,7 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, Workspace& works
   RegionCandidates facet_candidates(facets, on_facets.list_offset, on_facets.list_seed, on_facets.all_listed);
   SolidMemory memory{std::exchange(workspace.facets, {}), std::exchange(workspace.clip, {})};
   plan.solid = compute_solid_cells({setup.domain.mesh(), boundary, scene, on_facets, active.by_region,
-                                    facet_candidates, tree, setup.threads, setup.options.progress},
+                                    facet_candidates, tree, faces, setup.threads, setup.options.progress},
                                    memory, plan.solid_statistics);
   workspace.clip = std::move(memory.cells);  // clipping goes on with them
   if (memory.facets && memory.facets->bytes() <= kept_bytes) workspace.facets = std::move(memory.facets);
@@ -243,10 +245,10 @@ Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Se
                Workspace& workspace, Timings& timings) {
   timings.pair_count = 0;
   if (active.seeds().size() == 0) return {};
+  const bool geometry = kind == PlanKind::geometry, solid = setup.domain.is_solid();
   Plan plan = selection ? plan_by_selection(setup, active, *selection, workspace, timings)
-              : kind != PlanKind::integrals || !setup.has_inside
-                  ? plan_by_regions(setup, active, workspace, timings)
-              : setup.boundary ? plan_by_boundary(setup, active, workspace, timings)
+              : (geometry && !solid) || !setup.has_inside ? plan_by_regions(setup, active, workspace, timings)
+              : setup.boundary ? plan_by_boundary(setup, active, geometry, workspace, timings)
                                : plan_by_cells(setup, active, timings);
   setup.progress->begin_part(pairs_done, 1);
   timings.pair_count += plan.pairs.region.size();

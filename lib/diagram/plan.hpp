@@ -19,7 +19,7 @@ namespace powercell {
 /// the same.
 enum class PlanKind {
   integrals,  ///< measures and adjacency: only cells at the boundary are cut by region
-  geometry,   ///< every cell is cut along the regions of the domain
+  geometry,   ///< every cell is cut along the regions of the domain; in a solid all results
 };
 
 /// The pairs to clip, and their candidates. Refers to the setup and the active seeds it was made for.

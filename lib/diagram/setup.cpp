@@ -74,12 +74,14 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
       neighbors(choose_neighbors(options.neighbors)),
       threads(thread_count(options.threads)),
       has_inside(powercell::has_inside(domain.mesh())),
-      clip_mesh(make_clip_mesh(domain.mesh(), has_inside)),
+      kept_clip_mesh(domain.mesh().kept.get<RegionMesh>(
+          [&] { return std::make_shared<RegionMesh>(make_clip_mesh(domain.mesh(), has_inside)); })),
+      clip_mesh(*kept_clip_mesh),
       on_device(device.context(), has_inside || period() ? clip_mesh : domain.mesh(),
                 precision == Precision::float32),
       pairs(domain.mesh(), threads) {
   if (goes_by_boundary(*this))
-    boundary = std::make_unique<SolidBoundary>(device.context(), boundary_surface(domain.mesh()), threads);
+    boundary = std::make_unique<SolidBoundary>(device.context(), domain.mesh(), threads);
   if (options.progress)
     options.progress = [stages = progress](double fraction) { return stages->report(fraction); };
 }

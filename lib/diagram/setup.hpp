@@ -26,9 +26,10 @@ struct Setup {
   Neighbors neighbors;  ///< not automatic
   int threads;
   bool has_inside;  ///< whether a cell inside the domain can meet several of its regions
-  /// If has_inside, the regions, then the container; of a periodic domain, the room around all cells of
-  /// wrapped seeds.
-  RegionMesh clip_mesh;
+  /// Kept with the domain. If has_inside, the regions, then the container; of a periodic domain, the room
+  /// around all cells of wrapped seeds.
+  std::shared_ptr<const RegionMesh> kept_clip_mesh;
+  const RegionMesh& clip_mesh;
   DomainBuffers on_device;  ///< of `clip_mesh`, or of the domain
   PairFinder pairs;
   /// Null unless cells at the boundary are computed from it alone.

@@ -72,6 +72,7 @@ SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan&
   const std::vector<solid::Side> side = find_sides({one_sided, solid.hints, neighbors, outer});
 
   SolidSides sides;
+  for (const SolidCells::Cell& cell : solid.cells) sides.geometry.push_back({cell.rank, &cell.faces});
   for (const std::uint32_t rank : whole) {
     if (side[rank] == solid::Side::outside) sides.outside.push_back(rank);
     if (side[rank] == solid::Side::unknown) {
@@ -83,13 +84,16 @@ SolidSides add_solid_cells(const Setup& setup, const Active& active, const Plan&
       sides.unclear.push_back(cell.rank);
       continue;
     }
-    const solid::SolidPart& part = cell.part[side[cell.rank] == solid::Side::inside];
-    if (setup.domain.is_solid() ? part.flat : part.thin)
+    const bool inside = side[cell.rank] == solid::Side::inside;
+    const solid::SolidPart& part = cell.part[inside];
+    if (setup.domain.is_solid() ? part.flat : part.thin) {
       (setup.domain.is_solid() ? sides.flat : sides.unclear).push_back(cell.rank);
-    else
-      add_part(cell.rank, part, measures, walls);
+      continue;
+    }
+    add_part(cell.rank, part, measures, walls);
+    sides.geometry.push_back({cell.rank, &cell.faces[inside]});
   }
-  for (const auto& [rank, neighbor, area] : solid.coincidences) {
+  for (const auto& [rank, neighbor, triangle, area] : solid.coincidences) {
     walls.subtract(rank, neighbor, area);
     walls.subtract(neighbor, rank, area);
   }

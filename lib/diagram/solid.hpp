@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "lib/collect/join_solid.hpp"
 #include "lib/collect/walls.hpp"
 #include "lib/diagram/plan.hpp"
 #include "lib/integrate/moment_sums.hpp"
@@ -12,9 +13,10 @@
 namespace powercell {
 
 struct SolidSides {
-  std::vector<std::uint32_t> outside;  ///< ranks of cells clipped as wholes that lie outside
-  std::vector<std::uint32_t> unclear;  ///< ranks of cells whose side contradicts itself
-  std::vector<std::uint32_t> flat;     ///< ranks of cells in a solid no thicker than rounding
+  std::vector<std::uint32_t> outside;    ///< ranks of cells clipped as wholes that lie outside
+  std::vector<std::uint32_t> unclear;    ///< ranks of cells whose side contradicts itself
+  std::vector<std::uint32_t> flat;       ///< ranks of cells in a solid no thicker than rounding
+  std::vector<CellAtBoundary> geometry;  ///< of all other cells at the boundary, if the plan has it
 };
 
 /// \pre plan.solid, and all pairs of the plan were added to `measures` and `walls`

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "lib/collect/dual.hpp"
+#include "lib/collect/facets.hpp"
 #include "lib/collect/periodic_dual.hpp"
 #include "lib/diagram/facets.hpp"
 #include "lib/diagram/stopwatch.hpp"
@@ -113,6 +114,11 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       if (!results->measures) results->measures = std::move(clipped.measures);
       if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
       if (clipped.cells) results->cells = std::move(clipped.cells);
+      if (clipped.solid) {
+        results->joined = std::move(clipped.solid->joined);
+        results->simplices = std::move(clipped.solid->simplices);
+        geometry.reset();  // it has all cells at the boundary
+      }
       return;
     }
     if (clipped.margin > 0) {
@@ -131,6 +137,9 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 void Diagram::State::compute_missing(Wanted want) {
   if (selection && setup.domain.is_solid()) {
     compute_in_solid(want);
+  } else if (want.cells && setup.domain.is_solid()) {
+    setup.progress->begin_pass(0, 1);
+    pass(PlanKind::geometry, want);
   } else if (want.cells && setup.has_inside && !selection) {
     // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
     const bool both = !results->measures || want.adjacency;
@@ -166,14 +175,9 @@ void Diagram::State::compute_in_solid(Wanted want) {
 
 void Diagram::State::compute(Wanted want) {
   want.adjacency = want.adjacency && !results->adjacency;
-  want.cells = want.cells && !results->cells;
+  want.cells = want.cells && !results->cells && !results->simplices;
   if (results->measures && !want.adjacency && !want.cells) return;
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
-  if (want.cells && setup.domain.is_solid())
-    throw Error(
-        ErrorCode::unsupported,
-        "cells of a solid have measures and walls, but no geometry; for geometry, and for all that needs "
-        "it, give a tetrahedral mesh of the solid (Domain::volume)");
   const double built_before = setup.device.build_seconds();
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   const Stopwatch watch(setup.device);
@@ -203,11 +207,10 @@ void Diagram::State::certify() {
 
 const BoundaryWalls& Diagram::State::boundary_walls() {
   if (results->boundary_walls) return *results->boundary_walls;
-  if (setup.domain.is_solid())
-    throw Error(
-        ErrorCode::unsupported,
-        "the facets of cells are found by the regions of the domain, which a solid does not have; give a "
-        "tetrahedral mesh of the solid (Domain::volume)");
+  if (setup.domain.is_solid()) {
+    results->boundary_walls = facets_of(joined());
+    return *results->boundary_walls;
+  }
   compute({});  // excludes flat cells, and has images enough
   setup.progress->begin_computation();
   setup.progress->begin_pass(0, 1);
@@ -222,17 +225,41 @@ const BoundaryWalls& Diagram::State::boundary_walls() {
   }
 }
 
-const Dual& Diagram::State::dual() {
-  if (!results->dual) {
+const Cells& Diagram::State::cells() {
+  if (setup.domain.is_solid())
+    throw Error(ErrorCode::unsupported,
+                "cells of a solid are not cut into convex pieces; their geometry is that of the joined cells "
+                "(Diagram::joined); for pieces, and for all that needs them, give a tetrahedral mesh of the "
+                "solid (Domain::volume)");
+  compute({.cells = true});
+  return *results->cells;
+}
+
+const JoinedCells& Diagram::State::joined() {
+  if (setup.domain.is_solid()) {
     if (selection)
-      throw Error(ErrorCode::unsupported, "the dual is that of all cells; call select_all() before it");
+      throw Error(ErrorCode::unsupported,
+                  "the geometry of cells in a solid is that of all cells; call select_all() before it");
     compute({.cells = true});
-    const SeedRows given = input->given();
-    results->dual =
-        setup.period()
-            ? make_periodic_dual(*results->cells, given.positions, setup.domain.periods())
-            : make_dual(*results->cells, SeedsView{setup.domain.dimension(), given.positions, given.weights});
+  } else if (!results->joined) {
+    results->joined = join(setup.domain, cells());
   }
+  return *results->joined;
+}
+
+const Dual& Diagram::State::dual() {
+  if (results->dual) return *results->dual;
+  if (selection)
+    throw Error(ErrorCode::unsupported, "the dual is that of all cells; call select_all() before it");
+  compute({.cells = true});
+  const SeedRows given = input->given();
+  const SeedsView seeds{setup.domain.dimension(), given.positions, given.weights};
+  if (results->simplices)
+    results->dual = extend_dual({4, {}, {}}, *results->simplices, seeds);
+  else if (setup.period())
+    results->dual = make_periodic_dual(*results->cells, given.positions, setup.domain.periods());
+  else
+    results->dual = make_dual(*results->cells, seeds);
   return *results->dual;
 }
 

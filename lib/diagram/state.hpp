@@ -22,6 +22,8 @@ struct Diagram::State {
     std::optional<Measures> measures;
     std::optional<Adjacency> adjacency;
     std::optional<Cells> cells;
+    std::optional<JoinedCells> joined;
+    std::optional<std::vector<std::uint32_t>> simplices;  ///< of a solid (SolidGeometry)
     std::optional<Dual> dual;
     std::optional<BoundaryWalls> boundary_walls;
   };
@@ -44,6 +46,9 @@ struct Diagram::State {
   void select_all();
   /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
   void compute(Wanted want);
+  /// \throw Error unsupported for a solid
+  const Cells& cells();
+  const JoinedCells& joined();
   const Dual& dual();
   const BoundaryWalls& boundary_walls();
 

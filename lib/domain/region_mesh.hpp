@@ -8,6 +8,7 @@
 #include <powercell/regions.hpp>
 #include <vector>
 
+#include "lib/domain/kept_values.hpp"
 #include "lib/domain/period.hpp"
 
 namespace powercell {
@@ -37,6 +38,7 @@ struct RegionMesh {
   std::shared_ptr<const Period> period;  ///< of a periodic domain, which is one region; else null
   /// Of a solid, which has no regions: its boundary as outward triangles (boundary_surface). Else null.
   std::shared_ptr<const RegionMesh> solid_boundary;
+  KeptValues kept;  ///< what diagrams need of the mesh, once it does not change any more
 
   std::size_t region_count() const { return source.size(); }
 };

@@ -140,7 +140,9 @@ class Sweep {
     }
     const std::uint32_t lower_edge = above == status_.begin() ? none : *std::prev(above);
     for (std::uint32_t e = start_first; e < start_last; ++e) {
+      const std::size_t before = status_.size();
       place_[e] = status_.insert(above, e);
+      if (status_.size() == before) return false;  // it overlaps another one
       if (!edges_[e].inside_above) continue;
       if (e + 1 < start_last) {
         const std::uint32_t n = node(v, none, none);

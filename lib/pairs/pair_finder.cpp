@@ -97,7 +97,6 @@ void keep_short_lists(const std::vector<RankList>& lists, Pairs& pairs) {
 struct PairFinder::Boundary {
   RegionMesh mesh;
   RegionGroups groups;
-  std::unique_ptr<BoundaryPlanes> planes;  // only for tetrahedra
 
   Boundary(const RegionMesh& domain, int threads) : mesh(boundary_of(domain)), groups(mesh, threads) {}
 };
@@ -106,17 +105,20 @@ PairFinder::PairFinder(const RegionMesh& mesh, int threads) : mesh_(mesh), threa
 PairFinder::~PairFinder() = default;
 
 const RegionGroups& PairFinder::groups() const {
-  if (!groups_) groups_ = std::make_unique<RegionGroups>(mesh_, threads_);
+  if (!groups_)
+    groups_ = mesh_.kept.get<RegionGroups>([&] { return std::make_shared<RegionGroups>(mesh_, threads_); });
   return *groups_;
 }
 
 const RegionBlocks& PairFinder::blocks() const {
-  if (!blocks_) blocks_ = std::make_unique<RegionBlocks>(mesh_, groups());
+  if (!blocks_)
+    blocks_ = mesh_.kept.get<RegionBlocks>([&] { return std::make_shared<RegionBlocks>(mesh_, groups()); });
   return *blocks_;
 }
 
 const PairFinder::Boundary& PairFinder::boundary() const {
-  if (!boundary_) boundary_ = std::make_unique<Boundary>(mesh_, threads_);
+  if (!boundary_)
+    boundary_ = mesh_.kept.get<Boundary>([&] { return std::make_shared<Boundary>(mesh_, threads_); });
   return *boundary_;
 }
 
@@ -155,13 +157,12 @@ BoundaryRanks PairFinder::at_boundary(const SeedSet& seeds, const PackedTree& tr
 
 Pairs PairFinder::by_cells(const SeedSet& seeds, const BoundaryRanks& ranks, const CellWalls& walls,
                            bool planes, const std::function<bool(double)>& progress) const {
-  const BoundaryPlanes* boundary_planes = nullptr;
-  if (planes && boundary_ && mesh_.shape == RegionShape::tetrahedron) {
-    if (!boundary_->planes)
-      boundary_->planes = std::make_unique<BoundaryPlanes>(boundary_->mesh, boundary_->groups);
-    boundary_planes = boundary_->planes.get();
-  }
-  return search_cells({mesh_, groups(), blocks(), boundary_planes, seeds, ranks, walls, threads_, progress});
+  const bool with_planes = planes && boundary_ && mesh_.shape == RegionShape::tetrahedron;
+  if (with_planes && !planes_)
+    planes_ = mesh_.kept.get<BoundaryPlanes>(
+        [&] { return std::make_shared<BoundaryPlanes>(boundary_->mesh, boundary_->groups); });
+  return search_cells({mesh_, groups(), blocks(), with_planes ? planes_.get() : nullptr, seeds, ranks, walls,
+                       threads_, progress});
 }
 
 std::vector<std::uint32_t> PairFinder::regions_of(const SeedSet& seeds, std::uint32_t rank,

@@ -41,8 +41,8 @@ namespace pairs {
 class BoundaryPlanes;
 }
 
-/// Finds pairs for one domain. Structures that depend on the regions only are made once. Thread-safe only
-/// where stated.
+/// Finds pairs for one domain. Structures that depend on the regions only are made when first needed, and
+/// kept with the mesh for other finders. Thread-safe only where stated.
 class PairFinder {
  public:
   /// Keeps a reference to the mesh. \param threads  0 for all
@@ -91,10 +91,11 @@ class PairFinder {
 
   const RegionMesh& mesh_;
   int threads_;
-  // Made when first needed.
-  mutable std::unique_ptr<RegionGroups> groups_;
-  mutable std::unique_ptr<RegionBlocks> blocks_;
-  mutable std::unique_ptr<Boundary> boundary_;
+  // Of the mesh, from when they are needed.
+  mutable std::shared_ptr<const RegionGroups> groups_;
+  mutable std::shared_ptr<const RegionBlocks> blocks_;
+  mutable std::shared_ptr<const Boundary> boundary_;
+  mutable std::shared_ptr<const pairs::BoundaryPlanes> planes_;
 };
 
 }  // namespace powercell

@@ -41,7 +41,7 @@ void CellInSolid::add(const BoundaryPiece& piece) {
     const std::uint32_t face =
         piece.border[k] < 0 ? none : face_number_.find(static_cast<std::uint32_t>(piece.border[k]));
     if (piece.border[k] >= 0 && face == none) unknown_border_ = true;
-    ring_.push_back({{piece.vertex[3 * k], piece.vertex[3 * k + 1], piece.vertex[3 * k + 2]}, face});
+    ring_.push_back({{piece.vertex[3 * k], piece.vertex[3 * k + 1], piece.vertex[3 * k + 2]}, face, none});
   }
   ring_end_.push_back(ring_.size());
   for (std::size_t k = 0; k < count; ++k) {
@@ -51,14 +51,15 @@ void CellInSolid::add(const BoundaryPiece& piece) {
     const std::uint32_t face = ring_[first + (comes_in_wall ? before : k)].face,
                         edge =
                             piece.edges[static_cast<std::size_t>(~piece.border[comes_in_wall ? k : before])];
-    Point& at = ring_[first + k].at;
+    RingVertex& vertex = ring_[first + k];
     const std::uint64_t key = std::uint64_t{edge} << 32 | face;
-    const std::uint32_t known = edge_point_number_.find(key);
-    if (known == none) {
-      edge_point_number_.add(key, static_cast<std::uint32_t>(edge_point_.size()));
-      edge_point_.push_back(at);
+    vertex.edge_point = edge_point_number_.find(key);
+    if (vertex.edge_point == none) {
+      vertex.edge_point = static_cast<std::uint32_t>(edge_point_.size());
+      edge_point_number_.add(key, vertex.edge_point);
+      edge_point_.push_back(vertex.at);
     } else {
-      at = edge_point_[known];
+      vertex.at = edge_point_[vertex.edge_point];
     }
   }
 }

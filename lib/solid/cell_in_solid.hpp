@@ -31,6 +31,8 @@ struct BoundaryPiece {
   std::span<const std::int32_t> border;  ///< per edge: a rank, or ~k for edge k of the triangle
   std::span<const double> vertex;        ///< 3 per vertex
   std::span<const std::uint32_t> edges;  ///< numbers of the triangle's edges, the same in all triangles there
+  std::uint32_t triangle = 0;
+  std::span<const std::uint32_t> corners = {};  ///< numbers of the triangle's corners
 };
 
 /// Integrals over the part of a cell in the solid, about the seed, and its walls.
@@ -74,21 +76,27 @@ class CellInSolid {
   /// Whether the boundary meets face f. \pre part()
   bool is_cut(std::uint32_t f) const { return walls_[f].cut; }
 
- private:
+  // What the surface of the part is made of (cell_faces.hpp). Edges of the cell are numbered 3 * vertex +
+  // slot.
+  struct RingVertex {
+    Point at;
+    std::uint32_t face;        ///< that the edge from here to the next one lies in, or Lookup::none
+    std::uint32_t edge_point;  ///< number of the point in which an edge of the boundary meets a wall, or none
+  };
   /// Where the boundary crosses an edge of the cell, seen along the edge from its lower vertex.
   struct Crossing {
-    std::uint32_t edge;  // 3 * lower vertex + slot
-    int leaves;          // 1 where the edge leaves the solid, -1 where it enters
+    std::uint32_t edge;  ///< from its lower vertex
+    int leaves;          ///< 1 where the edge leaves the solid, -1 where it enters
     Point at;
   };
-  /// Sums over the boundary of the part within one wall.
-  struct Wall {
-    bool cut = false;  // whether boundary pieces end in it
-    Point base{};      // a point of its plane
-    Point area{};      // twice the area, along the normal
-    double extent = 0;
-  };
-
+  const WholeCell& cell() const { return cell_; }
+  std::span<const double> positions() const { return positions_; }
+  std::uint32_t rank() const { return rank_; }
+  /// The rings of all pieces, one after the other.
+  const std::vector<RingVertex>& ring() const { return ring_; }
+  std::size_t edge_points() const { return edge_point_.size(); }
+  /// In the order of the ring vertices on them. \pre label()
+  const std::vector<Crossing>& crossings() const { return crossings_; }
   Point vertex(std::uint32_t v) const {
     return {cell_.vertex[3 * std::size_t{v}], cell_.vertex[3 * std::size_t{v} + 1],
             cell_.vertex[3 * std::size_t{v} + 2]};
@@ -97,6 +105,15 @@ class CellInSolid {
   std::uint32_t left(std::uint32_t edge) const { return cell_.link[6 * (edge / 3) + 3 + edge % 3]; }
   std::uint32_t right(std::uint32_t edge) const { return cell_.link[6 * (edge / 3) + 3 + (edge + 2) % 3]; }
   bool is_lower(std::uint32_t edge) const { return edge / 3 < next(edge); }
+
+ private:
+  /// Sums over the boundary of the part within one wall.
+  struct Wall {
+    bool cut = false;  // whether boundary pieces end in it
+    Point base{};      // a point of its plane
+    Point area{};      // twice the area, along the normal
+    double extent = 0;
+  };
 
   void number_edges();
   std::uint32_t edge_between(std::uint32_t left, std::uint32_t right) const;
@@ -124,11 +141,6 @@ class CellInSolid {
   std::span<const double> positions_;
   std::vector<std::uint32_t> first_;  // per face: a vertex
 
-  // The pieces: rings one after the other.
-  struct RingVertex {
-    Point at;
-    std::uint32_t face;  // that the edge from here to the next one lies in, or none
-  };
   std::vector<RingVertex> ring_;
   std::vector<std::size_t> ring_end_;
   /// Where edges of the boundary meet walls. All triangles there must have the same point: of an edge that is

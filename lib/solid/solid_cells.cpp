@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 
 using solid::BoundaryPiece;
 using solid::CellInSolid;
+using solid::make_cell_faces;
 using solid::Side;
 using solid::WholeCell;
 
@@ -37,21 +39,44 @@ WholeCell whole_cell(const PieceSet& pieces, std::size_t pair) {
           std::span(batch.link).subspan(6 * std::size_t{vertex}, 6 * std::size_t{vertices})};
 }
 
-/// \param edges  of the triangle
-BoundaryPiece boundary_piece(const PieceSet& pieces, std::size_t pair, std::span<const std::uint32_t> edges) {
+std::span<const double> vertices_of(const PieceSet& pieces, std::size_t pair) {
   const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
-  const std::uint32_t row = pieces.row[pair], vertices = batch.vertices(row);
-  return {
-      std::span(batch.border).subspan(batch.face_offset[row], vertices),
-      std::span(batch.vertex).subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{vertices}),
-      edges};
+  const std::uint32_t row = pieces.row[pair];
+  return std::span(batch.vertex)
+      .subspan(3 * std::size_t{batch.vertex_offset[row]}, 3 * std::size_t{batch.vertices(row)});
+}
+
+std::span<const std::int32_t> borders_of(const PieceSet& pieces, std::size_t pair) {
+  const PieceBatch& batch = pieces.batches[pieces.batch[pair]];
+  const std::uint32_t row = pieces.row[pair];
+  return std::span(batch.border).subspan(batch.face_offset[row], batch.vertices(row));
+}
+
+/// The borders of a whole triangle.
+constexpr std::array<std::int32_t, 3> whole_border{~0, ~1, ~2};
+
+/// Per triangle whether only one seed can meet it, so that it lies in that cell as a whole.
+std::vector<bool> triangles_of_one(const Pairs& pairs, std::size_t triangles) {
+  std::vector<bool> seen(triangles), alone(triangles);
+  for (const std::uint32_t t : pairs.region) {
+    alone[t] = !seen[t];
+    seen[t] = true;
+  }
+  return alone;
 }
 
 /// One chunk of ranks.
 class Chunk {
  public:
-  Chunk(const SolidCellsInput& input, std::span<const std::uint32_t> ranks)
-      : input_(input), ranks_(ranks), has_tetrahedra_(!input.domain.solid_boundary) {}
+  /// \param alone  triangles_of_one()
+  Chunk(const SolidCellsInput& input, const std::vector<bool>& alone, std::span<const std::uint32_t> ranks)
+      : input_(input), alone_(alone), ranks_(ranks), has_tetrahedra_(!input.domain.solid_boundary) {
+    const RegionMesh& mesh = input.boundary.mesh;
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      reach = std::max({reach, std::fabs(mesh.low[k]), std::fabs(mesh.high[k])});
+    rounding_ = 4 * std::numeric_limits<double>::epsilon() * reach * input.scene.frame().scale;
+  }
 
   void clip_facets(Clipper& clipper);
   /// Clips the whole cells that the boundary meets, and computes their parts.
@@ -63,13 +88,14 @@ class Chunk {
   struct Outcome {
     Kind kind = Kind::unclear;
     std::array<solid::SolidPart, 2> part;  // the first only, unless uniform
+    std::array<solid::CellFaces, 2> faces;
     std::vector<std::uint32_t> neighbors;
     bool reaches_out = false;
     std::vector<SolidCells::Coincidence> coincidences;
   };
   struct Touched {
     std::uint32_t rank;
-    std::size_t first, last;  // pairs
+    std::size_t first, last;  // pieces
     bool tied;
     double radius;  // the distance of its farthest boundary piece
   };
@@ -84,13 +110,24 @@ class Chunk {
                          Outcome& outcome) const;
   void leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
                    SideHints& hints) const;
+  /// A part of a triangle that is not empty: a clipped pair, or the whole triangle.
+  struct Piece {
+    std::uint32_t triangle, pair;
+  };
+  /// The corners of a triangle relative to a seed, in device units.
+  std::array<double, 9> corners_of(std::uint32_t triangle, std::uint32_t rank) const;
+  /// \param memory  for the corners of whole triangles
+  std::vector<BoundaryPiece> pieces_of(const Touched& touched, std::vector<double>& memory) const;
 
+  static constexpr std::uint32_t whole = ~std::uint32_t{0};
   const SolidCellsInput& input_;
+  const std::vector<bool>& alone_;
   std::span<const std::uint32_t> ranks_;
   const bool has_tetrahedra_;
+  double rounding_;                      // of coordinates
   std::optional<HostScene> host_scene_;  // of the triangles, if seeds of a solid tie with them
-  std::vector<std::uint32_t> pair_seed_, pair_region_;
-  const PieceSet* pieces_ = nullptr;
+  std::vector<Piece> piece_;
+  const PieceSet* clipped_ = nullptr;
   std::vector<Touched> touched_;
   std::vector<Outcome> outcome_;  // of touched_
   std::vector<std::uint32_t> tied_alone_;
@@ -98,34 +135,60 @@ class Chunk {
 
 void Chunk::clip_facets(Clipper& clipper) {
   const Pairs& pairs = input_.pairs;
+  std::vector<std::uint32_t> seed, region;
   for (const std::uint32_t rank : ranks_)
-    for (std::uint64_t p = pairs.offset[rank]; p < pairs.offset[rank + 1]; ++p) {
-      pair_seed_.push_back(rank);
-      pair_region_.push_back(pairs.region[p]);
-    }
-  pieces_ = &clipper.clip(pair_seed_, pair_region_);
+    for (std::uint64_t p = pairs.offset[rank]; p < pairs.offset[rank + 1]; ++p)
+      if (!alone_[pairs.region[p]]) {
+        seed.push_back(rank);
+        region.push_back(pairs.region[p]);
+      }
+  clipped_ = &clipper.clip(seed, region);
   find_touched();
-  if (!has_tetrahedra_ && !pieces_->tied.empty())
+  if (!has_tetrahedra_ && !clipped_->tied.empty())
     host_scene_ = make_host_scene(
         {input_.boundary.on_device, input_.scene.buffers, input_.scene.seeds, input_.scene.tree});
 }
 
+std::array<double, 9> Chunk::corners_of(std::uint32_t triangle, std::uint32_t rank) const {
+  const RegionMesh& mesh = input_.boundary.mesh;
+  const double* const seed = &input_.scene.seeds.positions[3 * std::size_t{rank}];
+  const double scale = input_.scene.frame().scale;
+  std::array<double, 9> x;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const std::size_t corner = mesh.region_vertex[3 * std::size_t{triangle} + k / 3];
+    x[k] = scale * mesh.vertices[3 * corner + k % 3] - scale * seed[k % 3];
+  }
+  return x;
+}
+
 void Chunk::find_touched() {
-  const std::vector<std::uint32_t>& tied = pieces_->tied;
-  for (std::size_t first = 0, last; first < pair_seed_.size(); first = last) {
+  const Pairs& pairs = input_.pairs;
+  const std::vector<std::uint32_t>& tied = clipped_->tied;
+  std::uint32_t pair = 0;
+  for (const std::uint32_t rank : ranks_) {
+    const std::size_t first = piece_.size();
+    const std::uint32_t first_pair = pair;
     double square = -1;
-    for (last = first; last < pair_seed_.size() && pair_seed_[last] == pair_seed_[first]; ++last) {
-      if (pieces_->status[last] == PIECE_EMPTY) continue;
-      const std::span<const double> x = boundary_piece(*pieces_, last, {}).vertex;
+    const auto add = [&](Piece piece, std::span<const double> x) {
+      piece_.push_back(piece);
       for (std::size_t v = 0; v < x.size(); v += 3)
         square = std::max(square, x[v] * x[v] + x[v + 1] * x[v + 1] + x[v + 2] * x[v + 2]);
+    };
+    for (std::uint64_t p = pairs.offset[rank]; p < pairs.offset[rank + 1]; ++p) {
+      const std::uint32_t triangle = pairs.region[p];
+      if (alone_[triangle]) {
+        add({triangle, whole}, corners_of(triangle, rank));
+        continue;
+      }
+      if (clipped_->status[pair] != PIECE_EMPTY) add({triangle, pair}, vertices_of(*clipped_, pair));
+      ++pair;
     }
-    const auto tie = std::lower_bound(tied.begin(), tied.end(), first);
-    const bool is_tied = tie != tied.end() && *tie < last;
+    const auto tie = std::lower_bound(tied.begin(), tied.end(), first_pair);
+    const bool is_tied = tie != tied.end() && *tie < pair;
     if (square >= 0)
-      touched_.push_back({pair_seed_[first], first, last, is_tied, std::sqrt(square)});
+      touched_.push_back({rank, first, piece_.size(), is_tied, std::sqrt(square)});
     else if (is_tied && has_tetrahedra_)
-      tied_alone_.push_back(pair_seed_[first]);  // a triangle in one of its walls belongs to the cell behind
+      tied_alone_.push_back(rank);  // a triangle in one of its walls belongs to the cell behind
   }
   outcome_.resize(touched_.size());
 }
@@ -201,15 +264,15 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
   if (cells.status[pair] == PIECE_EMPTY) return;
   const WholeCell cell = whole_cell(cells, pair);
   in_solid.start(touched.rank, cell, input_.scene.seeds.positions);
-  for (std::size_t p = touched.first; p < touched.last; ++p)
-    if (pieces_->status[p] != PIECE_EMPTY)
-      in_solid.add(boundary_piece(
-          *pieces_, p, std::span(input_.boundary.edges).subspan(3 * std::size_t{pair_region_[p]}, 3)));
+  std::vector<double> memory;
+  const std::vector<BoundaryPiece> pieces = pieces_of(touched, memory);
+  for (const BoundaryPiece& piece : pieces) in_solid.add(piece);
   if (!in_solid.label()) return;
   if (touched.tied && !has_tetrahedra_) find_coincidences(in_solid, cell, touched, outcome);
   if (!in_solid.uniform()) {
     if (in_solid.is_open()) return;
     outcome.part[0] = in_solid.part();
+    if (input_.faces) outcome.faces[0] = make_cell_faces({in_solid, pieces, rounding_});
     leave_hints(touched.rank, in_solid, cell, hints);
     if (has_tetrahedra_)
       outcome.kind = touched.tied || outcome.part[0].thin ? Kind::unclear : Kind::done;
@@ -227,8 +290,34 @@ void Chunk::compute_one(CellInSolid& in_solid, const PieceSet& cells, std::size_
   for (const Side side : {Side::outside, Side::inside}) {
     in_solid.set_sides(side);
     outcome.part[side == Side::inside] = in_solid.part();
+    if (input_.faces && !(side == Side::inside && outcome.reaches_out))
+      outcome.faces[side == Side::inside] = make_cell_faces({in_solid, pieces, rounding_});
   }
   outcome.kind = touched.tied && has_tetrahedra_ ? Kind::unclear : Kind::uniform;
+}
+
+std::vector<BoundaryPiece> Chunk::pieces_of(const Touched& touched, std::vector<double>& memory) const {
+  std::vector<BoundaryPiece> pieces;
+  pieces.reserve(touched.last - touched.first);
+  memory.reserve(9 * (touched.last - touched.first));  // so that spans of it stay valid
+  for (std::size_t p = touched.first; p < touched.last; ++p) {
+    const auto [triangle, pair] = piece_[p];
+    const std::size_t slot = 3 * std::size_t{triangle};
+    BoundaryPiece& piece = pieces.emplace_back();
+    piece.edges = std::span(input_.boundary.edges).subspan(slot, 3);
+    piece.triangle = triangle;
+    piece.corners = std::span(input_.boundary.mesh.region_vertex).subspan(slot, 3);
+    if (pair == whole) {
+      const std::array<double, 9> x = corners_of(triangle, touched.rank);
+      memory.insert(memory.end(), x.begin(), x.end());
+      piece.border = whole_border;
+      piece.vertex = std::span<const double>(memory).last(9);
+    } else {
+      piece.border = borders_of(*clipped_, pair);
+      piece.vertex = vertices_of(*clipped_, pair);
+    }
+  }
+  return pieces;
 }
 
 /// A triangle in the plane of a wall whose inner side is that of the neighbour bounds nothing of this cell
@@ -238,10 +327,8 @@ void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell
   const RegionMesh& mesh = input_.boundary.mesh;
   const std::vector<double>& seeds = input_.scene.seeds.positions;
   outcome.coincidences.clear();
-  std::size_t piece = 0;
   for (std::size_t p = touched.first; p < touched.last; ++p) {
-    if (pieces_->status[p] == PIECE_EMPTY) continue;
-    const std::uint32_t* const corner = &mesh.region_vertex[3 * std::size_t{pair_region_[p]}];
+    const std::uint32_t* const corner = &mesh.region_vertex[3 * std::size_t{piece_[p].triangle}];
     const auto at = [&](std::size_t k) { return &mesh.vertices[3 * std::size_t{corner[k]}]; };
     const solid::Point normal = cross(difference<double>(at(1), at(0)), difference<double>(at(2), at(0)));
     for (const std::int32_t border : cell.border) {
@@ -252,9 +339,10 @@ void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell
       const bool in_plane = dot(normal, q) < 0 && std::all_of(corner, corner + 3, [&](std::uint32_t v) {
                               return corner_side(*host_scene_, touched.rank, v, border) == 0;
                             });
-      if (in_plane) outcome.coincidences.push_back({touched.rank, neighbor, in_solid.piece_area(piece)});
+      if (in_plane)
+        outcome.coincidences.push_back(
+            {touched.rank, neighbor, piece_[p].triangle, in_solid.piece_area(p - touched.first)});
     }
-    ++piece;
   }
 }
 
@@ -282,10 +370,11 @@ void Chunk::append_to(SolidCells& all) {
   for (std::size_t t = 0; t < touched_.size(); ++t) {
     const std::uint32_t rank = touched_[t].rank;
     Outcome& outcome = outcome_[t];
-    if (outcome.kind == Kind::done) all.cells.push_back({rank, std::move(outcome.part[0])});
+    if (outcome.kind == Kind::done)
+      all.cells.push_back({rank, std::move(outcome.part[0]), std::move(outcome.faces[0])});
     if (outcome.kind == Kind::uniform)
-      all.uniform.push_back(
-          {rank, std::move(outcome.neighbors), outcome.reaches_out, std::move(outcome.part)});
+      all.uniform.push_back({rank, std::move(outcome.neighbors), outcome.reaches_out, std::move(outcome.part),
+                             std::move(outcome.faces)});
     if (outcome.kind == Kind::unclear) all.unclear.push_back(rank);
     if (outcome.kind == Kind::flat) all.flat.push_back(rank);
     all.coincidences.insert(all.coincidences.end(), outcome.coincidences.begin(), outcome.coincidences.end());
@@ -303,6 +392,7 @@ SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory
   std::vector<std::uint32_t> ranks;  // that have pairs
   for (std::uint32_t rank = 0; rank < seeds; ++rank)
     if (!excluded[rank] && input.pairs.offset[rank + 1] > input.pairs.offset[rank]) ranks.push_back(rank);
+  const std::vector<bool> alone = triangles_of_one(input.pairs, input.boundary.mesh.region_count());
   SolidCells all;
   all.hints.seen.resize(seeds);
   std::optional<Clipper> clipper;
@@ -312,7 +402,7 @@ SolidCells compute_solid_cells(const SolidCellsInput& input, SolidMemory& memory
         if (!clipper)
           clipper.emplace(facets, input.on_facets, OUTPUT_MOMENTS | OUTPUT_GEOMETRY,
                           ClipOptions{true, input.threads, true}, std::exchange(memory.facets, {}));
-        Chunk chunk(input, std::span(ranks).subspan(begin, end - begin));
+        Chunk chunk(input, alone, std::span(ranks).subspan(begin, end - begin));
         chunk.clip_facets(*clipper);
         chunk.clip_cells(memory.cells, statistics, all.hints);
         chunk.append_to(all);

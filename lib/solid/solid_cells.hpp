@@ -12,23 +12,34 @@
 #include "lib/domain/outline.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #include "lib/pairs/pair_finder.hpp"
+#include "lib/solid/cell_faces.hpp"
 #include "lib/solid/cell_in_solid.hpp"
 
 namespace powercell {
 
-/// The boundary of a domain, made once. Not movable.
+/// The boundary of a domain, kept with it.
+struct BoundaryTriangles {
+  RegionMesh mesh;                   ///< outward triangles (boundary_surface)
+  std::vector<std::uint32_t> edges;  ///< per slot of a triangle: the number of its edge
+
+  explicit BoundaryTriangles(const RegionMesh& domain)
+      : mesh(boundary_surface(domain)), edges(edge_numbers(mesh)) {}
+};
+
+/// The same for one diagram. Not movable.
 struct SolidBoundary {
-  RegionMesh mesh;  ///< outward triangles (boundary_surface)
+  std::shared_ptr<const BoundaryTriangles> kept;
+  const RegionMesh& mesh;
+  const std::vector<std::uint32_t>& edges;
   DomainBuffers on_device;
   PairFinder pairs;
 
-  std::vector<std::uint32_t> edges;  ///< per slot of a triangle: the number of its edge
-
-  SolidBoundary(const std::shared_ptr<cl::Context>& context, RegionMesh triangles, int threads)
-      : mesh(std::move(triangles)),
+  SolidBoundary(const std::shared_ptr<cl::Context>& context, const RegionMesh& domain, int threads)
+      : kept(domain.kept.get<BoundaryTriangles>([&] { return std::make_shared<BoundaryTriangles>(domain); })),
+        mesh(kept->mesh),
+        edges(kept->edges),
         on_device(context, mesh, false),
-        pairs(mesh, threads),
-        edges(edge_numbers(mesh)) {}
+        pairs(mesh, threads) {}
   SolidBoundary(const SolidBoundary&) = delete;
   SolidBoundary& operator=(const SolidBoundary&) = delete;
 };
@@ -45,13 +56,15 @@ struct SolidCells {
   struct Cell {
     std::uint32_t rank;
     solid::SolidPart part;
+    solid::CellFaces faces;  ///< empty unless asked for
   };
   /// A cell whose edges the boundary does not cross.
   struct UniformCell {
     std::uint32_t rank;
-    std::vector<std::uint32_t> neighbors;    ///< of the whole cell
-    bool reaches_out = false;                ///< beyond the container, so that its vertices lie outside
-    std::array<solid::SolidPart, 2> part{};  ///< if its vertices lie outside, and inside
+    std::vector<std::uint32_t> neighbors;     ///< of the whole cell
+    bool reaches_out = false;                 ///< beyond the container, so that its vertices lie outside
+    std::array<solid::SolidPart, 2> part{};   ///< if its vertices lie outside, and inside
+    std::array<solid::CellFaces, 2> faces{};  ///< likewise
   };
   std::vector<Cell> cells;           ///< ranks ascend
   std::vector<UniformCell> uniform;  ///< ranks ascend
@@ -60,9 +73,10 @@ struct SolidCells {
   std::vector<std::uint32_t> unclear;
   // Of solids without tetrahedra:
   std::vector<std::uint32_t> flat;  ///< ascending: cells with parts no thicker than rounding
-  /// The part of a wall that lies in a boundary triangle, and so is none.
+  /// The part of a wall that lies in a boundary triangle, and so is none: that of the cell which has only an
+  /// infinitesimal slice there.
   struct Coincidence {
-    std::uint32_t rank, neighbor;
+    std::uint32_t rank, neighbor, triangle;
     double area;
   };
   std::vector<Coincidence> coincidences;
@@ -77,6 +91,7 @@ struct SolidCellsInput {
   std::span<const std::uint32_t> excluded;  ///< ranks, in any order, that are computed in another way
   Candidates& on_facets;                    ///< candidates for the pieces of triangles
   Candidates& in_space;                     ///< for whole cells
+  bool faces;                               ///< whether to make the surfaces of the parts too
   int threads;
   const std::function<bool(double)>& progress;
 };

@@ -30,6 +30,10 @@ std::vector<LawCheck> check_pieces(const Measures& measures, const Cells& cells,
 /// The vertices of walls lie where two power distances are equal.
 LawCheck check_bisectors(const Cells& cells, const Rounding& rounding);
 
+/// Each face of a polygon or surface as a piece, each cell of a volume as one. Joining may leave nothing of a
+/// cell as small as rounding, which then becomes a piece without faces.
+Cells pieces_of(const JoinedCells& joined, const std::vector<SeedStatus>& status);
+
 /// No other seed has a smaller power distance at a vertex of a cell; all seeds are tried at random vertices.
 LawCheck check_vertices(const Cells& cells, const Rounding& rounding, const VerifyOptions& options);
 

@@ -54,8 +54,8 @@ void require_fit(const SavedDiagram& saved) {
     }
 }
 
-/// Each face of a polygon or surface as a piece, each cell of a volume as one. Joining may leave nothing of a
-/// cell as small as rounding, which then becomes a piece without faces.
+}  // namespace
+
 Cells pieces_of(const JoinedCells& joined, const std::vector<SeedStatus>& status) {
   const auto d = static_cast<std::size_t>(joined.dimension);
   const bool volume = joined.cell_dimension == 3;
@@ -94,6 +94,8 @@ Cells pieces_of(const JoinedCells& joined, const std::vector<SeedStatus>& status
   }
   return cells;
 }
+
+namespace {
 
 Extent extent_of(const Cells& cells, double measure) {
   Extent extent{cells.cell_dimension, {}, {}, measure};

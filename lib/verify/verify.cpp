@@ -51,7 +51,9 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   std::optional<Unfolded> unfolded;
   if (domain.is_periodic())
     unfolded = unfold(diagram.measures(), diagram.cells(), seeds, wrapped, *mesh.period);
-  const Cells& cells = unfolded ? unfolded->cells : diagram.cells();
+  const bool solid = domain.is_solid();
+  const Cells of_solid = solid ? pieces_of(diagram.joined(), diagram.measures().status) : Cells{};
+  const Cells& cells = unfolded ? unfolded->cells : solid ? of_solid : diagram.cells();
   const Measures& measures = unfolded ? unfolded->measures : diagram.measures();
   const Rounding rounding(extent_with(domain, cells), unfolded ? unfolded->seeds() : seeds,
                           diagram.precision());
@@ -68,6 +70,10 @@ std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& seeds, const Ver
   add(check_walls(diagram.adjacency(), &mesh, rounding));
   for (LawCheck& check : check_pieces(measures, cells, rounding)) add(std::move(check));
   add(check_bisectors(cells, rounding));
+  if (solid) {  // without convex pieces whether a point lies in a cell is not simply seen
+    add(check_vertices(cells, rounding, options));
+    return checks;
+  }
   const std::size_t samples = seeds.size() > 0 ? options.samples : 0;
   add(check_owners(random_points(mesh, samples, options.random_seed), mesh, cells, rounding));
   return checks;

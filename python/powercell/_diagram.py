@@ -241,14 +241,17 @@ class Diagram:
 
     @property
     def cells(self) -> Any:
-        """The cells as convex pieces, one for each region of the domain that a cell meets (``Cells``)."""
+        """The cells as convex pieces, one for each region of the domain that a cell meets (``Cells``).
+
+        A solid has no regions: see ``joined``.
+        """
         if self._progress:
             self.compute(adjacency=False, cells=True)
         return self._core.cells()
 
     @property
     def joined(self) -> Any:
-        """The cells joined across the regions of the domain (``JoinedCells``)."""
+        """The cells as wholes (``JoinedCells``): of a solid by themselves, else joined across its regions."""
         return self._core.joined()
 
     @property

@@ -126,7 +126,7 @@ class Domain:
         """The inside of a closed triangle surface, without any tetrahedra.
 
         Several shells, cavities and bodies in cavities are possible; triangles may have either orientation. Cells
-        in a solid have measures and walls, but no geometry.
+        in a solid are whole (``Diagram.joined``), without convex pieces.
 
         Parameters
         ----------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -115,7 +116,14 @@ def _space(vertices: np.ndarray) -> np.ndarray:
 
 
 def _piece_arrays(diagram: Diagram) -> tuple[Any, np.ndarray]:
-    """The cells and, per piece, its seed."""
+    """The cells and, per piece, its seed. In a solid the joined cells are the pieces."""
+    if diagram.domain.is_solid:
+        joined = diagram.joined
+        seed = np.flatnonzero(np.diff(joined.face_offset.astype(np.int64)))
+        arrays = {name: getattr(joined, name) for name in ("cell_dimension", "vertices", "loop_offset", "loop")}
+        for name in ("vertex_offset", "face_offset"):
+            arrays[name] = np.r_[0, getattr(joined, name)[1:][seed]]
+        return SimpleNamespace(**arrays), seed
     cells = diagram.cells
     seed = np.repeat(np.arange(len(diagram)), np.diff(cells.cell_offset.astype(np.int64)))
     return cells, seed

@@ -25,17 +25,11 @@ class PyDiagram {
 
   void set_seeds(const Matrix<double>& positions, const Weights& weights) {
     const SeedsView seeds = seeds_of(positions, weights);
-    slot_.run(nb::none(), [&] {
-      diagram_.set_seeds(seeds);
-      joined_.reset();
-    });
+    slot_.run(nb::none(), [&] { diagram_.set_seeds(seeds); });
   }
   void set_weights(const Vector<double>& weights) {
     const std::span all = span_of(weights);
-    slot_.run(nb::none(), [&] {
-      diagram_.set_weights(all);
-      joined_.reset();
-    });
+    slot_.run(nb::none(), [&] { diagram_.set_weights(all); });
   }
   void compute(bool adjacency, bool cells, const nb::object& progress) {
     slot_.run(progress, [&] { diagram_.compute(adjacency, cells); });
@@ -45,12 +39,7 @@ class PyDiagram {
   std::shared_ptr<Adjacency> adjacency() { return held(&Diagram::adjacency); }
   std::shared_ptr<Cells> cells() { return held(&Diagram::cells); }
   std::shared_ptr<Dual> dual() { return held(&Diagram::dual); }
-  std::shared_ptr<JoinedCells> joined() {
-    return slot_.run(nb::none(), [&] {
-      if (!joined_) joined_ = std::make_shared<JoinedCells>(join(diagram_.domain(), diagram_.cells()));
-      return joined_;
-    });
-  }
+  std::shared_ptr<JoinedCells> joined() { return held(&Diagram::joined); }
   std::vector<LawCheck> verify(const Matrix<double>& positions, const Weights& weights, std::size_t samples,
                                std::uint64_t random_seed) {
     const SeedsView seeds = seeds_of(positions, weights);
@@ -81,7 +70,6 @@ class PyDiagram {
 
   CallSlot slot_;
   Diagram diagram_;
-  std::shared_ptr<JoinedCells> joined_;
 };
 
 const char* name_of(Precision precision) {

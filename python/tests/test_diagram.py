@@ -151,6 +151,21 @@ def test_solid(rng):
     assert diagram.mass.sum() == pytest.approx(solid.measure, rel=1e-12)
     inside = pc.Diagram(pc.Domain.volume(*pc.ball(8)), p)
     assert np.abs(diagram.mass / diagram.mass.sum() - inside.mass / inside.mass.sum()).max() < 0.01
+    joined = diagram.joined
+    volume = np.zeros(50)
+    for cell in range(50):
+        x = joined.vertices[joined.vertex_offset[cell] : joined.vertex_offset[cell + 1]]
+        for f in range(joined.face_offset[cell], joined.face_offset[cell + 1]):
+            a, *rest = x[joined.loop[joined.loop_offset[f] : joined.loop_offset[f + 1]]]
+            for b, c in zip(rest[:-1], rest[1:]):
+                volume[cell] += np.linalg.det([a, b, c]) / 6
+    assert volume == pytest.approx(diagram.mass, abs=1e-13)
+    assert len(diagram.dual.simplices) > 0
+    assert diagram.to_pyvista().n_cells == diagram.to_meshio().cell_data["seed"][0].size + sum(
+        len(block) for block in diagram.to_meshio().cell_data["seed"][1:]
+    )
+    with pytest.raises(pc.Error, match="joined"):
+        diagram.cells
     with pytest.raises(pc.Error, match="open|edge"):
         pc.Domain.solid(vertices, triangles[1:])
 

@@ -219,6 +219,14 @@ class Diagram(ToolTest):
                 self.assertIn([walls[0][1], walls[0][0], walls[0][2]], walls)
         self.good("transport", "--domain", "torus:10", "--solid", "--seeds", "random:20", "--table", "t.csv")
 
+    def test_geometry_of_solids(self):
+        files = [f"a.{extension}" for extension in ("vtu", "vtp", "obj", "ply", "off", "json", "png")]
+        outputs = [word for name in files for word in ("-o", name)]
+        self.good("diagram", "--domain", DATA / "pretzel.off", "--solid", "--seeds", "random:50", *outputs)
+        for name in files:
+            self.assertGreater((self.folder / name).stat().st_size, 10_000, name)
+        self.good("verify", "a.json")
+
     def test_few_and_equal_seeds(self):
         for text, cells, duplicate in (("# none\n", 0, 0), ("0.5 0.5 0\n", 1, 0), ("0.5 0.5 0\n" * 3, 1, 2),
                                        ("0.2 0.5 1\n0.8 0.5 1\n", 2, 0)):
@@ -312,7 +320,6 @@ class DiagramErrors(ToolTest):
                  "--seeds", "random:5")
         self.bad(2, "--solid.*--kind is volume", "diagram", "--domain", "sphere:3", "--solid", "--kind", "volume",
                  "--seeds", "random:5")
-        self.bad(1, "no geometry", "diagram", "--domain", "sphere:3", "--solid", "--seeds", "random:5", "-o", "a.vtu")
 
     def test_elements_given_twice_and_overlaps_are_reported(self):
         pyramid = "OFF\n4 {} 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"

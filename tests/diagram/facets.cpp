@@ -187,3 +187,24 @@ TEST_CASE("facets: a bisector in a side of the domain leaves the side to the cel
     CHECK(row_of(diagram.boundary_walls(), 1).empty());
   }
 }
+
+TEST_CASE("facets: of a solid, those of its tetrahedra") {
+  const Setup& setup = main_setups().front();
+  if (setup.options.precision == Precision::float32) return;
+  Random random(test_seed());
+  const Mesh surface = icosphere(1);
+  const Domain solid = Domain::solid(surface.vertices, surface.elements),
+               ball = volume_of(ball_tetrahedra(1));
+  const SeedArray seeds = seeds_for(ball, Distribution::white, WeightRange::W1, 100, random);
+  Diagram here(setup.device, solid, setup.options), there(setup.device, ball, setup.options);
+  here.set_seeds(seeds.view());
+  there.set_seeds(seeds.view());
+  const auto of_cell = [](const BoundaryWalls& walls, std::size_t i) {
+    double sum = 0;
+    for (const auto& [facet, measure] : row_of(walls, i)) sum += measure;
+    return sum;
+  };
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    CHECK(std::abs(of_cell(here.boundary_walls(), i) - of_cell(there.boundary_walls(), i)) < 1e-11);
+  CHECK(sum(here.boundary_walls()).size() == surface.elements.size() / 3);
+}

@@ -72,6 +72,10 @@ std::vector<NamedMesh> solid_meshes(Random& random) {
   };
 }
 
+Device double_device_of_tests() {
+  return double_device().value();
+}
+
 bool has_double() {
   return double_device().has_value();
 }

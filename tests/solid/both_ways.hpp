@@ -38,5 +38,7 @@ std::string differences(const BothWays& both, const SeedArray& seeds);
 
 /// Whether some device has double precision.
 bool has_double();
+/// \pre has_double()
+Device double_device_of_tests();
 
 }  // namespace powercell::test

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <powercell/error.hpp>
+#include <powercell/verify.hpp>
 
 #include "tests/solid/both_ways.hpp"
 #include "tests/support/domains.hpp"
@@ -135,7 +136,7 @@ TEST_CASE("solid: refused surfaces, with the place") {
   CHECK(contains(refusal({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 3}}), "out of range"));
 }
 
-TEST_CASE("solid: what needs geometry is refused") {
+TEST_CASE("solid: what needs convex pieces, and single precision, are refused") {
   if (!has_double()) return;
   const Domain domain = solid_of(cube_surface(1, true));
   const auto code_of = [](const std::function<void()>& action) {
@@ -153,7 +154,13 @@ TEST_CASE("solid: what needs geometry is refused") {
   Diagram diagram(setup.device, domain, setup.options);
   diagram.set_seeds(seeds.view());
   CHECK(code_of([&] { diagram.cells(); }) == ErrorCode::unsupported);
-  CHECK(code_of([&] { diagram.dual(); }) == ErrorCode::unsupported);
+  CHECK(diagram.dual().size() == 0);
+  CHECK(std::ranges::count(diagram.joined().face_border, Border::Kind::wall, &Border::kind) == 2);
+  CHECK(code_of([&] { join(domain, {}); }) == ErrorCode::invalid_argument);
+  for (const LawCheck& law : verify(diagram, seeds.view())) {
+    CAPTURE(law.law);
+    CHECK(law.passed);
+  }
   CHECK(diagram.measures().mass[0] == doctest::Approx(0.45));
   CHECK(diagram.adjacency().wall[0] == doctest::Approx(1));
   // Fast decisions would not fit together.

@@ -19,6 +19,6 @@ if(NOT TARGET powercell_support)
   find_package(CGAL REQUIRED)
   find_library(VORO_LIBRARY voro++ REQUIRED)
   add_library(powercell_oracles STATIC EXCLUDE_FROM_ALL ${support}/cgal.cpp ${support}/cgal_periodic.cpp
-    ${support}/voro.cpp)
+    ${support}/cgal_solid.cpp ${support}/voro.cpp)
   target_link_libraries(powercell_oracles PUBLIC powercell_support PRIVATE CGAL::CGAL ${VORO_LIBRARY})
 endif()
