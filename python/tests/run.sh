@@ -18,6 +18,7 @@ python="$folder/venv/bin/python"
 
 say "the wheel"
 rm -f "$folder"/*.whl
+export CC="${CC:-cc}" CXX="${CXX:-c++}" # Python's own compiler has another name, under which ccache finds nothing
 "$python" -m pip -q wheel "$root" --no-deps -w "$folder" --config-settings=build-dir="$root/build/python-wheel"
 "$python" -m pip -q install "$folder"/powercell-*.whl
 
