@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "lib/base/vectors.hpp"
 #include "tests/solid/both_ways.hpp"
@@ -244,5 +245,36 @@ TEST_CASE("solid: joined cells of random sets of cubes, with walls in their face
     const Checked checked = check(diagram, true);
     CHECK(checked.faults == "");
     CHECK(checked.boundary == doctest::Approx(area_of(surface)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("solid: joined cells whose walls lie in the boundary but for rounding") {
+  if (!has_double()) return;
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (int trial = 0; trial < 20; ++trial) {
+    // The cubes and grid of above, turned.
+    const double share = random.uniform(0.4, 0.95), a = random.uniform(0, 6), b = random.uniform(0, 6);
+    std::map<std::array<int, 3>, bool> kept;
+    Mesh mesh = part_of(cube_tetrahedra(4, 0, random), [&](const std::array<double, 3>& x) {
+      const std::array<int, 3> cube{static_cast<int>(4 * x[0]), static_cast<int>(4 * x[1]),
+                                    static_cast<int>(4 * x[2])};
+      return kept.try_emplace(cube, random.uniform() < share).first->second;
+    });
+    if (mesh.elements.size() < 8) continue;
+    SeedArray seeds = grid(trial % 3 ? 2 : 4, 3);
+    for (std::vector<double>* const points : {&mesh.vertices, &seeds.positions})
+      for (std::size_t k = 0; k < points->size(); k += 3) {
+        double* const x = &(*points)[k];
+        std::tie(x[0], x[1]) =
+            std::pair(std::cos(a) * x[0] - std::sin(a) * x[1], std::sin(a) * x[0] + std::cos(a) * x[1]);
+        std::tie(x[1], x[2]) =
+            std::pair(std::cos(b) * x[1] - std::sin(b) * x[2], std::sin(b) * x[1] + std::cos(b) * x[2]);
+      }
+    const Domain domain = volume_of(mesh);
+    const Mesh surface = boundary_mesh(domain);
+    CAPTURE(trial);
+    Diagram diagram = diagram_of(Domain::solid(surface.vertices, surface.elements), seeds);
+    CHECK(check(diagram, true).faults == "");
   }
 }
