@@ -11,26 +11,12 @@
 namespace powercell::app {
 namespace {
 
-const char* type_name(DeviceInfo::Type type) {
-  switch (type) {
-    case DeviceInfo::Type::cpu:
-      return "cpu";
-    case DeviceInfo::Type::gpu:
-      return "gpu";
-    case DeviceInfo::Type::accelerator:
-      return "accelerator";
-    case DeviceInfo::Type::other:
-      break;
-  }
-  return "other";
-}
-
 nlohmann::json as_json(const DeviceInfo& device) {
   return {{"device", device.selector()},
           {"platform", device.platform_name},
           {"name", device.name},
           {"vendor", device.vendor},
-          {"type", type_name(device.type)},
+          {"type", name(device.type)},
           {"fp64", device.fp64},
           {"compute_units", device.compute_units},
           {"clock_mhz", device.clock_mhz},
@@ -52,7 +38,7 @@ int run(const CommonOptions& options) {
   if (all.empty()) Device::choose();  // throws, and says why there is none
   fmt::print("{:<8}{:<6}{:<6}{:>6}{:>12}  {}\n", "device", "type", "fp64", "units", "memory", "name");
   for (const DeviceInfo& device : all)
-    fmt::print("{:<8}{:<6}{:<6}{:>6}{:>8.1f} GiB  {} ({}, {})\n", device.selector(), type_name(device.type),
+    fmt::print("{:<8}{:<6}{:<6}{:>6}{:>8.1f} GiB  {} ({}, {})\n", device.selector(), name(device.type),
                device.fp64 ? "yes" : "no", device.compute_units,
                static_cast<double>(device.memory_bytes) / (1024.0 * 1024.0 * 1024.0), device.name,
                device.platform_name, device.driver_version);

@@ -10,6 +10,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/write_table.hpp"
+#include "apps/only.hpp"
 #include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
@@ -18,21 +19,25 @@ namespace powercell::app {
 namespace {
 
 struct DiagramArguments : CommonOptions, InputArguments {
-  std::string table, walls;
+  std::string table, walls, only;
+  bool facets = false;
   std::vector<std::string> outputs;
 };
 
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
-                 RunReport& report) {
+                 std::span<const std::uint32_t> only, RunReport& report) {
   const SeedsView seeds = inputs.seeds.view();
   write_diagram(arguments.outputs, diagram, seeds, inputs.view());
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
-    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view());
+    io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view(), only);
     report.files.push_back(arguments.table);
   }
   if (!arguments.walls.empty()) {
-    io::write_walls(arguments.walls, diagram.adjacency(), inputs.view(), shift_axes(diagram.domain()));
+    io::write_walls(arguments.walls, diagram.adjacency(), inputs.view(),
+                    {.shift_axes = shift_axes(diagram.domain()),
+                     .facets = arguments.facets ? &diagram.boundary_walls() : nullptr,
+                     .only = only});
     report.files.push_back(arguments.walls);
   }
 }
@@ -47,7 +52,20 @@ void print(const DiagramArguments& arguments, const Inputs& inputs, const RunRep
   }
 }
 
+/// \throw WrongUsage for options that do not go together
+void check_together(const DiagramArguments& arguments) {
+  if (!arguments.only.empty() && !arguments.outputs.empty())
+    throw WrongUsage("--only is for --table and --walls; -o draws and writes all cells");
+  if (!arguments.only.empty() && arguments.table.empty() && arguments.walls.empty())
+    throw WrongUsage("--only needs --table or --walls, or nothing would be written");
+  if (!arguments.only.empty() && arguments.certify)
+    throw WrongUsage("--certify checks laws of all cells; leave it or --only out");
+  if (arguments.facets && arguments.walls.empty())
+    throw WrongUsage("--facets adds rows to --walls; name that file");
+}
+
 int run(const DiagramArguments& arguments) {
+  check_together(arguments);
   check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
   Progress progress({{stage::reading, 5}, {stage::opening, 2}, {"computing", 78}, {stage::writing, 15}},
                     arguments.silent());
@@ -63,15 +81,18 @@ int run(const DiagramArguments& arguments) {
   progress.count(static_cast<double>(seeds.size()), "cells");
   Diagram diagram(device, domain, library_options(arguments, progress));
   diagram.set_seeds(seeds);
+  const std::vector<std::uint32_t> only =
+      arguments.only.empty() ? std::vector<std::uint32_t>() : read_only(arguments.only, inputs.seeds);
+  if (!arguments.only.empty()) diagram.select(only);
   // Everything that the files need, in one pass.
   const bool geometry = !arguments.outputs.empty();
   compute(
       [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
   RunReport report = report_of(diagram);
   describe_inputs(inputs, report);
-  require_partition(report);
+  if (arguments.only.empty()) require_partition(report);
   progress.begin(stage::writing);
-  write_files(arguments, diagram, inputs, report);
+  write_files(arguments, diagram, inputs, only, report);
   progress.finish();
   describe_times(progress, report);
   print(arguments, inputs, report);
@@ -83,6 +104,7 @@ constexpr const char* examples =
     "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
     "  powercell diagram --domain italy.geojson --seeds towns.csv -o map.png --table areas.csv\n"
     "  powercell diagram --domain part.mesh --seeds random:5000:0:4:7 -o grains.vtu --json\n"
+    "  powercell diagram --domain cube --seeds packing.csv --only probes.txt --table few.csv\n"
     "  powercell diagram --domain mesh.off --seeds s.npy --precision float --device gpu --walls walls.csv\n"
     "A weight is a length squared: for a disc or ball of radius r it is r * r.";
 
@@ -100,6 +122,17 @@ Command add_diagram(CLI::App& app) {
                    "domain sx,sy[,sz]: "
                    "the periods by which the neighbour is moved")
       ->type_name("FILE.csv");
+  command->add_flag(
+      "--facets", arguments->facets,
+      "In --walls, also the facets of the domain that cells have: rows with a facet instead of a "
+      "neighbor");
+  command
+      ->add_option(
+          "--only", arguments->only,
+          "Compute the cells of some seeds only, for --table and --walls: a file with an index from 0, "
+          "or an id (--id-column), in each line")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
   add_common_options(*command, *arguments);
   command->footer(examples);
   return [arguments] { return run(*arguments); };

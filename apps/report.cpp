@@ -30,6 +30,7 @@ RunReport report_of(Diagram& diagram) {
   const Measures& measures = diagram.measures();
   RunReport report;
   report.seeds = diagram.size();
+  report.selected = measures.mass.size();
   report.cells = measures.count(SeedStatus::ok);
   report.hidden = measures.count(SeedStatus::hidden);
   report.duplicate = measures.count(SeedStatus::duplicate);
@@ -59,13 +60,15 @@ std::string building_note(double seconds) {
 nlohmann::json as_json(const RunReport& report) {
   const Timings& t = report.timings;
   return {{"seeds", report.seeds},
+          {"selected", report.selected},
           {"cells", report.cells},
           {"hidden", report.hidden},
           {"duplicate", report.duplicate},
           {"outside", report.outside},
           {"measure", report.measure},
           {"domain_measure", report.domain_measure},
-          {"relative_error", report.relative_error},
+          {"relative_error",
+           report.selected < report.seeds ? nlohmann::json() : nlohmann::json(report.relative_error)},
           {"device", report.device},
           {"precision", report.precision},
           {"neighbors", report.neighbors},
@@ -98,13 +101,24 @@ std::string json_text(const nlohmann::json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string self_check_line(const RunReport& report) {
+namespace {
+
+std::string sum_text(const RunReport& report) {
+  if (report.selected < report.seeds)
+    return fmt::format("of {} selected among {} seeds; they measure {:.6g} of {:.6g}",
+                       with_commas(report.selected), with_commas(report.seeds), report.measure,
+                       report.domain_measure);
   const double defect = report.domain_measure > 0 ? report.measure / report.domain_measure - 1 : 0;
-  std::string line = fmt::format(
-      "{} cells, {} hidden, {} duplicate; sum of measures / domain = 1 {} {:.1e}; {}, {}, {}; {:.3f} s",
-      with_commas(report.cells), with_commas(report.hidden), with_commas(report.duplicate),
-      defect < 0 ? '-' : '+', std::abs(defect), report.device, report.precision, report.neighbors,
-      report.timings.total);
+  return fmt::format("sum of measures / domain = 1 {} {:.1e}", defect < 0 ? '-' : '+', std::abs(defect));
+}
+
+}  // namespace
+
+std::string self_check_line(const RunReport& report) {
+  std::string line =
+      fmt::format("{} cells, {} hidden, {} duplicate; {}; {}, {}, {}; {:.3f} s", with_commas(report.cells),
+                  with_commas(report.hidden), with_commas(report.duplicate), sum_text(report), report.device,
+                  report.precision, report.neighbors, report.timings.total);
   line += fmt::format(" (and {:.3f} s reading, {:.3f} s writing", report.read, report.write);
   return line + building_note(report.build) + ")";
 }

@@ -77,7 +77,7 @@ void write_files(const TransportArguments& arguments, TransportSolver& solver, c
   }
   if (!arguments.walls.empty()) {
     io::write_walls(arguments.walls, solver.diagram().adjacency(), inputs.view(),
-                    shift_axes(solver.diagram().domain()));
+                    {.shift_axes = shift_axes(solver.diagram().domain())});
     written(arguments.walls);
   }
   if (!arguments.log.empty()) {

@@ -1,5 +1,6 @@
 #include "bench/contender.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -151,7 +152,11 @@ std::unique_ptr<Contender> our_contender(const std::string& stage, const std::st
   Options options;
   options.precision = precision;
   options.neighbors = provider == "flann" ? Neighbors::flann : Neighbors::tree;
-  auto made = std::make_unique<Ours>(domain, seeds, options);
+  const auto d = static_cast<std::size_t>(domain.dimension());
+  const std::array<double, 3> low = domain.low(), high = domain.high();
+  auto made = std::make_unique<Ours>(
+      stage == "periodic" ? Domain::periodic_box(std::span(low).first(d), std::span(high).first(d)) : domain,
+      seeds, options);
   made->stage = stage;
   made->provider = provider;
   made->precision = precision == Precision::float32 ? "float" : "double";

@@ -21,7 +21,7 @@ struct Arguments {
   std::vector<WeightRange> weights{WeightRange::W0, WeightRange::W1, WeightRange::W2};
   std::vector<std::size_t> n{100000};
   bool no_peers = false, single = false;
-  std::string out;
+  std::string out, tool;
   TurnOptions options;
 };
 
@@ -46,7 +46,7 @@ void add_works(CLI::App& app, Arguments& a) {
   app.add_option(
       "--ours", a.options.ours,
       "stage:provider; stages measures, adjacency (with measures), weights (as adjacency, but only "
-      "the weights change); providers tree, flann");
+      "the weights change), periodic (as adjacency, of a box); providers tree, flann");
   app.add_option("--peer", a.options.only_peers,
                  "only these peers: cgal, cgal-parallel, voro++, voro++-parallel");
   app.add_flag("--no-peers", a.no_peers, "only this library");
@@ -69,10 +69,12 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   CLI::App* time = app.add_subcommand("time", "seconds of each contender for each work");
   CLI::App* memory = app.add_subcommand("memory", "peak memory of each contender, in fresh processes");
-  CLI::App* start = app.add_subcommand("start", "time from start to first result of a fresh process");
+  CLI::App* start = app.add_subcommand(
+      "start", "time from start to first result of a fresh process, with full and with empty caches");
   CLI::App* child = app.add_subcommand("memory-child", "one process of 'memory'")->group("");
   for (CLI::App* sub : {time, memory, child}) add_works(*sub, a);
   for (CLI::App* sub : {time, memory, start}) add_turns(*sub, a);
+  start->add_option("--tool", a.tool, "the tool, whose demo is timed too");
   CLI11_PARSE(app, argc, argv);
   a.options.peers = !a.no_peers;
   a.options.precision = a.single ? Precision::float32 : Precision::float64;
@@ -95,7 +97,12 @@ int run(int argc, char** argv) {
         record_memory(self.string(), work, a.options, file);
       }
     });
-  if (start->parsed()) record_start((self.parent_path() / "first_result").string(), a.options, file);
+  if (start->parsed()) {
+    const std::string program = (self.parent_path() / "first_result").string();
+    record_start(program, a.options, file);
+    record_cold("cold", {program}, a.options, file);
+    if (!a.tool.empty()) record_cold("cold demo", {a.tool, "demo", "-o"}, a.options, file);
+  }
   return 0;
 }
 

@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -108,20 +111,54 @@ void memory_child(const Work& work, const std::string& way, const TurnOptions& o
   throw std::invalid_argument("no contender is called '" + way + "'");
 }
 
-void record_start(const std::string& program, const TurnOptions& options, RecordFile& file) {
-  run_program({program});
+namespace {
+
+/// Adds the seconds of `rounds` runs. \param run  gets the number of the run
+void record_runs(const std::string& stage, int rounds, const std::function<void(int)>& run,
+                 const TurnOptions& options, RecordFile& file) {
   const Work work{"box3", Distribution::white, WeightRange::W0, 1000};
   const Domain domain = domain_of(work.domain);
   const SeedArray seeds = seeds_of(work);
   Record record(options.part, work, *our_contender("measures", "tree", options.precision, domain, seeds));
-  record.stage = "start";
-  for (int k = 0; k < 2 * options.rounds; ++k) {
+  record.stage = stage;
+  for (int k = 0; k < rounds; ++k) {
     const double start = wall_seconds();
-    run_program({program});
+    run(k);
     record.seconds.push_back(wall_seconds() - start);
     record.cpu_seconds.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   file.add(record);
+}
+
+}  // namespace
+
+void record_start(const std::string& program, const TurnOptions& options, RecordFile& file) {
+  run_program({program});
+  record_runs(
+      "start", 2 * options.rounds, [&](int) { run_program({program}); }, options, file);
+}
+
+void record_cold(const std::string& stage, std::vector<std::string> words, const TurnOptions& options,
+                 RecordFile& file) {
+  namespace fs = std::filesystem;
+  constexpr int rounds = 3;
+  const fs::path folder = fs::temp_directory_path() / ("powercell_cold_" + std::to_string(getpid()));
+  const bool writes = words.back() == "-o";
+  record_runs(
+      stage, rounds,
+      [&](int k) {
+        const fs::path here = folder / std::to_string(k);
+        fs::create_directories(here / "pocl");
+        setenv("POCL_CACHE_DIR", (here / "pocl").c_str(), 1);
+        setenv("POWERCELL_CACHE_DIR", (here / "powercell").c_str(), 1);
+        std::vector<std::string> all = words;
+        if (writes) all.push_back((here / "out").string());
+        run_program(all);
+      },
+      options, file);
+  unsetenv("POCL_CACHE_DIR");
+  unsetenv("POWERCELL_CACHE_DIR");
+  fs::remove_all(folder);
 }
 
 }  // namespace powercell::bench

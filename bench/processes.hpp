@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/turns.hpp"
 
@@ -18,5 +19,9 @@ void memory_child(const Work& work, const std::string& way, const TurnOptions& o
 
 /// Times runs of `program`, each a fresh process, after a first one that fills the kernel cache.
 void record_start(const std::string& program, const TurnOptions& options, RecordFile& file);
+/// Times runs with empty kernel caches. \param stage  of the record
+/// \param words  the program and its arguments, followed by an empty folder if the last one is "-o"
+void record_cold(const std::string& stage, std::vector<std::string> words, const TurnOptions& options,
+                 RecordFile& file);
 
 }  // namespace powercell::bench

@@ -26,7 +26,7 @@ double Record::least() const {
 RecordFile::RecordFile(std::string path) : path_(std::move(path)) {
   const DeviceInfo& info = device().info();
   all_["context"] = {{"device", info.name},
-                     {"type", info.type == DeviceInfo::Type::gpu ? "gpu" : "cpu"},
+                     {"type", name(info.type)},
                      {"driver", info.driver_version},
                      {"powercell", version()},
                      {"revision", POWERCELL_REVISION},

@@ -2,7 +2,7 @@
 # Measures every goal of this project for speed and memory and prints a Markdown table of goals and measured values. The
 # JSON files are in build/bench/goals/. Takes about ten minutes on two cores.
 #
-#   bench/run_goals.sh [--quick] [--cpu] [ratios|growth|memory|weights|start|gpu]...
+#   bench/run_goals.sh [--quick] [--cpu] [ratios|small|periodic|growth|memory|weights|start|gpu]...
 #
 # --quick omits 1e6 seeds and more. --cpu compares processor times divided by the number of threads instead of wall
 # times: an estimate, for a machine that is busy with other work. If parts are named, only these are measured; the table
@@ -13,7 +13,7 @@ for word in "$@"; do
   case $word in
     --quick) quick=yes ;;
     --cpu) cpu=--cpu ;;
-    ratios | growth | memory | weights | start | gpu) parts="$parts $word" ;;
+    ratios | small | periodic | growth | memory | weights | start | gpu) parts="$parts $word" ;;
     *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
@@ -22,7 +22,7 @@ out=$build/goals
 mkdir -p "$out"
 if [ -z "$parts" ]; then
   rm -f "$out"/*.json
-  parts="ratios growth memory weights start"
+  parts="ratios small periodic growth memory weights start"
 fi
 
 large=1000000 largest2=10000000 largest3=3000000
@@ -43,6 +43,13 @@ for part in $parts; do
       for domain in surface tets; do
         run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree $rounds --n 5000 100000
       done ;;
+    small)
+      run small small --domain box2 --distribution white --ours adjacency:tree --seconds 4 --rounds 1000 \
+        --least-rounds 100 --n 10 100 1000 ;;
+    periodic)
+      for domain in box3 box2; do
+        run periodic periodic_$domain --domain $domain --ours adjacency:tree periodic:tree --no-peers $rounds --n 100000
+      done ;;
     growth)
       # Two runs, since the first allocates memory, which costs most at the largest n.
       growth="--distribution white --weights W1 --ours adjacency:tree --no-peers --least-rounds 2"
@@ -57,7 +64,7 @@ for part in $parts; do
     weights)
       run weights weights --domain box3 --distribution white --weights W1 --no-peers \
         --ours adjacency:tree weights:tree --n "$some" --least-rounds 2 ;;
-    start) "$matrix" start --part start --out "$out/start.json" ;;
+    start) "$matrix" start --part start --out "$out/start.json" --rounds 5 --tool "$build/apps/powercell" ;;
     gpu)
       run gpu gpu --domain box3 --distribution white --weights W0 --no-peers --float --n 10000000 \
         --ours measures:tree --seconds 30 ;;

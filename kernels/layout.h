@@ -41,12 +41,13 @@
 #define KEY_FINE 2   /* Hilbert curve within a grid cell */
 #define KEY_COARSE 3 /* Hilbert curve over all seeds */
 
-/* What a clip kernel writes besides the status: a sum of these is its define OUTPUTS. */
+/* What a clip kernel writes besides the status: a sum of these is its argument. */
 #define OUTPUT_MOMENTS 1
 #define OUTPUT_WALLS 2
 #define OUTPUT_GEOMETRY 4
 #define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 #define OUTPUT_REACH 16   /* the distance of the farthest vertex from the seed */
+#define OUTPUT_FACETS 32  /* the facets of the region among the walls, as with geometry */
 
 /* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it
    is a plane of the boundary of the domain (kernels/clip/by_cell.cl). */

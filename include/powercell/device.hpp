@@ -38,6 +38,9 @@ struct DeviceInfo {
   std::string selector() const { return std::to_string(platform) + ":" + std::to_string(device); }
 };
 
+/// "cpu", "gpu", "accelerator" or "other".
+POWERCELL_API const char* name(DeviceInfo::Type type) noexcept;
+
 /// All devices of all platforms, in the order of the ICD loader. Empty without a platform.
 /// \throw Error opencl if a platform cannot be queried.
 POWERCELL_API std::vector<DeviceInfo> devices();

@@ -34,6 +34,16 @@ class POWERCELL_API Diagram {
   /// \throw Error invalid_argument (size), invalid_seed
   void set_weights(std::span<const double> weights);
 
+  /// From now on computes the cells of some seeds only, against all seeds, until select_all() or set_seeds().
+  /// Row k of the results is of seed seeds[k]; neighbours and borders name seeds by their index among all, as
+  /// before. Walls are those of the selected cells as seen from them: a wall of two selected cells may differ
+  /// between their rows by rounding. Time goes with the selected cells, and a few ns with each seed; on a
+  /// surface also with its triangles, and in a solid (Domain::solid) as for all cells.
+  /// \param seeds  indices below size(), each once, in any order; copied
+  /// \throw Error invalid_argument (no seeds yet; an index, with its place), unsupported (Options::certify)
+  void select(std::span<const std::uint32_t> seeds);
+  void select_all();
+
   std::size_t size() const;               ///< number of seeds
   std::vector<double> positions() const;  ///< of the seeds, in the caller's order: n x d, row-major
   const Domain& domain() const;
@@ -50,7 +60,11 @@ class POWERCELL_API Diagram {
   /// \throw Error unsupported in a solid, which has no regions that cells could be cut along: see joined()
   const Cells& cells();
   /// The cells as wholes, in every kind of domain: of a solid by themselves, else as join() makes them.
+  /// \throw Error unsupported in a solid if seeds are selected
   const JoinedCells& joined();
+  /// The facets of the domain that the cells have, in a pass of its own over the regions at the boundary.
+  const BoundaryWalls& boundary_walls();
+  /// \throw Error unsupported if seeds are selected
   const Dual& dual();
   const Timings& timings() const;  ///< of the last computation
   /// Keeps the results of the present seeds, to which the getters refer, alive while it is held, also after

@@ -43,6 +43,14 @@ struct Adjacency {
   std::array<std::uint32_t, 2> asymmetric{};  ///< i and j of that difference; equal if there was none
 };
 
+/// The parts of the domain's boundary that belong to each cell, as compressed sparse rows. Facets have the
+/// numbers of RegionsView::facet and of Border::boundary; in a box these are -x +x -y +y -z +z.
+struct BoundaryWalls {
+  std::vector<std::uint64_t> offset;  ///< n + 1; row i is [offset[i], offset[i+1])
+  std::vector<std::uint32_t> facet;   ///< ascending within a row
+  std::vector<double> measure;        ///< length (polygon, surface) or area (volume) of the part
+};
+
 /// The other side of a face of a cell.
 struct Border {
   enum class Kind : std::uint32_t {

@@ -1,7 +1,7 @@
 /* Scalar and seed types, and the constants and functions that depend on the precision. Only this file,
    lanes.cl, point.cl and neighbors/blocks.cl test REAL_BITS. The host defines REAL_BITS (32, 64), DIMENSION
-   (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY
-   and OUTPUTS. */
+   (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY and
+   FACE_CAPACITY. */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
 #include "layout.h"
@@ -14,9 +14,6 @@
 #endif
 #ifndef CELL_DIMENSION
 #define CELL_DIMENSION 3
-#endif
-#ifndef OUTPUTS
-#define OUTPUTS 7
 #endif
 
 #pragma OPENCL FP_CONTRACT OFF

@@ -244,20 +244,21 @@ static inline bool cell_goes_on(const cell_t* cell) {
   return false;
 }
 
-static inline void cell_moments(const cell_t* cell, real* moments) {
+static inline void cell_moments(const cell_t* cell, bool walls, real* moments) {
+  (void)walls; /* these need nothing of the moments */
   UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   const int first = cell->first;
   for (int v = cell->next[first], w = cell->next[v]; w != first; v = w, w = cell->next[v])
     triangle_moments(cell, first, v, w, moments);
 }
 
-/* Writes what lies behind the edges and their lengths, in order, without geometry only of walls between
-   cells; returns their number. */
-static inline int cell_write_walls(cell_t* cell, __global int* border, __global stored_real* wall) {
+/* Writes what lies behind the edges and their lengths, in order, of `all` or only of walls between cells;
+   returns their number. */
+static inline int cell_write_walls(cell_t* cell, bool all, __global int* border, __global stored_real* wall) {
   int count = 0, v = cell->first;
   do {
     const int next = cell->next[v];
-    if ((OUTPUTS & OUTPUT_GEOMETRY) || cell->border[v] >= 0) {
+    if (all || cell->border[v] >= 0) {
       real d[DIMENSION];
       UNROLL for (int k = 0; k < DIMENSION; ++k) d[k] = cell->at.x[k][next] - cell->at.x[k][v];
       border[count] = cell->border[v];

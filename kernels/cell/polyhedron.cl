@@ -314,9 +314,8 @@ static inline real tetrahedron_moments(real4 top, real4 a, real4 v, real4 w, rea
 }
 
 /* The integrals of 1, y and |y|^2, by the tetrahedra from one vertex over a fan of each face; side[f] = area
-   of face f, where walls are asked for. Needs cell_finish. */
-static inline void cell_moments(cell_t* cell, real* moments) {
-  const bool walls = (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) != 0;
+   of face f, where `walls` are asked for. Needs cell_finish. */
+static inline void cell_moments(cell_t* cell, bool walls, real* moments) {
   const int words = words_of(&cell->at);
   int first = 0;
   for (int w = words - 1; w >= 0; --w) {
@@ -354,12 +353,12 @@ static inline void cell_moments(cell_t* cell, real* moments) {
   moments[4] = (sums.w + squares.x + squares.y + squares.z) / 120;
 }
 
-/* Writes what lies behind the faces and their areas, without geometry only of walls between cells; returns
-   their number. Needs cell_moments. */
-static inline int cell_write_walls(cell_t* cell, __global int* border, __global stored_real* wall) {
+/* Writes what lies behind the faces and their areas, of `all` or only of walls between cells; returns their
+   number. Needs cell_moments with walls. */
+static inline int cell_write_walls(cell_t* cell, bool all, __global int* border, __global stored_real* wall) {
   int count = 0;
   for (int f = 0; f < cell->faces; ++f) {
-    if (!(OUTPUTS & OUTPUT_GEOMETRY) && (cell->border[f] < 0 || cell->border[f] >= BORDER_PLANE)) continue;
+    if (!all && (cell->border[f] < 0 || cell->border[f] >= BORDER_PLANE)) continue;
     border[count] = cell->border[f];
     wall[count++] = (stored_real)cell->at.side[f];
   }

@@ -4,9 +4,9 @@
 #include "clip/write.cl"
 
 /* Of all kernels that clip rows of pairs. Work-item t takes pair active[t] of the chunk and row t of the
-   outputs; moments go by pair. */
+   outputs, of which `outputs` (a sum of OUTPUT_...) are written; moments go by pair. */
 #define PIECE_ARGUMENTS                                                                                     \
-  const uint count, __global const uint *active, __global const uint *pair_seed,                            \
+  const uint count, const uint outputs, __global const uint *active, __global const uint *pair_seed,        \
       __global const uint *pair_region, __global const seed_t *corners, __global const uint *region_offset, \
       __global const uint *region_vertex, __global const int *behind, __global const region_shape_t *shape, \
       __global uint *status, __global stored_real *moments, __global uint *faces, __global int *border,     \
@@ -15,7 +15,7 @@
 #define REGIONS_OF_ARGUMENTS \
   { corners, region_offset, region_vertex, behind, shape }
 #define OUTPUT_OF_ARGUMENTS \
-  { moments, faces, border, wall, vertices, vertex, link, reach }
+  { outputs, moments, faces, border, wall, vertices, vertex, link, reach }
 
 /* Of the kernels that search the packed tree (TreeBlocks::append_arguments). */
 #define TREE_ARGUMENTS                                                                       \

@@ -20,7 +20,7 @@ __kernel void clip_by_list_kernel(PIECE_ARGUMENTS, __global const seed_t* seeds,
   list_use_t use = {0, 0};
   if (result == PIECE_DONE) result = clip_by_list(&cell, lists, i, active_list[row], &use);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
-  if (OUTPUTS & OUTPUT_LIST_USE) {
+  if (outputs & OUTPUT_LIST_USE) {
     list_use[3 * row] = use.tried;
     list_use[3 * row + 1] = use.cuts;
     list_use[3 * row + 2] = result == PIECE_DONE || result == PIECE_EMPTY;

@@ -4,6 +4,7 @@
 #include "cell/bisector.cl"
 
 typedef struct {
+  uint wanted;                   /* a sum of OUTPUT_...; the memory of others is not used */
   __global stored_real* moments; /* per pair: measure, first moments, second moment, about the seed */
   __global uint* faces;          /* per row: faces written, all or (without geometry) the walls alone */
   __global int* border;          /* rows of FACE_CAPACITY */
@@ -47,32 +48,35 @@ static inline bool measure_is_good(const cell_t* cell, real measure) {
 /* Writes a piece that ended with `status`; returns the final status. */
 static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
   real moments[2 + DIMENSION];
+  const bool geometry = (out.wanted & OUTPUT_GEOMETRY) != 0,
+             rows = geometry || (out.wanted & OUTPUT_WALLS) != 0,
+             all = geometry || (out.wanted & OUTPUT_FACETS) != 0;
   bool certain = cell->at.gap > 0;
   UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   if (status == PIECE_DONE) {
     find_radius2(&cell->at);
     certain = quickly_certain(&cell->at);
-    if (OUTPUTS & OUTPUT_REACH) out.reach[row] = (stored_real)cell->at.radius;
+    if (out.wanted & OUTPUT_REACH) out.reach[row] = (stored_real)cell->at.radius;
     cell_finish(cell, !certain);
     certain = certain || done_is_certain(cell);
-    cell_moments(cell, moments);
+    cell_moments(cell, rows, moments);
     certain = certain && measure_is_good(cell, moments[0]);
     if (cell_is_flat(cell, moments[0])) {
       status = PIECE_FLAT;
       certain = false;
       UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
     }
-    if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
+    if (rows) {
       const size_t at = (size_t)row * FACE_CAPACITY;
-      out.faces[row] = (uint)cell_write_walls(cell, out.border + at, out.wall + at);
+      out.faces[row] = (uint)cell_write_walls(cell, all, out.border + at, out.wall + at);
     }
-    if (OUTPUTS & OUTPUT_GEOMETRY) {
+    if (geometry) {
       const size_t at = (size_t)row * VERTEX_CAPACITY;
       out.vertices[row] = (uint)cell_write_vertices(cell, out.vertex + at * DIMENSION, out.link + at * 6);
     }
-  } else if (OUTPUTS & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) {
+  } else if (rows) {
     out.faces[row] = 0;
-    if (OUTPUTS & OUTPUT_GEOMETRY) out.vertices[row] = 0;
+    if (geometry) out.vertices[row] = 0;
   }
   UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] =
       (stored_real)moments[k];

@@ -17,7 +17,7 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
   const uint pair = listed ? list[entry] : entry, i = pair_seed[pair];
   const tree_t tree = TREE_OF_ARGUMENTS;
   const blocks_t blocks = BLOCKS_OF_ARGUMENTS;
-  const output_t out = {moments, 0, 0, 0, 0, 0, 0, 0};
+  const output_t out = {OUTPUT_MOMENTS, moments, 0, 0, 0, 0, 0, 0, 0};
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   cell_t cell;
   int result = state[i] == SEED_OK ? PIECE_DONE : PIECE_EMPTY;

@@ -38,8 +38,8 @@ static inline void find_keys(order_t* order, cell_t* cell, tree_t tree, blocks_t
   const origin_t origin = search_origin(tree.seeds[i]);
   const real resolution = resolution_of(&cell->at);
   real low[DIMENSION], high[DIMENSION];
-  find_box(&cell->at, low, high);
   const bool small = find_radius2(&cell->at) < 4 * blocks.near_bound[home];
+  if (small) find_box(&cell->at, low, high);
   for (uint k = 0; k < order->count; ++k) {
     const uint leaf = order->leaf[k];
     real8 q[DIMENSION], dw;

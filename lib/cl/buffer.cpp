@@ -1,6 +1,7 @@
 #include "lib/cl/buffer.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "lib/cl/errors.hpp"
@@ -19,19 +20,13 @@ std::string allocation_text(std::size_t bytes, const DeviceInfo& device) {
   return "allocating " + std::to_string(bytes) + " bytes on " + device.name;
 }
 
-void require_inside(std::size_t offset, std::size_t bytes, std::size_t size, const char* what) {
-  if (offset <= size && bytes <= size - offset) return;
-  throw Error(ErrorCode::internal, std::string(what) + " bytes " + std::to_string(offset) + " to " +
-                                       std::to_string(offset + bytes) + " of a buffer of " +
-                                       std::to_string(size));
-}
-
 }  // namespace
 
 RawBuffer::RawBuffer(RawBuffer&& other) noexcept
     : context_(std::move(other.context_)),
       memory_(std::exchange(other.memory_, nullptr)),
-      bytes_(std::exchange(other.bytes_, 0)) {}
+      bytes_(std::exchange(other.bytes_, 0)),
+      staged_(std::move(other.staged_)) {}
 
 RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
   if (this == &other) return *this;
@@ -39,11 +34,19 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
   context_ = std::move(other.context_);
   memory_ = std::exchange(other.memory_, nullptr);
   bytes_ = std::exchange(other.bytes_, 0);
+  staged_ = std::move(other.staged_);
   return *this;
 }
 
 RawBuffer::~RawBuffer() {
   release(memory_);
+}
+
+void RawBuffer::require_inside(std::size_t offset, std::size_t bytes) const {
+  if (offset <= bytes_ && bytes <= bytes_ - offset) return;
+  throw Error(ErrorCode::internal, "bytes " + std::to_string(offset) + " to " +
+                                       std::to_string(offset + bytes) + " of a buffer of " +
+                                       std::to_string(bytes_));
 }
 
 void RawBuffer::reserve(std::size_t bytes) {
@@ -71,22 +74,31 @@ void RawBuffer::reserve(std::size_t bytes) {
 }
 
 void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset) {
-  require_inside(offset, bytes, bytes_, "writing");
+  require_inside(offset, bytes);
   if (bytes == 0) return;
+  if (bytes <= StagedWrite::most_bytes) {
+    std::memcpy(staged_.stage(bytes), from, bytes);
+    return staged_.enqueue(*context_, memory_, offset);
+  }
   check(clEnqueueWriteBuffer(context_->queue(), memory_, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
         "writing " + std::to_string(bytes) + " bytes to " + context_->info().name);
 }
 
 void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset) const {
-  require_inside(offset, bytes, bytes_, "reading");
+  require_inside(offset, bytes);
   if (bytes == 0) return;
   check(clEnqueueReadBuffer(context_->queue(), memory_, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
         "reading " + std::to_string(bytes) + " bytes from " + context_->info().name);
+  context_->check_writes();
 }
 
 void RawBuffer::fill(std::size_t bytes, const std::function<void(std::byte*)>& writer) {
-  require_inside(0, bytes, bytes_, "filling");
+  require_inside(0, bytes);
   if (bytes == 0) return;
+  if (bytes <= StagedWrite::most_bytes) {
+    writer(staged_.stage(bytes));
+    return staged_.enqueue(*context_, memory_, 0);
+  }
   const std::string what = "filling " + std::to_string(bytes) + " bytes on " + context_->info().name;
   cl_int status = CL_SUCCESS;
   void* const mapped = clEnqueueMapBuffer(context_->queue(), memory_, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION,
@@ -106,13 +118,19 @@ void RawBuffer::fill(std::size_t bytes, const std::function<void(std::byte*)>& w
 
 Mapping::Mapping(const RawBuffer& buffer, std::size_t bytes)
     : context_(buffer.context()), memory_(buffer.handle()) {
-  require_inside(0, bytes, buffer.bytes(), "mapping");
+  buffer.require_inside(0, bytes);
   if (bytes == 0) return;
   cl_int status = CL_SUCCESS;
   data_ = static_cast<std::byte*>(clEnqueueMapBuffer(context_->queue(), memory_, CL_TRUE, CL_MAP_READ, 0,
                                                      bytes, 0, nullptr, nullptr, &status));
   check_allocation(status,
                    "reading " + std::to_string(bytes) + " bytes in place from " + context_->info().name);
+  try {
+    context_->check_writes();
+  } catch (...) {
+    clEnqueueUnmapMemObject(context_->queue(), memory_, data_, 0, nullptr, nullptr);
+    throw;
+  }
 }
 
 Mapping::Mapping(Mapping&& other) noexcept
@@ -132,7 +150,7 @@ void Mapping::end() {
 }
 
 void RawBuffer::fill_zero(std::size_t bytes) {
-  require_inside(0, bytes, bytes_, "clearing");
+  require_inside(0, bytes);
   if (bytes == 0) return;
   const cl_uint zeros[4] = {0, 0, 0, 0};
   // The widest pattern that divides the size: some drivers fill pattern by pattern.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/cl/context.hpp"
+#include "lib/cl/transfers.hpp"
 
 namespace powercell::cl {
 
@@ -22,19 +23,24 @@ class RawBuffer {
 
   /// At least `bytes` (one element is allocated for 0). \throw Error out_of_device_memory
   void reserve(std::size_t bytes);
-  void write(const void* from, std::size_t bytes, std::size_t offset = 0);  // blocking
-  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;     // blocking
+  /// The bytes may be changed afterwards: few are copied and the write is only enqueued, of many it waits.
+  void write(const void* from, std::size_t bytes, std::size_t offset = 0);
+  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;  ///< waits; see also Reads
   void fill_zero(std::size_t bytes);
-  /// Lets `writer` write the first `bytes` bytes, all of them, in place where host and device share memory.
+  /// Lets `writer` write the first `bytes` bytes, all of them; many in place where host and device share
+  /// memory.
   void fill(std::size_t bytes, const std::function<void(std::byte*)>& writer);
   cl_mem handle() const { return memory_; }
   std::size_t bytes() const { return bytes_; }
   const std::shared_ptr<Context>& context() const { return context_; }
+  /// \throw Error internal unless the buffer has these bytes
+  void require_inside(std::size_t offset, std::size_t bytes) const;
 
  private:
   std::shared_ptr<Context> context_;
   cl_mem memory_ = nullptr;
   std::size_t bytes_ = 0;
+  StagedWrite staged_;
 };
 
 /// The first bytes of a buffer as host memory, to be read: in place where host and device share memory. No

@@ -1,5 +1,7 @@
 #include "lib/cl/context.hpp"
 
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "lib/cl/enumerate.hpp"
@@ -102,6 +104,49 @@ bool Context::compiles_at_launch(const Program& program, const std::string& kern
 
 void Context::finish() {
   check(clFinish(queue_), "waiting for " + info_.name);
+  check_writes();
+}
+
+cl_int Event::state() const {
+  cl_int state = CL_QUEUED;
+  const cl_int asked =
+      clGetEventInfo(handle, CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof state, &state, nullptr);
+  return asked == CL_SUCCESS ? state : asked;
+}
+
+cl_int Event::wait() const {
+  return clWaitForEvents(1, &handle);
+}
+
+bool Event::is_pending() const {
+  constexpr int tries = 1000;
+  for (int k = 0; k < tries; ++k) {
+    if (state() <= CL_COMPLETE) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+void Context::note_write(std::weak_ptr<const Event> write) {
+  constexpr std::size_t many = 64;  // where nobody waits for results, as of a caller's queue
+  const std::lock_guard lock(record_mutex_);
+  if (writes_.size() >= many)
+    std::erase_if(writes_, [](const std::weak_ptr<const Event>& noted) { return noted.expired(); });
+  writes_.push_back(std::move(write));
+}
+
+void Context::check_writes() {
+  cl_int failure = CL_SUCCESS;
+  {
+    const std::lock_guard lock(record_mutex_);
+    std::erase_if(writes_, [&](const std::weak_ptr<const Event>& noted) {
+      const std::shared_ptr<const Event> write = noted.lock();
+      const cl_int state = write ? write->state() : CL_COMPLETE;
+      if (state < CL_COMPLETE) failure = state;
+      return state <= CL_COMPLETE;  // others are of another thread
+    });
+  }
+  check(failure, "writing to " + info_.name);
 }
 
 }  // namespace powercell::cl

@@ -27,6 +27,22 @@ std::string error_name(cl_int status);
 
 class Program;
 
+/// Owns an event.
+struct Event {
+  explicit Event(cl_event given) : handle(given) {}
+  Event(const Event&) = delete;
+  Event& operator=(const Event&) = delete;
+  ~Event() { clReleaseEvent(handle); }
+  /// CL_COMPLETE, a status above it while the command is not done, or one below it if it failed.
+  cl_int state() const;
+  /// Waits for the command. \return CL_SUCCESS, or why it or the wait failed
+  cl_int wait() const;
+  /// Whether the command may still use host memory, after wait() failed for another reason.
+  bool is_pending() const;
+
+  const cl_event handle;
+};
+
 class Context {
  public:
   Context(cl_platform_id platform, cl_device_id device, DeviceInfo info);
@@ -51,8 +67,13 @@ class Context {
   /// \throw Error build_failed with device, options and log
   std::shared_ptr<const Program> program(std::string_view file, const std::vector<std::string>& defines);
 
-  /// Blocks until the queue is empty.
+  /// Blocks until the queue is empty. \throw Error opencl, also if a write noted before has failed
   void finish();
+  /// A write that nobody waits for; its event.
+  void note_write(std::weak_ptr<const Event> write);
+  /// To be called after waiting for later commands: forgets the writes that are done. \throw Error opencl if
+  /// one has failed, since what was computed with it is wrong
+  void check_writes();
 
  private:
   cl_context context_ = nullptr;
@@ -62,7 +83,8 @@ class Context {
   DeviceInfo info_;
   double build_seconds_ = 0;
   std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
-  mutable std::mutex record_mutex_;  // guards build_seconds_ and launched_
+  std::vector<std::weak_ptr<const Event>> writes_;  // noted and not known to be done
+  mutable std::mutex record_mutex_;                 // guards build_seconds_, launched_ and writes_
   std::mutex mutex_;  // guards programs_, also during a build, so that each program is built once
   std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
 };

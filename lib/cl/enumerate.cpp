@@ -131,6 +131,20 @@ std::vector<FoundDevice> find_devices() {
 
 }  // namespace cl
 
+const char* name(DeviceInfo::Type type) noexcept {
+  switch (type) {
+    case DeviceInfo::Type::cpu:
+      return "cpu";
+    case DeviceInfo::Type::gpu:
+      return "gpu";
+    case DeviceInfo::Type::accelerator:
+      return "accelerator";
+    case DeviceInfo::Type::other:
+      break;
+  }
+  return "other";
+}
+
 std::vector<DeviceInfo> devices() {
   std::vector<DeviceInfo> infos;
   for (auto& found : cl::find_devices()) infos.push_back(std::move(found.info));

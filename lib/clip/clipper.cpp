@@ -13,6 +13,10 @@ namespace {
 
 /// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
+/// Moments of up to so many pairs are read with the statuses.
+constexpr std::size_t few_pairs = 1024;
+/// In passes of up to so many pairs only the first capacity is used.
+constexpr std::uint64_t one_capacity_pairs = 5000;
 
 }  // namespace
 
@@ -65,7 +69,7 @@ cl::Kernel& Clipper::kernel(std::size_t number) {
   const auto found = kernels_.find(number);
   if (found != kernels_.end()) return found->second;
   const RegionMesh& mesh = scene_.mesh();
-  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number), outputs_};
+  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number)};
   auto program = scene_.context()->program(candidates_.file(), variant.defines());
   program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, number); });
   return kernels_
@@ -139,15 +143,16 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
 
   const DomainBuffers& domain = scene_.domain;
   cl::Kernel& call = kernel(number);
-  call.args(static_cast<cl_uint>(rows), memory_.active, memory_.seed, memory_.region, domain.corners,
-            domain.region_offset, domain.region_vertex, domain.behind, domain.shape, memory_.status,
-            memory_.moments, memory_.faces, memory_.border, memory_.wall, memory_.vertices, memory_.vertex,
-            memory_.link, memory_.reach);
+  call.args(static_cast<cl_uint>(rows), static_cast<cl_uint>(outputs_), memory_.active, memory_.seed,
+            memory_.region, domain.corners, domain.region_offset, domain.region_vertex, domain.behind,
+            domain.shape, memory_.status, memory_.moments, memory_.faces, memory_.border, memory_.wall,
+            memory_.vertices, memory_.vertex, memory_.link, memory_.reach);
   candidates_.append_arguments(call);
   call.launch(rows);
 
   const std::size_t first_uncertain = outcome.uncertain.size();
-  read_statuses(active, outcome);
+  read_launch(rows, capacity(number));
+  sort_statuses(active, outcome);
   if (outputs_ & OUTPUT_REACH) read_reach(active);
   PieceBatch& rows_of_launch = memory_.pieces.add_batch();
   rows_of_launch.mapped_border = nullptr;
@@ -160,11 +165,27 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
       [&](std::uint32_t pair) { return rows_of_launch.row_repeats(memory_.pieces.row[pair]); });
 }
 
-void Clipper::read_statuses(std::span<const std::uint32_t> active, Outcome& outcome) {
+void Clipper::read_launch(std::size_t rows, const Capacity& capacity) {
+  launch_status_.resize(rows);
+  const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
+  cl::Reads reads(scene_.context());
+  reads.add(memory_.status.raw(), launch_status_.data(), rows * sizeof launch_status_[0]);
+  if ((outputs_ & (OUTPUT_WALLS | OUTPUT_GEOMETRY)) == OUTPUT_WALLS) {
+    if (!reader_) reader_.emplace(scene_.context());
+    reader_->read_ahead(reads, memory_.faces, static_cast<std::size_t>(capacity.faces), memory_.border,
+                        memory_.wall, real);
+  }
+  moments_read_ = rows == pair_seed_.size() && rows <= few_pairs;
+  if (moments_read_) {
+    host_moments_.resize(rows * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
+    reads.add(memory_.moments, host_moments_.data(), host_moments_.size());
+  }
+  reads.wait();
+}
+
+void Clipper::sort_statuses(std::span<const std::uint32_t> active, Outcome& outcome) {
   PieceSet& pieces = memory_.pieces;
   const std::size_t rows = active.size();
-  launch_status_.resize(rows);
-  memory_.status.download(std::span(launch_status_));
   const auto batch = static_cast<std::uint32_t>(pieces.used);
   std::uint32_t worst = PIECE_DONE;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -218,6 +239,7 @@ ClipMemory Clipper::release() && {
 
 Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
                                    std::span<const std::uint32_t> pair_region) {
+  moments_read_ = false;
   memory_.pieces.used = 0;
   memory_.pieces.tied.clear();
   unmap_rows();
@@ -252,7 +274,8 @@ const PieceSet& Clipper::clip(std::span<const std::uint32_t> pair_seed,
 std::vector<std::uint32_t> Clipper::clip_on_device(std::span<const std::uint32_t> pair_seed,
                                                    std::span<const std::uint32_t> pair_region) {
   List pending = begin_chunk(pair_seed, pair_region), for_host;
-  const std::size_t numbers = capacities(scene_.mesh().cell_dimension).size();
+  const std::size_t numbers =
+      options_.pairs <= one_capacity_pairs ? 1 : capacities(scene_.mesh().cell_dimension).size();
   for (std::size_t number = 0; number < numbers && !pending.empty(); ++number) {
     if (number > 0) {
       statistics_.retried += pending.size();

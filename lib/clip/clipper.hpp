@@ -31,6 +31,9 @@ struct ClipOptions {
   /// Pieces finished on the host are those of the weights with their infinitesimals (86): none is flat, and
   /// every face keeps its own plane. So all of them fit together, whatever seeds tie.
   bool perturbed = false;
+  /// The number of pairs of the whole pass, if it is known. Of few pairs, those too large for the first
+  /// capacity are finished on the host: compiling a larger program would take longer.
+  std::uint64_t pairs = ~std::uint64_t{0};
 };
 
 /// The buffers and pieces of a Clipper. A caller that clips again passes them on: to touch new memory page by
@@ -84,6 +87,8 @@ class Clipper {
 
   /// The moments of the last chunk, by pair: rows of 2 + dimension reals of the device's precision.
   const cl::RawBuffer& moments() const { return memory_.moments; }
+  /// The same on the host, where they have been read already; else null.
+  const std::byte* moments_on_host() const { return moments_read_ ? host_moments_.data() : nullptr; }
   const ClipStatistics& statistics() const { return statistics_; }
 
  private:
@@ -100,8 +105,10 @@ class Clipper {
   /// Clips `active` with one capacity until no pair needs more candidates.
   void run(std::size_t capacity, const List& active, Outcome& outcome);
   void launch(std::size_t capacity, std::span<const std::uint32_t> active, int round, Outcome& outcome);
-  /// Reads the statuses of a launch and appends its unfinished pairs to `outcome`.
-  void read_statuses(std::span<const std::uint32_t> active, Outcome& outcome);
+  /// Reads the statuses of a launch; of few pairs also the rows of walls and the moments, in one go.
+  void read_launch(std::size_t rows, const Capacity& capacity);
+  /// Sorts the pairs of a launch by their statuses: appends unfinished ones to `outcome`.
+  void sort_statuses(std::span<const std::uint32_t> active, Outcome& outcome);
   /// Allocates the rows of one launch.
   void reserve_rows(std::size_t rows, const Capacity& capacity);
   void read_rows(const Capacity& capacity, PieceBatch& batch);
@@ -129,6 +136,8 @@ class Clipper {
   ClipStatistics statistics_;
   ClipMemory memory_;
   List launch_ranks_, launch_status_;
+  std::vector<std::byte> host_moments_;
+  bool moments_read_ = false;
   std::optional<RowReader> reader_;
 };
 

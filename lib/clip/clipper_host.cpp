@@ -24,6 +24,7 @@ const SplitPair* find_split(std::span<const SplitPair> split, std::uint32_t pair
 }  // namespace
 
 void Clipper::write_moments(const List& pairs, std::span<const double> moments) {
+  moments_read_ = false;
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
   const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
   const auto patch = [&](auto& all) {
@@ -92,7 +93,9 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
   std::vector<std::unique_ptr<HostClipper>> clipper(static_cast<std::size_t>(std::max(1, options_.threads)));
   parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
     std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
-    if (!host) host = HostClipper::make(*host_scene_, (outputs_ & OUTPUT_GEOMETRY) != 0, options_.perturbed);
+    if (!host)
+      host = HostClipper::make(*host_scene_, (outputs_ & (OUTPUT_GEOMETRY | OUTPUT_FACETS)) != 0,
+                               options_.perturbed);
     const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
     PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;
     for (std::size_t k = begin; k < end; ++k) {

@@ -23,7 +23,7 @@ double golden_measure(const Variant& variant, std::uint32_t s);
 void require_golden(const cl::Context& context, std::string_view program, const Variant& variant,
                     std::uint32_t s, double measure);
 
-/// Clips the golden diagram with the program of `variant`.
+/// Clips the golden diagram, with all outputs, with the program of `variant`.
 /// \param capacity  of the variant: its number in capacities()
 /// \throw Error self_test_failed, naming the device, the variant and the wrong measure
 void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& candidates,

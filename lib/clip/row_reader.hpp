@@ -2,11 +2,13 @@
 /// Reads only the used entries of fixed-capacity rows from the device. Internal.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "lib/cl/transfers.hpp"
 #include "lib/primitives/scan.hpp"
 
 namespace powercell {
@@ -18,6 +20,12 @@ namespace powercell {
 class RowReader {
  public:
   explicit RowReader(const std::shared_ptr<cl::Context>& context) : context_(context) {}
+
+  /// Few rows of walls: enqueues the reads of what read_counts() and two calls of read() will want, so that
+  /// these need not wait one by one. Of many rows does nothing.
+  /// \param wall  reals of `real_bytes` each
+  void read_ahead(cl::Reads& reads, const cl::Buffer<std::uint32_t>& counts, std::size_t capacity,
+                  const cl::Buffer<std::int32_t>& border, const cl::RawBuffer& wall, std::size_t real_bytes);
 
   /// Reads the lengths of the rows, for the reads that follow.
   /// \param counts     lengths by row, then a 0; the reads use the buffer, whose content becomes undefined
@@ -54,12 +62,19 @@ class RowReader {
 
   template <class T>
   void read_values(const cl::RawBuffer& rows, std::size_t width, std::vector<T>& to);
+  /// A buffer that was read ahead; null if it was not.
+  std::vector<std::byte>* ahead(cl_mem memory);
   /// Reads few rows and packs them on the host.
   template <class T>
   void read_few(const cl::RawBuffer& rows, std::size_t width, std::vector<T>& to);
 
   std::shared_ptr<cl::Context> context_;
   std::optional<Packer> packer_;  // made on first use
+  struct Ahead {
+    cl_mem memory = nullptr;
+    std::vector<std::byte> bytes;
+  };
+  std::array<Ahead, 3> ahead_;  // counts, borders and walls; null once they are used
   std::vector<std::byte> raw_;
   std::vector<float> narrow_;
   std::vector<cl::Mapping> mappings_;

@@ -66,7 +66,9 @@ CellWalls clip_unrestricted_cells(const Scene& scene, Candidates& candidates,
   in_chunks(
       ranks.size(), {chunk, least_chunk_cells, "cells"},
       [&](std::size_t begin, std::size_t end) {
-        if (!clipper) clipper.emplace(scene, candidates, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY);
+        if (!clipper)
+          clipper.emplace(scene, candidates, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY,
+                          ClipOptions{.pairs = ranks.size()});
         const PieceSet& pieces =
             clipper->clip(ranks.subspan(begin, end - begin), std::span(regions).first(end - begin));
         for (std::size_t k = 0; begin + k < end; ++k) cells.add(ranks[begin + k], pieces, k);

@@ -1,5 +1,6 @@
 #include "lib/collect/geometry.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "kernels/layout.h"
@@ -83,19 +84,24 @@ void append_row(std::vector<T>& to, const std::vector<T>& values, std::uint64_t 
 
 }  // namespace
 
-Cells GeometryCollector::finish(const std::vector<SeedStatus>& status) {
+Cells GeometryCollector::finish(const std::vector<SeedStatus>& status, const SeedSet& rows,
+                                const std::vector<std::uint32_t>* rank) {
+  std::vector<std::uint32_t> input(piece_rank_.size());
+  for (std::size_t p = 0; p < input.size(); ++p) {
+    const std::uint32_t r = piece_rank_[p];
+    input[p] = rows.input[rank ? std::lower_bound(rank->begin(), rank->end(), r) - rank->begin() : r];
+  }
   Cells out;
   out.dimension = cells_.dimension;
   out.cell_dimension = cells_.cell_dimension;
-  out.cell_offset.assign(seeds_.input_count + 1, 0);
-  const auto ok = [&](std::uint32_t rank) { return status[seeds_.input[rank]] == SeedStatus::ok; };
-  for (const std::uint32_t rank : piece_rank_)
-    if (ok(rank)) ++out.cell_offset[seeds_.input[rank] + 1];
+  out.cell_offset.assign(rows.input_count + 1, 0);
+  for (const std::uint32_t i : input)
+    if (status[i] == SeedStatus::ok) ++out.cell_offset[i + std::size_t{1}];
   std::partial_sum(out.cell_offset.begin(), out.cell_offset.end(), out.cell_offset.begin());
   std::vector<std::uint64_t> order(out.cell_offset.back());
   std::vector<std::uint64_t> at(out.cell_offset.begin(), out.cell_offset.end() - 1);
-  for (std::uint64_t p = 0; p < piece_rank_.size(); ++p)
-    if (ok(piece_rank_[p])) order[at[seeds_.input[piece_rank_[p]]]++] = p;
+  for (std::uint64_t p = 0; p < input.size(); ++p)
+    if (status[input[p]] == SeedStatus::ok) order[at[input[p]]++] = p;
 
   const bool loops = cells_.cell_dimension == 3;
   const auto d = static_cast<std::size_t>(cells_.dimension);

@@ -27,7 +27,10 @@ class GeometryCollector {
            const PieceSet& pieces);
 
   /// The cells in input order, of the seeds whose status is ok.
-  Cells finish(const std::vector<SeedStatus>& status);
+  /// \param rows  the seeds of the cells
+  /// \param rank  of each row, ascending; null where rows are ranks
+  Cells finish(const std::vector<SeedStatus>& status, const SeedSet& rows,
+               const std::vector<std::uint32_t>* rank = nullptr);
 
  private:
   void add_vertices(const PieceBatch& batch, std::size_t row, std::uint32_t rank);

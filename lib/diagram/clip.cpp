@@ -4,10 +4,11 @@
 #include <utility>
 
 #include "kernels/layout.h"
-#include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
+#include "lib/collect/selected_walls.hpp"
+#include "lib/diagram/chunk_pairs.hpp"
 #include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
@@ -17,12 +18,6 @@ namespace powercell {
 
 namespace {
 
-/// Pairs of a chunk, unless Options::chunk_pairs is set. A GPU needs many to be busy. A core of a CPU needs a
-/// few groups, and collects the output of a small chunk from its cache.
-constexpr std::uint64_t chunk_pairs_gpu = std::uint64_t{1} << 18, chunk_pairs_core = std::uint64_t{1} << 14;
-constexpr std::uint64_t least_chunk_pairs = 1024;
-/// Vertices and faces of a chunk have 32-bit numbers, and a pair at most some 750 of them.
-constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
 /// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);  // (82)
@@ -34,18 +29,6 @@ int outputs_of(Wanted want, bool walls) {
   return OUTPUT_MOMENTS | (walls ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
 }
 
-/// The number of pairs of a chunk, of `total`.
-std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
-  if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
-  const DeviceInfo& device = setup.device.info();
-  const std::uint64_t busy = device.type != DeviceInfo::Type::cpu
-                                 ? chunk_pairs_gpu
-                                 : std::max(1u, device.compute_units) * chunk_pairs_core;
-  const std::uint64_t most = std::min(busy, cl::quirks_of(device).launch_limit);
-  // Chunks of equal size, because a small last chunk would not keep all cores busy.
-  return (total - 1) / ((total - 1) / most + 1) + 1;
-}
-
 class Pass {
  public:
   Pass(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace)
@@ -55,17 +38,24 @@ class Pass {
         want_(want),
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact || setup.boundary),
-        measures_(setup.on_device, active.seeds(), setup.domain.measure(), setup.threads),
-        walls_(collects_walls() && !active.images() ? active.seeds().size() : 0, setup.threads,
-               std::exchange(workspace.walls, {})),
+        measures_(setup.on_device, row_seeds(), setup.domain.measure(), setup.threads),
+        walls_(collects_walls() && !active.images() && !plan.selected ? active.seeds().size() : 0,
+               setup.threads, std::exchange(workspace.walls, {})),
         geometry_(plan.solid ? setup.clip_mesh : setup.domain.mesh(), active.seeds(),
                   setup.on_device.frame()) {
-    if (!active.images()) return;
+    if (!active.images()) {
+      if (plan.selected && want.adjacency)
+        selected_walls_.emplace(active.seeds(), row_seeds().size(), nullptr, setup.threads);
+      return;
+    }
     placement_.emplace(active.placement());
     geometry_.place(*placement_);
     proof_.emplace(*setup.period(), *active.images(),
                    setup.float32() ? proved_reach_error_float : proved_reach_error_double);
-    if (want.adjacency) periodic_walls_.emplace(*placement_, setup.threads);
+    if (want.adjacency && plan.selected)
+      selected_walls_.emplace(active.seeds(), row_seeds().size(), &*placement_, setup.threads);
+    else if (want.adjacency)
+      periodic_walls_.emplace(*placement_, setup.threads);
   }
 
   Clipped run(Timings& timings) {
@@ -81,11 +71,16 @@ class Pass {
   void clip_all(Timings& timings);
   /// Cells that the boundary does not cut lie on the side of their neighbours, which are needed for that.
   bool collects_walls() const { return want_.adjacency || plan_.solid; }
+  /// The seeds of the cells to compute, row by row: by rank unless they are selected.
+  const SeedSet& row_seeds() const { return plan_.selected ? plan_.selected->seeds : active_.seeds(); }
+  std::uint32_t rank_of_row(std::uint32_t row) const {
+    return plan_.selected ? plan_.selected->rank[row] : row;
+  }
   /// Clips and collects the pairs [begin, end).
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
   void prove_reach(const PieceSet& pieces);
   void set_chunk_seeds(std::uint64_t begin, std::uint64_t end);
-  std::uint32_t rank_of(std::uint64_t pair) const;
+  std::uint32_t row_of(std::uint64_t pair) const;
   /// Moves the centroids from near the wrapped seeds to near those given.
   void place_centroids(Measures& measures) const;
   std::vector<CoincidentWall> coincident_walls(const std::vector<SeedStatus>& status) const;
@@ -102,17 +97,20 @@ class Pass {
   MomentSums measures_;
   WallCollector walls_;
   GeometryCollector geometry_;
-  std::vector<std::uint32_t> pair_seed_;  // of a chunk
-  std::vector<std::uint32_t> flat_;       // the rank of each flat piece
+  std::vector<std::uint32_t> pair_row_;       // of a chunk
+  std::vector<std::uint32_t> selected_seed_;  // the same by rank, if cells are selected
+  std::span<const std::uint32_t> pair_seed_;  // the same by rank
+  std::vector<std::uint32_t> flat_;           // the row of each flat piece
   // In a periodic domain:
   std::optional<Placement> placement_;
   std::optional<MarginProof> proof_;
   std::optional<PeriodicWalls> periodic_walls_;
+  std::optional<SelectedWalls> selected_walls_;
   double margin_ = 0;  // needed for cells that reach too far
   double collect_seconds_ = 0;
 };
 
-std::uint32_t Pass::rank_of(std::uint64_t pair) const {
+std::uint32_t Pass::row_of(std::uint64_t pair) const {
   const auto& offset = plan_.pairs.offset;
   return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() -
                                     1);
@@ -120,11 +118,17 @@ std::uint32_t Pass::rank_of(std::uint64_t pair) const {
 
 void Pass::set_chunk_seeds(std::uint64_t begin, std::uint64_t end) {
   const std::vector<std::uint64_t>& offset = plan_.pairs.offset;
-  pair_seed_.resize(end - begin);
-  for (std::uint32_t rank = rank_of(begin); rank <= rank_of(end - 1); ++rank) {
-    const std::uint64_t from = std::max(begin, offset[rank]), to = std::min(end, offset[rank + 1]);
-    if (to > from) std::fill_n(&pair_seed_[from - begin], to - from, rank);
+  pair_row_.resize(end - begin);
+  for (std::uint32_t row = row_of(begin); row <= row_of(end - 1); ++row) {
+    const std::uint64_t from = std::max(begin, offset[row]), to = std::min(end, offset[row + 1]);
+    if (to > from) std::fill_n(&pair_row_[from - begin], to - from, row);
   }
+  pair_seed_ = pair_row_;
+  if (!plan_.selected) return;
+  selected_seed_.resize(end - begin);
+  std::transform(pair_row_.begin(), pair_row_.end(), selected_seed_.begin(),
+                 [&](std::uint32_t row) { return rank_of_row(row); });
+  pair_seed_ = selected_seed_;
 }
 
 void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
@@ -136,14 +140,17 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
       clipper_->finish_on_host(for_host, plan_.split(setup_, active_, pair_seed_, pair_region, for_host));
   const Stopwatch watch(setup_.device);
   // This step may run out of device memory, and then adds nothing. No later step uses device memory.
-  measures_.add(plan_.pairs.offset, begin, end, pair_seed_.front(), pair_seed_.back(), clipper_->moments());
+  measures_.add(plan_.pairs.offset, begin, end, pair_row_.front(), pair_row_.back(), clipper_->moments(),
+                clipper_->moments_on_host());
   if (exact_)
-    for (std::size_t k = 0; k < pair_seed_.size(); ++k)
-      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_seed_[k]);
+    for (std::size_t k = 0; k < pair_row_.size(); ++k)
+      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_row_[k]);
   if (proof_) prove_reach(pieces);
-  if (periodic_walls_)
+  if (selected_walls_)
+    selected_walls_->add(pair_row_, pair_seed_, pieces);
+  else if (periodic_walls_)
     periodic_walls_->add(pair_seed_, pieces);
-  else if (collects_walls())
+  else if (collects_walls() && !plan_.selected)
     walls_.add(pair_seed_, pieces);
   if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
   collect_seconds_ += watch.seconds();
@@ -160,9 +167,9 @@ void Pass::clip_all(Timings& timings) {
   const std::uint64_t total = plan_.pairs.region.size();
   Candidates& candidates = *plan_.candidates;
   const auto make_clipper = [&](std::optional<ClipMemory> memory) {
-    clipper_.emplace(active_.scene(), candidates,
-                     outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
-                     ClipOptions{exact_, setup_.threads}, std::move(memory));
+    clipper_.emplace(
+        active_.scene(), candidates, outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
+        ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total}, std::move(memory));
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const std::function<bool(double)>& progress = setup_.options.progress;
@@ -205,10 +212,11 @@ void Pass::keep_wall_memory() {
 
 void Pass::place_centroids(Measures& measures) const {
   const auto d = static_cast<std::size_t>(measures.dimension);
-  for (std::uint32_t rank = 0; rank < active_.images()->own; ++rank) {
-    if (placement_->is_inside(rank)) continue;
-    const std::array<double, 3> offset = placement_->offset(rank);
-    for (std::size_t c = 0; c < d; ++c) measures.centroid[active_.seeds().input[rank] * d + c] += offset[c];
+  const std::size_t rows = plan_.selected ? plan_.selected->rank.size() : active_.images()->own;
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    if (placement_->is_inside(rank_of_row(row))) continue;
+    const std::array<double, 3> offset = placement_->offset(rank_of_row(row));
+    for (std::size_t c = 0; c < d; ++c) measures.centroid[row_seeds().input[row] * d + c] += offset[c];
   }
 }
 
@@ -222,7 +230,7 @@ std::vector<CoincidentWall> Pass::coincident_walls(const std::vector<SeedStatus>
 }
 
 Clipped Pass::finish() {
-  const SeedSet& seeds = active_.seeds();
+  const SeedSet& seeds = row_seeds();
   Clipped results;
   if (margin_ > 0) {
     results.margin = std::min(more_than_needed * margin_, 2 * active_.images()->margin);
@@ -241,23 +249,27 @@ Clipped Pass::finish() {
   Measures measures = measures_.finish();
   for (const std::uint32_t rank : outside) clear_cell(measures, seeds.input[rank]);
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
-  std::erase_if(flat_, [&](std::uint32_t rank) { return measures.mass[seeds.input[rank]] > 0; });
+  std::erase_if(flat_, [&](std::uint32_t row) { return measures.mass[seeds.input[row]] > 0; });
+  for (std::uint32_t& row : flat_) row = rank_of_row(row);
   results.flat = std::move(flat_);
   if (!results.flat.empty()) return results;
   if (plan_.unrestricted) results.unclear = classify_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
   if (!results.unclear.empty()) return results;
   const double unit = setup_.on_device.frame().unit(setup_.domain.cell_dimension() - 1);
   const double negligible = exact_ ? 0 : setup_.float32() ? negligible_float : negligible_double;
-  if (periodic_walls_)
+  if (selected_walls_)
+    results.adjacency = selected_walls_->finish(seeds.input, measures.status, unit);
+  else if (periodic_walls_)
     results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
   if (want_.cells && plan_.solid)
     results.solid =
-        join_solid({setup_.domain, geometry_.finish(measures.status), at_boundary,
+        join_solid({setup_.domain, geometry_.finish(measures.status, seeds), at_boundary,
                     coincident_walls(measures.status), seeds, setup_.on_device.frame(), measures.status});
   else if (want_.cells)
-    results.cells = geometry_.finish(measures.status);
+    results.cells =
+        geometry_.finish(measures.status, seeds, plan_.selected ? &plan_.selected->rank : nullptr);
   if (placement_) place_centroids(measures);
   results.measures = std::move(measures);
   return results;

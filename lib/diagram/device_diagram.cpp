@@ -26,8 +26,7 @@ constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
-  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
-          OUTPUT_MOMENTS};
+  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity};
 }
 
 /// The defines of kernels that hold no cell.
@@ -81,7 +80,8 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       frame_(device.context()),
       seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
       tree_(device.context(), plain_defines(domain, precision)),
-      blocks_(device.context(), variant(domain, precision, {1, 1})),
+      blocks_(device.context(), variant(domain, precision, {1, 1}),
+              std::make_shared<BlockBuffers>(device.context())),
       pairs_(domain_buffers, plain_defines(domain, precision)),
       compaction_(device.context()),
       finish_(device.context(),

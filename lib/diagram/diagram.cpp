@@ -16,6 +16,12 @@ void Diagram::set_seeds(const SeedsView& seeds) {
 void Diagram::set_weights(std::span<const double> weights) {
   state_->set_weights(weights);
 }
+void Diagram::select(std::span<const std::uint32_t> seeds) {
+  state_->select(seeds);
+}
+void Diagram::select_all() {
+  state_->select_all();
+}
 void Diagram::compute(bool adjacency, bool cells) {
   state_->compute({adjacency, cells});
 }
@@ -55,6 +61,9 @@ const Cells& Diagram::cells() {
 }
 const JoinedCells& Diagram::joined() {
   return state_->joined();
+}
+const BoundaryWalls& Diagram::boundary_walls() {
+  return state_->boundary_walls();
 }
 const Dual& Diagram::dual() {
   return state_->dual();

@@ -17,8 +17,9 @@
 namespace powercell {
 namespace {
 
-/// With more pieces per cell it is faster to clip unrestricted cells first (docs/performance.md).
-constexpr std::size_t pieces_that_pay = 3;
+/// With more pieces per cell it is faster to clip unrestricted cells first (docs/performance.md); with few
+/// pairs too, because the programs that it takes are those of the measures.
+constexpr std::size_t pieces_that_pay = 3, few_pairs = 5000;
 
 /// Shares of a pass, as measured for volumes: the search at the boundary, unrestricted cells, and the pairs.
 constexpr double boundary_done = 0.05, cells_done = 0.2, pairs_done = 0.3;
@@ -145,13 +146,19 @@ std::vector<std::uint32_t> ranks_of(const Pairs& pairs) {
   return ranks;
 }
 
-std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scene& scene,
-                                                  const Pairs& pairs) {
+/// The search of all seeds, which does not depend on the pairs.
+std::unique_ptr<Candidates> search_all(const Scene& scene, Workspace& workspace) {
+  if (workspace.search) return std::move(workspace.search);
+  return std::make_unique<TreeCandidates>(scene);
+}
+
+std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scene& scene, const Pairs& pairs,
+                                                  Workspace& workspace) {
   if (std::unique_ptr<Candidates> lists = make_lists(setup, scene)) return lists;
-  if (setup.domain.region_count() == 1) return std::make_unique<TreeCandidates>(scene);
+  if (setup.domain.region_count() == 1) return search_all(scene, workspace);
   if (setup.has_inside) {
     const std::vector<std::uint32_t> ranks = ranks_of(pairs);
-    if (pairs.region.size() > pieces_that_pay * ranks.size()) {
+    if (pairs.region.size() > pieces_that_pay * ranks.size() || pairs.region.size() <= few_pairs) {
       TreeCandidates tree(scene);
       const CellWalls walls = clip_unrestricted_cells(scene, tree, ranks, setup.options.progress);
       return std::make_unique<CellCandidates>(std::move(tree), walls, CellPlanes{});
@@ -169,7 +176,7 @@ Pairs one_pair_each(std::uint32_t count) {
   return pairs;
 }
 
-Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings) {
+Plan plan_by_regions(const Setup& setup, const Active& active, Workspace& workspace, Timings& timings) {
   Plan plan;
   setup.progress->begin_part(0, cells_done);
   const Stopwatch pair_watch(setup.device);
@@ -179,21 +186,68 @@ Plan plan_by_regions(const Setup& setup, const Active& active, Timings& timings)
   timings.pairs = pair_watch.seconds();
   setup.progress->begin_part(cells_done, pairs_done);
   const Stopwatch neighbor_watch(setup.device);
-  plan.candidates = candidates_by_regions(setup, active.scene(), plan.pairs);
+  plan.candidates = candidates_by_regions(setup, active.scene(), plan.pairs, workspace);
   plan.pairs.list_offset = {};  // the device has them now
   plan.pairs.list_seed = {};
   timings.neighbors = neighbor_watch.seconds();
   return plan;
 }
 
+/// The pairs of `rank` alone, row by row.
+Pairs pairs_of(const Pairs& all, const std::vector<std::uint32_t>& rank) {
+  Pairs pairs;
+  pairs.offset.push_back(0);
+  for (const std::uint32_t r : rank) {
+    pairs.region.insert(pairs.region.end(), all.region.begin() + static_cast<std::ptrdiff_t>(all.offset[r]),
+                        all.region.begin() + static_cast<std::ptrdiff_t>(all.offset[r + 1]));
+    pairs.offset.push_back(pairs.region.size());
+  }
+  return pairs;
+}
+
+/// Clips the selected cells alone: as wholes first where the domain has an inside, and then in the regions
+/// that these meet. On a surface, whose regions are searched for seeds, all pairs are found.
+Plan plan_by_selection(const Setup& setup, const Active& active, const Selection& selection,
+                       Workspace& workspace, Timings& timings) {
+  const Scene scene = active.scene();
+  const SeedSet& seeds = active.seeds();
+  Plan plan;
+  plan.selected = make_rows(
+      selection, seeds, active.images() ? active.images()->own : static_cast<std::uint32_t>(seeds.size()));
+  const std::vector<std::uint32_t>& rank = plan.selected->rank;
+  setup.progress->begin_part(0, pairs_done);
+  const Stopwatch watch(setup.device);
+  plan.candidates = make_lists(setup, scene);
+  if (active.images() || setup.domain.region_count() == 1) {
+    plan.pairs = one_pair_each(static_cast<std::uint32_t>(rank.size()));
+    if (!plan.candidates) plan.candidates = search_all(scene, workspace);
+  } else if (setup.has_inside) {
+    std::optional<TreeCandidates> tree;
+    if (!plan.candidates) tree.emplace(scene);
+    const CellWalls walls = clip_unrestricted_cells(
+        scene, tree ? static_cast<Candidates&>(*tree) : *plan.candidates, rank, setup.options.progress);
+    plan.pairs = pairs_of(setup.pairs.by_cells(seeds, {rank, rank}, walls, false), rank);
+    if (tree) plan.candidates = std::make_unique<CellCandidates>(std::move(*tree), walls, CellPlanes{});
+  } else {
+    const Pairs all = setup.pairs.by_regions(seeds, active.tree(), setup.options.progress);
+    plan.pairs = pairs_of(all, rank);
+    if (!plan.candidates)
+      plan.candidates =
+          std::make_unique<RegionCandidates>(scene, all.list_offset, all.list_seed, all.all_listed);
+  }
+  timings.pairs = watch.seconds();
+  return plan;
+}
+
 }  // namespace
 
-Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Workspace& workspace,
-               Timings& timings) {
-  if (active.seeds().size() == 0) return {};
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Selection* selection,
+               Workspace& workspace, Timings& timings) {
   timings.pair_count = 0;
+  if (active.seeds().size() == 0) return {};
   const bool geometry = kind == PlanKind::geometry, solid = setup.domain.is_solid();
-  Plan plan = (geometry && !solid) || !setup.has_inside ? plan_by_regions(setup, active, timings)
+  Plan plan = selection ? plan_by_selection(setup, active, *selection, workspace, timings)
+              : (geometry && !solid) || !setup.has_inside ? plan_by_regions(setup, active, workspace, timings)
               : setup.boundary ? plan_by_boundary(setup, active, geometry, workspace, timings)
                                : plan_by_cells(setup, active, timings);
   setup.progress->begin_part(pairs_done, 1);

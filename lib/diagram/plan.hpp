@@ -11,10 +11,12 @@
 #include "lib/clip/clipper.hpp"
 #include "lib/collect/walls.hpp"
 #include "lib/diagram/active.hpp"
+#include "lib/diagram/selection.hpp"
 
 namespace powercell {
 
-/// The results that a plan computes. On surfaces and in domains of one region both kinds are the same.
+/// The results that a plan computes. On surfaces, in domains of one region and for a selection both kinds are
+/// the same.
 enum class PlanKind {
   integrals,  ///< measures and adjacency: only cells at the boundary are cut by region
   geometry,   ///< every cell is cut along the regions of the domain; in a solid all results
@@ -22,6 +24,8 @@ enum class PlanKind {
 
 /// The pairs to clip, and their candidates. Refers to the setup and the active seeds it was made for.
 struct Plan {
+  /// The cells to compute if they are not all; the rows of `pairs` are then these instead of ranks.
+  std::optional<SelectedRows> selected;
   Pairs pairs;
   std::unique_ptr<Candidates> candidates;
   bool unrestricted = false;  ///< pairs with the container are cells inside or outside the domain
@@ -44,15 +48,18 @@ inline constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 
 /// Small buffers that are reused by the next pass.
 struct Workspace {
+  /// The search of all active seeds, of a plan that another selection replaces; null where there is none.
+  std::unique_ptr<Candidates> search;
   std::optional<ClipMemory> clip;
   std::optional<ClipMemory> facets;  ///< of clipping the boundary of a solid
   WallRows::Memory walls;
 };
 
 /// Chooses the strategy, finds the pairs and makes the candidates.
+/// \param selection  null for all cells; else those to compute, in a domain that is not a solid
 /// \param timings  sets `pairs`, `neighbors` and `pair_count`
 /// \throw Error interrupted; opencl, out_of_device_memory, build_failed; invalid_argument (options of lists)
-Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, Workspace& workspace,
-               Timings& timings);
+Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Selection* selection,
+               Workspace& workspace, Timings& timings);
 
 }  // namespace powercell

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "lib/collect/dual.hpp"
+#include "lib/collect/facets.hpp"
 #include "lib/collect/periodic_dual.hpp"
+#include "lib/diagram/facets.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/report/log.hpp"
 #include "lib/verify/certificate.hpp"
@@ -29,8 +31,29 @@ void Diagram::State::set_seeds(const SeedsView& seeds) {
   retire_active();
   tree.reset();
   input = std::move(next);
+  selection.reset();
   timings = {};
   timings.prepare = watch.seconds();
+}
+
+void Diagram::State::select(std::span<const std::uint32_t> seeds) {
+  if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
+  if (setup.options.certify)
+    throw Error(ErrorCode::unsupported,
+                "the laws that Options::certify checks are those of all cells; turn it off, or select none");
+  Selection next = checked_selection(seeds, input->seeds.input_count);
+  select_all();
+  selection = std::move(next);
+}
+
+void Diagram::State::select_all() {
+  results = std::make_shared<Results>();
+  // In a domain of one region all selections are searched for in the same way.
+  const bool same_search = setup.domain.region_count() == 1 && setup.neighbors == Neighbors::tree;
+  if (integrals && same_search) workspace.search = std::move(integrals->candidates);
+  integrals.reset();
+  geometry.reset();
+  selection.reset();
 }
 
 void Diagram::State::set_weights(std::span<const double> weights) {
@@ -47,6 +70,7 @@ void Diagram::State::set_weights(std::span<const double> weights) {
 
 void Diagram::State::retire_active() {
   results = std::make_shared<Results>();
+  workspace.search.reset();
   integrals.reset();
   geometry.reset();
   if (active) tree = std::move(*active).release_tree();
@@ -54,8 +78,9 @@ void Diagram::State::retire_active() {
 }
 
 Plan& Diagram::State::plan(PlanKind kind) {
-  std::optional<Plan>& kept = kind == PlanKind::geometry && setup.has_inside ? geometry : integrals;
-  if (!kept) kept = make_plan(setup, *active, kind, workspace, timings);
+  std::optional<Plan>& kept =
+      kind == PlanKind::geometry && setup.has_inside && !selection ? geometry : integrals;
+  if (!kept) kept = make_plan(setup, *active, kind, selection ? &*selection : nullptr, workspace, timings);
   return *kept;
 }
 
@@ -68,15 +93,20 @@ Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
   return clip(setup, *active, plan(kind), want, workspace, timings);
 }
 
+bool Diagram::State::release_memory() {
+  if (!workspace.clip && !workspace.facets) return false;
+  workspace.clip.reset();
+  workspace.facets.reset();
+  return true;
+}
+
 void Diagram::State::pass(PlanKind kind, Wanted want) {
   for (;;) {
     Clipped clipped;
     try {
       clipped = clip_once(kind, want);
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::out_of_device_memory || (!workspace.clip && !workspace.facets)) throw;
-      workspace.clip.reset();
-      workspace.facets.reset();  // free the cached buffers and retry
+      if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;
       continue;
     }
     if (clipped.measures) {
@@ -105,10 +135,12 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
 }
 
 void Diagram::State::compute_missing(Wanted want) {
-  if (want.cells && setup.domain.is_solid()) {
+  if (selection && setup.domain.is_solid()) {
+    compute_in_solid(want);
+  } else if (want.cells && setup.domain.is_solid()) {
     setup.progress->begin_pass(0, 1);
     pass(PlanKind::geometry, want);
-  } else if (want.cells && setup.has_inside) {
+  } else if (want.cells && setup.has_inside && !selection) {
     // Measures and adjacency always come from this pass, so they do not depend on the order of calls.
     const bool both = !results->measures || want.adjacency;
     setup.progress->begin_pass(0, 0.5);
@@ -119,6 +151,26 @@ void Diagram::State::compute_missing(Wanted want) {
     setup.progress->begin_pass(0, 1);
     pass(PlanKind::integrals, want);
   }
+}
+
+void Diagram::State::compute_in_solid(Wanted want) {
+  // The caller may refer to results that are there already, so they are not replaced.
+  std::shared_ptr<Results> selected = std::exchange(results, std::make_shared<Results>());
+  std::optional<Selection> asked = std::exchange(selection, std::nullopt);
+  const auto restore = [&] {
+    selection = std::move(asked);
+    std::swap(results, selected);
+  };
+  try {
+    compute_missing(want);
+  } catch (...) {
+    restore();
+    throw;
+  }
+  restore();
+  const Results& all = *selected;
+  if (!results->measures) results->measures = select_rows(*all.measures, *selection);
+  if (all.adjacency) results->adjacency = select_rows(*all.adjacency, *selection);
 }
 
 void Diagram::State::compute(Wanted want) {
@@ -153,6 +205,26 @@ void Diagram::State::certify() {
   timings.certify = watch.seconds();
 }
 
+const BoundaryWalls& Diagram::State::boundary_walls() {
+  if (results->boundary_walls) return *results->boundary_walls;
+  if (setup.domain.is_solid()) {
+    results->boundary_walls = facets_of(joined());
+    return *results->boundary_walls;
+  }
+  compute({});  // excludes flat cells, and has images enough
+  setup.progress->begin_computation();
+  setup.progress->begin_pass(0, 1);
+  for (;;) {
+    try {
+      results->boundary_walls =
+          clip_facets(setup, *active, plan(PlanKind::geometry), results->measures->status);
+      return *results->boundary_walls;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;
+    }
+  }
+}
+
 const Cells& Diagram::State::cells() {
   if (setup.domain.is_solid())
     throw Error(ErrorCode::unsupported,
@@ -164,15 +236,21 @@ const Cells& Diagram::State::cells() {
 }
 
 const JoinedCells& Diagram::State::joined() {
-  if (setup.domain.is_solid())
+  if (setup.domain.is_solid()) {
+    if (selection)
+      throw Error(ErrorCode::unsupported,
+                  "the geometry of cells in a solid is that of all cells; call select_all() before it");
     compute({.cells = true});
-  else if (!results->joined)
+  } else if (!results->joined) {
     results->joined = join(setup.domain, cells());
+  }
   return *results->joined;
 }
 
 const Dual& Diagram::State::dual() {
   if (results->dual) return *results->dual;
+  if (selection)
+    throw Error(ErrorCode::unsupported, "the dual is that of all cells; call select_all() before it");
   compute({.cells = true});
   const SeedRows given = input->given();
   const SeedsView seeds{setup.domain.dimension(), given.positions, given.weights};

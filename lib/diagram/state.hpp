@@ -14,6 +14,7 @@ namespace powercell {
 struct Diagram::State {
   Setup setup;
   std::optional<Input> input;
+  std::optional<Selection> selection;       // of the input; without one all cells are computed
   std::optional<Active> active;             // of the input
   std::optional<Plan> integrals, geometry;  // of the active seeds, by PlanKind
 
@@ -24,6 +25,7 @@ struct Diagram::State {
     std::optional<JoinedCells> joined;
     std::optional<std::vector<std::uint32_t>> simplices;  ///< of a solid (SolidGeometry)
     std::optional<Dual> dual;
+    std::optional<BoundaryWalls> boundary_walls;
   };
   /// Shared with callers who hold the results while the seeds change: replaced then, not cleared.
   std::shared_ptr<Results> results = std::make_shared<Results>();
@@ -40,12 +42,15 @@ struct Diagram::State {
 
   void set_seeds(const SeedsView& seeds);
   void set_weights(std::span<const double> weights);
+  void select(std::span<const std::uint32_t> seeds);
+  void select_all();
   /// Computes the measures and the wanted results, as far as they are missing. \throw as Diagram::compute
   void compute(Wanted want);
   /// \throw Error unsupported for a solid
   const Cells& cells();
   const JoinedCells& joined();
   const Dual& dual();
+  const BoundaryWalls& boundary_walls();
 
  private:
   /// Discards everything that depends on the seeds, except their tree.
@@ -53,8 +58,12 @@ struct Diagram::State {
   Plan& plan(PlanKind kind);
   /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
   void pass(PlanKind kind, Wanted want);
+  /// Frees the kept buffers of the device; false if there are none.
+  bool release_memory();
   Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);
+  /// Computes the selected cells of a solid: all cells, of which the others are dropped.
+  void compute_in_solid(Wanted want);
   /// Checks the laws of the results; discards the results if one fails. \throw Error internal
   void certify();
 };

@@ -18,7 +18,7 @@ constexpr std::size_t ahead = 16;           // ranks between a prefetch and its 
 cl::Kernel gather_kernel(const DomainBuffers& domain) {
   Variant variant;
   variant.dimension = domain.mesh().dimension;
-  variant.cell_dimension = domain.mesh().cell_dimension;
+  variant.cell_dimension = variant.dimension;  // which does not matter: one program for both
   variant.float32 = domain.float32();
   variant.capacity = {1, 1};
   return {domain.context(), domain.context()->program("integrate/gather.cl", variant.defines()), "gather"};
@@ -128,8 +128,10 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments) {
+                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments,
+                     const std::byte* on_host) {
   const bool summed = one_pair_per_rank(pair_offset, begin, end, first, last);
+  if (summed && on_host) return set_measures(first, last + 1, on_host);
   if (!summed) sum_on_device(pair_offset, begin, end, first, last, moments);
   const std::size_t ranks = std::size_t{last} - first + 1;
   cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);

@@ -26,8 +26,10 @@ class MomentSums {
   /// in the next chunk, which must begin with pair `end`. Adds nothing if it throws.
   /// \param pair_offset  per rank: its first pair; then the number of pairs
   /// \param moments      by pair of the chunk, in device memory
+  /// \param on_host      the same if they are on the host too, else null
   void add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-           std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
+           std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments,
+           const std::byte* on_host = nullptr);
 
   /// Sets the measures of a rank without pairs. \param moments  2 + dimension, in device units
   void set(std::uint32_t rank, std::span<const double> moments);

@@ -47,7 +47,7 @@ class HiddenSearch {
  public:
   explicit HiddenSearch(const Scene& scene)
       : tree_(device_tree(scene)),
-        blocks_(scene.context(), without_cells(scene)),
+        blocks_(scene.context(), without_cells(scene), scene.buffers.blocks),
         kernel_(scene.context(),
                 scene.context()->program("neighbors/hidden.cl", without_cells(scene).defines()),
                 "find_hidden"),

@@ -3,19 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "lib/cl/program.hpp"
 
 namespace powercell {
 
+struct BlockBuffers;
 struct Variant;
 
 /// The structure that the clip kernels search, built on the device from seeds and tree
 /// (kernels/neighbors/blocks.cl, near.cl).
 class TreeBlocks {
  public:
-  /// Builds the kernels for the precision and dimensions of `variant`.
-  TreeBlocks(const std::shared_ptr<cl::Context>& context, const Variant& variant);
+  /// Builds the kernels for the precision and dimensions of `variant`. \param buffers  receive the blocks
+  TreeBlocks(const std::shared_ptr<cl::Context>& context, const Variant& variant,
+             std::shared_ptr<BlockBuffers> buffers);
 
   /// A packed tree in device memory, of at least one seed.
   struct Tree {
@@ -31,8 +34,8 @@ class TreeBlocks {
   }
   void pack(const Tree& tree);  ///< the blocks
   void list(const Tree& tree);  ///< the near leaves, from the blocks
-  /// Leaves the buffers empty, for kernels that take the arguments but do not search.
-  void leave_empty();
+  /// Allocates the buffers, for kernels that take the arguments but do not search.
+  void allocate();
 
   /// Appends the arguments of clip kernels: tree, blocks and near leaves.
   void append_arguments(cl::Kernel& kernel, const Tree& tree) const;
@@ -42,8 +45,7 @@ class TreeBlocks {
  private:
   cl::Kernel pack_, list_;
   std::size_t row_bytes_, bound_bytes_, dimension_;
-  cl::RawBuffer seed_block_, node_block_, near_bound_;
-  cl::Buffer<std::uint32_t> near_, near_count_;
+  std::shared_ptr<BlockBuffers> buffers_;
 };
 
 }  // namespace powercell

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> plane_offsets(const CellPlanes& planes, std::size_t s
 }  // namespace
 
 Variant without_cells(const Scene& scene) {
-  return {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}, 0};
+  return {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}};
 }
 
 TreeBlocks::Tree device_tree(const Scene& scene) {
@@ -51,11 +51,14 @@ TreeBlocks::Tree device_tree(const Scene& scene) {
 }
 
 TreeCandidates::TreeCandidates(const Scene& scene, bool searched)
-    : scene_(scene), blocks_(scene.context(), without_cells(scene)) {
-  if (searched)
+    : scene_(scene), blocks_(scene.context(), without_cells(scene), scene.buffers.blocks) {
+  BlockBuffers& buffers = *scene.buffers.blocks;
+  if (!searched) {
+    blocks_.allocate();
+  } else if (!buffers.current) {
     blocks_.enqueue(device_tree(scene));
-  else
-    blocks_.leave_empty();
+    buffers.current = true;
+  }
 }
 
 void TreeCandidates::append_arguments(cl::Kernel& kernel) const {

@@ -18,7 +18,7 @@ Variant without_cells(const Scene& scene);
 /// Searches the tree for each pair (kernels/clip/by_tree.cl).
 class TreeCandidates : public Candidates {
  public:
-  /// Enqueues the construction of the tree's blocks, without waiting.
+  /// Enqueues the construction of the tree's blocks, unless the scene has them, without waiting.
   /// \param searched  false if no pair will need the tree
   explicit TreeCandidates(const Scene& scene, bool searched = true);
   std::string_view file() const override { return "clip/by_tree.cl"; }

@@ -2,17 +2,37 @@
 /// Everything that a clip kernel reads: the domain, and the seeds with their packed tree. Internal.
 #pragma once
 
+#include <memory>
+
 #include "lib/scene/domain_buffers.hpp"
 #include "lib/seeds/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 
+/// What clip kernels search, made on the device from seeds and tree (lib/neighbors/tree_blocks.hpp).
+struct BlockBuffers {
+  explicit BlockBuffers(const std::shared_ptr<cl::Context>& context)
+      : seed_block(context),
+        node_block(context),
+        near_bound(context),
+        near_leaves(context),
+        near_count(context) {}
+
+  cl::RawBuffer seed_block, node_block, near_bound;
+  cl::Buffer<std::uint32_t> near_leaves, near_count;
+  bool current = false;  ///< made of the seeds and the tree as they are
+};
+
 /// Seeds and packed tree in device memory. Later uploads reuse the buffers.
 class SeedBuffers {
  public:
   explicit SeedBuffers(const std::shared_ptr<cl::Context>& context)
-      : points(context), node_low(context), node_high(context), level_offset(context) {}
+      : points(context),
+        node_low(context),
+        node_high(context),
+        level_offset(context),
+        blocks(std::make_shared<BlockBuffers>(context)) {}
 
   void upload(const Frame& frame, const SeedSet& seeds, const PackedTree& tree, int threads);
   /// Uploads what depends on the weights only.
@@ -20,6 +40,7 @@ class SeedBuffers {
 
   cl::RawBuffer points, node_low, node_high;  ///< seed_t
   cl::Buffer<std::uint32_t> level_offset;
+  std::shared_ptr<BlockBuffers> blocks;
 };
 
 /// A view of domain and seeds on host and device; must not outlive them.

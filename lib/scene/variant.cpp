@@ -1,16 +1,12 @@
 #include "lib/scene/variant.hpp"
 
-#include "kernels/layout.h"
-
 namespace powercell {
 
 std::vector<std::string> Variant::defines() const {
-  return {std::string("REAL_BITS=") + (float32 ? "32" : "64"),
-          "DIMENSION=" + std::to_string(dimension),
+  return {std::string("REAL_BITS=") + (float32 ? "32" : "64"), "DIMENSION=" + std::to_string(dimension),
           "CELL_DIMENSION=" + std::to_string(cell_dimension),
           "VERTEX_CAPACITY=" + std::to_string(capacity.vertices),
-          "FACE_CAPACITY=" + std::to_string(capacity.faces),
-          "OUTPUTS=" + std::to_string(outputs)};
+          "FACE_CAPACITY=" + std::to_string(capacity.faces)};
 }
 
 const std::vector<Capacity>& capacities(int cell_dimension) {
@@ -23,12 +19,10 @@ const std::vector<Capacity>& capacities(int cell_dimension) {
 
 std::vector<Variant> all_variants(bool float32) {
   const int spaces[3][2] = {{2, 2}, {3, 2}, {3, 3}};
-  const int outputs[3] = {OUTPUT_MOMENTS, OUTPUT_MOMENTS | OUTPUT_WALLS,
-                          OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_GEOMETRY};
   std::vector<Variant> all;
   for (const auto& [dimension, cell_dimension] : spaces)
     for (const Capacity& capacity : capacities(cell_dimension))
-      for (const int output : outputs) all.push_back({dimension, cell_dimension, float32, capacity, output});
+      all.push_back({dimension, cell_dimension, float32, capacity});
   return all;
 }
 

@@ -20,7 +20,6 @@ struct Variant {
   int cell_dimension = 0;
   bool float32 = false;
   Capacity capacity{};
-  int outputs = 0;  ///< OUTPUT_... of kernels/layout.h
 
   std::vector<std::string> defines() const;
 };

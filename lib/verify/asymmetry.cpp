@@ -98,6 +98,7 @@ double allowed_asymmetry(const Adjacency& adjacency, const RegionMesh* mesh, con
   const auto n = static_cast<double>(adjacency.offset.size() - 1);
   const double usual = within(rounded * (1000 + n));
   if (adjacency.asymmetry <= usual || adjacency.asymmetric[0] == adjacency.asymmetric[1]) return usual;
+  if (!adjacency.shift.empty()) return usual;  // which images these are is not known
   const auto ends = static_cast<double>(Ends(adjacency, mesh, rounding).sum());
   return std::max(usual, within(rim * ends));
 }

@@ -3,6 +3,7 @@
 
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
+#include "lib/domain/period.hpp"
 #include "lib/verify/laws.hpp"
 
 namespace powercell {
@@ -51,7 +52,11 @@ Face face_of(const std::vector<Vector>& corners, const Vector& plane) {
 class Owners {
  public:
   Owners(const RegionMesh& mesh, const Cells& cells, const Rounding& rounding)
-      : mesh_(mesh), cells_(cells), rounding_(rounding), count_(cells.cell_count()) {}
+      : mesh_(mesh),
+        period_(mesh.period.get()),
+        cells_(cells),
+        rounding_(rounding),
+        count_(cells.cell_count()) {}
 
   /// Tries all seeds. Of two at one position the heavier wins, also where its weight is lost in rounding
   /// beside the distance.
@@ -59,7 +64,7 @@ class Owners {
     std::size_t best = 0;
     long double least = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-      const Vector y = x - rounding_.position(i);
+      const Vector y = from_seed(i, x);
       const long double power = dot(y, y) - rounding_.weight(i);
       const bool heavier = rounding_.weight(i) > rounding_.weight(best);
       if (i == 0 || power < least ||
@@ -74,30 +79,63 @@ class Owners {
   /// The distance of a sample outside the cell of seed i.
   Outside outside_cell(const Sample& sample, std::size_t i) const {
     Outside best{1e300, 1};
+    const Vector point = rounding_.position(i) + from_seed(i, sample.point);
     bool in_region = false;
     for (std::uint64_t p = cells_.cell_offset[i]; p < cells_.cell_offset[i + 1]; ++p) {
       if (cells_.region[p] != sample.region) continue;
       in_region = true;
-      best = nearer(best, outside_piece(sample.point, i, p));
+      best = nearer(best, outside_piece(point, i, p));
     }
     // Pieces that are too flat are not kept; the point then lies next to a piece in a neighbouring region.
     for (std::uint64_t p = cells_.cell_offset[i]; !in_region && p < cells_.cell_offset[i + 1]; ++p)
-      best = nearer(best, outside_piece(sample.point, i, p));
+      best = nearer(best, outside_piece(point, i, p));
     return best;
   }
 
   /// The best result over all seeds whose bisector with the owner passes within rounding of the point.
   Outside outside_ties(const Sample& sample, std::size_t owner, Outside best) const {
-    const Vector p = rounding_.position(owner);
+    const Vector p = rounding_.position(owner), here = from_seed(owner, sample.point);
     for (std::size_t j = 0; j < count_; ++j) {
       if (j == owner || rounding_.position(j) == p) continue;
-      if (-rounding_.beyond(owner, j, sample.point) > rounding_.wall_shift(owner, j)) continue;
+      // The seeds of the images nearest to the point: only their difference counts.
+      const Vector q = here - from_seed(j, sample.point);
+      if (!(norm(q) > 0) || -rounding_.beyond(owner, j, here, q) > rounding_.wall_shift(owner, j, q))
+        continue;
       best = nearer(best, outside_cell(sample, j));
     }
     return best;
   }
 
  private:
+  /// From seed i to the point; in a periodic domain from its nearest image.
+  Vector from_seed(std::size_t i, const Vector& x) const {
+    const Vector y = x - rounding_.position(i);
+    return period_ ? shortest(y) : y;
+  }
+
+  /// The shortest of the vectors that differ from y by a vector of the lattice: in a reduced basis it is
+  /// among those around the one of least coordinates.
+  Vector shortest(Vector y) const {
+    const double at[3] = {static_cast<double>(y[0]), static_cast<double>(y[1]), static_cast<double>(y[2])},
+                 zero[3] = {};
+    const Period::Row fraction = period_->fraction(at), origin = period_->fraction(zero);
+    for (int k = 0; k < period_->count(); ++k) y = y - std::round(fraction[k] - origin[k]) * vector_of(k);
+    Vector best = y;
+    int combinations = 1;
+    for (int k = 0; k < period_->count(); ++k) combinations *= 3;
+    for (int c = 0; c < combinations; ++c) {
+      Vector other = y;
+      for (int k = 0, rest = c; k < period_->count(); ++k, rest /= 3)
+        other = other + static_cast<long double>(rest % 3 - 1) * vector_of(k);
+      if (dot(other, other) < dot(best, best)) best = other;
+    }
+    return best;
+  }
+  Vector vector_of(int k) const {
+    const Period::Row& v = period_->vector(k);
+    return {v[0], v[1], v[2]};
+  }
+
   static Outside nearer(const Outside& a, const Outside& b) { return b.ratio() < a.ratio() ? b : a; }
 
   Outside outside_piece(const Vector& x, std::size_t i, std::uint64_t piece) const {
@@ -115,6 +153,7 @@ class Owners {
   }
 
   const RegionMesh& mesh_;
+  const Period* period_;  // null unless the domain is periodic
   const Cells& cells_;
   const Rounding& rounding_;
   std::size_t count_;

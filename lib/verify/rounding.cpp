@@ -60,7 +60,10 @@ double Rounding::shift(std::size_t i) const {
 }
 
 double Rounding::wall_shift(std::size_t i, std::size_t j) const {
-  const Vector a = position(i), b = position(j), q{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  return wall_shift(i, j, position(j) - position(i));
+}
+
+double Rounding::wall_shift(std::size_t i, std::size_t j, const Vector& q) const {
   const long double length = std::sqrt(dot(q, q));
   return shift(i) +
          roundings * unit_ * static_cast<double>(length + std::fabs(weight(i) - weight(j)) / length);
@@ -71,8 +74,10 @@ double Rounding::shift(std::size_t i, const Border& border) const {
 }
 
 long double Rounding::beyond(std::size_t i, std::size_t j, const Vector& x) const {
-  const Vector a = position(i), b = position(j), q{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Vector y{x[0] - a[0], x[1] - a[1], x[2] - a[2]};
+  return beyond(i, j, x - position(i), position(j) - position(i));
+}
+
+long double Rounding::beyond(std::size_t i, std::size_t j, const Vector& y, const Vector& q) const {
   return (2 * dot(q, y) - dot(q, q) - weight(i) + weight(j)) / (2 * std::sqrt(dot(q, q)));
 }
 

@@ -48,11 +48,15 @@ class Rounding {
   double shift(std::size_t i, const Border& border) const;
   /// The same for the bisector of i and j.
   double wall_shift(std::size_t i, std::size_t j) const;
+  /// The same if j is the image at `q` from seed i.
+  double wall_shift(std::size_t i, std::size_t j, const Vector& q) const;
 
   Vector position(std::size_t i) const;
   long double weight(std::size_t i) const { return seeds_.weights.empty() ? 0.0L : seeds_.weights[i]; }
   /// The signed distance of x from the bisector of i and j, positive on j's side.
   long double beyond(std::size_t i, std::size_t j, const Vector& x) const;
+  /// The same of the point at y from seed i, if j is the image at `q` from seed i.
+  long double beyond(std::size_t i, std::size_t j, const Vector& y, const Vector& q) const;
 
  private:
   Extent extent_;

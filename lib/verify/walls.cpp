@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <array>
+#include <utility>
 
 #include "lib/verify/asymmetry.hpp"
 #include "lib/verify/laws.hpp"
@@ -6,18 +7,28 @@
 namespace powercell {
 namespace {
 
+using Shift = std::array<std::int32_t, 3>;
+using Image = std::pair<std::uint32_t, Shift>;
+
+/// The neighbour of an entry, in a periodic domain with its image.
+Image image_at(const Adjacency& adjacency, std::uint64_t k) {
+  return {adjacency.neighbor[k], adjacency.shift.empty() ? Shift{} : adjacency.shift[k]};
+}
+
 /// The fault of row i; empty if it has none.
 std::string fault_of(const Adjacency& adjacency, std::size_t i) {
-  const auto row = row_of(adjacency, i);
-  for (auto j = row.begin(); j != row.end(); ++j) {
-    const std::string both = "seed " + std::to_string(i) + " and its neighbour " + std::to_string(*j);
-    if (*j == i || *j + std::size_t{1} >= adjacency.offset.size()) return both + ": not another seed";
-    if (j != row.begin() && j[-1] >= *j) return both + ": the row is not ascending";
-    const auto other = row_of(adjacency, *j);
-    const auto back = std::ranges::lower_bound(other, i);
-    if (back == other.end() || *back != i) return both + ": the neighbour does not list the seed";
-    const auto at = adjacency.offset[i] + static_cast<std::size_t>(j - row.begin());
-    const auto from = adjacency.offset[*j] + static_cast<std::size_t>(back - other.begin());
+  for (std::uint64_t at = adjacency.offset[i]; at < adjacency.offset[i + 1]; ++at) {
+    const auto [j, shift] = image_at(adjacency, at);
+    const std::string both = "seed " + std::to_string(i) + " and its neighbour " + std::to_string(j);
+    if ((j == i && shift == Shift{}) || j + std::size_t{1} >= adjacency.offset.size())
+      return both + ": not another seed";
+    if (at > adjacency.offset[i] && image_at(adjacency, at - 1) >= Image(j, shift))
+      return both + ": the row is not ascending";
+    const Image back(static_cast<std::uint32_t>(i), {-shift[0], -shift[1], -shift[2]});
+    std::uint64_t from = adjacency.offset[j];
+    while (from < adjacency.offset[j + 1] && image_at(adjacency, from) < back) ++from;
+    if (from == adjacency.offset[j + 1] || image_at(adjacency, from) != back)
+      return both + ": the neighbour does not list the seed";
     if (adjacency.wall[at] != adjacency.wall[from]) return both + ": the wall measures differ";
   }
   return {};

@@ -18,6 +18,7 @@ from ._diagram import Adjacency, Diagram, Status, regular_triangulation  # noqa:
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._meshes import ball, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
+from ._queue import DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
 from ._sampling import sample  # noqa: E402
 from ._seeds import Seeds, read_seeds  # noqa: E402
 from ._transport import TransportSolver, transport  # noqa: E402
@@ -28,6 +29,9 @@ __version__: str = _version()
 __all__ = [
     "Adjacency",
     "Device",
+    "DeviceDiagram",
+    "DeviceMeasures",
+    "DeviceStatus",
     "Diagram",
     "Domain",
     "Error",

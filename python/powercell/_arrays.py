@@ -16,7 +16,14 @@ def _text(shape: Sequence[Optional[int]]) -> str:
     return "(" + ", ".join(sizes) + ("," if len(sizes) == 1 else "") + ")"
 
 
+def is_pyopencl(value: Any) -> bool:
+    """Whether it is an array of pyopencl, which is not imported for that."""
+    return any(base.__module__ == "pyopencl.array" for base in type(value).__mro__)
+
+
 def _plain(value: Any, name: str) -> NDArray[Any]:
+    if is_pyopencl(value):
+        raise ValueError(f"{name} is an array of pyopencl: pass it to DeviceDiagram, or {name}.get() to the host")
     if np.ma.is_masked(value):
         raise ValueError(f"{name} is a masked array with masked entries; fill or remove them")
     try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any, Optional, Union
+from weakref import WeakValueDictionary
 
 from . import _core
 
@@ -20,12 +21,17 @@ class Device:
     compute_units : int
     memory : int
         Global memory in bytes.
+    queue : pyopencl.CommandQueue or None
+        That of :meth:`from_queue`.
     """
 
     _opened: dict[str, Any] = {}
+    _of_queues: WeakValueDictionary[int, Device] = WeakValueDictionary()
 
-    def __init__(self, info: Any) -> None:
+    def __init__(self, info: Any, core: Any = None, queue: Any = None) -> None:
         self._info = info
+        self._core = core
+        self.queue = queue
         self.name: str = info.name
         self.platform: str = info.platform
         self.vendor: str = info.vendor
@@ -47,6 +53,33 @@ class Device:
             ``device_not_found``; ``self_test_failed`` if it computes known results incorrectly.
         """
         return cls(_open(selector).info)
+
+    @classmethod
+    def from_queue(cls, queue: Any) -> Device:
+        """The device of a queue of pyopencl, for diagrams on that queue: :class:`DeviceDiagram`, and whatever
+        takes a ``device``.
+
+        Parameters
+        ----------
+        queue : pyopencl.CommandQueue
+            In order. The queue and its context live as long as the device and its diagrams.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` for an out-of-order queue; ``self_test_failed``.
+        """
+        pointer = getattr(queue, "int_ptr", None)
+        if pointer is None or not hasattr(queue, "flush"):
+            raise ValueError(f"queue is a {type(queue).__name__}; a pyopencl.CommandQueue is expected")
+        found = cls._of_queues.get(pointer)  # while it lives it holds the queue, so the pointer is not another's
+        if found is None:
+            core = _core.device_from_queue(pointer)
+            found = cls._of_queues[pointer] = cls(core.info, core, queue)
+        return found
+
+    def _open(self) -> Any:
+        return _open(self._info.selector) if self._core is None else self._core
 
     def __repr__(self) -> str:
         return f"<powercell.Device {self.name!r}, {self.kind}, {self.compute_units} compute units>"
@@ -76,7 +109,7 @@ def open_device(device: Union[None, str, Device]) -> Any:
     if isinstance(device, str):
         return _open(device)
     if isinstance(device, Device):
-        return _open(device._info.selector)
+        return device._open()
     raise ValueError(f"device is a {type(device).__name__}; a Device, a str or None is expected")
 
 

@@ -103,6 +103,7 @@ class CallSlot {
 };
 
 void bind_devices(nb::module_& m);
+void bind_queues(nb::module_& m);
 void bind_domains(nb::module_& m);
 void bind_results(nb::module_& m);
 void bind_diagrams(nb::module_& m);

@@ -3,30 +3,13 @@
 #include "python/src/call.hpp"
 
 namespace powercell::python {
-namespace {
-
-const char* kind_of(DeviceInfo::Type type) {
-  switch (type) {
-    case DeviceInfo::Type::cpu:
-      return "cpu";
-    case DeviceInfo::Type::gpu:
-      return "gpu";
-    case DeviceInfo::Type::accelerator:
-      return "accelerator";
-    default:
-      return "other";
-  }
-}
-
-}  // namespace
-
 void bind_devices(nb::module_& m) {
   nb::class_<DeviceInfo>(m, "DeviceInfo", "An OpenCL device of this machine.")
       .def_ro("name", &DeviceInfo::name)
       .def_ro("platform", &DeviceInfo::platform_name)
       .def_ro("vendor", &DeviceInfo::vendor)
       .def_ro("driver", &DeviceInfo::driver_version)
-      .def_prop_ro("kind", [](const DeviceInfo& d) { return kind_of(d.type); })
+      .def_prop_ro("kind", [](const DeviceInfo& d) { return name(d.type); })
       .def_ro("fp64", &DeviceInfo::fp64)
       .def_ro("compute_units", &DeviceInfo::compute_units)
       .def_ro("memory", &DeviceInfo::memory_bytes)

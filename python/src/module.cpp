@@ -27,6 +27,7 @@ NB_MODULE(_core, m) {
   nb::register_exception_translator(translate);
   m.def("version", &powercell::version);
   bind_devices(m);
+  bind_queues(m);
   bind_domains(m);
   bind_results(m);
   bind_diagrams(m);

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds the Python package's wheel, installs it in a virtual environment of its own, and tests it there: its tests, the
 # examples in its documents, and its types. Needs python3-venv, python3-dev and the packages that ./setup.sh installs.
+# With ccache as in .ci/run, objects come from build/release: the extension has the same.
 #
 #   python/tests/run.sh [FOLDER]   FOLDER: for the environment and the wheel; default: build/python-test
 set -eu
@@ -13,11 +14,11 @@ python3 -m venv --clear "$folder/venv"
 python="$folder/venv/bin/python"
 "$python" -m pip -q install --upgrade pip
 "$python" -m pip -q install pytest pytest-timeout mypy scipy scipy-stubs shapely geopandas matplotlib meshio pyvista \
-  trimesh tqdm intel-opencl-rt intel-cmplr-lib-rt
+  trimesh tqdm pyopencl intel-opencl-rt intel-cmplr-lib-rt
 
 say "the wheel"
 rm -f "$folder"/*.whl
-"$python" -m pip -q wheel "$root" --no-deps -w "$folder"
+"$python" -m pip -q wheel "$root" --no-deps -w "$folder" --config-settings=build-dir="$root/build/python-wheel"
 "$python" -m pip -q install "$folder"/powercell-*.whl
 
 cd "$folder" # imports find the installed package

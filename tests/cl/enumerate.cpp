@@ -16,6 +16,8 @@ TEST_CASE("every device says what it is and is found by its selector") {
     CHECK_FALSE(device.driver_version.empty());
     CHECK(device.opencl_c_version.starts_with("OpenCL C "));
     CHECK(device.compute_units > 0);
+    const std::string kind = name(device.type);
+    CHECK((kind == "cpu" || kind == "gpu" || kind == "accelerator" || kind == "other"));
     CHECK(device.max_work_group_size > 0);
     CHECK(device.largest_allocation >= device.memory_bytes / 8);  // OpenCL asks for a quarter, or 128 MiB
     const auto chosen = Device::choose(device.selector());

@@ -46,7 +46,7 @@ class Periodic(ToolTest):
         shifts = {(row["seed"], row["neighbor"], row["sx"], row["sy"]) for row in self.rows("out_w.csv")}
         self.assertIn(("0", "1", "-3", "-7"), shifts)
 
-    def test_json_has_periods_and_shifts_and_is_not_verified(self):
+    def test_laws_of_diagrams_but_not_of_saved_ones(self):
         self.good("diagram", "--domain", "square", "--periodic", "--seeds", "random:8", "-o", "d.json")
         saved = json.loads((self.folder / "d.json").read_text())
         self.assertEqual(saved["domain"]["periods"], [[1, 0], [0, 1]])
@@ -54,6 +54,8 @@ class Periodic(ToolTest):
             for borders, shifts in zip(cell["borders"], cell["shifts"]):
                 self.assertEqual(len(borders), len(shifts))
         self.bad(1, "periodic", "verify", "d.json")
+        self.good("verify", "--domain", "square", "--periodic", "--seeds", "random:50")
+        self.good("verify", "--domain", "lattice:1,0,0/.3,1,0/0,.2,1", "--seeds", "random:50")
 
     def test_transport_and_its_walls(self):
         report = self.report("transport", "--domain", "cube", "--periodic", "--seeds", "random:30", "--walls", "w.csv")

@@ -28,7 +28,7 @@ struct Ordered {
 
 struct Fixture {
   explicit Fixture(int dimension)
-      : defines(Variant{dimension, dimension, false, {1, 1}, OUTPUT_MOMENTS}.defines()),
+      : defines(Variant{dimension, dimension, false, {1, 1}}.defines()),
         frame(caller.device().context()),
         seeds(caller.device().context(), defines, false),
         tree(caller.device().context(), defines) {

@@ -24,7 +24,8 @@ bool may_be_survived(Entry entry, cl_int code) {
     case Entry::clReleaseProgram:
     case Entry::clGetProgramBuildInfo:  // the log of a program that does not build
     case Entry::clGetProgramInfo:       // the binary for the disk cache
-    case Entry::clGetEventInfo:         // why an event failed
+    case Entry::clGetEventInfo:         // why an event failed, or whether it is done
+    case Entry::clWaitForEvents:        // for a write whose buffer is released; others are in transfers.cpp
     case Entry::clCreateBuffer:
     case Entry::clEnqueueMigrateMemObjects:
     case Entry::clEnqueueMapBuffer:
@@ -32,6 +33,11 @@ bool may_be_survived(Entry entry, cl_int code) {
     default:
       return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY;
   }
+}
+
+/// Calls whose number depends on how fast the device is: what is done need not be waited for.
+bool depends_on_speed(Entry entry) {
+  return entry == Entry::clWaitForEvents || entry == Entry::clGetEventInfo;
 }
 
 /// Runs all steps. After the first error it stops the fault and repeats the step. Returns the error, if any.
@@ -110,8 +116,10 @@ Tally fail_every_call(const JobKind& kind, cl_int code, const std::vector<Entry>
         const auto job = kind.start();
         shim::fail(entry, nth, code);
         const std::optional<Error> failure = run_steps(*job);
-        CHECK(shim::fired());
+        const bool fired = shim::fired();
         shim::behave();
+        if (!fired && depends_on_speed(entry)) continue;
+        CHECK(fired);
         ++tally.tried;
         ++(failure ? tally.errors : tally.survived);
         if (failure) check_reason(*failure, code);

@@ -9,15 +9,16 @@ if(NOT TARGET powercell_support)
     ${support}/brute_force.cpp ${support}/compare.cpp ${support}/compare_geometry.cpp ${support}/setups.cpp
     ${support}/same_bits.cpp ${support}/permuted.cpp)
   target_compile_options(powercell_support PRIVATE -Wall -Wextra)
-  target_link_libraries(powercell_support PUBLIC powercell_test_lib)
+  target_link_libraries(powercell_support PUBLIC powercell_static)
 
   add_library(powercell_opencl_shim OBJECT EXCLUDE_FROM_ALL ${support}/opencl_shim.cpp ${support}/opencl_layer.cpp
     ${support}/opencl_entries.cpp)
   target_compile_options(powercell_opencl_shim PRIVATE -Wall -Wextra)
-  target_link_libraries(powercell_opencl_shim PUBLIC powercell_test_lib ${CMAKE_DL_LIBS})
+  target_link_libraries(powercell_opencl_shim PUBLIC powercell_static ${CMAKE_DL_LIBS})
 
   find_package(CGAL REQUIRED)
   find_library(VORO_LIBRARY voro++ REQUIRED)
-  add_library(powercell_oracles STATIC EXCLUDE_FROM_ALL ${support}/cgal.cpp ${support}/cgal_solid.cpp ${support}/voro.cpp)
+  add_library(powercell_oracles STATIC EXCLUDE_FROM_ALL ${support}/cgal.cpp ${support}/cgal_periodic.cpp
+    ${support}/cgal_solid.cpp ${support}/voro.cpp)
   target_link_libraries(powercell_oracles PUBLIC powercell_support PRIVATE CGAL::CGAL ${VORO_LIBRARY})
 endif()

@@ -1,0 +1,55 @@
+/// \file
+/// Collects the walls of the cells of some seeds, as seen from these cells. Internal.
+#pragma once
+
+#include <cstdint>
+#include <powercell/results.hpp>
+#include <span>
+#include <vector>
+
+#include "lib/clip/pieces.hpp"
+#include "lib/periodic/images.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell {
+
+class SelectedWalls {
+ public:
+  /// Keeps the references. \param rows  selected  \param placement  of a periodic domain, else null
+  SelectedWalls(const SeedSet& seeds, std::size_t rows, const Placement* placement, int threads)
+      : seeds_(seeds), placement_(placement), threads_(threads), row_(rows) {}
+
+  /// Adds the pieces of a chunk. Rows ascend over all chunks. \param pair_row  of each pair
+  void add(std::span<const std::uint32_t> pair_row, std::span<const std::uint32_t> pair_seed,
+           const PieceSet& pieces);
+
+  /// The rows in the order of the selection, walls times `unit`. To be called once.
+  /// \param place   of each row in the selection
+  /// \param status  by place: walls of cells that are not ok are left out
+  Adjacency finish(std::span<const std::uint32_t> place, const std::vector<SeedStatus>& status, double unit);
+
+ private:
+  struct Wall {
+    std::uint32_t neighbor;  // by input index
+    Shift shift;
+    double measure;
+    bool is_with(const Wall& other) const { return neighbor == other.neighbor && shift == other.shift; }
+    bool operator<(const Wall& other) const {
+      return neighbor != other.neighbor ? neighbor < other.neighbor : shift < other.shift;
+    }
+  };
+  /// The walls [first, first + count).
+  struct Row {
+    std::size_t first = 0, count = 0;
+  };
+  /// Sorts the walls of a row, sums those with the same image of a seed, and drops those of measure 0.
+  void settle(Row& row);
+
+  const SeedSet& seeds_;
+  const Placement* placement_;
+  int threads_;
+  std::vector<Row> row_;
+  std::vector<Wall> walls_;
+};
+
+}  // namespace powercell

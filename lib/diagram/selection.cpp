@@ -1,0 +1,89 @@
+#include "lib/diagram/selection.hpp"
+
+#include <algorithm>
+#include <powercell/error.hpp>
+#include <string>
+
+namespace powercell {
+namespace {
+
+constexpr std::uint32_t no_place = ~std::uint32_t{0};
+
+/// By the caller's index: the place in the selection, or no_place.
+std::vector<std::uint32_t> places(const Selection& selection, std::size_t count) {
+  std::vector<std::uint32_t> place(count, no_place);
+  for (std::uint32_t k = 0; k < selection.size(); ++k) place[selection[k]] = k;
+  return place;
+}
+
+template <class T>
+void append_rows(const std::vector<T>& all, const Selection& selection, std::size_t width,
+                 std::vector<T>& to) {
+  to.reserve(selection.size() * width);
+  for (const std::uint32_t i : selection)
+    to.insert(to.end(), all.begin() + static_cast<std::ptrdiff_t>(i * width),
+              all.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+}
+
+}  // namespace
+
+Selection checked_selection(std::span<const std::uint32_t> seeds, std::size_t count) {
+  std::vector<bool> seen(count);
+  for (std::size_t k = 0; k < seeds.size(); ++k) {
+    const std::string name = "entry " + std::to_string(k) + " of the selection";
+    if (seeds[k] >= count)
+      throw Error(ErrorCode::invalid_argument, name + " is " + std::to_string(seeds[k]) + ", and there are " +
+                                                   std::to_string(count) + " seeds, counted from 0");
+    if (seen[seeds[k]])
+      throw Error(ErrorCode::invalid_argument,
+                  name + " is seed " + std::to_string(seeds[k]) + " again; select each seed once");
+    seen[seeds[k]] = true;
+  }
+  return {seeds.begin(), seeds.end()};
+}
+
+SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::uint32_t own) {
+  const auto d = static_cast<std::size_t>(seeds.dimension);
+  const std::vector<std::uint32_t> place = places(selection, seeds.input_count);
+  SelectedRows rows;
+  rows.seeds.dimension = seeds.dimension;
+  rows.seeds.input_count = selection.size();
+  for (std::uint32_t rank = 0; rank < own; ++rank) {
+    if (place[seeds.input[rank]] == no_place) continue;
+    rows.rank.push_back(rank);
+    rows.seeds.input.push_back(place[seeds.input[rank]]);
+    rows.seeds.weights.push_back(seeds.weights[rank]);
+    rows.seeds.positions.insert(rows.seeds.positions.end(), &seeds.positions[rank * d],
+                                &seeds.positions[rank * d] + d);
+  }
+  for (const std::uint32_t i : seeds.duplicate)
+    if (place[i] != no_place) rows.seeds.duplicate.push_back(place[i]);
+  std::sort(rows.seeds.duplicate.begin(), rows.seeds.duplicate.end());
+  return rows;
+}
+
+Measures select_rows(const Measures& all, const Selection& selection) {
+  Measures rows;
+  rows.dimension = all.dimension;
+  rows.domain_measure = all.domain_measure;
+  append_rows(all.mass, selection, 1, rows.mass);
+  append_rows(all.centroid, selection, static_cast<std::size_t>(all.dimension), rows.centroid);
+  append_rows(all.second_moment, selection, 1, rows.second_moment);
+  append_rows(all.status, selection, 1, rows.status);
+  return rows;
+}
+
+Adjacency select_rows(const Adjacency& all, const Selection& selection) {
+  Adjacency rows;
+  rows.offset.push_back(0);
+  for (const std::uint32_t i : selection) {
+    const auto begin = static_cast<std::ptrdiff_t>(all.offset[i]),
+               end = static_cast<std::ptrdiff_t>(all.offset[i + 1]);
+    rows.neighbor.insert(rows.neighbor.end(), all.neighbor.begin() + begin, all.neighbor.begin() + end);
+    rows.wall.insert(rows.wall.end(), all.wall.begin() + begin, all.wall.begin() + end);
+    rows.offset.push_back(rows.neighbor.size());
+  }
+  return rows;
+}
+
+}  // namespace powercell

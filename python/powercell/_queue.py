@@ -1,0 +1,261 @@
+"""Diagrams from device memory to device memory, on a queue of pyopencl."""
+
+from __future__ import annotations
+
+import enum
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _core, _looks
+from ._arrays import is_pyopencl
+from ._device import Device
+from ._domain import Domain
+from ._errors import Error
+from ._options import diagram_options
+
+PRECISIONS = {"float64": "double", "float32": "float"}
+
+
+class DeviceStatus(enum.IntEnum):
+    """State of a seed of a :class:`DeviceDiagram`: those of :class:`Status`, and two more."""
+
+    OK = 0
+    HIDDEN = 1
+    DUPLICATE = 2
+    INVALID = 3
+    """NaN, infinity, or so large that its square is not finite; it does not affect the others."""
+    UNFINISHED = 4
+    """Only the host can compute its cell: use :class:`Diagram`. The cells of the others are right."""
+
+
+class DeviceMeasures:
+    """The measures of a :class:`DeviceDiagram`, in device memory.
+
+    Attributes
+    ----------
+    measures : (n, 2 + d) pyopencl.array.Array
+        Rows of mass, centroid and second moment. 0, NaN..., 0 where the cell is empty; all NaN for seeds that
+        are invalid or unfinished.
+    status : (n,) pyopencl.array.Array of uint32
+        A :class:`DeviceStatus` of each seed.
+    event : pyopencl.Event
+        Of the last command.
+    """
+
+    def __init__(self, queue: Any, measures: Any, status: Any, event: Any) -> None:
+        self._queue = queue
+        self.measures = measures
+        self.status = status
+        self.event = event
+        self._parts: dict[str, Any] = {}
+
+    def __len__(self) -> int:
+        return int(self.measures.shape[0])
+
+    def _columns(self, name: str, first: int, shape: tuple[int, ...]) -> Any:
+        """An array of some columns, copied on the device when first used."""
+        if name not in self._parts:
+            cl = _looks.package("pyopencl")
+            whole = self.measures
+            part = _empty(self._queue, shape, whole.dtype, whole.allocator)
+            if len(self):
+                size, row = whole.dtype.itemsize, whole.strides[0]
+                width = size * (shape[1] if len(shape) > 1 else 1)
+                done = cl.enqueue_copy(
+                    self._queue, part.base_data, whole.base_data,
+                    src_origin=(first * size, 0, 0), dst_origin=(0, 0, 0), region=(width, len(self), 1),
+                    src_pitches=(row, row * len(self)), dst_pitches=(width, width * len(self)),
+                )  # fmt: skip
+                part.add_event(done)
+            self._parts[name] = part
+        return self._parts[name]
+
+    @property
+    def mass(self) -> Any:
+        """(n,): area or volume of each cell."""
+        return self._columns("mass", 0, (len(self),))
+
+    @property
+    def centroid(self) -> Any:
+        """(n, d)"""
+        d = self.measures.shape[1] - 2
+        return self._columns("centroid", 1, (len(self), d))
+
+    @property
+    def second_moment(self) -> Any:
+        """(n,): integral of ``|x - p_i|^2`` over each cell."""
+        return self._columns("second_moment", self.measures.shape[1] - 1, (len(self),))
+
+    def count(self) -> dict[DeviceStatus, int]:
+        """How many seeds have each status. Waits for the diagram and reads the statuses."""
+        numbers = np.bincount(self.status.get(self._queue).ravel(), minlength=len(DeviceStatus))
+        return {state: int(numbers[state]) for state in DeviceStatus}
+
+    def check(self) -> DeviceMeasures:
+        """Waits for the diagram, and makes sure that each seed has its cell.
+
+        Raises
+        ------
+        Error
+            ``invalid_seed`` or ``unsupported`` if seeds are invalid or unfinished (how many, and the first).
+        """
+        status = self.status.get(self._queue)
+        for state, code, reason in (
+            (DeviceStatus.INVALID, "invalid_seed", "NaN, infinite or too large"),
+            (DeviceStatus.UNFINISHED, "unsupported", "left to the host: compute this diagram with Diagram"),
+        ):
+            seeds = np.flatnonzero(status == state)
+            if len(seeds):
+                raise Error(f"{len(seeds)} of {len(status)} seeds are {reason}; the first is seed {seeds[0]}", code)
+        return self
+
+    def __repr__(self) -> str:
+        return f"<powercell.DeviceMeasures of {len(self)} seeds>"
+
+
+class DeviceDiagram:
+    """Power diagrams from device memory to device memory, on a queue of the caller.
+
+    Seeds, measures and statuses are arrays of pyopencl on the queue's device, and nothing is copied to the host.
+    The device does all the work: cells with more than some 128 faces in one region of the domain are reported as
+    :attr:`DeviceStatus.UNFINISHED`, with NaN for measures, and ties are decided by rounding. :class:`Diagram`
+    computes those too.
+
+    Parameters
+    ----------
+    domain : Domain
+        Not periodic, and no solid.
+    queue : pyopencl.CommandQueue or Device
+        An in-order queue, or the device that :meth:`Device.from_queue` made of one.
+    pair_capacity : int
+        For domains of several regions, the room for pairs of a seed and a region; seeds beyond it are
+        unfinished. With 0 there is room for all, and :meth:`compute` waits for the queue once to read their
+        number. It waits in no other case.
+    chunk_pairs : int
+        The most pairs of one kernel launch; 0 lets the library choose.
+
+    Raises
+    ------
+    Error
+        ``unsupported`` for a periodic domain or a solid, ``invalid_argument`` for an out-of-order queue.
+    ValueError
+        ``queue`` is something else.
+    """
+
+    def __init__(
+        self, domain: Domain, queue: Union[Device, Any], *, pair_capacity: int = 0, chunk_pairs: int = 0
+    ) -> None:
+        if not isinstance(domain, Domain):
+            raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+        self.device = queue if isinstance(queue, Device) else Device.from_queue(queue)
+        if self.device.queue is None:
+            raise ValueError("queue is a Device without a queue of pyopencl; make it with Device.from_queue")
+        if not 0 <= pair_capacity < 2**32:
+            raise ValueError(f"pair_capacity is {pair_capacity}; 0 (room for all) to 2^32 - 1 are expected")
+        self.domain = domain
+        self._pair_capacity = pair_capacity
+        self._chunk_pairs = chunk_pairs
+        self._cores: dict[str, Any] = {}
+        self._core(PRECISIONS["float64" if self.device.fp64 else "float32"])
+
+    def _core(self, precision: str) -> Any:
+        """The diagram in the precision of the arrays; the programs of each are built when first used."""
+        if precision not in self._cores:
+            options = diagram_options(precision, chunk_pairs=self._chunk_pairs)
+            core = _core.DeviceDiagram(self.device._open(), self.domain._core, options)
+            core.set_pair_capacity(self._pair_capacity)
+            self._cores[precision] = core
+        return self._cores[precision]
+
+    def compute(
+        self, positions: Any, weights: Optional[Any] = None, *, out: Optional[DeviceMeasures] = None
+    ) -> DeviceMeasures:
+        """Enqueues the diagram of n seeds, and returns without waiting for it.
+
+        Parameters
+        ----------
+        positions : (n, d) pyopencl.array.Array of float64 or float32
+            Its type is also the precision of the computation. Commands of other queues that write it are waited
+            for if the array knows their events, as arrays of pyopencl do.
+        weights : (n,) pyopencl.array.Array, optional
+            Of the same type. Default: 0.
+        out : DeviceMeasures, optional
+            Of an earlier call with as many seeds of this type: its arrays are written again. Otherwise new ones
+            come from the allocator of ``positions``.
+
+        Returns
+        -------
+        DeviceMeasures
+            On the queue of the diagram; later commands of that queue see the results.
+
+        Raises
+        ------
+        ValueError
+            An array of the wrong shape, type or layout, by name.
+        Error
+            ``invalid_argument`` for an array in another context, ``no_fp64``, ``out_of_device_memory``, ``opencl``.
+        """
+        cl, queue = _looks.package("pyopencl"), self.device.queue
+        d = self.domain.dimension
+        _check(positions, "positions", (None, d), None)
+        n = int(positions.shape[0])
+        if weights is not None:
+            _check(weights, "weights", (n,), positions.dtype)
+        core = self._core(PRECISIONS[positions.dtype.name])
+        if out is None:
+            allocator = positions.allocator
+            measures = _empty(queue, (n, 2 + d), positions.dtype, allocator)
+            status = _empty(queue, (n,), np.dtype(np.uint32), allocator)
+        else:
+            measures, status = out.measures, out.status
+            _check(measures, "out.measures", (n, 2 + d), positions.dtype)
+        used = [whole(array, queue) for array in (positions, weights) if array is not None]
+        events = [event.int_ptr for array in [*used, measures, status] for event in array.events]
+        pointers = [_pointer(array) for array in used]
+        done = cl.Event.from_int_ptr(
+            core.enqueue(
+                pointers[0], pointers[1] if weights is not None else 0, n, _pointer(measures), _pointer(status), events
+            ),
+            retain=False,
+        )
+        measures.add_event(done)
+        status.add_event(done)
+        return DeviceMeasures(queue, measures, status, done)
+
+    def __repr__(self) -> str:
+        return f"<powercell.DeviceDiagram in {self.domain!r} on {self.device.name!r}>"
+
+
+def _check(array: Any, name: str, shape: tuple[Optional[int], ...], dtype: Optional[np.dtype[Any]]) -> None:
+    if not is_pyopencl(array):
+        raise ValueError(
+            f"{name} is a {type(array).__name__}; an array of pyopencl is expected (Diagram takes those of NumPy)"
+        )
+    letters = ", ".join("n" if size is None else str(size) for size in shape) + ("," if len(shape) == 1 else "")
+    if len(array.shape) != len(shape) or any(w is not None and w != s for s, w in zip(array.shape, shape)):
+        raise ValueError(f"{name} has the shape {array.shape}; ({letters}) is expected")
+    if dtype is not None and array.dtype != dtype:
+        raise ValueError(f"{name} has the type {array.dtype}; {dtype} is expected, as positions have")
+    if array.dtype.name not in PRECISIONS or not array.dtype.isnative:
+        raise ValueError(f"{name} has the type {array.dtype}; float64 or float32 is expected")
+    if not array.flags.c_contiguous:
+        raise ValueError(f"{name} is not C-contiguous; its rows must follow each other in memory")
+
+
+def whole(array: Any, queue: Any) -> Any:
+    """The array at the beginning of its buffer; one that is not is copied on the device."""
+    return array.copy(queue) if array.size and array.offset else array
+
+
+def _pointer(array: Any) -> int:
+    if array.size == 0:
+        return 0
+    pointer = getattr(array.base_data, "int_ptr", None)
+    if pointer is None:
+        raise ValueError("an array is in shared virtual memory; buffers are expected")
+    return int(pointer)
+
+
+def _empty(queue: Any, shape: tuple[int, ...], dtype: np.dtype[Any], allocator: Any) -> Any:
+    return _looks.package("pyopencl.array").empty(queue, shape, dtype, allocator=allocator)

@@ -1,0 +1,210 @@
+"""Diagrams on a queue of pyopencl, whose wheel brings a loader of OpenCL of its own."""
+
+import gc
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import powercell as pc
+
+cl = pytest.importorskip("pyopencl", reason="pyopencl is not installed")
+import pyopencl.array  # noqa: E402
+import pyopencl.tools  # noqa: E402
+
+
+@pytest.fixture
+def queue():
+    """Of the device that powercell chooses by itself."""
+    chosen = pc.Device.choose()._info.selector.split(":")
+    device = cl.get_platforms()[int(chosen[0])].get_devices()[int(chosen[1])]
+    return cl.CommandQueue(cl.Context([device]))
+
+
+@pytest.mark.parametrize("dtype, tolerance", [(np.float64, 1e-12), (np.float32, 1e-4)])
+@pytest.mark.parametrize("d", [2, 3])
+def test_measures_are_those_of_diagram(rng, queue, d, dtype, tolerance):
+    box = pc.Domain.box([0] * d, [1] * d)
+    p, w = rng.random((500, d)).astype(dtype), (rng.random(500) * 0.005).astype(dtype)
+    want = pc.Diagram(box, p, w)
+    found = pc.DeviceDiagram(box, queue).compute(cl.array.to_device(queue, p), cl.array.to_device(queue, w))
+    assert found.mass.queue is queue and found.mass.dtype == dtype and found.status.dtype == np.uint32
+    assert found.check() is found
+    assert np.array_equal(found.status.get(), want.status)
+    size = want.mass.max()
+    assert np.abs(found.mass.get() - want.mass).max() < tolerance * size
+    live = want.status == pc.Status.OK
+    assert found.centroid.shape == (500, d) and np.isnan(found.centroid.get()[~live]).all()
+    big = want.mass > 0.1 * size
+    assert np.abs(found.centroid.get() - want.centroid)[big].max() < 10 * tolerance
+    assert np.abs(found.second_moment.get() - want.second_moment).max() < tolerance * want.second_moment.max()
+    assert found.count()[pc.DeviceStatus.HIDDEN] == np.count_nonzero(~live)
+
+
+def test_both_loaders_name_the_same_devices(queue):
+    device = pc.Device.from_queue(queue)
+    assert device.name == queue.device.name.strip() and device.queue is queue
+    assert pc.Device.choose(device._info.selector).name == device.name
+    assert pc.Device.from_queue(queue) is device
+
+
+def test_kernels_of_the_caller_run_before_and_after(rng, queue, square):
+    """Seeds that a kernel writes, and masses that a kernel reads, with no wait in between."""
+    source = """
+        __kernel void halve(__global double *x) { x[get_global_id(0)] *= 0.5; }
+        __kernel void times(__global const double *x, __global double *y) {
+          y[get_global_id(0)] = 3 * x[get_global_id(0)];
+        }"""
+    program = cl.Program(queue.context, source).build()
+    p = rng.random((300, 2))
+    seeds = cl.array.to_device(queue, 2 * p, async_=True)
+    program.halve(queue, (600,), None, seeds.base_data)
+    mass = pc.DeviceDiagram(square, queue).compute(seeds).mass
+    tripled = cl.array.empty_like(mass)
+    program.times(queue, (300,), None, mass.base_data, tripled.base_data)
+    assert tripled.get() == pytest.approx(3 * pc.Diagram(square, p).mass, rel=1e-10)
+
+
+def test_events_of_another_queue_are_waited_for(rng, queue, square):
+    other = cl.CommandQueue(queue.context)
+    p = rng.random((300, 2))
+    gate = cl.UserEvent(queue.context)
+    seeds = cl.array.empty(other, (300, 2), np.float64)
+    seeds.add_event(cl.enqueue_copy(other, seeds.base_data, p, is_blocking=False, wait_for=[gate]))
+    found = pc.DeviceDiagram(square, queue).compute(seeds)
+    assert found.event.command_execution_status != cl.command_execution_status.COMPLETE
+    gate.set_status(cl.command_execution_status.COMPLETE)
+    other.flush()
+    assert found.mass.get() == pytest.approx(pc.Diagram(square, p).mass, rel=1e-10)
+
+
+def test_arrays_are_written_again_and_may_be_parts_of_buffers(rng, queue, square):
+    diagram = pc.DeviceDiagram(square, queue)
+    p = rng.random((2, 200, 2))
+    both = cl.array.to_device(queue, p)
+    first = diagram.compute(both[0])
+    want = first.mass.get()
+    second = diagram.compute(both[1], out=first)  # its offset in the buffer is not 0
+    assert second.measures is first.measures
+    assert second.mass.get() == pytest.approx(pc.Diagram(square, p[1]).mass, rel=1e-10)
+    assert want == pytest.approx(pc.Diagram(square, p[0]).mass, rel=1e-10)
+    pool = cl.tools.MemoryPool(cl.tools.ImmediateAllocator(queue))
+    pooled = diagram.compute(cl.array.to_device(queue, p[0], allocator=pool))
+    assert pooled.mass.allocator is pool and np.array_equal(pooled.mass.get(), want)
+
+
+def test_cells_that_only_the_host_can_compute_are_reported(queue, square):
+    angle = np.linspace(0, 2 * np.pi, 301)[:-1]
+    ring = 0.5 + 0.4 * np.column_stack([np.cos(angle), np.sin(angle)])
+    p = np.vstack([ring, [[0.5, 0.5]]])
+    found = pc.DeviceDiagram(square, queue).compute(cl.array.to_device(queue, p))
+    assert found.count() == {0: 300, 1: 0, 2: 0, 3: 0, 4: 1}
+    assert found.status.get()[300] == pc.DeviceStatus.UNFINISHED and np.isnan(found.measures.get()[300]).all()
+    want = pc.Diagram(square, p).mass
+    assert found.mass.get()[:300] == pytest.approx(want[:300], rel=1e-9)
+    with pytest.raises(pc.Error, match="1 of 301 seeds are left to the host.*seed 300") as caught:
+        found.check()
+    assert caught.value.code == "unsupported"
+    p[7] = np.nan
+    with pytest.raises(pc.Error, match="seed 7") as caught:
+        pc.DeviceDiagram(square, queue).compute(cl.array.to_device(queue, p)).check()
+    assert caught.value.code == "invalid_seed"
+
+
+def test_regions_beyond_the_room_are_unfinished(rng, queue):
+    ball = pc.Domain.volume(*pc.ball(4))
+    p = rng.uniform(-1, 1, (100, 3))
+    seeds = cl.array.to_device(queue, p)
+    whole = pc.DeviceDiagram(ball, queue).compute(seeds).check()
+    assert whole.mass.get() == pytest.approx(pc.Diagram(ball, p).mass, abs=1e-12)
+    count = pc.DeviceDiagram(ball, queue, pair_capacity=50).compute(seeds).count()
+    assert count[pc.DeviceStatus.UNFINISHED] > 0
+
+
+def test_wrong_arguments_are_named(rng, queue, square):
+    diagram = pc.DeviceDiagram(square, queue)
+
+    def device(x):
+        return cl.array.to_device(queue, np.asarray(x))
+
+    good = device(rng.random((4, 2)))
+    for part, call in [
+        ("positions is a ndarray", lambda: diagram.compute(np.zeros((4, 2)))),
+        (r"positions has the shape \(4, 3\); \(n, 2\)", lambda: diagram.compute(device(np.zeros((4, 3))))),
+        ("positions has the type int64", lambda: diagram.compute(device(np.zeros((4, 2), np.int64)))),
+        ("positions is not C-contiguous", lambda: diagram.compute(device(np.zeros((2, 4))).T)),
+        (r"weights has the shape \(3,\); \(4,\)", lambda: diagram.compute(good, device(np.zeros(3)))),
+        ("weights has the type float32", lambda: diagram.compute(good, device(np.zeros(4, np.float32)))),
+        ("queue is a int", lambda: pc.DeviceDiagram(square, 3)),
+        ("queue is a Device without", lambda: pc.DeviceDiagram(square, pc.devices()[0])),
+        ("positions is an array of pyopencl.*DeviceDiagram", lambda: pc.Diagram(square, good)),
+    ]:
+        with pytest.raises(ValueError, match=part):
+            call()
+    elsewhere = cl.CommandQueue(cl.Context([queue.device]))
+    for code, call in [
+        ("invalid_argument", lambda: diagram.compute(cl.array.to_device(elsewhere, np.zeros((4, 2))))),
+        ("unsupported", lambda: pc.DeviceDiagram(pc.Domain.box([0, 0], [1, 1], periodic=True), queue)),
+        ("unsupported", lambda: pc.DeviceDiagram(pc.Domain.solid(*pc.sphere(4)), queue)),
+        ("invalid_argument", lambda: pc.Device.from_queue(out_of_order(queue))),
+    ]:
+        with pytest.raises(pc.Error) as caught:
+            call()
+        assert caught.value.code == code
+
+
+def out_of_order(queue):
+    properties = cl.command_queue_properties.OUT_OF_ORDER_EXEC_MODE_ENABLE
+    return cl.CommandQueue(queue.context, properties=properties)
+
+
+def test_no_seeds_on_a_queue(queue, square):
+    none = pc.DeviceDiagram(square, queue).compute(cl.array.empty(queue, (0, 2), np.float64))
+    assert none.mass.shape == (0,) and none.status.shape == (0,) and sum(none.count().values()) == 0
+
+
+def test_a_host_diagram_on_the_queue_of_the_caller(rng, queue, square):
+    p = rng.random((100, 2))
+    diagram = pc.Diagram(square, p, device=pc.Device.from_queue(queue))
+    assert diagram.mass.sum() == pytest.approx(1, abs=1e-12)
+
+
+def test_results_outlive_the_diagram_and_its_queue(rng, square, queue):
+    p = rng.random((100, 2))
+    found = pc.DeviceDiagram(square, queue).compute(cl.array.to_device(queue, p))
+    del queue
+    gc.collect()
+    assert found.check().mass.get() == pytest.approx(pc.Diagram(square, p).mass, rel=1e-10)
+
+
+def test_one_device_diagram_in_two_threads(rng, queue, square):
+    diagram = pc.DeviceDiagram(square, queue)
+    seeds = [rng.random((500, 2)) for _ in range(2)]
+    want = [pc.Diagram(square, p).mass for p in seeds]
+    wrong = []
+
+    def work(k):
+        mine = cl.array.to_device(queue, seeds[k])
+        for _ in range(20):
+            if not np.allclose(diagram.compute(mine).mass.get(), want[k], rtol=1e-9, atol=0):
+                wrong.append(k)
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_objects_on_a_queue_may_live_when_the_interpreter_ends():
+    program = (
+        "import numpy as np, pyopencl as cl, pyopencl.array, powercell as pc\n"
+        "queue = cl.CommandQueue(cl.create_some_context(interactive=False))\n"
+        "d = pc.DeviceDiagram(pc.Domain.box([0, 0], [1, 1]), queue)\n"
+        "m = d.compute(cl.array.to_device(queue, np.random.rand(100, 2)))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
