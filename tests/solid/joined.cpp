@@ -278,3 +278,41 @@ TEST_CASE("solid: joined cells whose walls lie in the boundary but for rounding"
     CHECK(check(diagram, true).faults == "");
   }
 }
+
+TEST_CASE("solid: facets of cells, and the geometry of some cells") {
+  if (!has_double()) return;
+  Random random(test_seed());
+  const Domain domain = volume_of(solid_meshes(random)[3].mesh);
+  const Mesh surface = boundary_mesh(domain);
+  const Domain solid = Domain::solid(surface.vertices, surface.elements);
+  const SeedArray seeds = seeds_for(domain, Distribution::white, WeightRange::W2, 200, random);
+  Diagram all = diagram_of(solid, seeds), some = diagram_of(solid, seeds), twin = diagram_of(domain, seeds);
+  const BoundaryWalls walls = all.boundary_walls();
+  double area = 0;
+  for (const double part : walls.measure) area += part;
+  CHECK(area == doctest::Approx(area_of(surface)).epsilon(1e-12));
+  for (std::size_t i = 0; i < seeds.size(); ++i) {  // the numbers of facets differ, the cell's area does not
+    double here = 0, there = 0;
+    for (std::uint64_t k = walls.offset[i]; k < walls.offset[i + 1]; ++k) here += walls.measure[k];
+    const BoundaryWalls& other = twin.boundary_walls();
+    for (std::uint64_t k = other.offset[i]; k < other.offset[i + 1]; ++k) there += other.measure[k];
+    CHECK(here == doctest::Approx(there).epsilon(1e-11));
+  }
+  const std::vector<std::uint32_t> selected{70, 3, 199};
+  some.select(selected);
+  for (std::size_t row = 0; row < selected.size(); ++row) {
+    const std::uint32_t i = selected[row];
+    const JoinedCells &from = all.joined(), &to = some.joined();
+    REQUIRE(to.face_offset.size() == 4);
+    const Cell a{from, i}, b{to, row};
+    REQUIRE(from.face_offset[i + 1] - from.face_offset[i] == to.face_offset[row + 1] - to.face_offset[row]);
+    for (std::uint64_t f = from.face_offset[i], g = to.face_offset[row]; f < from.face_offset[i + 1];
+         ++f, ++g) {
+      CHECK(from.face_border[f] == to.face_border[g]);
+      CHECK(std::ranges::equal(a.loop(f), b.loop(g)));
+      CHECK(a.twice_area(f) == b.twice_area(g));
+    }
+    CHECK(some.boundary_walls().offset[row + 1] - some.boundary_walls().offset[row] ==
+          walls.offset[i + 1] - walls.offset[i]);
+  }
+}
