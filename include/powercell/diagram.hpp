@@ -60,7 +60,6 @@ class POWERCELL_API Diagram {
   /// \throw Error unsupported in a solid, which has no regions that cells could be cut along: see joined()
   const Cells& cells();
   /// The cells as wholes, in every kind of domain: of a solid by themselves, else as join() makes them.
-  /// \throw Error unsupported in a solid if seeds are selected
   const JoinedCells& joined();
   /// The facets of the domain that the cells have, in a pass of its own over the regions at the boundary.
   const BoundaryWalls& boundary_walls();

@@ -56,7 +56,7 @@ class Surface {
   }
   /// Replaces the part of a wall between `loops` (the wall), minus `minus`, which lie in it the same way
   /// round.
-  void replace_wall(const Border& border, std::vector<Loop> loops, const std::vector<Loop>& minus,
+  void replace_wall(const Border& border, const std::vector<Loop>& loops, const std::vector<Loop>& minus,
                     const Point& normal);
   void append_to(JoinedCells& out) const;
 
@@ -120,19 +120,21 @@ void Surface::split(std::vector<DirectedEdge>& edges, const Border& border) {
     std::sort(between.begin(), between.end());
     std::uint32_t last = edge.from;
     Face flat{{edge.from, edge.to}, border};
+    Loop middle;
     for (const auto& [share, v] : between) {
+      middle.push_back(v);
       parts.push_back({last, v});
       last = v;
     }
     parts.push_back({last, edge.to});
-    for (auto v = between.rbegin(); v != between.rend(); ++v) flat.loop.push_back(v->second);
+    flat.loop.insert(flat.loop.end(), middle.rbegin(), middle.rend());
     if (!between.empty()) faces.push_back(std::move(flat));
   }
   edges = std::move(parts);
 }
 
-void Surface::replace_wall(const Border& border, std::vector<Loop> loops, const std::vector<Loop>& minus,
-                           const Point& normal) {
+void Surface::replace_wall(const Border& border, const std::vector<Loop>& loops,
+                           const std::vector<Loop>& minus, const Point& normal) {
   std::vector<DirectedEdge> edges;
   for (const Loop& loop : loops) append_edges(loop, false, edges);
   for (const Loop& loop : minus) append_edges(loop, true, edges);

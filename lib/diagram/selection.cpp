@@ -86,4 +86,27 @@ Adjacency select_rows(const Adjacency& all, const Selection& selection) {
   return rows;
 }
 
+JoinedCells select_rows(const JoinedCells& all, const Selection& selection) {
+  JoinedCells rows;
+  rows.dimension = all.dimension;
+  rows.cell_dimension = all.cell_dimension;
+  rows.vertex_offset = rows.face_offset = rows.loop_offset = {0};
+  const auto append = [](auto& to, const auto& from, std::uint64_t begin, std::uint64_t end) {
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
+              from.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  for (const std::uint32_t i : selection) {
+    const std::uint64_t first = all.face_offset[i], last = all.face_offset[i + 1];
+    append(rows.vertices, all.vertices, 3 * all.vertex_offset[i], 3 * all.vertex_offset[i + 1]);
+    append(rows.face_border, all.face_border, first, last);
+    for (std::uint64_t f = first; f < last; ++f) {
+      append(rows.loop, all.loop, all.loop_offset[f], all.loop_offset[f + 1]);
+      rows.loop_offset.push_back(rows.loop.size());
+    }
+    rows.vertex_offset.push_back(rows.vertices.size() / 3);
+    rows.face_offset.push_back(rows.face_border.size());
+  }
+  return rows;
+}
+
 }  // namespace powercell

@@ -34,5 +34,7 @@ SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::ui
 /// The rows of a selection, of results for all seeds.
 Measures select_rows(const Measures& all, const Selection& selection);
 Adjacency select_rows(const Adjacency& all, const Selection& selection);
+/// \pre cells of a volume
+JoinedCells select_rows(const JoinedCells& all, const Selection& selection);
 
 }  // namespace powercell

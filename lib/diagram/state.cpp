@@ -171,11 +171,12 @@ void Diagram::State::compute_in_solid(Wanted want) {
   const Results& all = *selected;
   if (!results->measures) results->measures = select_rows(*all.measures, *selection);
   if (all.adjacency) results->adjacency = select_rows(*all.adjacency, *selection);
+  if (all.joined) results->joined = select_rows(*all.joined, *selection);
 }
 
 void Diagram::State::compute(Wanted want) {
   want.adjacency = want.adjacency && !results->adjacency;
-  want.cells = want.cells && !results->cells && !results->simplices;
+  want.cells = want.cells && !results->cells && !(setup.domain.is_solid() && results->joined);
   if (results->measures && !want.adjacency && !want.cells) return;
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   const double built_before = setup.device.build_seconds();
@@ -236,14 +237,10 @@ const Cells& Diagram::State::cells() {
 }
 
 const JoinedCells& Diagram::State::joined() {
-  if (setup.domain.is_solid()) {
-    if (selection)
-      throw Error(ErrorCode::unsupported,
-                  "the geometry of cells in a solid is that of all cells; call select_all() before it");
+  if (setup.domain.is_solid())
     compute({.cells = true});
-  } else if (!results->joined) {
+  else if (!results->joined)
     results->joined = join(setup.domain, cells());
-  }
   return *results->joined;
 }
 

@@ -5,6 +5,7 @@
 #include <powercell/diagram.hpp>
 #include <set>
 
+#include "tests/periodic/images_of_simplices.hpp"
 #include "tests/support/cgal_periodic.hpp"
 #include "tests/support/setups.hpp"
 
@@ -13,20 +14,7 @@ using namespace powercell::test;
 
 namespace {
 
-using Simplex = std::vector<PeriodicCorner>;
-
-/// The first, in order, of the images of a simplex that have a corner with the shift 0.
-Simplex first_image(const Simplex& simplex) {
-  std::set<Simplex> images;
-  for (const auto& [origin, by] : simplex) {
-    Simplex image = simplex;
-    for (auto& [seed, shift] : image)
-      for (std::size_t k = 0; k < 3; ++k) shift[k] -= by[k];
-    std::sort(image.begin(), image.end());
-    images.insert(image);
-  }
-  return *images.begin();
-}
+using Simplex = PeriodicSimplex;
 
 std::set<Simplex> simplices_of(const Dual& dual) {
   std::set<Simplex> all;

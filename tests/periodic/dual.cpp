@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/periodic/brute_force.hpp"
+#include "tests/periodic/images_of_simplices.hpp"
 #include "tests/support/setups.hpp"
 
 using namespace powercell;
@@ -22,20 +23,7 @@ Vec corner(const Dual& dual, const PeriodicSpace& space, const SeedArray& seeds,
   return x;
 }
 
-using Face = std::vector<std::pair<std::uint32_t, ImageShift>>;
-
-/// The first of the images of a face in which some corner has the shift 0.
-Face same_for_images(const Face& face) {
-  std::set<Face> images;
-  for (const auto& [origin, by] : face) {
-    Face image = face;
-    for (auto& [seed, shift] : image)
-      for (std::size_t k = 0; k < 3; ++k) shift[k] -= by[k];
-    std::sort(image.begin(), image.end());
-    images.insert(image);
-  }
-  return *images.begin();
-}
+using Face = PeriodicSimplex;
 
 void check_dual(Diagram& diagram, const PeriodicSpace& space, const SeedArray& seeds) {
   const Dual& dual = diagram.dual();
@@ -61,8 +49,8 @@ void check_dual(Diagram& diagram, const PeriodicSpace& space, const SeedArray& s
       Face facet;
       for (std::size_t k = 0; k < corners; ++k)
         if (k != left_out) facet.push_back(at(k));
-      facets.insert(same_for_images(facet));
-      for (std::size_t k = 0; k < left_out; ++k) edges.insert(same_for_images({at(k), at(left_out)}));
+      facets.insert(first_image(facet));
+      for (std::size_t k = 0; k < left_out; ++k) edges.insert(first_image({at(k), at(left_out)}));
     }
   }
   CHECK(std::abs(static_cast<double>(sum / space.measure() - 1)) < 1e-12);

@@ -39,9 +39,7 @@ TEST_CASE("solid: seeds that tie with the boundary") {
     const Domain solid = Domain::solid(surface.vertices, surface.elements);
     // Walls of the second lie in faces of the cubes, seeds of the third in vertices.
     for (const double shift : {0.0, 0.125, 0.25}) {
-      SeedArray seeds;
-      for (int k = 0; k < 7 * 7 * 7; ++k)
-        seeds.push({(k % 7) * 0.25 - shift, (k / 7 % 7) * 0.25 - shift, (k / 49) * 0.25 - shift}, 0);
+      const SeedArray seeds = quarters(shift);
       CAPTURE(named.name);
       CAPTURE(shift);
       CHECK(differences(compute_both_ways(domain, seeds), seeds) == "");

@@ -80,6 +80,13 @@ bool has_double() {
   return double_device().has_value();
 }
 
+SeedArray quarters(double shift) {
+  SeedArray seeds;
+  for (int k = 0; k < 7 * 7 * 7; ++k)
+    seeds.push({(k % 7) * 0.25 - shift, (k / 7 % 7) * 0.25 - shift, (k / 49) * 0.25 - shift}, 0);
+  return seeds;
+}
+
 BothWays compute_both_ways(const Domain& domain, const SeedArray& seeds) {
   return compute_without_tetrahedra(domain, domain, seeds);
 }

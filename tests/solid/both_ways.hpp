@@ -17,6 +17,9 @@ struct NamedMesh {
 
 /// Tetrahedra of six shapes: convex and not, in one part and in two, with a cavity, and full of holes.
 std::vector<NamedMesh> solid_meshes(Random& random);
+/// Seeds a quarter apart over these shapes, moved by `shift` along each axis: walls lie in faces of the
+/// shapes, or seeds in their vertices.
+SeedArray quarters(double shift);
 
 struct BothWays {
   Measures by_boundary, by_tetrahedra;

@@ -105,7 +105,7 @@ TEST_CASE("solid: refused surfaces, with the place") {
   fin.vertices.insert(fin.vertices.end(), {2, 2, 2});
   fin.elements.insert(fin.elements.end(),
                       {fin.elements[0], fin.elements[1], static_cast<std::uint32_t>(fin.vertex_count() - 1)});
-  CHECK(contains(refusal(fin), fin.elements.size() == 0 ? "" : "triangle"));
+  CHECK(contains(refusal(fin), "triangle"));
 
   Mesh turned = cube;
   std::swap(turned.elements[0], turned.elements[1]);

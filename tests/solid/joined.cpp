@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "lib/base/vectors.hpp"
 #include "tests/solid/both_ways.hpp"
@@ -175,9 +176,7 @@ TEST_CASE("solid: joined cells whose seeds tie with the boundary") {
     const Mesh surface = boundary_mesh(domain);
     const Domain solid = Domain::solid(surface.vertices, surface.elements);
     for (const double shift : {0.0, 0.125, 0.25}) {
-      SeedArray seeds;
-      for (int k = 0; k < 7 * 7 * 7; ++k)
-        seeds.push({(k % 7) * 0.25 - shift, (k / 7 % 7) * 0.25 - shift, (k / 49) * 0.25 - shift}, 0);
+      const SeedArray seeds = quarters(shift);
       CAPTURE(named.name);
       CAPTURE(shift);
       Diagram diagram = diagram_of(solid, seeds);
@@ -244,5 +243,74 @@ TEST_CASE("solid: joined cells of random sets of cubes, with walls in their face
     const Checked checked = check(diagram, true);
     CHECK(checked.faults == "");
     CHECK(checked.boundary == doctest::Approx(area_of(surface)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("solid: joined cells whose walls lie in the boundary but for rounding") {
+  if (!has_double()) return;
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (int trial = 0; trial < 20; ++trial) {
+    // The cubes and grid of above, turned.
+    const double share = random.uniform(0.4, 0.95), a = random.uniform(0, 6), b = random.uniform(0, 6);
+    std::map<std::array<int, 3>, bool> kept;
+    Mesh mesh = part_of(cube_tetrahedra(4, 0, random), [&](const std::array<double, 3>& x) {
+      const std::array<int, 3> cube{static_cast<int>(4 * x[0]), static_cast<int>(4 * x[1]),
+                                    static_cast<int>(4 * x[2])};
+      return kept.try_emplace(cube, random.uniform() < share).first->second;
+    });
+    if (mesh.elements.size() < 8) continue;
+    SeedArray seeds = grid(trial % 3 ? 2 : 4, 3);
+    for (std::vector<double>* const points : {&mesh.vertices, &seeds.positions})
+      for (std::size_t k = 0; k < points->size(); k += 3) {
+        double* const x = &(*points)[k];
+        std::tie(x[0], x[1]) =
+            std::pair(std::cos(a) * x[0] - std::sin(a) * x[1], std::sin(a) * x[0] + std::cos(a) * x[1]);
+        std::tie(x[1], x[2]) =
+            std::pair(std::cos(b) * x[1] - std::sin(b) * x[2], std::sin(b) * x[1] + std::cos(b) * x[2]);
+      }
+    const Domain domain = volume_of(mesh);
+    const Mesh surface = boundary_mesh(domain);
+    CAPTURE(trial);
+    Diagram diagram = diagram_of(Domain::solid(surface.vertices, surface.elements), seeds);
+    CHECK(check(diagram, true).faults == "");
+  }
+}
+
+TEST_CASE("solid: facets of cells, and the geometry of some cells") {
+  if (!has_double()) return;
+  Random random(test_seed());
+  const Domain domain = volume_of(solid_meshes(random)[3].mesh);
+  const Mesh surface = boundary_mesh(domain);
+  const Domain solid = Domain::solid(surface.vertices, surface.elements);
+  const SeedArray seeds = seeds_for(domain, Distribution::white, WeightRange::W2, 200, random);
+  Diagram all = diagram_of(solid, seeds), some = diagram_of(solid, seeds), twin = diagram_of(domain, seeds);
+  const BoundaryWalls walls = all.boundary_walls();
+  double area = 0;
+  for (const double part : walls.measure) area += part;
+  CHECK(area == doctest::Approx(area_of(surface)).epsilon(1e-12));
+  for (std::size_t i = 0; i < seeds.size(); ++i) {  // the numbers of facets differ, the cell's area does not
+    double here = 0, there = 0;
+    for (std::uint64_t k = walls.offset[i]; k < walls.offset[i + 1]; ++k) here += walls.measure[k];
+    const BoundaryWalls& other = twin.boundary_walls();
+    for (std::uint64_t k = other.offset[i]; k < other.offset[i + 1]; ++k) there += other.measure[k];
+    CHECK(here == doctest::Approx(there).epsilon(1e-11));
+  }
+  const std::vector<std::uint32_t> selected{70, 3, 199};
+  some.select(selected);
+  for (std::size_t row = 0; row < selected.size(); ++row) {
+    const std::uint32_t i = selected[row];
+    const JoinedCells &from = all.joined(), &to = some.joined();
+    REQUIRE(to.face_offset.size() == 4);
+    const Cell a{from, i}, b{to, row};
+    REQUIRE(from.face_offset[i + 1] - from.face_offset[i] == to.face_offset[row + 1] - to.face_offset[row]);
+    for (std::uint64_t f = from.face_offset[i], g = to.face_offset[row]; f < from.face_offset[i + 1];
+         ++f, ++g) {
+      CHECK(from.face_border[f] == to.face_border[g]);
+      CHECK(std::ranges::equal(a.loop(f), b.loop(g)));
+      CHECK(a.twice_area(f) == b.twice_area(g));
+    }
+    CHECK(some.boundary_walls().offset[row + 1] - some.boundary_walls().offset[row] ==
+          walls.offset[i + 1] - walls.offset[i]);
   }
 }
