@@ -13,7 +13,8 @@ namespace powercell::cl {
 class RawBuffer;
 
 /// Host memory of a write that the queue has not yet done. The next write of the same buffer waits for it. If
-/// the write fails, the next wait for results says so (Context::check_writes).
+/// the write fails, the next wait for results says so (Context::check_writes), if the buffer still exists: it
+/// must, until results made from it are read.
 class StagedWrite {
  public:
   /// Larger writes are not staged: copying costs more than waiting then.

@@ -99,6 +99,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
   upload_frame();
   for (std::size_t capacity = 0; capacity < capacities(domain.cell_dimension()).size(); ++capacity)
     add_capacity(capacity);
+  device.context()->finish();  // nobody waits for later results, and so for a failed write of the domain
 }
 
 void DeviceDiagram::State::add_capacity(std::size_t capacity) {
