@@ -14,7 +14,7 @@ show_packaged_runtime()
 from . import _core  # noqa: E402
 from ._core import version as _version  # noqa: E402
 from ._device import Device, devices  # noqa: E402
-from ._diagram import Adjacency, Diagram, Status, regular_triangulation  # noqa: E402
+from ._diagram import Adjacency, BoundaryWalls, Diagram, Status, regular_triangulation  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._meshes import ball, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
@@ -28,6 +28,7 @@ __version__: str = _version()
 
 __all__ = [
     "Adjacency",
+    "BoundaryWalls",
     "Device",
     "DeviceDiagram",
     "DeviceMeasures",

@@ -56,12 +56,14 @@ def optional_reals(
     return None if value is None else reals(value, name, shape, why)
 
 
-def indices(value: ArrayLike, name: str, columns: int) -> Indices:
-    """Rows of indices from 0."""
+def indices(value: ArrayLike, name: str, columns: Optional[int] = None) -> Indices:
+    """Rows of indices from 0; without `columns` single indices."""
     array = _plain(value, name)
+    if array.size == 0 and columns is None:
+        array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":
         raise ValueError(f"{name} has the type {array.dtype}; integers are expected")
-    _check_shape(array, name, (None, columns), "")
+    _check_shape(array, name, (None,) if columns is None else (None, columns), "")
     if array.size and (array.min() < 0 or array.max() >= 2**32):
         row = int(np.argwhere((array < 0) | (array >= 2**32))[0, 0])
         raise ValueError(f"{name}: row {row} has an index below 0 or above 2^32 - 1")

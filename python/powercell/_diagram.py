@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _looks
-from ._arrays import Indices, Reals, optional_reals, reals
+from ._arrays import Indices, Reals, indices, optional_reals, reals
 from ._device import Device, open_device
 from ._domain import Domain
 from ._options import diagram_options
@@ -42,8 +42,9 @@ class Adjacency:
         neighbour moved by ``shift @ periods``.
     """
 
-    def __init__(self, core: Any) -> None:
+    def __init__(self, core: Any, seeds: int) -> None:
         self._core = core
+        self._seeds = seeds
 
     @property
     def indptr(self) -> NDArray[np.uint64]:
@@ -62,22 +63,55 @@ class Adjacency:
         return self._core.shift  # type: ignore[no-any-return]
 
     def neighbors(self, seed: int) -> Indices:
-        """The neighbours of one seed."""
+        """The neighbours of one seed, or of a selected seed by its place in the selection."""
         return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
 
     def to_scipy(self) -> Any:
-        """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed."""
+        """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed.
+
+        Of k selected seeds it is (k, n).
+        """
         csr_array = _looks.package("scipy.sparse").csr_array
-        n = len(self.indptr) - 1
         kind = np.int32 if len(self.indices) < 2**31 else np.int64
         parts: Any = (np.array(self.data), self.indices.astype(kind), self.indptr.astype(kind))
-        matrix = csr_array(parts, shape=(n, n))
+        matrix = csr_array(parts, shape=(len(self.indptr) - 1, self._seeds))
         if self.shift is not None:
             matrix.sum_duplicates()
         return matrix
 
     def __repr__(self) -> str:
-        return f"<powercell.Adjacency of {len(self.indptr) - 1} cells with {len(self.indices) // 2} walls>"
+        return f"<powercell.Adjacency of {len(self.indptr) - 1} cells, {len(self.indices)} sides of walls>"
+
+
+class BoundaryWalls:
+    """The facets of the domain that each cell has, as compressed sparse rows.
+
+    Attributes
+    ----------
+    indptr : (n + 1,) uint64
+    indices : (m,) uint32
+        Facets, ascending in each row. In a box 0 to 5 are -x +x -y +y -z +z, of a solid they are its triangles.
+    data : (m,) float64
+        Length or area of the part of the facet that belongs to the cell.
+    """
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+
+    @property
+    def indptr(self) -> NDArray[np.uint64]:
+        return self._core.indptr  # type: ignore[no-any-return]
+
+    @property
+    def indices(self) -> Indices:
+        return self._core.indices  # type: ignore[no-any-return]
+
+    @property
+    def data(self) -> Reals:
+        return self._core.data  # type: ignore[no-any-return]
+
+    def __repr__(self) -> str:
+        return f"<powercell.BoundaryWalls of {len(self.indptr) - 1} cells, {len(self.indices)} parts of facets>"
 
 
 class Diagram:
@@ -168,6 +202,7 @@ class Diagram:
     def _set(self, positions: Reals, weights: Optional[Reals]) -> None:
         self._core.set_seeds(positions, weights)
         self._positions, self._weights = positions, weights
+        self._selection: Optional[Indices] = None
 
     def set_seeds(self, positions: ArrayLike, weights: Optional[ArrayLike] = None) -> None:
         """Replaces the seeds; memory and programs on the device are reused."""
@@ -179,6 +214,38 @@ class Diagram:
         checked = reals(weights, "weights", (len(self._positions),), ", one for each seed")
         self._core.set_weights(checked)
         self._weights = checked
+
+    def select(self, seeds: ArrayLike) -> None:
+        """From now on computes the cells of some seeds only, against all seeds, until :meth:`select_all` or new seeds.
+
+        Row k of the results is then of ``seeds[k]``; neighbours keep their indices among all seeds. Time goes with the
+        selected cells; on a surface also with its triangles, and in a solid as for all cells.
+
+        Parameters
+        ----------
+        seeds : (k,) array_like of int
+            Indices of seeds, each once, in any order.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> d = pc.Diagram(pc.Domain.box([0, 0], [4, 1]), [[0.5, 0.5], [1.5, 0.5], [2.5, 0.5], [3.5, 0.5]])
+        >>> d.select([2])
+        >>> d.mass.round(12).tolist(), d.adjacency.indices.tolist()
+        ([1.0], [1, 3])
+        """
+        checked = indices(seeds, "seeds")
+        self._core.select(checked)
+        self._selection = checked
+
+    def select_all(self) -> None:
+        """Computes all cells again."""
+        self._core.select_all()
+        self._selection = None
+
+    def _require_all(self, what: str) -> None:
+        if self._selection is not None:
+            raise ValueError(f"{what} is of all cells, and {len(self._selection)} are selected; call select_all() first")
 
     def compute(self, adjacency: bool = True, cells: bool = False) -> Diagram:
         """Computes the measures, and the adjacency and cells if wanted, in as few passes as possible."""
@@ -237,7 +304,20 @@ class Diagram:
     def adjacency(self) -> Adjacency:
         if self._progress:
             self.compute(adjacency=True)
-        return Adjacency(self._core.adjacency())
+        return Adjacency(self._core.adjacency(), len(self))
+
+    @property
+    def boundary_walls(self) -> BoundaryWalls:
+        """The facets of the domain that the cells have, computed in a pass of its own.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> d = pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[0.25, 0.5], [0.75, 0.5]])
+        >>> d.boundary_walls.indices.tolist(), d.boundary_walls.data.tolist()
+        ([0, 2, 3, 1, 2, 3], [1.0, 0.5, 0.5, 1.0, 0.5, 0.5])
+        """
+        return BoundaryWalls(self._core.boundary_walls())
 
     @property
     def cells(self) -> Any:
@@ -301,18 +381,22 @@ class Diagram:
         -------
         matplotlib axes
         """
+        self._require_all("plot()")
         return _looks.plot(self, ax, color, style)
 
     def to_geopandas(self) -> Any:
         """A GeoDataFrame of the cells, with mass, centroid and status, and the columns and CRS that came in."""
+        self._require_all("to_geopandas()")
         return _looks.to_geopandas(self)
 
     def to_pyvista(self) -> Any:
         """A PyVista mesh of the cells with the arrays ``seed``, ``mass`` and ``weight``."""
+        self._require_all("to_pyvista()")
         return _looks.to_pyvista(self)
 
     def to_meshio(self) -> Any:
         """A meshio mesh of the pieces of the cells with the arrays ``seed`` and ``mass``."""
+        self._require_all("to_meshio()")
         return _looks.to_meshio(self)
 
     def _summary(self) -> list[tuple[str, str]]:
@@ -323,7 +407,11 @@ class Diagram:
             ("cells", f"{int(np.count_nonzero(status == Status.OK)):,}"),
             ("hidden", f"{int(np.count_nonzero(status == Status.HIDDEN)):,}"),
             ("duplicate", f"{int(np.count_nonzero(status == Status.DUPLICATE)):,}"),
-            ("sum of measures / domain", f"1 {self._measures().total / self.domain_measure - 1:+.1e}"),
+            (
+                ("sum of measures / domain", f"1 {self._measures().total / self.domain_measure - 1:+.1e}")
+                if self._selection is None
+                else ("selected", f"{len(self._selection):,}")
+            ),
             ("device", f"{self.device.name}, {self.precision}"),
             ("time", f"{self.timings.total:.3g} s"),
         ]

@@ -31,12 +31,20 @@ class PyDiagram {
     const std::span all = span_of(weights);
     slot_.run(nb::none(), [&] { diagram_.set_weights(all); });
   }
+  void select(const Vector<std::uint32_t>& seeds) {
+    const std::span all = span_of(seeds);
+    slot_.run(nb::none(), [&] { diagram_.select(all); });
+  }
+  void select_all() {
+    slot_.run(nb::none(), [&] { diagram_.select_all(); });
+  }
   void compute(bool adjacency, bool cells, const nb::object& progress) {
     slot_.run(progress, [&] { diagram_.compute(adjacency, cells); });
   }
 
   std::shared_ptr<Measures> measures() { return held(&Diagram::measures); }
   std::shared_ptr<Adjacency> adjacency() { return held(&Diagram::adjacency); }
+  std::shared_ptr<BoundaryWalls> boundary_walls() { return held(&Diagram::boundary_walls); }
   std::shared_ptr<Cells> cells() { return held(&Diagram::cells); }
   std::shared_ptr<Dual> dual() { return held(&Diagram::dual); }
   std::shared_ptr<JoinedCells> joined() { return held(&Diagram::joined); }
@@ -120,9 +128,12 @@ void bind_diagrams(nb::module_& m) {
       .def(nb::init<const Device&, const Domain&, const nb::dict&>())
       .def("set_seeds", &PyDiagram::set_seeds, "positions"_a, "weights"_a.none())
       .def("set_weights", &PyDiagram::set_weights)
+      .def("select", &PyDiagram::select)
+      .def("select_all", &PyDiagram::select_all)
       .def("compute", &PyDiagram::compute, "adjacency"_a, "cells"_a, "progress"_a.none())
       .def("measures", &PyDiagram::measures)
       .def("adjacency", &PyDiagram::adjacency)
+      .def("boundary_walls", &PyDiagram::boundary_walls)
       .def("cells", &PyDiagram::cells)
       .def("joined", &PyDiagram::joined)
       .def("dual", &PyDiagram::dual)

@@ -32,6 +32,13 @@ void bind_results(nb::module_& m) {
       .def_prop_ro("data", [](nb::handle self) { return view(nb::cast<Adjacency&>(self).wall, self); })
       .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<Adjacency&>(self), self); })
       .def_ro("asymmetry", &Adjacency::asymmetry);
+  nb::class_<BoundaryWalls>(m, "BoundaryWalls")
+      .def_prop_ro("indptr",
+                   [](nb::handle self) { return view(nb::cast<BoundaryWalls&>(self).offset, self); })
+      .def_prop_ro("indices",
+                   [](nb::handle self) { return view(nb::cast<BoundaryWalls&>(self).facet, self); })
+      .def_prop_ro("data",
+                   [](nb::handle self) { return view(nb::cast<BoundaryWalls&>(self).measure, self); });
   nb::class_<Cells>(m, "Cells")
       .def_ro("dimension", &Cells::dimension)
       .def_ro("cell_dimension", &Cells::cell_dimension)

@@ -220,3 +220,42 @@ def test_a_loop_of_diagrams_leaks_nothing(square):
 
     before = run(300)
     assert run(2000) - before < 8_000  # KiB; 2,000 diagrams with results have 40,000
+
+
+def test_cells_of_some_seeds(rng, cube):
+    positions = rng.random((200, 3))
+    every = pc.Diagram(cube, positions)
+    some = pc.Diagram(cube, positions)
+    chosen = np.array([150, 3, 77])
+    some.select(chosen)
+    np.testing.assert_allclose(some.mass, every.mass[chosen], rtol=1e-12)
+    assert some.status.shape == (3,) and some.centroid.shape == (3, 3)
+    matrix = some.adjacency.to_scipy()
+    assert matrix.shape == (3, 200)
+    assert abs(matrix - every.adjacency.to_scipy()[chosen]).max() < 1e-12
+    assert "selected" in some._repr_html_()
+    for refused in (some.to_pyvista, some.to_meshio):
+        with pytest.raises(ValueError, match="call select_all"):
+            refused()
+    with pytest.raises(pc.Error, match="select_all"):
+        some.verify()
+    for wrong, message in (([0, 200], "entry 1"), ([5, 5], "again")):
+        with pytest.raises(pc.Error, match=message):
+            some.select(wrong)
+    for wrong in ([-1], [0.5], [[1]]):
+        with pytest.raises(ValueError, match="seeds"):
+            some.select(wrong)
+    assert len(some.mass) == 3
+    some.select([])
+    assert some.mass.shape == (0,)
+    some.select_all()
+    np.testing.assert_array_equal(some.mass, every.mass)
+    some.select([1])
+    some.set_seeds(positions[:50])
+    assert some.mass.shape == (50,)
+
+
+def test_facets_sum_to_the_boundary(rng, cube):
+    walls = pc.Diagram(cube, rng.random((100, 3))).boundary_walls
+    np.testing.assert_allclose(np.bincount(walls.indices, walls.data), np.ones(6), rtol=1e-12)
+    assert walls.indptr.shape == (101,)
