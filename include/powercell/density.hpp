@@ -107,8 +107,8 @@ struct IntegrationOptions {
 /// Integrates a density over the cells of a diagram: from its measures and adjacency if the density is
 /// constant, else over the geometry of its cells. The result has the same bits for every number of threads.
 /// In a periodic domain the density must be constant; `walls` then have shifts.
-/// \throw Error invalid_argument (tolerance out of range), unsupported (periodic); as Diagram and the
-/// density's factory function
+/// \throw Error invalid_argument (tolerance out of range), unsupported (periodic; seeds are selected); as
+/// Diagram and the density's factory function
 POWERCELL_API DensityIntegrals integrate(Diagram& diagram, const Density& density,
                                          const IntegrationOptions& options);
 

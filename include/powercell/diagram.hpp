@@ -43,6 +43,7 @@ class POWERCELL_API Diagram {
   /// \throw Error invalid_argument (no seeds yet; an index, with its place), unsupported (Options::certify)
   void select(std::span<const std::uint32_t> seeds);
   void select_all();
+  bool has_selection() const;  ///< from select() on
 
   std::size_t size() const;               ///< number of seeds
   std::vector<double> positions() const;  ///< of the seeds, in the caller's order: n x d, row-major

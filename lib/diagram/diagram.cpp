@@ -22,6 +22,9 @@ void Diagram::select(std::span<const std::uint32_t> seeds) {
 void Diagram::select_all() {
   state_->select_all();
 }
+bool Diagram::has_selection() const {
+  return state_->selection.has_value();
+}
 void Diagram::compute(bool adjacency, bool cells) {
   state_->compute({adjacency, cells});
 }

@@ -10,6 +10,8 @@ namespace powercell {
 namespace {
 
 void check_same_seeds(const Diagram& diagram, const SeedsView& seeds) {
+  if (diagram.has_selection())
+    throw Error(ErrorCode::unsupported, "the laws are those of all cells; call select_all() before verify()");
   const bool same = seeds.dimension == diagram.domain().dimension() && seeds.size() == diagram.size();
   const std::size_t coordinates = seeds.positions.size(), weights = seeds.weights.size();
   if (same && coordinates == seeds.size() * static_cast<std::size_t>(seeds.dimension) &&

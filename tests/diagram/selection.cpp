@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <powercell/density.hpp>
 #include <powercell/error.hpp>
+#include <powercell/verify.hpp>
 #include <utility>
 
 #include "tests/diagram/check.hpp"
@@ -208,6 +210,8 @@ TEST_CASE("selection: what is refused") {
   CHECK(code_of([&] { diagram.select(Selected{1, 2, 1}); }) == ErrorCode::invalid_argument);
   CHECK(diagram.measures().mass.size() == 2);  // the selection before is still there
   CHECK(code_of([&] { diagram.dual(); }) == ErrorCode::unsupported);
+  CHECK(code_of([&] { verify(diagram, seeds.view()); }) == ErrorCode::unsupported);
+  CHECK(code_of([&] { integrate(diagram, Density::constant(1), false); }) == ErrorCode::unsupported);
   Options options = setup.options;
   options.certify = true;
   Diagram certified(setup.device, unit_box(2), options);

@@ -57,6 +57,9 @@ DensityIntegrals integrate(Diagram& diagram, const Density& density, const Integ
     throw Error(ErrorCode::unsupported,
                 "in a periodic domain the density must be constant, since a function of the position has no "
                 "periods; use Density::constant");
+  if (diagram.has_selection())
+    throw Error(ErrorCode::unsupported,
+                "integrals of a density are those of all cells; call select_all() before integrate()");
   DensityIntegrals result = density.model().integrate(diagram, resolved);
   result.domain_mass = density.total(diagram.domain(), options.threads);
   return result;

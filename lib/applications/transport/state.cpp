@@ -69,6 +69,7 @@ std::vector<double> TransportSolver::State::targets(double total) const {
 const TransportResult& TransportSolver::State::solve() {
   if (positions.empty())
     throw Error(ErrorCode::invalid_argument, "solve before set_seeds: there are no seeds");
+  if (diagram.has_selection()) diagram.select_all();
   const double total = options.density.total(diagram.domain(), options.diagram.threads);
   if (!(total >= std::numeric_limits<double>::min()))
     throw Error(ErrorCode::invalid_argument,
