@@ -64,7 +64,7 @@ class Owners {
     std::size_t best = 0;
     long double least = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-      const Vector y = from_seed(i, x);
+      const Vector y = x - image(i, x) - rounding_.position(i);
       const long double power = dot(y, y) - rounding_.weight(i);
       const bool heavier = rounding_.weight(i) > rounding_.weight(best);
       if (i == 0 || power < least ||
@@ -79,7 +79,7 @@ class Owners {
   /// The distance of a sample outside the cell of seed i.
   Outside outside_cell(const Sample& sample, std::size_t i) const {
     Outside best{1e300, 1};
-    const Vector point = rounding_.position(i) + from_seed(i, sample.point);
+    const Vector point = sample.point - image(i, sample.point);
     bool in_region = false;
     for (std::uint64_t p = cells_.cell_offset[i]; p < cells_.cell_offset[i + 1]; ++p) {
       if (cells_.region[p] != sample.region) continue;
@@ -94,40 +94,38 @@ class Owners {
 
   /// The best result over all seeds whose bisector with the owner passes within rounding of the point.
   Outside outside_ties(const Sample& sample, std::size_t owner, Outside best) const {
-    const Vector p = rounding_.position(owner), here = from_seed(owner, sample.point);
+    const Vector p = rounding_.position(owner), moved = image(owner, sample.point);
+    const Vector y = sample.point - moved - p;
     for (std::size_t j = 0; j < count_; ++j) {
       if (j == owner || rounding_.position(j) == p) continue;
-      // The seeds of the images nearest to the point: only their difference counts.
-      const Vector q = here - from_seed(j, sample.point);
-      if (!(norm(q) > 0) || -rounding_.beyond(owner, j, here, q) > rounding_.wall_shift(owner, j, q))
-        continue;
+      const Vector q = rounding_.position(j) - p + (image(j, sample.point) - moved);
+      if (-rounding_.beyond(owner, j, y, q) > rounding_.wall_shift(owner, j, q)) continue;
       best = nearer(best, outside_cell(sample, j));
     }
     return best;
   }
 
  private:
-  /// From seed i to the point; in a periodic domain from its nearest image.
-  Vector from_seed(std::size_t i, const Vector& x) const {
+  /// The vector of the lattice to the image of seed i that is nearest to the point; 0 unless the domain is
+  /// periodic. In a reduced basis it is among those around the one of rounded coordinates.
+  Vector image(std::size_t i, const Vector& x) const {
+    if (!period_) return {};
     const Vector y = x - rounding_.position(i);
-    return period_ ? shortest(y) : y;
-  }
-
-  /// The shortest of the vectors that differ from y by a vector of the lattice: in a reduced basis it is
-  /// among those around the one of least coordinates.
-  Vector shortest(Vector y) const {
     const double at[3] = {static_cast<double>(y[0]), static_cast<double>(y[1]), static_cast<double>(y[2])},
                  zero[3] = {};
     const Period::Row fraction = period_->fraction(at), origin = period_->fraction(zero);
-    for (int k = 0; k < period_->count(); ++k) y = y - std::round(fraction[k] - origin[k]) * vector_of(k);
-    Vector best = y;
+    Vector middle{};
     int combinations = 1;
-    for (int k = 0; k < period_->count(); ++k) combinations *= 3;
+    for (int k = 0; k < period_->count(); ++k) {
+      middle = middle + std::round(fraction[k] - origin[k]) * vector_of(k);
+      combinations *= 3;
+    }
+    Vector best = middle;
     for (int c = 0; c < combinations; ++c) {
-      Vector other = y;
+      Vector other = middle;
       for (int k = 0, rest = c; k < period_->count(); ++k, rest /= 3)
         other = other + static_cast<long double>(rest % 3 - 1) * vector_of(k);
-      if (dot(other, other) < dot(best, best)) best = other;
+      if (norm(y - other) < norm(y - best)) best = other;
     }
     return best;
   }
