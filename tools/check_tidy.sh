@@ -57,7 +57,7 @@ fi
 [ -e build/release/compile_commands.json ] || cmake --preset release --log-level=WARNING
 # There are options only for files that the build compiles.
 list=$(echo "$files" | while read -r file; do
-  ! grep -qF "/$file\"" build/release/compile_commands.json || echo "$file"
+  ! grep -qF "\"$PWD/$file\"" build/release/compile_commands.json || echo "$file"
 done)
 [ -n "$list" ] || { echo "check_tidy: no changed file to check"; exit 0; }
 count=$(echo "$list" | wc -l)

@@ -44,7 +44,8 @@ struct Adjacency {
 };
 
 /// The parts of the domain's boundary that belong to each cell, as compressed sparse rows. Facets have the
-/// numbers of RegionsView::facet and of Border::boundary; in a box these are -x +x -y +y -z +z.
+/// numbers of RegionsView::facet and of Border::boundary; in a box of space these are -x +x -y
+/// +y -z +z, in one of the plane -y +x +y -x.
 struct BoundaryWalls {
   std::vector<std::uint64_t> offset;  ///< n + 1; row i is [offset[i], offset[i+1])
   std::vector<std::uint32_t> facet;   ///< ascending within a row

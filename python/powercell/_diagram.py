@@ -90,7 +90,8 @@ class BoundaryWalls:
     ----------
     indptr : (n + 1,) uint64
     indices : (m,) uint32
-        Facets, ascending in each row. In a box 0 to 5 are -x +x -y +y -z +z, of a solid they are its triangles.
+        Facets, ascending in each row. In a box of space 0 to 5 are -x +x -y +y -z +z, in one of the plane 0 to 3
+        are -y +x +y -x; of a solid they are its triangles.
     data : (m,) float64
         Length or area of the part of the facet that belongs to the cell.
     """
@@ -315,7 +316,7 @@ class Diagram:
         >>> import powercell as pc
         >>> d = pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[0.25, 0.5], [0.75, 0.5]])
         >>> d.boundary_walls.indices.tolist(), d.boundary_walls.data.tolist()
-        ([0, 2, 3, 1, 2, 3], [1.0, 0.5, 0.5, 1.0, 0.5, 0.5])
+        ([0, 2, 3, 0, 1, 2], [0.5, 0.5, 1.0, 0.5, 1.0, 0.5])
         """
         return BoundaryWalls(self._core.boundary_walls())
 
