@@ -8,6 +8,7 @@
 #include "kernels/layout.h"
 #include "lib/base/threads.hpp"
 #include "lib/clip/unrestricted_cells.hpp"
+#include "lib/diagram/chunk_pairs.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #ifdef POWERCELL_HAS_FLANN
@@ -113,9 +114,11 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, bool faces, Work
   const Scene facets{boundary.on_device, scene.buffers, scene.seeds, scene.tree};
   RegionCandidates facet_candidates(facets, on_facets.list_offset, on_facets.list_seed, on_facets.all_listed);
   SolidMemory memory{std::exchange(workspace.facets, {}), std::exchange(workspace.clip, {})};
-  plan.solid = compute_solid_cells({setup.domain.mesh(), boundary, scene, on_facets, active.by_region,
-                                    facet_candidates, tree, faces, setup.threads, setup.options.progress},
-                                   memory, plan.solid_statistics);
+  plan.solid = compute_solid_cells(
+      {setup.domain.mesh(), boundary, scene, on_facets, active.by_region, facet_candidates, tree,
+       chunk_pairs(setup, on_facets.region.size(), ChunkOf::facets), faces, setup.threads,
+       setup.options.progress},
+      memory, plan.solid_statistics);
   workspace.clip = std::move(memory.cells);  // clipping goes on with them
   if (memory.facets && memory.facets->bytes() <= kept_bytes) workspace.facets = std::move(memory.facets);
   std::vector<bool> excluded(active.seeds().size());

@@ -12,7 +12,7 @@ std::vector<std::string> Variant::defines() const {
 const std::vector<Capacity>& capacities(int cell_dimension) {
   // Vertices come in blocks of eight. A polygon has as many edges as vertices; a simple polyhedron of F faces
   // has 2F - 4 vertices, but needs more while it is cut.
-  static const std::vector<Capacity> polygons = {{32, 32}, {128, 128}};
+  static const std::vector<Capacity> polygons = {{16, 16}, {128, 128}};
   static const std::vector<Capacity> polyhedra = {{64, 48}, {248, 128}};
   return cell_dimension == 2 ? polygons : polyhedra;
 }

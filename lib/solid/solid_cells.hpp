@@ -91,6 +91,7 @@ struct SolidCellsInput {
   std::span<const std::uint32_t> excluded;  ///< ranks, in any order, that are computed in another way
   Candidates& on_facets;                    ///< candidates for the pieces of triangles
   Candidates& in_space;                     ///< for whole cells
+  std::uint64_t chunk_pairs;                ///< the most pairs to clip at once
   bool faces;                               ///< whether to make the surfaces of the parts too
   int threads;
   const std::function<bool(double)>& progress;
