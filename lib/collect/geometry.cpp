@@ -72,6 +72,11 @@ void GeometryCollector::add(std::span<const std::uint32_t> pair_seed,
   }
 }
 
+void GeometryCollector::discard(std::span<const std::uint32_t> ranks) {
+  for (std::uint32_t& rank : piece_rank_)
+    if (std::binary_search(ranks.begin(), ranks.end(), rank)) rank = discarded;
+}
+
 namespace {
 
 /// Appends the rows [begin, end) of `values`, of `width` values each.
@@ -86,22 +91,24 @@ void append_row(std::vector<T>& to, const std::vector<T>& values, std::uint64_t 
 
 Cells GeometryCollector::finish(const std::vector<SeedStatus>& status, const SeedSet& rows,
                                 const std::vector<std::uint32_t>* rank) {
-  std::vector<std::uint32_t> input(piece_rank_.size());
+  std::vector<std::uint32_t> input(piece_rank_.size(), discarded);
   for (std::size_t p = 0; p < input.size(); ++p) {
     const std::uint32_t r = piece_rank_[p];
+    if (r == discarded) continue;
     input[p] = rows.input[rank ? std::lower_bound(rank->begin(), rank->end(), r) - rank->begin() : r];
   }
   Cells out;
   out.dimension = cells_.dimension;
   out.cell_dimension = cells_.cell_dimension;
   out.cell_offset.assign(rows.input_count + 1, 0);
+  const auto is_kept = [&](std::uint32_t i) { return i != discarded && status[i] == SeedStatus::ok; };
   for (const std::uint32_t i : input)
-    if (status[i] == SeedStatus::ok) ++out.cell_offset[i + std::size_t{1}];
+    if (is_kept(i)) ++out.cell_offset[i + std::size_t{1}];
   std::partial_sum(out.cell_offset.begin(), out.cell_offset.end(), out.cell_offset.begin());
   std::vector<std::uint64_t> order(out.cell_offset.back());
   std::vector<std::uint64_t> at(out.cell_offset.begin(), out.cell_offset.end() - 1);
   for (std::uint64_t p = 0; p < input.size(); ++p)
-    if (status[input[p]] == SeedStatus::ok) order[at[input[p]]++] = p;
+    if (is_kept(input[p])) order[at[input[p]]++] = p;
 
   const bool loops = cells_.cell_dimension == 3;
   const auto d = static_cast<std::size_t>(cells_.dimension);

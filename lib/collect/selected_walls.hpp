@@ -23,6 +23,9 @@ class SelectedWalls {
   void add(std::span<const std::uint32_t> pair_row, std::span<const std::uint32_t> pair_seed,
            const PieceSet& pieces);
 
+  /// Removes the walls of a row, so that others can be added.
+  void discard(std::uint32_t row) { row_[row] = {}; }
+
   /// The rows in the order of the selection, walls times `unit`. To be called once.
   /// \param place   of each row in the selection
   /// \param status  by place: walls of cells that are not ok are left out

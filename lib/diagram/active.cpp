@@ -74,12 +74,9 @@ void Active::set_hidden_aside() {
 }
 
 void Active::widen(double margin) {
-  images_ = make_images(*setup_.period(), input_.seeds, margin, setup_.threads);
-  build();
-  write_log(LogLevel::info, [&] {
-    return std::to_string(images_->seeds.size() - images_->own) + " images of " +
-           std::to_string(images_->own) + " seeds, because cells reached beyond a narrower margin";
-  });
+  powercell::widen(*images_, *setup_.period(), margin, setup_.threads);
+  tree_ = build_packed_tree(seeds(), setup_.threads);
+  buffers_.upload(setup_.on_device.frame(), seeds(), tree_, setup_.threads);
 }
 
 void Active::exclude_flat_cells(std::span<const std::uint32_t> ranks) {

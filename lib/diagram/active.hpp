@@ -49,7 +49,7 @@ class Active {
   /// cells on both sides of a flat cell then share its walls.
   void exclude_flat_cells(std::span<const std::uint32_t> ranks);
 
-  /// Adds images within a wider margin. \pre images()
+  /// Appends images within a wider margin; ranks stay, and candidates must be made anew. \pre images()
   void widen(double margin);
 
   KeptTree release_tree() && { return {std::move(tree_), std::move(images_)}; }

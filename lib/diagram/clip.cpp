@@ -18,11 +18,12 @@ namespace powercell {
 
 namespace {
 
-/// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
+/// Of a proved reach, relative (82).
 constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
-                 proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);  // (82)
-/// Of a margin that must be widened, since other cells may reach farther still.
-constexpr double more_than_needed = 1.1;
+                 proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
+/// Of a margin that must be widened, against rounding.
+constexpr double more_than_needed = 1.001;
+/// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
 constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 int outputs_of(Wanted want, bool walls) {
@@ -31,7 +32,7 @@ int outputs_of(Wanted want, bool walls) {
 
 class Pass {
  public:
-  Pass(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace)
+  Pass(const Setup& setup, Active& active, const Plan& plan, Wanted want, Workspace& workspace)
       : setup_(setup),
         active_(active),
         plan_(plan),
@@ -60,15 +61,27 @@ class Pass {
 
   Clipped run(Timings& timings) {
     if (!plan_.pairs.region.empty()) clip_all(timings);
+    while (!beyond_.empty()) clip_beyond(timings);
     const Stopwatch watch(setup_.device);
     Clipped results = finish();
     keep_wall_memory();
     timings.collect = collect_seconds_ + watch.seconds();
+    timings.clip = clip_seconds_;
+    timings.retried = done_.retried;
+    timings.on_host = done_.on_host;
+    timings.uncertain = done_.uncertain;
+    timings.rounds = done_.rounds;
     return results;
   }
 
  private:
   void clip_all(Timings& timings);
+  /// Clips the cells that reached beyond the margin again, among more images.
+  void clip_beyond(Timings& timings);
+  /// Calls clip_some(begin, end) for chunks of `total` pairs, with a clipper.
+  template <class ClipSome>
+  void in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timings& timings,
+                         const ClipSome& clip_some);
   /// Cells that the boundary does not cut lie on the side of their neighbours, which are needed for that.
   bool collects_walls() const { return want_.adjacency || plan_.solid; }
   /// The seeds of the cells to compute, row by row: by rank unless they are selected.
@@ -78,8 +91,15 @@ class Pass {
   }
   /// Clips and collects the pairs [begin, end).
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
+  /// Collects the pieces of the pairs in pair_row_, all but their measures.
+  void collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region);
+  /// Lists the cells that reach beyond the margin.
   void prove_reach(const PieceSet& pieces);
-  void set_chunk_seeds(std::uint64_t begin, std::uint64_t end);
+  /// Removes what was collected of some rows.
+  void discard(std::span<const std::uint32_t> rows);
+  void set_chunk_rows(std::uint64_t begin, std::uint64_t end);
+  /// Sets pair_seed_ from pair_row_.
+  void set_chunk_seeds();
   std::uint32_t row_of(std::uint64_t pair) const;
   /// Moves the centroids from near the wrapped seeds to near those given.
   void place_centroids(Measures& measures) const;
@@ -88,7 +108,7 @@ class Pass {
   void keep_wall_memory();
 
   const Setup& setup_;
-  const Active& active_;
+  Active& active_;
   const Plan& plan_;
   const Wanted want_;
   Workspace& workspace_;
@@ -106,8 +126,10 @@ class Pass {
   std::optional<MarginProof> proof_;
   std::optional<PeriodicWalls> periodic_walls_;
   std::optional<SelectedWalls> selected_walls_;
-  double margin_ = 0;  // needed for cells that reach too far
-  double collect_seconds_ = 0;
+  std::vector<std::uint32_t> beyond_;  // ascending: rows of cells that reach too far
+  double margin_ = 0;                  // that these need
+  ClipStatistics done_;                // of discarded clippers
+  double clip_seconds_ = 0, collect_seconds_ = 0;
 };
 
 std::uint32_t Pass::row_of(std::uint64_t pair) const {
@@ -116,24 +138,27 @@ std::uint32_t Pass::row_of(std::uint64_t pair) const {
                                     1);
 }
 
-void Pass::set_chunk_seeds(std::uint64_t begin, std::uint64_t end) {
+void Pass::set_chunk_rows(std::uint64_t begin, std::uint64_t end) {
   const std::vector<std::uint64_t>& offset = plan_.pairs.offset;
   pair_row_.resize(end - begin);
   for (std::uint32_t row = row_of(begin); row <= row_of(end - 1); ++row) {
     const std::uint64_t from = std::max(begin, offset[row]), to = std::min(end, offset[row + 1]);
     if (to > from) std::fill_n(&pair_row_[from - begin], to - from, row);
   }
+  set_chunk_seeds();
+}
+
+void Pass::set_chunk_seeds() {
   pair_seed_ = pair_row_;
   if (!plan_.selected) return;
-  selected_seed_.resize(end - begin);
+  selected_seed_.resize(pair_row_.size());
   std::transform(pair_row_.begin(), pair_row_.end(), selected_seed_.begin(),
                  [&](std::uint32_t row) { return rank_of_row(row); });
   pair_seed_ = selected_seed_;
 }
 
 void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
-  if (margin_ > 0) return;  // the pass must be repeated
-  set_chunk_seeds(begin, end);
+  set_chunk_rows(begin, end);
   const std::span pair_region(plan_.pairs.region.data() + begin, end - begin);
   const std::vector<std::uint32_t> for_host = clipper_->clip_on_device(pair_seed_, pair_region);
   const PieceSet& pieces =
@@ -142,6 +167,11 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   // This step may run out of device memory, and then adds nothing. No later step uses device memory.
   measures_.add(plan_.pairs.offset, begin, end, pair_row_.front(), pair_row_.back(), clipper_->moments(),
                 clipper_->moments_on_host());
+  collect(pieces, pair_region);
+  collect_seconds_ += watch.seconds();
+}
+
+void Pass::collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region) {
   if (exact_)
     for (std::size_t k = 0; k < pair_row_.size(); ++k)
       if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_row_[k]);
@@ -153,19 +183,63 @@ void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
   else if (collects_walls() && !plan_.selected)
     walls_.add(pair_seed_, pieces);
   if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
-  collect_seconds_ += watch.seconds();
 }
 
 void Pass::prove_reach(const PieceSet& pieces) {
   const double unit = setup_.on_device.frame().unit(1);
-  for (std::size_t k = 0; k < pair_seed_.size(); ++k)
-    if (pieces.status[k] == PIECE_DONE || pieces.status[k] == PIECE_FLAT)
-      margin_ = std::max(margin_, proof_->margin_for(pair_seed_[k], pieces.reach[k] * unit));
+  for (std::size_t k = 0; k < pair_seed_.size(); ++k) {
+    if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
+    const double margin = proof_->margin_for(pair_seed_[k], pieces.reach[k] * unit);
+    if (margin > 0) beyond_.push_back(pair_row_[k]);
+    margin_ = std::max(margin_, margin);
+  }
 }
 
 void Pass::clip_all(Timings& timings) {
-  const std::uint64_t total = plan_.pairs.region.size();
-  Candidates& candidates = *plan_.candidates;
+  done_ = plan_.solid_statistics;
+  in_clipped_chunks(plan_.pairs.region.size(), *plan_.candidates, timings,
+                    [&](std::uint64_t begin, std::uint64_t end) { clip_chunk(begin, end); });
+}
+
+void Pass::discard(std::span<const std::uint32_t> rows) {
+  std::erase_if(flat_, [&](std::uint32_t row) { return std::binary_search(rows.begin(), rows.end(), row); });
+  std::vector<std::uint32_t> ranks;
+  for (const std::uint32_t row : rows) {
+    ranks.push_back(rank_of_row(row));
+    if (selected_walls_) selected_walls_->discard(row);
+  }
+  geometry_.discard(ranks);
+}
+
+void Pass::clip_beyond(Timings& timings) {
+  // A cell that lacks an image reaches farther than it will.
+  active_.widen(std::min(more_than_needed * margin_, 2 * active_.images()->margin));
+  margin_ = 0;
+  const std::vector<std::uint32_t> rows = std::exchange(beyond_, {});
+  write_log(LogLevel::info, [&] {
+    return std::to_string(active_.seeds().size() - active_.images()->own) + " images of " +
+           std::to_string(active_.images()->own) + " seeds, because " + std::to_string(rows.size()) +
+           " cells reached beyond a narrower margin";
+  });
+  discard(rows);
+  const std::vector<std::uint32_t> regions(rows.size());
+  const std::unique_ptr<Candidates> candidates = search_all(setup_, active_.scene());
+  in_clipped_chunks(rows.size(), *candidates, timings, [&](std::uint64_t begin, std::uint64_t end) {
+    pair_row_.assign(rows.begin() + static_cast<std::ptrdiff_t>(begin),
+                     rows.begin() + static_cast<std::ptrdiff_t>(end));
+    set_chunk_seeds();
+    const std::span pair_region = std::span(regions).subspan(begin, end - begin);
+    const PieceSet& pieces = clipper_->clip(pair_seed_, pair_region);
+    const Stopwatch watch(setup_.device);
+    measures_.replace(pair_row_, clipper_->moments(), clipper_->moments_on_host());
+    collect(pieces, pair_region);
+    collect_seconds_ += watch.seconds();
+  });
+}
+
+template <class ClipSome>
+void Pass::in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timings& timings,
+                             const ClipSome& clip_some) {
   const auto make_clipper = [&](std::optional<ClipMemory> memory) {
     clipper_.emplace(
         active_.scene(), candidates, outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
@@ -173,31 +247,27 @@ void Pass::clip_all(Timings& timings) {
   };
   make_clipper(std::exchange(workspace_.clip, std::nullopt));
   const std::function<bool(double)>& progress = setup_.options.progress;
-  const double list_seconds_before = candidates.host_seconds();
-  ClipStatistics done = plan_.solid_statistics, before;  // of discarded clippers; at the beginning of a chunk
+  const double list_seconds_before = candidates.host_seconds(), collected_before = collect_seconds_;
+  ClipStatistics before;  // at the beginning of a chunk
   const Stopwatch watch(setup_.device);
   in_chunks(
       total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
       [&](std::uint64_t begin, std::uint64_t end) {
         before = clipper_->statistics();
-        clip_chunk(begin, end);
+        clip_some(begin, end);
         write_log(LogLevel::detail,
                   [&] { return std::to_string(end) + " of " + std::to_string(total) + " pairs clipped"; });
         if (progress && !progress(static_cast<double>(end) / static_cast<double>(total)))
           throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
       },
       [&] {
-        done.add(before);
+        done_.add(before);
         make_clipper({});
       });
   const double list_seconds = candidates.host_seconds() - list_seconds_before;
   timings.neighbors += list_seconds;
-  timings.clip = watch.seconds() - collect_seconds_ - list_seconds;
-  done.add(clipper_->statistics());
-  timings.retried = done.retried;
-  timings.on_host = done.on_host;
-  timings.uncertain = done.uncertain;
-  timings.rounds = done.rounds;
+  clip_seconds_ += watch.seconds() - (collect_seconds_ - collected_before) - list_seconds;
+  done_.add(clipper_->statistics());
   ClipMemory memory = std::move(*clipper_).release();
   clipper_.reset();
   if (memory.bytes() <= kept_bytes) workspace_.clip = std::move(memory);
@@ -232,10 +302,6 @@ std::vector<CoincidentWall> Pass::coincident_walls(const std::vector<SeedStatus>
 Clipped Pass::finish() {
   const SeedSet& seeds = row_seeds();
   Clipped results;
-  if (margin_ > 0) {
-    results.margin = std::min(more_than_needed * margin_, 2 * active_.images()->margin);
-    return results;
-  }
   std::vector<std::uint32_t> outside;
   std::vector<CellAtBoundary> at_boundary;
   if (plan_.solid) {
@@ -277,7 +343,7 @@ Clipped Pass::finish() {
 
 }  // namespace
 
-Clipped clip(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace,
+Clipped clip(const Setup& setup, Active& active, const Plan& plan, Wanted want, Workspace& workspace,
              Timings& timings) {
   return Pass(setup, active, plan, want, workspace).run(timings);
 }

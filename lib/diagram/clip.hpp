@@ -25,13 +25,14 @@ struct Clipped {
   std::optional<Cells> cells;
   std::optional<SolidGeometry> solid;  ///< in place of cells
   std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
-  double margin = 0;                   ///< of images, if cells reach too far for theirs; else 0
   std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
 };
 
-/// \param timings  sets `clip`, `collect` and the counts; adds the time of lists to `neighbors`
-/// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
-Clipped clip(const Setup& setup, const Active& active, const Plan& plan, Wanted want, Workspace& workspace,
+/// Of a periodic domain `active` gets more images if cells reach too far for those that it has, and only
+/// these cells are clipped again. \param timings  sets `clip`, `collect` and the counts; adds the time of
+/// lists to `neighbors` \throw Error interrupted, out_of_device_memory, opencl, build_failed,
+/// self_test_failed, internal
+Clipped clip(const Setup& setup, Active& active, const Plan& plan, Wanted want, Workspace& workspace,
              Timings& timings);
 
 }  // namespace powercell

@@ -150,7 +150,7 @@ std::vector<std::uint32_t> ranks_of(const Pairs& pairs) {
 }
 
 /// The search of all seeds, which does not depend on the pairs.
-std::unique_ptr<Candidates> search_all(const Scene& scene, Workspace& workspace) {
+std::unique_ptr<Candidates> kept_search(const Scene& scene, Workspace& workspace) {
   if (workspace.search) return std::move(workspace.search);
   return std::make_unique<TreeCandidates>(scene);
 }
@@ -158,7 +158,7 @@ std::unique_ptr<Candidates> search_all(const Scene& scene, Workspace& workspace)
 std::unique_ptr<Candidates> candidates_by_regions(const Setup& setup, const Scene& scene, const Pairs& pairs,
                                                   Workspace& workspace) {
   if (std::unique_ptr<Candidates> lists = make_lists(setup, scene)) return lists;
-  if (setup.domain.region_count() == 1) return search_all(scene, workspace);
+  if (setup.domain.region_count() == 1) return kept_search(scene, workspace);
   if (setup.has_inside) {
     const std::vector<std::uint32_t> ranks = ranks_of(pairs);
     if (pairs.region.size() > pieces_that_pay * ranks.size() || pairs.region.size() <= few_pairs) {
@@ -223,7 +223,7 @@ Plan plan_by_selection(const Setup& setup, const Active& active, const Selection
   plan.candidates = make_lists(setup, scene);
   if (active.images() || setup.domain.region_count() == 1) {
     plan.pairs = one_pair_each(static_cast<std::uint32_t>(rank.size()));
-    if (!plan.candidates) plan.candidates = search_all(scene, workspace);
+    if (!plan.candidates) plan.candidates = kept_search(scene, workspace);
   } else if (setup.has_inside) {
     std::optional<TreeCandidates> tree;
     if (!plan.candidates) tree.emplace(scene);
@@ -244,6 +244,11 @@ Plan plan_by_selection(const Setup& setup, const Active& active, const Selection
 
 }  // namespace
 
+std::unique_ptr<Candidates> search_all(const Setup& setup, const Scene& scene) {
+  if (std::unique_ptr<Candidates> lists = make_lists(setup, scene)) return lists;
+  return std::make_unique<TreeCandidates>(scene);
+}
+
 Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Selection* selection,
                Workspace& workspace, Timings& timings) {
   timings.pair_count = 0;
@@ -253,6 +258,7 @@ Plan make_plan(const Setup& setup, const Active& active, PlanKind kind, const Se
               : (geometry && !solid) || !setup.has_inside ? plan_by_regions(setup, active, workspace, timings)
               : setup.boundary ? plan_by_boundary(setup, active, geometry, workspace, timings)
                                : plan_by_cells(setup, active, timings);
+  plan.seeds = active.seeds().size();
   setup.progress->begin_part(pairs_done, 1);
   timings.pair_count += plan.pairs.region.size();
   return plan;

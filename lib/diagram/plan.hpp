@@ -24,6 +24,7 @@ enum class PlanKind {
 
 /// The pairs to clip, and their candidates. Refers to the setup and the active seeds it was made for.
 struct Plan {
+  std::size_t seeds = 0;  ///< with images: the candidates are for these
   /// The cells to compute if they are not all; the rows of `pairs` are then these instead of ranks.
   std::optional<SelectedRows> selected;
   Pairs pairs;
@@ -54,6 +55,9 @@ struct Workspace {
   std::optional<ClipMemory> facets;  ///< of clipping the boundary of a solid
   WallRows::Memory walls;
 };
+
+/// Candidates for any pairs in a domain of one region. \throw Error as make_plan
+std::unique_ptr<Candidates> search_all(const Setup& setup, const Scene& scene);
 
 /// Chooses the strategy, finds the pairs and makes the candidates.
 /// \param selection  null for all cells; else those to compute, in a domain that is not a solid

@@ -50,7 +50,8 @@ void Diagram::State::select_all() {
   results = std::make_shared<Results>();
   // In a domain of one region all selections are searched for in the same way.
   const bool same_search = setup.domain.region_count() == 1 && setup.neighbors == Neighbors::tree;
-  if (integrals && same_search) workspace.search = std::move(integrals->candidates);
+  if (integrals && same_search && integrals->seeds == active->seeds().size())
+    workspace.search = std::move(integrals->candidates);
   integrals.reset();
   geometry.reset();
   selection.reset();
@@ -80,6 +81,7 @@ void Diagram::State::retire_active() {
 Plan& Diagram::State::plan(PlanKind kind) {
   std::optional<Plan>& kept =
       kind == PlanKind::geometry && setup.has_inside && !selection ? geometry : integrals;
+  if (kept && kept->seeds != active->seeds().size()) kept.reset();  // images were added
   if (!kept) kept = make_plan(setup, *active, kind, selection ? &*selection : nullptr, workspace, timings);
   return *kept;
 }
@@ -121,10 +123,7 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       }
       return;
     }
-    if (clipped.margin > 0) {
-      active->widen(clipped.margin);
-      geometry.reset();
-    } else if (!clipped.flat.empty()) {
+    if (!clipped.flat.empty()) {
       active->exclude_flat_cells(clipped.flat);
       geometry.reset();
     } else {

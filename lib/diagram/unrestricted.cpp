@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/base/threads.hpp"
+#include "lib/integrate/moment_sums.hpp"
 
 namespace powercell {
 namespace {
@@ -71,13 +72,6 @@ class CellLocator {
 };
 
 }  // namespace
-
-void clear_cell(Measures& measures, std::size_t i) {
-  const auto d = static_cast<std::size_t>(measures.dimension);
-  measures.mass[i] = measures.second_moment[i] = 0;
-  std::fill_n(&measures.centroid[i * d], d, std::numeric_limits<double>::quiet_NaN());
-  measures.status[i] = SeedStatus::hidden;
-}
 
 std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
                                                        const Pairs& pairs, Measures& measures) {

@@ -17,7 +17,4 @@ namespace powercell {
 std::vector<std::uint32_t> classify_unrestricted_cells(const Setup& setup, const SeedSet& seeds,
                                                        const Pairs& pairs, Measures& measures);
 
-/// Makes the cell of seed i empty, and the seed hidden.
-void clear_cell(Measures& measures, std::size_t i);
-
 }  // namespace powercell

@@ -38,6 +38,13 @@ double real_at(const std::byte* reals, std::size_t k, bool float32) {
 
 }  // namespace
 
+void clear_cell(Measures& measures, std::size_t i) {
+  const auto d = static_cast<std::size_t>(measures.dimension);
+  measures.mass[i] = measures.second_moment[i] = 0;
+  std::fill_n(&measures.centroid[i * d], d, std::numeric_limits<double>::quiet_NaN());
+  measures.status[i] = SeedStatus::hidden;
+}
+
 MomentSums::MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double domain_measure, int threads)
     : domain_(domain),
       seeds_(seeds),
@@ -106,9 +113,14 @@ void MomentSums::set(std::uint32_t rank, std::span<const double> moments) {
   measures_.second_moment[i] = unscaled(moments[1 + d], power + 2);
 }
 
+std::array<double, 5> MomentSums::row_at(const std::byte* row) const {
+  std::array<double, 5> moments{};
+  for (std::size_t c = 0; c < columns_; ++c) moments[c] = real_at(row, c, domain_.float32());
+  return moments;
+}
+
 void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums) {
   const auto d = static_cast<std::size_t>(measures_.dimension);
-  const bool float32 = domain_.float32();
   parallel_for(threads_for(last - first, threads_, least_shared), last - first,
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t t = begin; t < end; ++t) {
@@ -119,12 +131,21 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
                      prefetch(&measures_.centroid[next * d]);
                      prefetch(&measures_.second_moment[next]);
                    }
-                   const std::byte* const row = sums + t * row_bytes_;
-                   std::array<double, 5> moments;
-                   for (std::size_t c = 0; c < columns_; ++c) moments[c] = real_at(row, c, float32);
-                   set(static_cast<std::uint32_t>(first + t), moments);
+                   set(static_cast<std::uint32_t>(first + t), row_at(sums + t * row_bytes_));
                  }
                });
+}
+
+void MomentSums::replace(std::span<const std::uint32_t> ranks, const cl::RawBuffer& moments,
+                         const std::byte* on_host) {
+  std::optional<cl::Mapping> mapping;
+  if (!on_host) mapping.emplace(moments, ranks.size() * row_bytes_);
+  const std::byte* const sums = on_host ? on_host : mapping->data();
+  for (std::size_t k = 0; k < ranks.size(); ++k) {
+    clear_cell(measures_, seeds_.input[ranks[k]]);
+    set(ranks[k], row_at(sums + k * row_bytes_));
+  }
+  if (mapping) mapping->end();
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,

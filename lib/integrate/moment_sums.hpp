@@ -2,6 +2,7 @@
 /// Sums the moments of pieces into the measures of cells, chunk by chunk. Internal.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +15,9 @@
 #include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
+
+/// Makes the cell of seed i empty, and the seed hidden.
+void clear_cell(Measures& measures, std::size_t i);
 
 /// Sums on the device and converts the rows that a chunk completes on the host, so device memory grows with
 /// the chunk and not with the number of seeds.
@@ -31,6 +35,11 @@ class MomentSums {
            std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments,
            const std::byte* on_host = nullptr);
 
+  /// Replaces the measures of ranks with one pair each. Replaces none if it throws.
+  /// \param moments, on_host  as of add(), by rank
+  void replace(std::span<const std::uint32_t> ranks, const cl::RawBuffer& moments,
+               const std::byte* on_host = nullptr);
+
   /// Sets the measures of a rank without pairs. \param moments  2 + dimension, in device units
   void set(std::uint32_t rank, std::span<const double> moments);
 
@@ -43,6 +52,8 @@ class MomentSums {
                                 std::uint64_t end, std::uint32_t first, std::uint32_t last);
   void sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
+  /// A row of sums in the device's precision.
+  std::array<double, 5> row_at(const std::byte* row) const;
   /// Sets the measures of the ranks [first, last). \param sums  a row for each rank
   void set_measures(std::uint32_t first, std::uint32_t last, const std::byte* sums);
 

@@ -34,20 +34,30 @@ std::array<double, 3> margins(const Period& period, double margin) {
   return along;
 }
 
-/// Calls use(shift) for the images, other than itself, of a seed with fractions `f`.
-template <class Use>
-void for_images(const Period& period, const Period::Row& f, const std::array<double, 3>& margin,
-                const Use& use) {
-  Shift low{}, high{}, s;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(period.count()); ++k) {
-    low[k] = static_cast<std::int32_t>(std::ceil(-margin[k] - f[k]));
-    high[k] = static_cast<std::int32_t>(std::floor(1 + margin[k] - f[k]));
+/// The shifts of the images of one seed within a margin, itself among them.
+struct ShiftRange {
+  Shift low{}, high{};
+
+  /// \param f  the seed's fractions  \param margin  along each vector; below 0 the range is empty
+  ShiftRange(const Period& period, const Period::Row& f, const std::array<double, 3>& margin) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(period.count()); ++k) {
+      low[k] = static_cast<std::int32_t>(std::ceil(-margin[k] - f[k]));
+      high[k] = static_cast<std::int32_t>(std::floor(1 + margin[k] - f[k]));
+    }
   }
-  for (s[0] = low[0]; s[0] <= high[0]; ++s[0])
-    for (s[1] = low[1]; s[1] <= high[1]; ++s[1])
-      for (s[2] = low[2]; s[2] <= high[2]; ++s[2])
-        if (s != Shift{}) use(s);
-}
+  bool contains(const Shift& s) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (s[k] < low[k] || s[k] > high[k]) return false;
+    return true;
+  }
+  template <class Use>
+  void for_each(const Use& use) const {
+    Shift s;
+    for (s[0] = low[0]; s[0] <= high[0]; ++s[0])
+      for (s[1] = low[1]; s[1] <= high[1]; ++s[1])
+        for (s[2] = low[2]; s[2] <= high[2]; ++s[2]) use(s);
+  }
+};
 
 /// A linear function with different values for the shifts of images, whose components are small.
 std::int32_t code_of(const Shift& shift) {
@@ -61,28 +71,28 @@ void check_count(std::size_t count) {
                                             std::to_string(most_seeds_of_diagram) + "; use fewer seeds");
 }
 
-/// Appends the images to `images.seeds` along a Hilbert curve.
+/// Appends further images to `images.seeds` along a Hilbert curve.
 void append_sorted(Images& images, std::span<const double> positions, std::span<const std::uint32_t> rank,
                    std::span<const Shift> shift, int threads) {
   SeedSet& all = images.seeds;
   const auto d = static_cast<std::size_t>(all.dimension);
   const std::vector<std::uint32_t> order = hilbert_order(positions, all.dimension, threads);
-  const std::size_t own = images.own, count = order.size();
-  all.positions.resize((own + count) * d);
-  all.weights.resize(own + count);
-  all.input.resize(own + count);
-  images.rank.resize(count);
-  images.shift.resize(count);
-  images.code.resize(count);
+  const std::size_t first = all.size(), before = first - images.own, count = order.size();
+  all.positions.resize((first + count) * d);
+  all.weights.resize(first + count);
+  all.input.resize(first + count);
+  images.rank.resize(before + count);
+  images.shift.resize(before + count);
+  images.code.resize(before + count);
   parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t from = order[k];
-      std::copy_n(&positions[from * d], d, &all.positions[(own + k) * d]);
-      all.weights[own + k] = all.weights[rank[from]];
-      all.input[own + k] = all.input[rank[from]];
-      images.rank[k] = rank[from];
-      images.shift[k] = shift[from];
-      images.code[k] = code_of(shift[from]);
+      std::copy_n(&positions[from * d], d, &all.positions[(first + k) * d]);
+      all.weights[first + k] = all.weights[rank[from]];
+      all.input[first + k] = all.input[rank[from]];
+      images.rank[before + k] = rank[from];
+      images.shift[before + k] = shift[from];
+      images.code[before + k] = code_of(shift[from]);
     }
   });
 }
@@ -105,27 +115,35 @@ double first_margin(const Period& period, const SeedSet& seeds) {
 }
 
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads) {
-  const auto d = static_cast<std::size_t>(seeds.dimension);
   Images images;
   images.seeds = seeds;
   images.own = static_cast<std::uint32_t>(seeds.size());
-  images.margin = margin;
-  const std::array<double, 3> along = margins(period, margin);
+  widen(images, period, margin, threads);
+  return images;
+}
+
+void widen(Images& images, const Period& period, double margin, int threads) {
+  const auto d = static_cast<std::size_t>(images.seeds.dimension);
+  const bool has_images = images.seeds.size() > images.own;
+  const std::array<double, 3> along = margins(period, margin), before = margins(period, images.margin);
   std::vector<double> positions;
   std::vector<std::uint32_t> rank;
   std::vector<Shift> shift;
   for (std::uint32_t r = 0; r < images.own; ++r) {
-    const double* const x = &seeds.positions[r * d];
-    for_images(period, period.fraction(x), along, [&](const Shift& s) {
+    const double* const x = &images.seeds.positions[r * d];
+    const Period::Row f = period.fraction(x);
+    const ShiftRange old(period, f, before);
+    ShiftRange(period, f, along).for_each([&](const Shift& s) {
+      if (s == Shift{} || (has_images && old.contains(s))) return;
       const Period::Row y = period.moved(x, s);
       positions.insert(positions.end(), y.begin(), y.begin() + static_cast<std::ptrdiff_t>(d));
       rank.push_back(r);
       shift.push_back(s);
     });
-    check_count(images.own + rank.size());
+    check_count(images.seeds.size() + rank.size());
   }
   append_sorted(images, positions, rank, shift, threads);
-  return images;
+  images.margin = margin;
 }
 
 void set_weights(Images& images, const SeedSet& seeds, int threads) {

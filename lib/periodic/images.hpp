@@ -35,6 +35,10 @@ double first_margin(const Period& period, const SeedSet& seeds);
 /// \throw Error unsupported if there would be more than most_seeds_of_diagram
 Images make_images(const Period& period, const SeedSet& seeds, double margin, int threads);
 
+/// Appends the images within a wider margin. The others keep their ranks.
+/// \throw Error as make_images
+void widen(Images& images, const Period& period, double margin, int threads);
+
 /// The images of seeds with new weights at the same positions.
 void set_weights(Images& images, const SeedSet& seeds, int threads);
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <powercell/density.hpp>
 #include <powercell/error.hpp>
+#include <powercell/log.hpp>
 #include <powercell/verify.hpp>
 #include <utility>
 
@@ -154,6 +156,32 @@ TEST_CASE("selection: the cells of some seeds are those of the diagram of all") 
         CHECK(some.adjacency().neighbor == all.adjacency().neighbor);
       }
     }
+}
+
+TEST_CASE("selection: cells of a periodic domain that reach beyond the first images") {
+  INFO(replay_hint());
+  const Domain cube = Domain::periodic_box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0},
+                                           std::array{true, true, false});
+  for (const Setup& setup : main_setups()) {
+    INFO(setup.name);
+    Random random(test_seed());
+    const SeedArray seeds = random_seeds(Distribution::cluster, WeightRange::W1, 600, 3, random);
+    Diagram all(setup.device, cube, setup.options), some(setup.device, cube, setup.options),
+        geometry_first(setup.device, cube, setup.options);
+    for (Diagram* const diagram : {&all, &some, &geometry_first}) diagram->set_seeds(seeds.view());
+    std::size_t widened = 0;
+    set_log([&](LogLevel, std::string_view line) {
+      widened += line.find("reached beyond") != std::string_view::npos;
+    });
+    check_selection(all, some, random_selection(seeds.size(), 0.3, random), tolerance(setup));
+    geometry_first.cells();
+    set_log({});
+    CHECK(widened >= 3);
+    Selected every(seeds.size());
+    std::iota(every.begin(), every.end(), 0U);
+    check_cells(all.cells(), geometry_first.cells(), every, 1e3 * tolerance(setup));
+    CHECK(all.adjacency().neighbor == geometry_first.adjacency().neighbor);
+  }
 }
 
 TEST_CASE("selection: goes with new weights, and ends with new seeds") {
