@@ -75,7 +75,7 @@ int run(const BenchArguments& arguments) {
   return conclude(arguments, record, earlier);
 }
 
-constexpr const char* examples =
+constexpr const char* bench_examples =
     R"(Columns: seeds; cells per second for measures alone and for measures with adjacency, from seeds in
 host memory to results in host memory, the best of --repeat runs; arithmetic and bandwidth: the work
 counted for these cells, as a share of the rates that the device reaches in two small kernels (shown
@@ -137,7 +137,7 @@ Command add_bench(CLI::App& app) {
   auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand("bench", "Measure how fast devices compute");
   add_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(bench_examples);
   return [arguments] { return run(*arguments); };
 }
 

@@ -99,7 +99,7 @@ int run(const DiagramArguments& arguments) {
   return 0;
 }
 
-constexpr const char* examples =
+constexpr const char* diagram_examples =
     "Examples:\n"
     "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
     "  powercell diagram --domain italy.geojson --seeds towns.csv -o map.png --table areas.csv\n"
@@ -134,7 +134,7 @@ Command add_diagram(CLI::App& app) {
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   add_common_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(diagram_examples);
   return [arguments] { return run(*arguments); };
 }
 

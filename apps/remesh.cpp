@@ -266,7 +266,7 @@ int run(const RemeshArguments& arguments) {
   return 0;
 }
 
-constexpr const char* examples =
+constexpr const char* remesh_examples =
     "Examples:\n"
     "  powercell remesh pretzel.off --count 5000 -o new.off -o before-and-after.png\n"
     "  powercell remesh part.stl --count 20000 --sharp-angle 30 -o part.ply --report quality.json\n"
@@ -326,7 +326,7 @@ Command add_remesh(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "For transport: on the host and in PoCL; 0 for all")
       ->check(not_below_zero());
   add_output_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(remesh_examples);
   return [arguments] { return run(*arguments); };
 }
 

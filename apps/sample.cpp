@@ -179,7 +179,7 @@ int run(const SampleArguments& arguments) {
   return 0;
 }
 
-constexpr const char* examples =
+constexpr const char* sample_examples =
     "Examples:\n"
     "  powercell sample -n 1024 --periodic -o points.svg --runs 10 --analysis spectra.json\n"
     "  powercell sample -n 8000 --image photo.png -o stipples.svg -o stipples.png\n"
@@ -255,7 +255,7 @@ Command add_sample(CLI::App& app) {
                    "All figures and spectra as JSON; spectra of n points take n^2 time")
       ->type_name("FILE.json");
   add_common_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(sample_examples);
   return [arguments] { return run(*arguments); };
 }
 

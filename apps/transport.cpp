@@ -223,7 +223,7 @@ int run(const TransportArguments& arguments) {
   return 0;
 }
 
-constexpr const char* examples =
+constexpr const char* transport_examples =
     "Examples:\n"
     "  powercell transport --domain square --seeds random:1000 -o equal.svg\n"
     "  powercell transport --domain italy.geojson --seeds towns.csv --mass-column people --rescale "
@@ -274,7 +274,7 @@ Command add_transport(CLI::App& app) {
   command->add_option("--log", arguments->log, "JSON Lines: one object for each step of the solver")
       ->type_name("FILE.jsonl");
   add_common_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(transport_examples);
   return [arguments] { return run(*arguments); };
 }
 

@@ -146,7 +146,7 @@ int run(const TreemapArguments& arguments) {
   return 0;
 }
 
-constexpr const char* examples =
+constexpr const char* treemap_examples =
     "Examples:\n"
     "  powercell treemap sales.csv -o sales.svg\n"
     "  powercell treemap flare.json --shape circle -o flare.png -o flare-layout.json\n"
@@ -193,7 +193,7 @@ Command add_treemap(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "Threads on the host; 0 for all")
       ->check(not_below_zero());
   add_output_options(*command, *arguments);
-  command->footer(examples);
+  command->footer(treemap_examples);
   return [arguments] { return run(*arguments); };
 }
 

@@ -6,8 +6,8 @@
 #   tools/check_tidy.sh --most N   as without arguments, but at most N files; prints how many are left out
 #   tools/check_tidy.sh --all      every file
 #
-# A changed header is checked by one source that includes it. The compiler options come from build/release, which is
-# configured if it is missing. JOBS: the number of files at a time (default: all cores).
+# A changed header is checked by one source that includes it. The compiler options come from build/tidy, which is
+# configured here. JOBS: the number of files at a time (default: all cores).
 set -eu
 cd "$(dirname "$0")/.."
 command -v clang-tidy >/dev/null || { echo "check_tidy: needs clang-tidy: apt-get install clang-tidy" >&2; exit 2; }
@@ -54,10 +54,10 @@ else
   done | sort -u)
 fi
 
-[ -e build/release/compile_commands.json ] || cmake --preset release --log-level=WARNING
+cmake --preset tidy --log-level=WARNING >/dev/null
 # There are options only for files that the build compiles.
 list=$(echo "$files" | while read -r file; do
-  ! grep -qF "\"$PWD/$file\"" build/release/compile_commands.json || echo "$file"
+  ! grep -qF "\"$PWD/$file\"" build/tidy/compile_commands.json || echo "$file"
 done)
 [ -n "$list" ] || { echo "check_tidy: no changed file to check"; exit 0; }
 count=$(echo "$list" | wc -l)
@@ -69,7 +69,7 @@ fi
 # Besides its findings clang-tidy prints how many warnings it suppressed.
 check() {
   echo "$list" | xargs -P "${JOBS:-$(nproc)}" -n 1 sh -c '
-    clang-tidy --quiet -p build/release "$1" 2>&1 || { echo "check_tidy: $1" ; exit 1; }' check_tidy
+    clang-tidy --quiet -p build/tidy "$1" 2>&1 || { echo "check_tidy: $1" ; exit 1; }' check_tidy
 }
 if findings=$(check); then
   echo "check_tidy: $(echo "$list" | wc -l) files without a warning"

@@ -17,7 +17,7 @@ namespace {
 
 using json = nlohmann::ordered_json;  // attributes in the order of the file
 
-constexpr int deepest_nesting = 32;  // of GeometryCollections in one another
+constexpr int deepest_collections = 32;  // of GeometryCollections in one another
 
 /// Walks through a document; what is done with its geometries is of the derived class.
 class GeoJson {
@@ -26,7 +26,7 @@ class GeoJson {
   virtual ~GeoJson() = default;
 
   void object(const json& value, const std::string& path, int depth, const json* feature = nullptr) {
-    if (depth > deepest_nesting) fail(path, "is nested too deeply");
+    if (depth > deepest_collections) fail(path, "is nested too deeply");
     if (!value.is_object() || !value.contains("type") || !value["type"].is_string())
       fail(path, "is not a GeoJSON object (an object with a type)");
     const std::string type = value["type"];

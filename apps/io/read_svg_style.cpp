@@ -17,7 +17,7 @@ constexpr std::string_view kept_properties[] = {
     "display",   "fill-rule", "clip-path", "mask",        "mask-image", "transform", "transform-origin",
     "translate", "rotate",    "scale",     "offset-path", "d",          "x",         "y",
     "cx",        "cy",        "r",         "rx",          "ry",         "width",     "height"};
-constexpr int deepest_nesting = 8;  // of at-rules in one another
+constexpr int deepest_at_rules = 8;  // of at-rules in one another
 
 // Without comments and without <!-- and -->, which hide a sheet from very old browsers.
 std::string without_comments(std::string_view text) {
@@ -130,7 +130,7 @@ void SvgStyle::add_rule(std::string_view selectors, const std::vector<Declaratio
 
 // `condition`: the at-rule around the sheet, or empty.
 void SvgStyle::add(std::string_view sheet, std::string_view condition, int depth) {
-  if (depth > deepest_nesting) throw SvgError("a style sheet that is nested too deeply");
+  if (depth > deepest_at_rules) throw SvgError("a style sheet that is nested too deeply");
   const std::string text = without_comments(sheet);
   for (std::string_view rest = trimmed(text); !rest.empty(); rest = trimmed(rest)) {
     const std::size_t stop = find_bare(rest, "{;");

@@ -12,7 +12,7 @@
 namespace powercell::io {
 namespace {
 
-constexpr int deepest_nesting = 64;  // GEOS reads collections by recursion
+constexpr int deepest_brackets = 64;  // GEOS reads collections by recursion
 
 bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
@@ -80,7 +80,7 @@ std::string_view Geometries::next() {
     }
     const char c = text_[at_++];
     if (c == '\0') fail_line(name_, line_of(text_, at_), "a NUL byte; is this a text file?");
-    if (c == '(' && ++depth > deepest_nesting)
+    if (c == '(' && ++depth > deepest_brackets)
       fail_line(name_, line_of(text_, at_), "parentheses are nested too deeply");
     if (c == ')' && --depth < 0)
       fail_line(name_, line_of(text_, at_), "a parenthesis closes that was not opened");

@@ -15,9 +15,9 @@ namespace {
 constexpr std::uint8_t vtk_polygon = 7;
 constexpr std::uint8_t vtk_polyhedron = 42;
 
-using Point = std::array<double, 3>;
+using SpacePoint = std::array<double, 3>;
 
-Point cross(const Point& a, const Point& b) {
+SpacePoint vector_product(const SpacePoint& a, const SpacePoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -32,18 +32,18 @@ struct Grid {
   std::vector<std::uint32_t> seed, region;
   std::vector<double> weight, measure, piece_measure;
 
-  Point point(std::uint64_t v) const { return {points[3 * v], points[3 * v + 1], points[3 * v + 2]}; }
-  Point from(std::uint64_t v, const Point& o) const {
-    const Point p = point(v);
+  SpacePoint point(std::uint64_t v) const { return {points[3 * v], points[3 * v + 1], points[3 * v + 2]}; }
+  SpacePoint from(std::uint64_t v, const SpacePoint& o) const {
+    const SpacePoint p = point(v);
     return {p[0] - o[0], p[1] - o[1], p[2] - o[2]};
   }
 };
 
 double polygon_area(const Grid& grid, std::uint64_t first, std::uint64_t end) {
-  const Point o = grid.point(first);
-  Point sum{};
+  const SpacePoint o = grid.point(first);
+  SpacePoint sum{};
   for (std::uint64_t v = first + 1; v + 1 < end; ++v) {
-    const Point n = cross(grid.from(v, o), grid.from(v + 1, o));
+    const SpacePoint n = vector_product(grid.from(v, o), grid.from(v + 1, o));
     for (std::size_t k = 0; k < 3; ++k) sum[k] += n[k];
   }
   return 0.5 * std::hypot(sum[0], sum[1], sum[2]);
@@ -51,7 +51,7 @@ double polygon_area(const Grid& grid, std::uint64_t first, std::uint64_t end) {
 
 double add_faces(Grid& grid, const Cells& cells, std::uint64_t piece) {
   const std::uint64_t first = cells.vertex_offset[piece];
-  const Point o = grid.point(first);
+  const SpacePoint o = grid.point(first);
   double six_volumes = 0;
   grid.faces.push_back(static_cast<std::int64_t>(cells.face_offset[piece + 1] - cells.face_offset[piece]));
   for (std::uint64_t f = cells.face_offset[piece]; f < cells.face_offset[piece + 1]; ++f) {
@@ -61,8 +61,9 @@ double add_faces(Grid& grid, const Cells& cells, std::uint64_t piece) {
       grid.faces.push_back(static_cast<std::int64_t>(first + cells.loop[e]));
     }
     for (std::uint64_t e = begin + 1; e + 1 < end; ++e) {
-      const Point a = grid.from(first + cells.loop[begin], o);
-      const Point n = cross(grid.from(first + cells.loop[e], o), grid.from(first + cells.loop[e + 1], o));
+      const SpacePoint a = grid.from(first + cells.loop[begin], o);
+      const SpacePoint n =
+          vector_product(grid.from(first + cells.loop[e], o), grid.from(first + cells.loop[e + 1], o));
       six_volumes += a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
     }
   }

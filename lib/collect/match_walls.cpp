@@ -11,7 +11,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 4096;  // with fewer ranks, threads cost more than they save
+constexpr std::size_t shared_ranks = 4096;  // with fewer ranks, threads cost more than they save
 
 // A vector of the compiler, which does not vectorise such short loops by itself.
 using Vector [[gnu::vector_size(WallRow::lanes * sizeof(std::uint32_t))]] = std::uint32_t;
@@ -78,7 +78,7 @@ class WallMatcher {
         seeds_(seeds),
         unit_(unit),
         negligible_(negligible),
-        threads_(seeds.size() < share_count ? 1 : threads),
+        threads_(seeds.size() < shared_ranks ? 1 : threads),
         ok_(seeds.size()),
         largest_(negligible > 0 ? seeds.size() : 0),
         rank_(seeds.input_count, no_rank) {

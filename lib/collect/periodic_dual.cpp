@@ -15,11 +15,11 @@ struct Corner {
   friend auto operator<=>(const Corner&, const Corner&) = default;
 };
 template <std::size_t C>
-using Row = std::array<Corner, C>;
+using CornerRow = std::array<Corner, C>;
 
 /// The row moved so that `origin` has the shift 0, with its corners ascending.
 template <std::size_t C>
-Row<C> moved(Row<C> row, const Corner& origin) {
+CornerRow<C> moved(CornerRow<C> row, const Corner& origin) {
   const std::array<std::int32_t, 3> by = origin.shift;
   for (Corner& corner : row)
     for (std::size_t k = 0; k < 3; ++k) corner.shift[k] -= by[k];
@@ -30,15 +30,15 @@ Row<C> moved(Row<C> row, const Corner& origin) {
 /// The same row for all images of a simplex: the first of those in which an image of the smallest seed has
 /// the shift 0.
 template <std::size_t C>
-Row<C> canonical(const Row<C>& row) {
+CornerRow<C> canonical(const CornerRow<C>& row) {
   const std::uint32_t least = std::min_element(row.begin(), row.end(), [](const Corner& a, const Corner& b) {
                                 return a.seed < b.seed;
                               })->seed;
   bool found = false;
-  Row<C> best{};
+  CornerRow<C> best{};
   for (const Corner& origin : row) {
     if (origin.seed != least) continue;
-    const Row<C> here = moved(row, origin);
+    const CornerRow<C> here = moved(row, origin);
     if (found && !(here < best)) continue;
     found = true;
     best = here;
@@ -61,7 +61,7 @@ void corners_of_piece(const Cells& cells, std::uint32_t cell, std::uint64_t piec
   if constexpr (C == 3) {
     for (std::uint64_t f = begin; f < end; ++f) {
       const std::uint64_t before = f == begin ? end - 1 : f - 1;
-      if (is_wall(before) && is_wall(f)) found(Row<3>{Corner{cell, {}}, across(before), across(f)});
+      if (is_wall(before) && is_wall(f)) found(CornerRow<3>{Corner{cell, {}}, across(before), across(f)});
     }
   } else {
     std::vector<std::vector<Corner>> around(cells.vertex_offset[piece + 1] - cells.vertex_offset[piece]);
@@ -69,13 +69,13 @@ void corners_of_piece(const Cells& cells, std::uint32_t cell, std::uint64_t piec
       for (std::uint64_t k = cells.loop_offset[f]; is_wall(f) && k < cells.loop_offset[f + 1]; ++k)
         around[cells.loop[k]].push_back(across(f));
     for (const std::vector<Corner>& walls : around)
-      if (walls.size() == 3) found(Row<4>{Corner{cell, {}}, walls[0], walls[1], walls[2]});
+      if (walls.size() == 3) found(CornerRow<4>{Corner{cell, {}}, walls[0], walls[1], walls[2]});
   }
 }
 
 /// Exchanges the last two corners of rows whose orientation is negative by more than rounding.
 template <std::size_t C>
-void orient(Row<C>& row, std::span<const double> positions,
+void orient(CornerRow<C>& row, std::span<const double> positions,
             const std::array<std::array<double, 3>, 3>& periods) {
   constexpr std::size_t d = C - 1;
   long double e[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -102,18 +102,18 @@ Dual dual_of(const Cells& cells, std::span<const double> positions,
   const auto has_cell = [&](const Corner& corner) {
     return cells.cell_offset[corner.seed] < cells.cell_offset[std::size_t{corner.seed} + 1];
   };
-  std::vector<Row<C>> rows;
+  std::vector<CornerRow<C>> rows;
   for (std::uint32_t i = 0; i < cells.cell_count(); ++i)
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p)
-      corners_of_piece<C>(cells, i, p, [&](const Row<C>& row) {
+      corners_of_piece<C>(cells, i, p, [&](const CornerRow<C>& row) {
         if (std::all_of(row.begin(), row.end(), has_cell)) rows.push_back(canonical(row));
       });
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  for (Row<C>& row : rows) orient(row, positions, periods);
+  for (CornerRow<C>& row : rows) orient(row, positions, periods);
   Dual dual;
   dual.corners = C;
-  for (const Row<C>& row : rows)
+  for (const CornerRow<C>& row : rows)
     for (const Corner& corner : row) {
       dual.simplices.push_back(corner.seed);
       dual.shift.push_back(corner.shift);

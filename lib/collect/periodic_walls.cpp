@@ -13,7 +13,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 4096;  // with fewer ranks, threads cost more than they save
+constexpr std::size_t shared_cells = 4096;  // with fewer ranks, threads cost more than they save
 
 Shift opposite(const Shift& shift) {
   return {-shift[0], -shift[1], -shift[2]};
@@ -27,7 +27,7 @@ PeriodicWalls::PeriodicWalls(const Placement& placement, int threads)
 template <class Body>
 void PeriodicWalls::for_ranks(const Body& body) const {
   const std::size_t count = placement_.images.own;
-  parallel_for(threads_for(count, threads_, share_count), count, [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads_for(count, threads_, shared_cells), count, [&](std::size_t begin, std::size_t end) {
     body(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
   });
 }
@@ -67,7 +67,7 @@ void PeriodicWalls::add(std::span<const std::uint32_t> pair_seed, const PieceSet
   }
   neighbors_.resize(end, 4);  // of some chunks
   measures_.resize(end, 4);
-  parallel_for(threads_for(pair_seed.size(), threads_, share_count), pair_seed.size(),
+  parallel_for(threads_for(pair_seed.size(), threads_, shared_cells), pair_seed.size(),
                [&](std::size_t begin, std::size_t stop) {
                  for (std::size_t k = begin; k < stop; ++k)
                    if (has_walls(k)) fill_row(pair_seed[k], pieces.batches[pieces.batch[k]], pieces.row[k]);

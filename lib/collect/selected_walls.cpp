@@ -9,7 +9,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 1024;  // with fewer rows, threads cost more than they save
+constexpr std::size_t shared_rows = 1024;  // with fewer rows, threads cost more than they save
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void SelectedWalls::settle(Row& row) {
 Adjacency SelectedWalls::finish(std::span<const std::uint32_t> place, const std::vector<SeedStatus>& status,
                                 double unit) {
   const auto for_rows = [&](const auto& body) {
-    parallel_for(threads_for(row_.size(), threads_, share_count), row_.size(),
+    parallel_for(threads_for(row_.size(), threads_, shared_rows), row_.size(),
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t row = begin; row < end; ++row) body(row);
                  });

@@ -8,7 +8,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t share_count = 2048;  // with fewer pairs, threads cost more than they save
+constexpr std::size_t shared_pairs = 2048;  // with fewer pairs, threads cost more than they save
 constexpr std::uint32_t no_rank = ~std::uint32_t{0};
 
 bool has_walls(const PieceSet& pieces, std::size_t pair) {
@@ -59,7 +59,7 @@ void WallCollector::reopen(std::uint32_t rank) {
 
 void WallCollector::divide(std::span<const std::uint32_t> pair_seed) {
   const std::size_t pairs = pair_seed.size();
-  const std::size_t wanted = pairs < share_count ? 1 : static_cast<std::size_t>(std::max(threads_, 1));
+  const std::size_t wanted = pairs < shared_pairs ? 1 : static_cast<std::size_t>(std::max(threads_, 1));
   parts_.resize(wanted);
   std::size_t begin = 0;
   for (std::size_t p = 0; p < wanted; ++p) {

@@ -18,16 +18,17 @@ constexpr std::int64_t most_given = std::int64_t{1} << 29;  ///< the same, in th
 constexpr double dependent = 0x1p-46;       ///< length of a reduced vector relative to those given
 constexpr double fraction_rounding = 1e-9;  ///< more than the rounding of a fraction
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_period(const std::string& what) {
   throw Error(ErrorCode::invalid_domain, what);
 }
 
 /// \throw Error invalid_domain
 void check_lengths(double shortest, double longest, const std::string& what) {
   if (longest <= most_ratio * shortest) return;
-  refuse("the periods of the " + what + " are " + digits(shortest) + " and " + digits(longest) +
-         " long, more than a factor of 10^6 apart; scale the long direction down, or make the short one a "
-         "bounded axis of a periodic box");
+  refuse_period(
+      "the periods of the " + what + " are " + digits(shortest) + " and " + digits(longest) +
+      " long, more than a factor of 10^6 apart; scale the long direction down, or make the short one a "
+      "bounded axis of a periodic box");
 }
 
 /// The nearest multiple of a power of two; |x| below 2^62 times that.
@@ -60,7 +61,8 @@ Period Period::of_box(std::span<const double> low, std::span<const double> high,
     shortest = next == 0 ? high[k] - low[k] : std::min(shortest, high[k] - low[k]);
     longest = std::max(longest, high[k] - low[k]);
   }
-  if (period.count_ == 0) refuse("a periodic box needs at least one periodic axis; use Domain::box for none");
+  if (period.count_ == 0)
+    refuse_period("a periodic box needs at least one periodic axis; use Domain::box for none");
   check_lengths(shortest, longest, "box");
   period.set_quanta();
   period.set_room();
@@ -85,7 +87,7 @@ Period Period::of_lattice(std::span<const double> vectors, std::span<const doubl
   }
   basis = reduced_basis(basis);
   if (basis.empty())
-    refuse(
+    refuse_period(
         "the vectors of the lattice are dependent, or so nearly that a shift along them would need more than "
         "2^20 of them; give " +
         std::to_string(d) + " independent ones, as short as possible");
@@ -97,8 +99,8 @@ Period Period::of_lattice(std::span<const double> vectors, std::span<const doubl
     longest = std::max(longest, here);
   }
   if (!(shortest > dependent * longest_given))
-    refuse("the vectors of the lattice are dependent; give " + std::to_string(d) + " that span the " +
-           (d == 2 ? "plane" : "space"));
+    refuse_period("the vectors of the lattice are dependent; give " + std::to_string(d) + " that span the " +
+                  (d == 2 ? "plane" : "space"));
   check_lengths(shortest, longest, "lattice (of its reduced basis)");
   period.set_quanta();
   period.set_dual();

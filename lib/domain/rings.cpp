@@ -17,7 +17,7 @@ const Ring& ring_of(const PolygonPart& part, std::uint32_t k) {
   return k == 0 ? part.outer : part.holes[k - 1];
 }
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_ring(const std::string& why) {
   throw Error(ErrorCode::invalid_domain, why);
 }
 
@@ -27,8 +27,8 @@ double largest_coordinate(const Ring& ring, const std::string& where) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     largest = std::max({largest, std::fabs(ring[k][0]), std::fabs(ring[k][1])});
     if (std::isfinite(ring[k][0]) && std::isfinite(ring[k][1])) continue;
-    refuse(where + ", point " + std::to_string(k) + ": (" + std::to_string(ring[k][0]) + ", " +
-           std::to_string(ring[k][1]) + ") is not finite; correct or remove it");
+    refuse_ring(where + ", point " + std::to_string(k) + ": (" + std::to_string(ring[k][0]) + ", " +
+                std::to_string(ring[k][1]) + ") is not finite; correct or remove it");
   }
   return largest;
 }
@@ -63,8 +63,8 @@ Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
   const std::string where = ring_name(part, hole);
   Ring kept = corners(ring);
   if (kept.size() < 3) {
-    refuse(where + ": a ring needs three points that are not collinear; its " + std::to_string(ring.size()) +
-           " points enclose no area");
+    refuse_ring(where + ": a ring needs three points that are not collinear; its " +
+                std::to_string(ring.size()) + " points enclose no area");
   }
   const bool outer = hole == 0;
   if (counter_clockwise(kept) != outer) std::reverse(kept.begin() + 1, kept.end());
@@ -98,11 +98,12 @@ std::uint32_t IndexedRings::find(double x, double y) const {
 }
 
 IndexedRings index_rings(std::span<const PolygonPart> parts) {
-  if (parts.empty()) refuse("the domain is empty: the polygon has no parts");
-  if (parts.size() > most_points) refuse("a polygon can have at most 2^30 parts");
+  if (parts.empty()) refuse_ring("the domain is empty: the polygon has no parts");
+  if (parts.size() > most_points) refuse_ring("a polygon can have at most 2^30 parts");
   double largest = 0;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].holes.size() > most_points) refuse(ring_name(p, 0) + ": a part can have at most 2^30 holes");
+    if (parts[p].holes.size() > most_points)
+      refuse_ring(ring_name(p, 0) + ": a part can have at most 2^30 holes");
     for (std::uint32_t h = 0; h <= parts[p].holes.size(); ++h) {
       largest = std::max(largest, largest_coordinate(ring_of(parts[p], h), ring_name(p, h)));
     }
@@ -122,7 +123,7 @@ IndexedRings index_rings(std::span<const PolygonPart> parts) {
   }
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() > most_points) refuse("a polygon can have at most 2^30 points");
+  if (points.size() > most_points) refuse_ring("a polygon can have at most 2^30 points");
   for (const auto& point : points)
     indexed.vertices.insert(indexed.vertices.end(), point.begin(), point.end());
   for (std::size_t r = 0; r < cleaned.size(); ++r) {

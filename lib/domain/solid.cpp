@@ -18,7 +18,7 @@
 namespace powercell {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_solid(const std::string& why) {
   throw Error(ErrorCode::invalid_domain, why);
 }
 
@@ -74,13 +74,13 @@ Shells::Shells(std::span<const double> vertices, std::span<const std::uint32_t> 
       in_line = in_line && orient2d(flat[0].data(), flat[1].data(), flat[2].data()) == 0;
     }
     if (in_line)
-      refuse("triangle " + std::to_string(k / 3) + " of the solid's surface is flat: its corners, at " +
-             place_text(at(c[0])) + ", " + place_text(at(c[1])) + " and " + place_text(at(c[2])) +
-             ", lie in a line; repair the surface first");
+      refuse_solid("triangle " + std::to_string(k / 3) + " of the solid's surface is flat: its corners, at " +
+                   place_text(at(c[0])) + ", " + place_text(at(c[1])) + " and " + place_text(at(c[2])) +
+                   ", lie in a line; repair the surface first");
     triangle_.push_back(c);
     source_.push_back(k / 3);
   }
-  if (triangle_.empty()) refuse("the domain is empty: all triangles are degenerate");
+  if (triangle_.empty()) refuse_solid("the domain is empty: all triangles are degenerate");
   parent_.resize(triangle_.size());
   std::iota(parent_.begin(), parent_.end(), 0u);
 }
@@ -93,15 +93,16 @@ std::uint32_t Shells::patch_of(std::uint32_t row) {
 void Shells::check_edge(std::span<const FacetKey<2>> shared) const {
   const std::uint32_t first = shared[0].slot / 3;
   if (shared.size() == 1)
-    refuse("the surface of the solid is open: only triangle " + name(first) + " has " + edge_text(shared[0]));
+    refuse_solid("the surface of the solid is open: only triangle " + name(first) + " has " +
+                 edge_text(shared[0]));
   if (shared.size() % 2 != 0)
-    refuse("the surface of the solid is not closed: " + std::to_string(shared.size()) +
-           " triangles, of which the " + "first is " + name(first) + ", share " + edge_text(shared[0]) +
-           "; an even number can");
+    refuse_solid("the surface of the solid is not closed: " + std::to_string(shared.size()) +
+                 " triangles, of which the " + "first is " + name(first) + ", share " + edge_text(shared[0]) +
+                 "; an even number can");
   if (shared.size() == 2 && goes_up(shared[0].slot) == goes_up(shared[1].slot))
-    refuse("the surface of the solid is inside out in a part: triangles " + name(first) + " and " +
-           name(shared[1].slot / 3) + " at " + edge_text(shared[0]) +
-           " have opposite orientations; repair the surface first");
+    refuse_solid("the surface of the solid is inside out in a part: triangles " + name(first) + " and " +
+                 name(shared[1].slot / 3) + " at " + edge_text(shared[0]) +
+                 " have opposite orientations; repair the surface first");
 }
 
 void Shells::join_patches() {
@@ -120,9 +121,9 @@ void Shells::join_patches() {
 void Shells::check_crossings() const {
   const std::optional<TrianglePair> pair = find_improper_pair(vertices_, triangle_);
   if (pair)
-    refuse("the surface of the solid crosses or touches itself: triangles " + name(pair->first) + " and " +
-           name(pair->second) + " have more in common around " + place_text(pair->place.data()) +
-           " than a corner or an edge of both");
+    refuse_solid("the surface of the solid crosses or touches itself: triangles " + name(pair->first) +
+                 " and " + name(pair->second) + " have more in common around " +
+                 place_text(pair->place.data()) + " than a corner or an edge of both");
 }
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -190,8 +191,8 @@ bool Shells::is_turned(std::uint32_t row) const {
     if (even >= 0) return (n[axis] > 0) != (even == 1);
     for (double& s : share) s = 0.1 + uniform(random);
   }
-  refuse("the orientation of the solid's surface could not be found at triangle " + name(row) +
-         ", which is too narrow");
+  refuse_solid("the orientation of the solid's surface could not be found at triangle " + name(row) +
+               ", which is too narrow");
 }
 
 void Shells::turn_patches() {

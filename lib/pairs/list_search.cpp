@@ -10,7 +10,7 @@ namespace powercell::pairs {
 namespace {
 
 // Up to this many seeds are all tested against all. With more, the part is split.
-constexpr std::size_t few_seeds = 32;
+constexpr std::size_t few_listed = 32;
 // Up to this many are tested against all where splitting does not help.
 constexpr std::size_t most_seeds = 128;
 // Maximum depth of splits. Long lists come from the tree where splits failed, and may hold clusters far
@@ -18,7 +18,7 @@ constexpr std::size_t most_seeds = 128;
 constexpr std::size_t most_depth = 12, most_depth_of_long = 64;
 constexpr std::size_t long_list = 2048;
 // Splitting ends after so many splits in a row that exclude few seeds.
-constexpr int most_failures = 3;
+constexpr int most_list_failures = 3;
 
 template <int D>
 std::array<const double*, D + 1> pointers(const SeedColumns<D>& columns) {
@@ -114,7 +114,7 @@ void ListSearch<D>::append_marked(std::vector<std::uint32_t>& ranks) const {
 template <int D>
 void ListSearch<D>::visit(Subset& subset, std::size_t depth, int failures) {
   const std::size_t most = seeds_->size() > long_list ? most_depth_of_long : most_depth;
-  if (subset.count() <= few_seeds || depth == most || failures == most_failures) return finish(subset);
+  if (subset.count() <= few_listed || depth == most || failures == most_list_failures) return finish(subset);
   if (halves_.size() == depth) halves_.emplace_back();
   Halves& halves = halves_[depth];
   std::tie(halves.first.part, halves.second.part) = split(subset.part);
@@ -150,7 +150,7 @@ void ListSearch<D>::narrow_to(const Source& from, std::span<const CornerValues> 
   for (const CornerValues& upper : known)
     loops::raise_excess(from.count, half.part.corners, lower_.data(), upper.data(), excess_.data());
   without_excess(from.count, excess_, kept_);
-  if (kept_.size() > few_seeds) {
+  if (kept_.size() > few_listed) {
     for (std::size_t v = 0; v < half.part.corners; ++v) {
       const auto least = static_cast<std::uint32_t>(loops::least(from.count, lower_[v]));
       if (std::find(tester_.begin(), tester_.end(), least) != tester_.end()) continue;

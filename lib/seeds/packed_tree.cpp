@@ -7,7 +7,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t least_shared = 8192;  // nodes; fewer are faster on one thread
+constexpr std::size_t least_shared_seeds = 8192;  // nodes; fewer are faster on one thread
 
 std::size_t level_size(const PackedTree& tree, std::size_t level) {
   return tree.level_offset[level + 1] - tree.level_offset[level];
@@ -20,13 +20,14 @@ void for_nodes(const PackedTree& tree, std::size_t level, int threads, const Bod
   const std::size_t count = level_size(tree, level);
   const std::size_t below = level == 0 ? tree.seeds : level_size(tree, level - 1);
   const std::size_t base = level == 0 ? 0 : tree.level_offset[level - 1];
-  parallel_for(threads_for(count, threads, least_shared), count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t first = k * PackedTree::fan;
-      const std::size_t last = std::min(first + PackedTree::fan, below);
-      body(tree.level_offset[level] + k, base + first, base + last);
-    }
-  });
+  parallel_for(threads_for(count, threads, least_shared_seeds), count,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k) {
+                   const std::size_t first = k * PackedTree::fan;
+                   const std::size_t last = std::min(first + PackedTree::fan, below);
+                   body(tree.level_offset[level] + k, base + first, base + last);
+                 }
+               });
 }
 
 void fill_boxes(PackedTree& tree, std::size_t level, const double* low, const double* high, int threads) {

@@ -9,8 +9,6 @@
 namespace powercell::solid {
 namespace {
 
-constexpr std::uint32_t none = Lookup::none;
-
 /// An edge of the part within a wall of the cell, with the wall on its left seen from outside.
 struct WallEdge {
   std::uint32_t wall;

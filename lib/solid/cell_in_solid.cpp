@@ -6,7 +6,6 @@
 namespace powercell::solid {
 namespace {
 
-constexpr std::uint32_t none = Lookup::none;
 /// Of cells with more faces edges are looked up in a hash table.
 constexpr std::size_t most_tabulated = 128;
 

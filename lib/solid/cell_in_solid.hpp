@@ -80,7 +80,7 @@ class CellInSolid {
   // slot.
   struct RingVertex {
     Point at;
-    std::uint32_t face;        ///< that the edge from here to the next one lies in, or Lookup::none
+    std::uint32_t face;        ///< that the edge from here to the next one lies in, or none
     std::uint32_t edge_point;  ///< number of the point in which an edge of the boundary meets a wall, or none
   };
   /// Where the boundary crosses an edge of the cell, seen along the edge from its lower vertex.

@@ -22,7 +22,7 @@ void append(Polygons& out, std::span<const std::uint32_t> loop) {
   out.end.push_back(out.vertex.size());
 }
 
-double cross(const std::array<double, 2>& a, const std::array<double, 2>& b, const std::array<double, 2>& c) {
+double turn(const std::array<double, 2>& a, const std::array<double, 2>& b, const std::array<double, 2>& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
@@ -74,7 +74,7 @@ class Straightened {
       const double length = std::hypot(c[0] - a[0], c[1] - a[1]);
       const bool forward =
           (position_[v][0] - a[0]) * (c[0] - a[0]) + (position_[v][1] - a[1]) * (c[1] - a[1]) > 0;
-      if (k < n && forward && std::fabs(cross(a, position_[v], c)) <= straight * extent * length) {
+      if (k < n && forward && std::fabs(turn(a, position_[v], c)) <= straight * extent * length) {
         between.push_back(v);
         continue;
       }

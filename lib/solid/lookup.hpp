@@ -9,10 +9,10 @@
 
 namespace powercell::solid {
 
+inline constexpr std::uint32_t none = ~std::uint32_t{0};
+
 class Lookup {
  public:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-
   void clear() {
     row_.clear();
     if (!table_.empty()) table_.clear();

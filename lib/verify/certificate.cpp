@@ -17,14 +17,14 @@
 namespace powercell {
 namespace {
 
-constexpr double partition_double = 1e-12, partition_float = 1e-6;
+constexpr double certified_double = 1e-12, certified_float = 1e-6;
 /// In units of the largest wall. Each side of a wall is measured in coordinates relative to its own seed.
 constexpr double asymmetry_double = 1e-9, asymmetry_float = 1e-3;
 /// Roundings that add up in a position relative to a seed, and in a power distance.
 constexpr double place_roundings = 64, power_roundings = 16;
 constexpr std::size_t points = 8;
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_result(const std::string& what) {
   throw Error(ErrorCode::internal, "the certificate of the diagram does not hold: " + what);
 }
 
@@ -73,7 +73,7 @@ class Callers {
 
 void require_partition(const Certified& r, double outside) {
   const double error = r.measures.mass.empty() ? 0 : r.measures.relative_error();
-  const double usual = r.float32 ? partition_float : partition_double;
+  const double usual = r.float32 ? certified_float : certified_double;
   if (error <= usual) return;
   const double reach = std::sqrt(3.0) * (extent_of(r.domain).longest() + outside);
   double tolerance = partition_tolerance(r.domain.mesh(), usual, reach);
@@ -81,8 +81,8 @@ void require_partition(const Certified& r, double outside) {
     tolerance += static_cast<double>(slanted_area(r.geometry(), r.domain.mesh(), Callers(r).rounding())) /
                  r.measures.domain_measure;
   if (error <= tolerance) return;
-  refuse("the cells measure " + digits(r.measures.total()) + " together, the domain " +
-         digits(r.measures.domain_measure));
+  refuse_result("the cells measure " + digits(r.measures.total()) + " together, the domain " +
+                digits(r.measures.domain_measure));
 }
 
 /// Refuses masses, second moments and centroids that no cell of the domain can have; names the first such
@@ -105,8 +105,8 @@ void require_numbers(const Certified& r, double outside) {
     return false;
   });
   if (wrong < r.measures.mass.size())
-    refuse("seed " + std::to_string(wrong) + " has the mass " + digits(r.measures.mass[wrong]) +
-           " or a centroid that no cell of the domain has");
+    refuse_result("seed " + std::to_string(wrong) + " has the mass " + digits(r.measures.mass[wrong]) +
+                  " or a centroid that no cell of the domain has");
 }
 
 void require_symmetry(const Certified& r, double outside) {
@@ -117,7 +117,7 @@ void require_symmetry(const Certified& r, double outside) {
   if (r.adjacency->asymmetry <= largest * (r.float32 ? asymmetry_float : asymmetry_double) + rounding) return;
   if (r.adjacency->asymmetry <= allowed_asymmetry(*r.adjacency, &r.domain.mesh(), Callers(r).rounding()))
     return;
-  refuse(text_of_asymmetry(*r.adjacency));
+  refuse_result(text_of_asymmetry(*r.adjacency));
 }
 
 struct Power {
@@ -186,10 +186,10 @@ void require_owners(const Certified& r) {
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const std::size_t i = r.owners.input[owner[k]];
     if (r.measures.status[i] == SeedStatus::ok) continue;
-    refuse("seed " + std::to_string(i) + " has no cell, but owns the point (" +
-           digits(static_cast<double>(samples[k].point[0])) + ", " +
-           digits(static_cast<double>(samples[k].point[1])) + ", " +
-           digits(static_cast<double>(samples[k].point[2])) + ")");
+    refuse_result("seed " + std::to_string(i) + " has no cell, but owns the point (" +
+                  digits(static_cast<double>(samples[k].point[0])) + ", " +
+                  digits(static_cast<double>(samples[k].point[1])) + ", " +
+                  digits(static_cast<double>(samples[k].point[2])) + ")");
   }
 }
 

@@ -10,7 +10,7 @@
 namespace powercell {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_saved(const std::string& what) {
   throw Error(ErrorCode::invalid_argument, what);
 }
 
@@ -27,16 +27,16 @@ void require_fit(const SavedDiagram& saved) {
   const bool volume = saved.kind == DomainKind::volume;
   if (saved.seeds.dimension != static_cast<int>(d) || saved.seeds.positions.size() != n * d ||
       (!saved.seeds.weights.empty() && saved.seeds.weights.size() != n))
-    refuse("the seeds have not the dimension of the domain, or not all coordinates or weights");
+    refuse_saved("the seeds have not the dimension of the domain, or not all coordinates or weights");
   if (saved.measures.dimension != static_cast<int>(d) || saved.measures.mass.size() != n ||
       saved.measures.status.size() != n ||
       (!saved.measures.centroid.empty() && saved.measures.centroid.size() != n * d))
-    refuse("the measures are not those of " + std::to_string(n) + " seeds");
+    refuse_saved("the measures are not those of " + std::to_string(n) + " seeds");
   if (cells.dimension != static_cast<int>(d) || cells.cell_dimension != (volume ? 3 : 2) ||
       !is_offset(cells.vertex_offset, n, cells.vertices.size() / d) ||
       !is_offset(cells.face_offset, n, faces) || !is_offset(cells.loop_offset, faces, cells.loop.size()) ||
       (volume ? cells.face_border.size() != faces : cells.edge_border.size() != cells.loop.size()))
-    refuse("the arrays of the cells differ in length");
+    refuse_saved("the arrays of the cells differ in length");
   const std::vector<Border>& border = volume ? cells.face_border : cells.edge_border;
   for (std::size_t i = 0; i < n; ++i)
     for (std::uint64_t f = cells.face_offset[i]; f < cells.face_offset[i + 1]; ++f) {
@@ -44,13 +44,13 @@ void require_fit(const SavedDiagram& saved) {
       const auto name = [&] {
         return "face " + std::to_string(f - cells.face_offset[i]) + " of cell " + std::to_string(i);
       };
-      if (end - begin < 3) refuse(name() + " has fewer than 3 corners");
+      if (end - begin < 3) refuse_saved(name() + " has fewer than 3 corners");
       for (std::uint64_t e = begin; e < end; ++e)
         if (cells.loop[e] >= cells.vertex_offset[i + 1] - cells.vertex_offset[i])
-          refuse(name() + " has a corner that is not a vertex of the cell");
+          refuse_saved(name() + " has a corner that is not a vertex of the cell");
       for (std::uint64_t b = volume ? f : begin; b < (volume ? f + 1 : end); ++b)
         if (border[b].kind == Border::Kind::wall && border[b].index >= n)
-          refuse(name() + " borders on a seed that does not exist");
+          refuse_saved(name() + " borders on a seed that does not exist");
     }
 }
 

@@ -92,7 +92,7 @@ Adjacency both_sides(const Rows& rows, const std::vector<double>& value) {
 
 }  // namespace
 
-std::vector<Moments> cell_moments(const Cells& cells, const Box& box, const MakeIntegrator& make,
+std::vector<Moments> cell_moments(const Cells& cells, const DomainBox& box, const MakeIntegrator& make,
                                   int threads) {
   std::vector<Moments> moments(cells.cell_count());
   for_cells(moments.size(), make, threads, [&](PieceIntegrator& integrator, std::size_t i) {
@@ -103,7 +103,7 @@ std::vector<Moments> cell_moments(const Cells& cells, const Box& box, const Make
   return moments;
 }
 
-Adjacency wall_integrals(const Cells& cells, const Box& box, std::span<const SeedStatus> status,
+Adjacency wall_integrals(const Cells& cells, const DomainBox& box, std::span<const SeedStatus> status,
                          const MakeIntegrator& make, int threads) {
   const Rows rows(cells, status);
   std::vector<double> value(rows.neighbor().size(), 0.0);

@@ -78,7 +78,7 @@ GeometricDensity::Summary GeometricDensity::summary(const Domain& domain, int th
     const auto make = [&] {
       return integrator(domain, {tolerance, negligible, resolution, extra_depth, jumps});
     };
-    return cell_moments(regions, Box(domain), make, threads);
+    return cell_moments(regions, DomainBox(domain), make, threads);
   };
   // A rough integral gives the mean density, hence what is negligible, and the extent of the density; a
   // second one shows whether it jumps. Small jumps are found at full tolerance only.
@@ -108,7 +108,7 @@ std::vector<double> GeometricDensity::masses(const Domain& domain, const Cells& 
                                              const Accuracy& accuracy, int threads) const {
   std::vector<double> result;
   for (const Moments& m : cell_moments(
-           cells, Box(domain), [&] { return integrator(domain, accuracy); }, threads))
+           cells, DomainBox(domain), [&] { return integrator(domain, accuracy); }, threads))
     result.push_back(m.mass);
   return result;
 }
@@ -122,7 +122,7 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
   };
   const Cells& cells = diagram.cells();
   const std::vector<double> seeds = diagram.positions();
-  const std::vector<Moments> moments = cell_moments(cells, Box(domain), make, options.threads);
+  const std::vector<Moments> moments = cell_moments(cells, DomainBox(domain), make, options.threads);
 
   DensityIntegrals result;
   const auto d = static_cast<std::size_t>(cells.dimension);
@@ -144,7 +144,7 @@ DensityIntegrals GeometricDensity::integrate(Diagram& diagram, const Integration
     result.quadrature_error = std::max(result.quadrature_error, error);
   }
   if (options.walls && (!options.walls_if || options.walls_if(result.mass)))
-    result.walls = wall_integrals(cells, Box(domain), result.status, make, options.threads);
+    result.walls = wall_integrals(cells, DomainBox(domain), result.status, make, options.threads);
   return result;
 }
 

@@ -58,7 +58,7 @@ std::array<Part, 2> halves(const Part& part) {
 std::vector<Part> simplices_of(const Domain& domain) {
   const RegionsView mesh = domain.regions();
   const Cells cells = region_cells(mesh);
-  const Box box(domain);
+  const DomainBox box(domain);
   std::vector<Part> parts;
   const auto add = [&](std::uint32_t region, std::size_t corners, const std::array<Point, 4>& corner) {
     Part part{region, corners, corner};

@@ -22,9 +22,9 @@ struct Moments {
 };
 
 /// The bounding box of a domain; in 2D the third coordinates are 0.
-struct Box {
+struct DomainBox {
   Point low{}, high{};
-  explicit Box(const Domain& domain) : low(domain.low()), high(domain.high()) {}
+  explicit DomainBox(const Domain& domain) : low(domain.low()), high(domain.high()) {}
 };
 
 /// View of piece `index` of some cells, with its vertices clamped to the box: if a seed is very far away, the
@@ -32,7 +32,7 @@ struct Box {
 /// integrate.
 class Piece {
  public:
-  Piece(const Cells& cells, const Box& box, std::uint64_t index)
+  Piece(const Cells& cells, const DomainBox& box, std::uint64_t index)
       : cells_(cells),
         box_(box),
         first_(cells.vertex_offset[index]),
@@ -67,7 +67,7 @@ class Piece {
   double within(double x, std::size_t axis) const { return std::clamp(x, box_.low[axis], box_.high[axis]); }
 
   const Cells& cells_;
-  const Box& box_;
+  const DomainBox& box_;
   std::uint64_t first_, end_, first_face_, end_face_;
   std::uint32_t region_;
 };

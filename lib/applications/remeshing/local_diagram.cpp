@@ -6,7 +6,7 @@
 namespace powercell::remeshing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 double root(double square) {
   return square > 0 ? std::sqrt(square) : 0;
@@ -88,7 +88,7 @@ void LocalDiagram::finish() {
   for (const std::uint32_t i : changed_) {
     is_changed_[i] = 0;
     Cell& cell = cells_[i];
-    cell.reach = -infinity;
+    cell.reach = -unbounded;
     for (const std::uint32_t p : cell.pieces)
       for (const Corner& corner : pieces_[p].ring) cell.reach = std::max(cell.reach, power(i, corner.at));
     most_reach_ = std::max(most_reach_, cell.reach);
@@ -96,7 +96,7 @@ void LocalDiagram::finish() {
   // The bound only grows, so it is recomputed from time to time.
   if (++since_measured_ < std::max<std::size_t>(alive() / 4, 1)) return;
   since_measured_ = 0;
-  most_reach_ = -infinity;
+  most_reach_ = -unbounded;
   for (const Cell& cell : cells_) most_reach_ = std::max(most_reach_, cell.reach);
 }
 
@@ -200,11 +200,11 @@ std::vector<std::uint32_t> LocalDiagram::heirs(std::uint32_t seed,
                                                const std::vector<std::uint32_t>& pieces) const {
   const std::vector<std::uint32_t> beside = neighbors(seed);
   std::vector<std::uint32_t> result = beside;  // included whatever the rounding of their distances
-  Vec low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  double bound = -infinity;
+  Vec low{unbounded, unbounded, unbounded}, high{-unbounded, -unbounded, -unbounded};
+  double bound = -unbounded;
   for (const std::uint32_t p : pieces)
     for (const Corner& corner : pieces_[p].ring) {
-      double least = infinity;
+      double least = unbounded;
       for (const std::uint32_t j : beside) least = std::min(least, power(j, corner.at));
       bound = std::max(bound, least);
       const Vec x = corner.at;

@@ -13,7 +13,7 @@ constexpr double first_factor = 4, most_factor = 16, least_factor = 1.1;
 constexpr std::size_t few_diagrams = 8, many_diagrams = 16;
 constexpr double ready = 0.1;  // min m_i / v_i from which damped Newton takes over
 // The uniform density is dropped when its mass is this share of the smallest target mass, or of all mass.
-constexpr double of_smallest = 1e-3, least_share = 1e-30;
+constexpr double of_smallest = 1e-3, least_part = 1e-30;
 
 double uniform_share(double ratio) {
   return 1 / (1 + ratio);
@@ -51,7 +51,7 @@ bool drop_uniform(SolveContext& context, const Vector& weights, double ratio, It
   Iterate plain = context.evaluator().evaluate(weights);
   context.keep_best(plain);
   const bool good = plain.empty == 0 && plain.least(target) >= ready;
-  if (good || uniform_share(ratio) < std::max(least_share, of_smallest * target.minCoeff() / target.sum())) {
+  if (good || uniform_share(ratio) < std::max(least_part, of_smallest * target.minCoeff() / target.sum())) {
     at = std::move(plain);
     return true;
   }

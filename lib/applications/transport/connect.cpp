@@ -9,7 +9,7 @@
 namespace powercell {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double no_distance = std::numeric_limits<double>::infinity();
 // A cell keeps this part of its mass, or of its target, when another group takes from it.
 constexpr double kept = 0.5;
 // Several groups may each take this part of one cell: they hardly ever take the same.
@@ -91,7 +91,7 @@ class Raising {
   std::span<const double> weights() const { return {given_.data(), mass_.size()}; }
 
   bool lacks_mass(std::uint32_t group) const {
-    double least = infinite;
+    double least = no_distance;
     for (const std::uint32_t i : groups_.members[group])
       least = std::min(least, target_[static_cast<Eigen::Index>(i)]);
     return need_[group] > 0.1 * tolerance_ * least;
@@ -100,7 +100,7 @@ class Raising {
   /// Per vertex the amount by which the group must be raised to own it.
   std::vector<double> thresholds(std::uint32_t group) const {
     const PowerTree tree(positions_, weights(), d_, groups_.members[group]);
-    std::vector<double> result(holder_.size(), infinite);
+    std::vector<double> result(holder_.size(), no_distance);
     for (std::size_t v = 0; v < result.size(); ++v)
       if (holder_[v] != group) result[v] = tree.least(simplices_.vertex[v]) - owner_power_[v];
     return result;
@@ -133,16 +133,16 @@ class Raising {
 
   /// The largest amount that does not take too much, or the least that takes anything.
   double amount(std::uint32_t group, const std::vector<double>& threshold) {
-    double low = infinite, high = -infinite;
+    double low = no_distance, high = -no_distance;
     for (const CellSimplex& s : simplices_.simplex) {
       if (groups_.of[s.cell] == group || !(s.mass > 0)) continue;
       for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) {
         const double value = threshold[s.vertex[k]];
         low = std::min(low, value);
-        if (value < infinite) high = std::max(high, value);
+        if (value < no_distance) high = std::max(high, value);
       }
     }
-    if (!(low < high)) return infinite;
+    if (!(low < high)) return no_distance;
     const double contact = low;
     double step = (high - low) * 1e-9;
     while (low + step < high && !takes_too_much(group, threshold, low + step)) {
@@ -160,7 +160,7 @@ class Raising {
   bool raise(std::uint32_t group) {
     const std::vector<double> threshold = thresholds(group);
     const double by = amount(group, threshold);
-    if (by == infinite) return false;
+    if (by == no_distance) return false;
     takes_too_much(group, threshold, by);
     // What earlier groups took from a cell is not known in detail: another one might take the same again.
     for (std::size_t j = 0; j < mass_.size(); ++j)

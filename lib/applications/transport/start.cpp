@@ -15,7 +15,7 @@ constexpr int most_attempts = 4;
 
 using Place = Eigen::Vector3d;  // third coordinate 0 in 2D
 
-Place place(std::span<const double> positions, std::size_t i, std::size_t d) {
+Place place_of(std::span<const double> positions, std::size_t i, std::size_t d) {
   Place p = Place::Zero();
   for (std::size_t c = 0; c < d; ++c) p[static_cast<Eigen::Index>(c)] = positions[i * d + c];
   return p;
@@ -34,7 +34,7 @@ Vector weights_of_moved_seeds(std::span<const double> positions, std::size_t d, 
   const Eigen::Matrix3d shrunk = Eigen::Matrix3d::Identity() - move.linear;
   const Place away = move.middle - move.center;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    const Place u = place(positions, static_cast<std::size_t>(i), d) - move.middle;
+    const Place u = place_of(positions, static_cast<std::size_t>(i), d) - move.middle;
     weights[i] = u.dot(shrunk * u + 2 * away);
   }
   return weights;
@@ -73,7 +73,7 @@ Normal normal_of(std::span<const double> positions, std::size_t d, const Vector&
   const double sum = mass.sum();
   const auto each = [&](const auto& body) {
     for (Eigen::Index i = 0; i < mass.size(); ++i)
-      if (mass[i] > 0) body(place(positions, static_cast<std::size_t>(i), d), mass[i] / sum);
+      if (mass[i] > 0) body(place_of(positions, static_cast<std::size_t>(i), d), mass[i] / sum);
   };
   each([&](const Place& p, double share) { normal.mean += share * p; });
   each([&](const Place& p, double share) {
@@ -90,7 +90,7 @@ Normal normal_of(const Iterate& at, std::span<const double> positions, std::size
   for (Eigen::Index i = 0; i < at.mass().size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!(at.mass()[i] > 0)) continue;
-    const Place to_seed = place(at.cells.centroid, k, d) - place(positions, k, d);
+    const Place to_seed = place_of(at.cells.centroid, k, d) - place_of(positions, k, d);
     within += std::max(0.0, at.cells.second_moment[k] - at.mass()[i] * to_seed.squaredNorm());
   }
   const auto size = static_cast<Eigen::Index>(d);
