@@ -177,7 +177,7 @@ TEST_CASE("errors become a status and a message, and the handle stays usable") {
   CHECK(pc_domain_surface(corner, 3, out_of_range, 1, &domain) == PC_INVALID_DOMAIN);
   CHECK(domain == nullptr);
   pc_options options;
-  pc_options_init(&options);
+  pc_options_init(&options, sizeof options);
   options.precision = static_cast<pc_precision>(17);
   pc_diagram* diagram = nullptr;
   CHECK(pc_diagram_create(shared_device(), f.domain.handle, &options, &diagram) == PC_INVALID_ARGUMENT);
@@ -206,7 +206,7 @@ TEST_CASE("the progress callback can stop a computation") {
   Domain domain;
   Diagram diagram;
   pc_options options;
-  pc_options_init(&options);
+  pc_options_init(&options, sizeof options);
   int calls = 0;
   options.progress = [](double, void* user) { return ++*static_cast<int*>(user) > 0 ? 0 : 1; };
   options.progress_user = &calls;

@@ -79,7 +79,7 @@ class Session {
     pc_diagram_destroy(diagram_);
     diagram_ = nullptr;
     pc_options options;
-    pc_options_init(&options);
+    pc_options_init(&options, sizeof options);
     const std::size_t choice = input_.below(12), rare = input_.below(32);
     options.precision = static_cast<pc_precision>(choice % 3);
     options.certify = choice / 3 % 2 == 1;

@@ -64,8 +64,10 @@ for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | 
   echo "#include <$header>" | ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ \
     -I "$prefix/include" - || { echo "header $header does not compile alone" >&2; exit 1; }
 done
-echo "#include <powercell.h>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
-  -I "$prefix/include" -
+for header in $(cd "$prefix/include" && find . -name '*.h' | sed 's|^\./||' | sort); do
+  echo "#include <$header>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
+    -I "$prefix/include" - || { echo "header $header does not compile alone" >&2; exit 1; }
+done
 
 step "the installed tool"
 "$prefix/bin/powercell" --version

@@ -1,0 +1,90 @@
+#include "lib/c_api/handles.hpp"
+
+namespace powercell::c_api {
+namespace {
+
+Ring ring(const double* points, std::size_t first, std::size_t last) {
+  require(first <= last, "ring_offset must not decrease");
+  Ring result;
+  for (std::size_t i = first; i < last; ++i) result.push_back({points[2 * i], points[2 * i + 1]});
+  return result;
+}
+
+Domain polygon(const double* points, const size_t* ring_offset, const size_t* part_offset, size_t parts) {
+  require(points && ring_offset && part_offset, "points, ring_offset and part_offset must not be NULL");
+  std::vector<PolygonPart> polygon(parts);
+  for (size_t p = 0; p < parts; ++p) {
+    require(part_offset[p] < part_offset[p + 1], "each part needs at least its outer ring");
+    for (size_t r = part_offset[p]; r < part_offset[p + 1]; ++r) {
+      Ring next = ring(points, ring_offset[r], ring_offset[r + 1]);
+      if (r == part_offset[p])
+        polygon[p].outer = std::move(next);
+      else
+        polygon[p].holes.push_back(std::move(next));
+    }
+  }
+  return Domain::polygon(polygon);
+}
+
+/// A function of Domain that takes vertices and elements of `corners` corners.
+template <Domain (*make)(std::span<const double>, std::span<const std::uint32_t>)>
+pc_status mesh(const double* vertices, size_t vertex_count, const uint32_t* elements, size_t element_count,
+               size_t corners, const char* name, pc_domain** domain) {
+  return guarded([&] {
+    result_at(domain);
+    hand_over(domain, make(rows_view(vertices, vertex_count, 3, "vertices"),
+                           rows_view(elements, element_count, corners, name)));
+  });
+}
+
+std::size_t coordinates(int dimension) {
+  require(dimension == 2 || dimension == 3, "dimension must be 2 or 3");
+  return static_cast<std::size_t>(dimension);
+}
+
+}  // namespace
+
+extern "C" {
+
+pc_status pc_domain_polygon(const double* points, const size_t* ring_offset, const size_t* part_offset,
+                            size_t parts, pc_domain** domain) {
+  return guarded([&] {
+    result_at(domain);
+    hand_over(domain, polygon(points, ring_offset, part_offset, parts));
+  });
+}
+
+pc_status pc_domain_surface(const double* vertices, size_t vertex_count, const uint32_t* triangles,
+                            size_t triangle_count, pc_domain** domain) {
+  return mesh<&Domain::surface>(vertices, vertex_count, triangles, triangle_count, 3, "triangles", domain);
+}
+
+pc_status pc_domain_solid(const double* vertices, size_t vertex_count, const uint32_t* triangles,
+                          size_t triangle_count, pc_domain** domain) {
+  return mesh<&Domain::solid>(vertices, vertex_count, triangles, triangle_count, 3, "triangles", domain);
+}
+
+pc_status pc_domain_volume(const double* vertices, size_t vertex_count, const uint32_t* tetrahedra,
+                           size_t tetrahedron_count, pc_domain** domain) {
+  return mesh<&Domain::volume>(vertices, vertex_count, tetrahedra, tetrahedron_count, 4, "tetrahedra",
+                               domain);
+}
+
+pc_status pc_domain_box(const double* low, const double* high, int dimension, pc_domain** domain) {
+  return guarded([&] {
+    result_at(domain);
+    const std::size_t d = coordinates(dimension);
+    hand_over(domain, Domain::box(view(low, d, "low"), view(high, d, "high")));
+  });
+}
+
+void pc_domain_destroy(pc_domain* domain) {
+  delete domain;
+}
+
+pc_status pc_domain_measure(const pc_domain* domain, double* measure) {
+  return guarded([&] { result_at(measure) = domain_in(domain).measure(); });
+}
+
+}  // extern "C"
+}  // namespace powercell::c_api
