@@ -37,5 +37,9 @@
 #include <powercell/c/diagram.h>
 #include <powercell/c/domain.h>
 #include <powercell/c/options.h>
+#include <powercell/c/results.h>
+#include <powercell/c/shapes.h>
+#include <powercell/c/triangulation.h>
+#include <powercell/c/verify.h>
 
 #endif

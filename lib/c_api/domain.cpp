@@ -1,3 +1,5 @@
+#include <powercell/regions.hpp>
+
 #include "lib/c_api/handles.hpp"
 
 namespace powercell::c_api {
@@ -37,11 +39,6 @@ pc_status mesh(const double* vertices, size_t vertex_count, const uint32_t* elem
   });
 }
 
-std::size_t coordinates(int dimension) {
-  require(dimension == 2 || dimension == 3, "dimension must be 2 or 3");
-  return static_cast<std::size_t>(dimension);
-}
-
 }  // namespace
 
 extern "C" {
@@ -78,12 +75,64 @@ pc_status pc_domain_box(const double* low, const double* high, int dimension, pc
   });
 }
 
+pc_status pc_domain_periodic_box(const double* low, const double* high, const int* periodic, int dimension,
+                                 pc_domain** domain) {
+  return guarded([&] {
+    result_at(domain);
+    const std::size_t d = coordinates(dimension);
+    bool axes[3] = {};
+    for (std::size_t k = 0; k < d; ++k) axes[k] = !periodic || periodic[k] != 0;
+    hand_over(domain, Domain::periodic_box(view(low, d, "low"), view(high, d, "high"), std::span(axes, d)));
+  });
+}
+
+pc_status pc_domain_lattice(const double* vectors, const double* origin, int dimension, pc_domain** domain) {
+  return guarded([&] {
+    result_at(domain);
+    const std::size_t d = coordinates(dimension);
+    hand_over(domain, Domain::lattice(view(vectors, d * d, "vectors"), optional_view(origin, d)));
+  });
+}
+
 void pc_domain_destroy(pc_domain* domain) {
   delete domain;
 }
 
 pc_status pc_domain_measure(const pc_domain* domain, double* measure) {
   return guarded([&] { result_at(measure) = domain_in(domain).measure(); });
+}
+
+pc_status pc_domain_info_view(const pc_domain* domain, const pc_domain_info** info) {
+  return guarded([&] { result_at(info) = &checked(domain, "domain").info; });
+}
+
+pc_status pc_domain_report_view(const pc_domain* domain, const pc_mesh_report** report) {
+  return guarded([&] { result_at(report) = &checked(domain, "domain").report; });
+}
+
+pc_status pc_domain_regions_view(const pc_domain* domain, const pc_regions** regions) {
+  return guarded([&] { result_at(regions) = &checked(domain, "domain").regions; });
+}
+
+pc_status pc_domain_wrap(const pc_domain* domain, const double* positions, size_t count, double* wrapped) {
+  return guarded([&] {
+    const Domain& in = domain_in(domain);
+    if (count != 0) result_at(wrapped);
+    copy_out(in.wrapped(positions_of(in.dimension(), positions, count)), wrapped);
+  });
+}
+
+pc_status pc_domain_random_points(const pc_domain* domain, size_t count, uint64_t random_seed,
+                                  uint32_t* region, double* points) {
+  return guarded([&] {
+    const auto d = static_cast<std::size_t>(domain_in(domain).dimension());
+    if (count != 0) result_at(points);
+    const std::vector<RegionPoint> drawn = random_points(domain_in(domain), count, random_seed);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      if (region) region[i] = drawn[i].region;
+      std::copy_n(drawn[i].point.begin(), d, points + i * d);
+    }
+  });
 }
 
 }  // extern "C"
