@@ -33,12 +33,18 @@
 #define POWERCELL_H
 
 #include <powercell/c/base.h>
+#include <powercell/c/density.h>
 #include <powercell/c/device.h>
 #include <powercell/c/diagram.h>
 #include <powercell/c/domain.h>
 #include <powercell/c/options.h>
+#include <powercell/c/point_sets.h>
+#include <powercell/c/remeshing.h>
 #include <powercell/c/results.h>
+#include <powercell/c/sampling.h>
 #include <powercell/c/shapes.h>
+#include <powercell/c/transport.h>
+#include <powercell/c/treemap.h>
 #include <powercell/c/triangulation.h>
 #include <powercell/c/verify.h>
 

@@ -44,7 +44,10 @@ one_way() {
   one_way kernels '' "device_rates primitives" $kernels
 }
 inner=$(echo "$core" | sed 's/^base //' | tr ' ' '|')
-complain lib/applications "lib/($inner|c_api|device_rates)/" "the applications are built on the public headers and lib/base"
+complain lib/applications "lib/($inner|device_rates)/" "the applications are built on the public headers and lib/base"
+for folder in $applications; do
+  [ "$folder" = c_api ] || complain "lib/applications/$folder" "lib/c_api/" "the applications are below the C interface"
+done
 complain lib/device_rates "lib/(primitives|domain|regions|seeds|scene|neighbors|clip|pairs|solid|integrate|collect|verify|diagram)/" \
   "lib/device_rates may include lib/cl only"
 complain lib/c_api "lib/([abd-z]|c[^_])" "the C interface is built on the public headers"

@@ -23,6 +23,11 @@ pc_status fail(pc_status status, const char* message) noexcept {
   return status;
 }
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 const char* pc_version(void) {
@@ -54,4 +59,3 @@ pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user) {
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

@@ -39,6 +39,11 @@ pc_device_info DeviceText::view() const {
   return to;
 }
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 const char* pc_device_kind_name(pc_device_kind kind) {
@@ -108,4 +113,3 @@ pc_status pc_device_rates(const pc_device* device, pc_precision precision, doubl
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

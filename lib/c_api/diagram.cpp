@@ -20,6 +20,11 @@ void copy(const Measures& measures, double* mass, double* centroid, double* seco
 
 }  // namespace
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 pc_status pc_diagram_create(const pc_device* device, const pc_domain* domain, const pc_options* options,
@@ -135,4 +140,3 @@ pc_status pc_measure(const pc_device* device, const pc_domain* domain, const dou
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

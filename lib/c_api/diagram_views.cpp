@@ -19,6 +19,11 @@ pc_status view_result(pc_diagram* diagram, const Owned& (Diagram::*get)(), View 
 
 }  // namespace
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 pc_status pc_diagram_measures_view(pc_diagram* diagram, const pc_measures** measures) {
@@ -64,4 +69,3 @@ void pc_results_destroy(pc_results* results) {
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

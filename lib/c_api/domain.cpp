@@ -41,6 +41,11 @@ pc_status mesh(const double* vertices, size_t vertex_count, const uint32_t* elem
 
 }  // namespace
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 pc_status pc_domain_polygon(const double* points, const size_t* ring_offset, const size_t* part_offset,
@@ -136,4 +141,3 @@ pc_status pc_domain_random_points(const pc_domain* domain, size_t count, uint64_
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

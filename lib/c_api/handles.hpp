@@ -52,7 +52,7 @@ struct POWERCELL_API pc_domain {
 };
 
 struct pc_diagram {
-  explicit pc_diagram(powercell::Diagram made) : own(std::move(made)), diagram(&*own) {}
+  explicit pc_diagram(powercell::Diagram&& made) : own(std::move(made)), diagram(&*own) {}
   /// Of another handle, which keeps the diagram.
   explicit pc_diagram(powercell::Diagram& of_another) : diagram(&of_another) {}
 

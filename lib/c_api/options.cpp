@@ -33,8 +33,11 @@ Options options_of(const pc_options* options) {
   return to;
 }
 
-extern "C" pc_status pc_options_init(pc_options* options, size_t struct_size) {
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
+pc_status pc_options_init(pc_options* options, size_t struct_size) {
   return init(options, struct_size, defaults(), "pc_options");
 }
-
-}  // namespace powercell::c_api

@@ -22,6 +22,11 @@ pc_status triangles(TriangleMesh (*shape)(int), int resolution, const pc_triangl
 
 }  // namespace
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 pc_status pc_shape_disk(int segments, double* points) {
@@ -60,4 +65,3 @@ void pc_tetrahedral_mesh_destroy(const pc_tetrahedral_mesh* mesh) {
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

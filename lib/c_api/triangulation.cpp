@@ -7,7 +7,9 @@
 #include "lib/c_api/options.hpp"
 #include "lib/c_api/results.hpp"
 
-namespace powercell::c_api {
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 pc_status pc_triangulation_create(const pc_device* device, int dimension, const double* positions,
@@ -27,4 +29,3 @@ void pc_triangulation_destroy(const pc_triangulation* triangulation) {
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api

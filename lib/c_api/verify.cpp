@@ -37,6 +37,11 @@ void fill(pc_law_checks& to, Checks& from) {
 
 }  // namespace
 
+}  // namespace powercell::c_api
+
+using namespace powercell;
+using namespace powercell::c_api;
+
 extern "C" {
 
 pc_status pc_verify_options_init(pc_verify_options* options, size_t struct_size) {
@@ -63,4 +68,3 @@ void pc_law_checks_destroy(const pc_law_checks* checks) {
 }
 
 }  // extern "C"
-}  // namespace powercell::c_api
