@@ -1,18 +1,8 @@
 /* Cells and neighbours of a few weighted seeds in the unit cube, from C. */
 #include <math.h>
-#include <powercell.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-/* Prints the library's message and returns from main if a call fails. */
-#define CHECK(call)                                                               \
-  do {                                                                            \
-    pc_status check_status = (call);                                              \
-    if (check_status != PC_OK) {                                                  \
-      fprintf(stderr, "%s: %s\n", pc_status_name(check_status), pc_last_error()); \
-      return 1;                                                                   \
-    }                                                                             \
-  } while (0)
+#include "c_check.h"
 
 int main(void) {
   const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};

@@ -37,13 +37,15 @@ export PKG_CONFIG_PATH
 cmake -S "$source/examples" -B "$work/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$work/log" ||
   { cat "$work/log"; exit 1; }
 cmake --build "$work/examples"
-for program in host_cpp host_c own_queue; do
+for program in host_cpp host_c own_queue c_cells c_periodic c_own_queue c_transport c_sampling c_remeshing c_treemap; do
   step "run $program"
   "$work/examples/$program"
 done
 # A program that only makes diagrams must not link the applications or their dependencies.
-! ldd "$work/examples/host_cpp" | grep -E 'powercell_applications|muparser' ||
-  { echo "host_cpp links more than the core" >&2; exit 1; }
+for program in host_cpp c_cells; do
+  ! ldd "$work/examples/$program" | grep -E 'powercell_applications|muparser' ||
+    { echo "$program links more than the core" >&2; exit 1; }
+done
 
 step "pkg-config"
 flags="$(pkg-config --cflags --libs powercell)"
@@ -64,8 +66,10 @@ for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | 
   echo "#include <$header>" | ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ \
     -I "$prefix/include" - || { echo "header $header does not compile alone" >&2; exit 1; }
 done
-echo "#include <powercell.h>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
-  -I "$prefix/include" -
+for header in $(cd "$prefix/include" && find . -name '*.h' | sed 's|^\./||' | sort); do
+  echo "#include <$header>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
+    -I "$prefix/include" - || { echo "header $header does not compile alone" >&2; exit 1; }
+done
 
 step "the installed tool"
 "$prefix/bin/powercell" --version

@@ -1,48 +1,12 @@
 // The C interface: correct results, and errors as a status, never an exception or a crash.
-#include <doctest/doctest.h>
-#include <powercell.h>
-
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <powercell/powercell.hpp>
-#include <string>
-#include <vector>
 
-namespace {
+#include "tests/c_api/handles.hpp"
 
-constexpr double low[3] = {0, 0, 0};
-constexpr double high[3] = {2, 1, 1};
-
-// Owns a handle.
-template <class Handle, void (*Destroy)(Handle*)>
-struct Owned {
-  Handle* handle = nullptr;
-  ~Owned() { Destroy(handle); }
-};
-using Device = Owned<pc_device, pc_device_destroy>;
-using Domain = Owned<pc_domain, pc_domain_destroy>;
-using Diagram = Owned<pc_diagram, pc_diagram_destroy>;
-
-pc_device* shared_device() {
-  static Device device;
-  if (!device.handle) REQUIRE(pc_device_create(nullptr, &device.handle) == PC_OK);
-  return device.handle;
-}
-
-// A diagram of four seeds in a 2 x 1 box, on a grid, so that each cell is a quarter.
-struct Fixture {
-  Domain domain;
-  Diagram diagram;
-  std::vector<double> positions = {0.5, 0.25, 1.5, 0.25, 0.5, 0.75, 1.5, 0.75};
-  Fixture() {
-    REQUIRE(pc_domain_box(low, high, 2, &domain.handle) == PC_OK);
-    REQUIRE(pc_diagram_create(shared_device(), domain.handle, nullptr, &diagram.handle) == PC_OK);
-    REQUIRE(pc_diagram_set_seeds(diagram.handle, positions.data(), nullptr, 4) == PC_OK);
-  }
-};
-
-}  // namespace
+using namespace powercell::c_api_test;
 
 TEST_CASE("every status has the name of its error code") {
   CHECK(std::string(pc_status_name(PC_OK)) == "ok");
@@ -55,7 +19,7 @@ TEST_CASE("every status has the name of its error code") {
 }
 
 TEST_CASE("measures of a grid are those of its rectangles, and each array is optional") {
-  Fixture f;
+  Grid f;
   size_t count = 0;
   REQUIRE(pc_diagram_size(f.diagram.handle, &count) == PC_OK);
   CHECK(count == 4);
@@ -74,7 +38,7 @@ TEST_CASE("measures of a grid are those of its rectangles, and each array is opt
 }
 
 TEST_CASE("adjacency is called for its length, then for its entries") {
-  Fixture f;
+  Grid f;
   size_t count = 0;
   REQUIRE(pc_diagram_adjacency(f.diagram.handle, nullptr, nullptr, nullptr, &count) == PC_OK);
   REQUIRE(count >= 8);
@@ -98,7 +62,7 @@ TEST_CASE("adjacency is called for its length, then for its entries") {
 }
 
 TEST_CASE("new weights move the walls, and a heavy seed hides the others") {
-  Fixture f;
+  Grid f;
   const double heavy[4] = {100, 0, 0, 0};
   REQUIRE(pc_diagram_set_weights(f.diagram.handle, heavy, 4) == PC_OK);
   std::vector<double> mass(4);
@@ -159,7 +123,7 @@ TEST_CASE("domains of every kind have the right measure") {
 }
 
 TEST_CASE("errors become a status and a message, and the handle stays usable") {
-  Fixture f;
+  Grid f;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double bad[4] = {0.5, 0.5, 1.5, nan};
   CHECK(pc_diagram_set_seeds(f.diagram.handle, bad, nullptr, 2) == PC_INVALID_SEED);
@@ -177,7 +141,7 @@ TEST_CASE("errors become a status and a message, and the handle stays usable") {
   CHECK(pc_domain_surface(corner, 3, out_of_range, 1, &domain) == PC_INVALID_DOMAIN);
   CHECK(domain == nullptr);
   pc_options options;
-  pc_options_init(&options);
+  pc_options_init(&options, sizeof options);
   options.precision = static_cast<pc_precision>(17);
   pc_diagram* diagram = nullptr;
   CHECK(pc_diagram_create(shared_device(), f.domain.handle, &options, &diagram) == PC_INVALID_ARGUMENT);
@@ -185,7 +149,7 @@ TEST_CASE("errors become a status and a message, and the handle stays usable") {
 }
 
 TEST_CASE("NULL handles and results are refused") {
-  Fixture f;
+  Grid f;
   size_t count = 0;
   CHECK(pc_device_create("", nullptr) == PC_INVALID_ARGUMENT);
   CHECK(pc_domain_box(low, high, 2, nullptr) == PC_INVALID_ARGUMENT);
@@ -206,7 +170,7 @@ TEST_CASE("the progress callback can stop a computation") {
   Domain domain;
   Diagram diagram;
   pc_options options;
-  pc_options_init(&options);
+  pc_options_init(&options, sizeof options);
   int calls = 0;
   options.progress = [](double, void* user) { return ++*static_cast<int*>(user) > 0 ? 0 : 1; };
   options.progress_user = &calls;

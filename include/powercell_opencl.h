@@ -1,0 +1,74 @@
+/** \file
+ * powercell for C programs with OpenCL objects of their own. The only C header that needs the OpenCL headers.
+ */
+#ifndef POWERCELL_OPENCL_H
+#define POWERCELL_OPENCL_H
+
+#ifndef CL_TARGET_OPENCL_VERSION
+#define CL_TARGET_OPENCL_VERSION 120
+#endif
+#include <CL/cl.h>
+#include <powercell/c/device.h>
+#include <powercell/c/domain.h>
+#include <powercell/c/options.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A device in the caller's context, on the caller's in-order queue. Both are retained until
+ * pc_device_destroy(). */
+POWERCELL_API pc_status pc_device_from_queue(cl_command_queue queue, pc_device** device);
+
+/** The state of a seed, as pc_device_diagram_enqueue() writes it: those of pc_seed_status, and two more. */
+typedef enum pc_device_seed_status {
+  PC_DEVICE_SEED_OK = 0,
+  PC_DEVICE_SEED_HIDDEN,
+  PC_DEVICE_SEED_DUPLICATE,
+  PC_DEVICE_SEED_INVALID,   /**< NaN, infinity or too large; it does not affect the others */
+  PC_DEVICE_SEED_UNFINISHED /**< only the host can compute its cell; the others are right */
+} pc_device_seed_status;
+
+/** Power diagrams from device memory to device memory, without a copy to the host. powercell::DeviceDiagram
+ * says which cells are left to the host. */
+typedef struct pc_device_diagram pc_device_diagram;
+
+/** Uploads the domain and builds the kernels; this waits. Periodic domains are PC_UNSUPPORTED.
+ * \param device   of pc_device_from_queue()
+ * \param options  NULL for the defaults. `precision` is that of the caller's arrays; `threads`,
+ *   `progress`, `decisions` and `certify` are ignored */
+POWERCELL_API pc_status pc_device_diagram_create(const pc_device* device, const pc_domain* domain,
+                                                 const pc_options* options, pc_device_diagram** diagram);
+POWERCELL_API void pc_device_diagram_destroy(pc_device_diagram* diagram);
+
+/** The precision as chosen: reals are cl_double for PC_FLOAT64, cl_float for PC_FLOAT32. */
+POWERCELL_API pc_status pc_device_diagram_precision(const pc_device_diagram* diagram,
+                                                    pc_precision* precision);
+/** Handles of the domain and the device that the diagram uses, for the caller to destroy. */
+POWERCELL_API pc_status pc_device_diagram_domain(const pc_device_diagram* diagram, pc_domain** domain);
+POWERCELL_API pc_status pc_device_diagram_device(const pc_device_diagram* diagram, pc_device** device);
+
+/** For domains of several convex regions: the room for candidate pairs of a seed and a region. Seeds whose
+ * pairs exceed it are unfinished. With 0, the default, there is room for all, and pc_device_diagram_enqueue()
+ * waits for the queue once to read their number. It waits in no other case. */
+POWERCELL_API pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32_t pairs);
+
+/** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context
+ * of the device and must not change between the wait list and `done`.
+ * \param positions  read: n x d reals, row-major
+ * \param weights    read: n reals; NULL means all zero
+ * \param n          at most 2^30; with 0 the buffers may be NULL
+ * \param measures   written: n x (2 + d) reals, row-major: mass, centroid, second moment about the
+ *   seed. 0, NaN..., 0 for hidden and duplicate seeds; all NaN for invalid and unfinished ones
+ * \param status     written: n cl_uint, each a pc_device_seed_status
+ * \param wait_count, wait_list  events that must be complete before the first command runs
+ * \param done       if not NULL: the event of the last command, for the caller to release */
+POWERCELL_API pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl_mem positions,
+                                                  cl_mem weights, uint32_t n, cl_mem measures, cl_mem status,
+                                                  cl_uint wait_count, const cl_event* wait_list,
+                                                  cl_event* done);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,119 @@
+// Diagrams from device memory to device memory, from C.
+#include <powercell_opencl.h>
+
+#include <cmath>
+
+#include "tests/c_api/handles.hpp"
+
+using namespace powercell::c_api_test;
+
+namespace {
+
+using DeviceDiagram = Owned<pc_device_diagram, pc_device_diagram_destroy>;
+
+/// A context and an in-order queue of the first device.
+struct Queue {
+  cl_context context = nullptr;
+  cl_command_queue queue = nullptr;
+  Queue() {
+    cl_platform_id platform = nullptr;
+    cl_device_id device = nullptr;
+    REQUIRE(clGetPlatformIDs(1, &platform, nullptr) == CL_SUCCESS);
+    REQUIRE(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, nullptr) == CL_SUCCESS);
+    context = clCreateContext(nullptr, 1, &device, nullptr, nullptr, nullptr);
+    REQUIRE(context);
+    queue = clCreateCommandQueue(context, device, 0, nullptr);
+    REQUIRE(queue);
+  }
+  Queue(const Queue&) = delete;
+  Queue& operator=(const Queue&) = delete;
+  ~Queue() {
+    clReleaseCommandQueue(queue);
+    clReleaseContext(context);
+  }
+  cl_mem buffer(std::size_t bytes) const {
+    return clCreateBuffer(context, CL_MEM_READ_WRITE, bytes, nullptr, nullptr);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
+  const Queue own;
+  Device device;
+  Domain domain;
+  DeviceDiagram diagram;
+  REQUIRE(pc_device_from_queue(own.queue, &device.handle) == PC_OK);
+  REQUIRE(pc_domain_box(low, high, 2, &domain.handle) == PC_OK);
+  pc_options options;
+  REQUIRE(pc_options_init(&options, sizeof options) == PC_OK);
+  options.precision = PC_FLOAT32;
+  REQUIRE(pc_device_diagram_create(device.handle, domain.handle, &options, &diagram.handle) == PC_OK);
+  pc_precision precision = PC_FLOAT64;
+  REQUIRE(pc_device_diagram_precision(diagram.handle, &precision) == PC_OK);
+  CHECK(precision == PC_FLOAT32);
+  REQUIRE(pc_device_diagram_set_pair_capacity(diagram.handle, 100) == PC_OK);
+  Domain same_domain;
+  Device same_device;
+  REQUIRE(pc_device_diagram_domain(diagram.handle, &same_domain.handle) == PC_OK);
+  REQUIRE(pc_device_diagram_device(diagram.handle, &same_device.handle) == PC_OK);
+  double measure = 0;
+  REQUIRE(pc_domain_measure(same_domain.handle, &measure) == PC_OK);
+  CHECK(measure == 2);
+  CHECK(std::string(pc_device_name(same_device.handle)) == pc_device_name(device.handle));
+
+  const cl_float positions[10] = {0.5F, 0.25F, 1.5F, 0.25F, 0.5F, 0.75F, 1.5F, 0.75F, NAN, 0};
+  const cl_mem seeds = own.buffer(sizeof positions), measures = own.buffer(5 * 4 * sizeof(cl_float)),
+               status = own.buffer(5 * sizeof(cl_uint));
+  cl_event ready = nullptr, done = nullptr;
+  REQUIRE(clEnqueueWriteBuffer(own.queue, seeds, CL_FALSE, 0, sizeof positions, positions, 0, nullptr,
+                               &ready) == CL_SUCCESS);
+  REQUIRE(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 5, measures, status, 1, &ready, &done) ==
+          PC_OK);
+  cl_float rows[20];
+  cl_uint states[5];
+  REQUIRE(clEnqueueReadBuffer(own.queue, measures, CL_TRUE, 0, sizeof rows, rows, 1, &done, nullptr) ==
+          CL_SUCCESS);
+  REQUIRE(clEnqueueReadBuffer(own.queue, status, CL_TRUE, 0, sizeof states, states, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  for (int i = 0; i < 4; ++i) {
+    CHECK(states[i] == PC_DEVICE_SEED_OK);
+    CHECK(rows[4 * i] == doctest::Approx(0.5).epsilon(1e-4));
+    CHECK(rows[4 * i + 1] == doctest::Approx(positions[2 * i]).epsilon(1e-4));
+  }
+  CHECK(states[4] == PC_DEVICE_SEED_INVALID);
+
+  CHECK(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 500, measures, status, 0, nullptr,
+                                  nullptr) == PC_INVALID_ARGUMENT);  // buffers too small
+  CHECK(pc_device_diagram_enqueue(diagram.handle, nullptr, nullptr, 5, measures, status, 0, nullptr,
+                                  nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 5, measures, status, 1, nullptr, nullptr) ==
+        PC_INVALID_ARGUMENT);
+  clReleaseEvent(ready);
+  clReleaseEvent(done);
+  for (cl_mem memory : {seeds, measures, status}) clReleaseMemObject(memory);
+}
+
+TEST_CASE("queues and diagrams that cannot be used are refused") {
+  const Queue own;
+  Device device;
+  pc_device* no_device = nullptr;
+  CHECK(pc_device_from_queue(nullptr, &no_device) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_from_queue(own.queue, nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(no_device == nullptr);
+  REQUIRE(pc_device_from_queue(own.queue, &device.handle) == PC_OK);
+  Domain periodic;
+  REQUIRE(pc_domain_periodic_box(low, high, nullptr, 2, &periodic.handle) == PC_OK);
+  pc_device_diagram* none = nullptr;
+  CHECK(pc_device_diagram_create(device.handle, periodic.handle, nullptr, &none) == PC_UNSUPPORTED);
+  CHECK(pc_device_diagram_create(nullptr, periodic.handle, nullptr, &none) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_create(device.handle, nullptr, nullptr, &none) == PC_INVALID_ARGUMENT);
+  CHECK(none == nullptr);
+  CHECK(pc_device_diagram_set_pair_capacity(nullptr, 1) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_precision(nullptr, nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_domain(nullptr, nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_device(nullptr, nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_enqueue(nullptr, nullptr, nullptr, 0, nullptr, nullptr, 0, nullptr, nullptr) ==
+        PC_INVALID_ARGUMENT);
+  pc_device_diagram_destroy(nullptr);
+}
