@@ -14,6 +14,7 @@ docs/coming_from.md run, those of others too, and must give the same volumes (be
 
 import argparse
 import importlib
+import itertools
 import json
 import os
 import pathlib
@@ -218,7 +219,7 @@ def main():
     pc.Diagram(pc.Domain.box([0, 0, 0], [1, 1, 1]), [[0.5] * 3]).compute()  # programs are built once
     print(f"{device.name}, {THREADS} threads; Python {platform.python_version()}; least of {arguments.rounds} rounds: seconds, processor seconds (ratio of the seconds to powercell's).", file=out)
     failures = coming_from.check()
-    for line in [*tables(peers, arguments), *abilities(peers)]:
+    for line in itertools.chain(tables(peers, arguments), abilities(peers)):
         print(line, file=out, flush=True)
     if reasons:
         print("\nNot compared:\n", file=out)
