@@ -39,7 +39,7 @@ def install_error(text):
 
 
 def pip(python, *packages, **options):
-    return subprocess.run([python, "-m", "pip", "-q", "install", "--disable-pip-version-check", *packages], **options)
+    return subprocess.run([python, "-m", "pip", "-q", "install", "--disable-pip-version-check", "--prefer-binary", *packages], **options)
 
 
 def install(folder, wheel):
@@ -105,7 +105,7 @@ class Entry:
         try:
             result = getattr(peer, what)(case)
         except Exception as error:
-            self.error = f"{type(error).__name__}: {error}".splitlines()[0]
+            self.error = f"{type(error).__name__}: {error}".splitlines()[0][:160]
             return
         took = time.perf_counter() - begin, time.process_time() - busy
         self.seconds[what] = min(took, self.seconds.get(what, took))
