@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """powercell beside other Python packages: seconds for the same cells, how exact they are, and what each can do.
 
-usage: peers_python.py [--n N,...] [--rounds R] [--limit SECONDS] [--out FILE.md]
+usage: peers_python.py [--n N,...] [--transport N,...] [--rounds R] [--limit SECONDS] [--out FILE.md]
        peers_python.py --install FOLDER [--wheel FILE] ...   makes a virtual environment there, installs powercell (of this
            clone, or the wheel) and each of the others into it, and runs itself in it
 
@@ -179,6 +179,23 @@ def tables(peers, arguments):
                     yield row(peer, case, entries[peer.name], entries["powercell"])
 
 
+def transport(peers, arguments):
+    """Weights for which white seeds in the square have cells of equal area."""
+    import numpy as np
+
+    for n in arguments.transport:
+        case, entries = Case("transport", n, 2, False, False), {}
+        for _ in range(arguments.rounds):
+            for peer in peers:
+                if hasattr(peer, "transport"):
+                    entries.setdefault(peer.name, Entry()).run(peer, case, "transport")
+        yield f"\n### transport to equal areas, square, {n:,} seeds\n"
+        yield "| | time | worst area, relative |\n|---|---:|---:|"
+        for name, entry in entries.items():
+            worst = "–" if entry.volumes is None else f"{np.abs(np.asarray(entry.volumes) * n - 1).max():.0e}"
+            yield f"| {name} | {entry.error or seconds(entry, 'transport', entries['powercell'])} | {worst} |"
+
+
 def abilities(peers):
     yield "\n### What each can do\n"
     yield "| | version | weights | domains | periodic | walls | geometry | transport | note |"
@@ -189,19 +206,26 @@ def abilities(peers):
                f"| {c['cells']} | {c['transport']} | {peer.note} |")
 
 
+def sizes(text):
+    """Of "1e4,1e5"; none of ""."""
+    return [int(float(word)) for word in text.split(",") if word]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--install", metavar="FOLDER")
     parser.add_argument("--wheel", metavar="FILE")
     parser.add_argument("--peers", action="store_true", help="install the others into this environment first")
-    parser.add_argument("--n", type=lambda text: [int(float(word)) for word in text.split(",")], default=[10_000, 100_000])
+    parser.add_argument("--n", type=sizes, default=[10_000, 100_000])
+    parser.add_argument("--transport", type=sizes, default=[2000, 20_000], metavar="N,...")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--limit", type=float, default=30)
     parser.add_argument("--out", metavar="FILE.md")
     arguments = parser.parse_args()
     if arguments.install:
         python = install(arguments.install, arguments.wheel)
-        rest = ["--peers", "--n", ",".join(map(str, arguments.n)), "--rounds", str(arguments.rounds), "--limit", str(arguments.limit)]
+        rest = ["--peers", "--n", ",".join(map(str, arguments.n)), "--transport", ",".join(map(str, arguments.transport)),
+                "--rounds", str(arguments.rounds), "--limit", str(arguments.limit)]
         rest += ["--out", arguments.out] if arguments.out else []
         sys.exit(subprocess.run([python, __file__, *rest]).returncode)
 
@@ -219,7 +243,7 @@ def main():
     pc.Diagram(pc.Domain.box([0, 0, 0], [1, 1, 1]), [[0.5] * 3]).compute()  # programs are built once
     print(f"{device.name}, {THREADS} threads; Python {platform.python_version()}; least of {arguments.rounds} rounds: seconds, processor seconds (ratio of the seconds to powercell's).", file=out)
     failures = coming_from.check()
-    for line in itertools.chain(tables(peers, arguments), abilities(peers)):
+    for line in itertools.chain(tables(peers, arguments), transport(peers, arguments), abilities(peers)):
         print(line, file=out, flush=True)
     if reasons:
         print("\nNot compared:\n", file=out)

@@ -2,7 +2,7 @@
 
 Each peer has NAME, PACKAGE, the cases it can do, volumes(case) in the order of the seeds (a function of none that computes them,
 where the package leaves that to its caller), and neighbours(case): volumes again, and the number of sides of walls between
-cells, if it lists neighbours. A case has positions p, weights w (None: Voronoi), the
+cells, if it lists neighbours. Those that solve transport have transport(case): the masses, which ought to be equal. A case has positions p, weights w (None: Voronoi), the
 dimension d and whether it is periodic; its domain is the unit square or cube.
 """
 
@@ -31,6 +31,11 @@ class Powercell:
     def neighbours(self, case):
         diagram = self._diagram(case).compute(adjacency=True)
         return diagram.mass, len(diagram.adjacency.indices)
+
+    def transport(self, case):
+        import powercell as pc
+
+        return pc.transport(pc.Domain.box([0] * case.d, [1] * case.d), case.p, tolerance=1e-6, threads=THREADS).mass
 
 
 class Pyvoro2:
@@ -175,13 +180,25 @@ class Pysdot:
     def does(self, case):
         return not case.periodic
 
-    def _diagram(self, case):
-        import pysdot
+    @staticmethod
+    def _domain(case):
         from pysdot.domain_types import ConvexPolyhedraAssembly
 
         domain = ConvexPolyhedraAssembly()
         domain.add_box([0.0] * case.d, [1.0] * case.d, 1.0, 2**64 - 1)
-        return pysdot.PowerDiagram(case.p, np.zeros(len(case.p)) if case.w is None else case.w, domain)
+        return domain
+
+    def _diagram(self, case):
+        import pysdot
+
+        return pysdot.PowerDiagram(case.p, np.zeros(len(case.p)) if case.w is None else case.w, self._domain(case))
+
+    def transport(self, case):
+        import pysdot
+
+        solver = pysdot.OptimalTransport(case.p, None, self._domain(case))
+        solver.adjust_weights()
+        return solver.pd.integrals()
 
     def volumes(self, case):
         return self._diagram(case).integrals()
