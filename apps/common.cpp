@@ -88,13 +88,4 @@ const char* neighbors_name(Neighbors neighbors) {
   return neighbors == Neighbors::flann ? "flann" : "tree";
 }
 
-std::string with_commas(std::size_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t place = digits.size(); place > 3;) {
-    place -= 3;
-    digits.insert(place, ",");
-  }
-  return digits;
-}
-
 }  // namespace powercell::app

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/io/printable.hpp"
+
 namespace CLI {
 class App;
 }
@@ -71,7 +73,6 @@ Command add_treemap(CLI::App& app);
 Command add_remesh(CLI::App& app);
 Command add_sample(CLI::App& app);
 
-/// "12,345".
-std::string with_commas(std::size_t number);
+using io::with_commas;
 
 }  // namespace powercell::app

@@ -14,7 +14,7 @@
 #include "apps/io/printable.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_file.hpp"
-#include "apps/seeds_outside.hpp"
+#include "apps/io/seeds_outside.hpp"
 
 namespace powercell::app {
 namespace {
@@ -226,7 +226,7 @@ class Placing {
       range = {std::min(range[0], scale), std::max(range[1], scale)};
     };
     for_each_point(domain_, add);
-    const SeedBox box = seed_box(domain_.parts);
+    const io::SeedBox box = io::seed_box(domain_.parts);
     for (int i = 0; i <= most; ++i)
       for (int j = 0; j <= most; ++j)
         add({box.low[0] + (box.high[0] - box.low[0]) * i / most,

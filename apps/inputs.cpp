@@ -133,15 +133,15 @@ std::vector<double> map_points(const std::vector<double>& points, const Function
 
 /// Checks the seeds of a file in the coordinates of the domain's, and moves them to the plane. Returns what a
 /// report says of those outside.
-std::string move_seeds(Inputs& inputs, const Georeference& place, const SeedBox& box,
+std::string move_seeds(Inputs& inputs, const Georeference& place, const io::SeedBox& box,
                        const InputArguments& arguments) {
   io::SeedTable& seeds = inputs.seeds;
   const io::MapPlane* plane = inputs.map.plane.get();
   std::vector<double> moved = seeds.positions;
   if (place.seeds) moved = map_points(moved, [&](auto p) { return place.seeds->forward(p); });
   if (plane) moved = map_points(moved, [&](auto p) { return plane->unwrapped(p); });
-  inputs.outside = count_outside(box, moved);
-  std::string outside = inputs.outside > 0 ? outside_line(inputs.outside, seeds.count()) : "";
+  inputs.outside = io::count_outside(box, moved);
+  std::string outside = inputs.outside > 0 ? io::outside_line(box, moved, false) : "";
   if (const auto miss = find_miss(box, moved, seeds, place.seeds != nullptr)) {
     if (miss->refused && !arguments.allow_outside)
       throw Error(ErrorCode::invalid_seed,
@@ -207,7 +207,7 @@ Inputs read_inputs(const InputArguments& arguments) {
   if (!random) seeds = io::read_seed_file(arguments.seeds, dimension, arguments.columns);
   Georeference place = georeference(arguments, arguments.domain, arrays, seeds.columns);
   const io::MapPlane* plane = place.frame.plane.get();
-  const SeedBox map_box = seed_box(plane ? plane->map_parts() : arrays.parts);
+  const io::SeedBox map_box = io::seed_box(plane ? plane->map_parts() : arrays.parts);
   const std::string description = io::describe(arrays, arguments.domain);
   if (plane) arrays.parts = plane->parts();
   io::LoadedDomain domain = io::load_domain(std::move(arrays), arguments.domain);
@@ -221,7 +221,7 @@ Inputs read_inputs(const InputArguments& arguments) {
       inputs.seeds.given = map_points(inputs.seeds.positions, [&](auto p) { return plane->to_map(p); });
   } else {
     const bool on_map = made.kind() == DomainKind::polygon && !made.is_periodic();
-    outside = move_seeds(inputs, place, on_map ? map_box : seed_box(made), arguments);
+    outside = move_seeds(inputs, place, on_map ? map_box : io::seed_box(made), arguments);
   }
   inputs.notes.push_back(inputs.domain.description);
   for (std::string& note : place.notes) inputs.notes.push_back(std::move(note));

@@ -68,4 +68,13 @@ std::string readable(std::string text) {
   return one_line(std::move(text));
 }
 
+std::string with_commas(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t place = digits.size(); place > 3;) {
+    place -= 3;
+    digits.insert(place, ",");
+  }
+  return digits;
+}
+
 }  // namespace powercell::io

@@ -18,4 +18,7 @@ std::string one_line(std::string text);
 /// On one line, and cut off where it would fill the terminal.
 std::string readable(std::string text);
 
+/// "12,345".
+std::string with_commas(std::size_t number);
+
 }  // namespace powercell::io

@@ -1,5 +1,7 @@
 #include "lib/cl/enumerate.hpp"
 
+#include <mutex>
+
 namespace powercell {
 namespace cl {
 namespace {
@@ -114,6 +116,9 @@ std::string no_device_message() {
 }
 
 std::vector<FoundDevice> find_devices() {
+  // PoCL sets itself up at the first query: another thread found no device there, or crashed (PoCL 3.1).
+  static std::mutex one_at_a_time;
+  const std::scoped_lock lock(one_at_a_time);
   std::vector<FoundDevice> found;
   const auto platforms = find_platforms();
   for (std::size_t p = 0; p < platforms.size(); ++p) {

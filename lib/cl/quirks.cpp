@@ -13,6 +13,7 @@
 // - Some drivers fill a buffer pattern by pattern: lib/cl/buffer.cpp takes the widest that fits.
 // - Devices of OpenCL 1.1 do not know CL_DEVICE_DOUBLE_FP_CONFIG: lib/cl/enumerate.cpp takes that for a no.
 // - Drivers refuse a binary of their own, or hand out none: lib/cl/program_build.cpp compiles again.
+// - PoCL's first queries must not meet those of another thread: lib/cl/enumerate.cpp lets one list devices.
 // - PoCL and NVIDIA's driver read settings from the environment, once: limit_threads in apps/common.cpp,
 //   set_caches_aside in apps/bench.cpp.
 

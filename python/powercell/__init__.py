@@ -18,6 +18,7 @@ from ._diagram import Adjacency, BoundaryWalls, Diagram, Status, regular_triangu
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._meshes import ball, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
+from ._outside import SeedsOutsideWarning  # noqa: E402
 from ._queue import DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
 from ._sampling import sample  # noqa: E402
 from ._seeds import Seeds, read_seeds  # noqa: E402
@@ -37,6 +38,7 @@ __all__ = [
     "Domain",
     "Error",
     "Seeds",
+    "SeedsOutsideWarning",
     "Status",
     "TransportSolver",
     "Treemap",

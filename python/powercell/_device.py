@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any, Optional, Union
 from weakref import WeakValueDictionary
 
@@ -26,6 +27,7 @@ class Device:
     """
 
     _opened: dict[str, Any] = {}
+    _opening = threading.Lock()
     _of_queues: WeakValueDictionary[int, Device] = WeakValueDictionary()
 
     def __init__(self, info: Any, core: Any = None, queue: Any = None) -> None:
@@ -96,9 +98,11 @@ def devices() -> list[Device]:
 
 
 def _open(selector: str) -> Any:
-    if selector not in Device._opened:
-        Device._opened[selector] = _core.Device.choose(selector)
-    return Device._opened[selector]
+    _core.require_same_process()
+    with Device._opening:
+        if selector not in Device._opened:
+            Device._opened[selector] = _core.Device.choose(selector)
+        return Device._opened[selector]
 
 
 def open_device(device: Union[None, str, Device]) -> Any:

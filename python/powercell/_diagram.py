@@ -13,7 +13,8 @@ from ._arrays import Indices, Reals, indices, optional_reals, reals
 from ._device import Device, open_device
 from ._domain import Domain
 from ._options import diagram_options
-from ._progress import Progress, fraction_bar
+from ._outside import warn_of_seeds_outside
+from ._progress import Progress, fraction_bar, progress_function
 from ._shapes import require_same_crs
 
 class Status(enum.IntEnum):
@@ -64,6 +65,8 @@ class Adjacency:
 
     def neighbors(self, seed: int) -> Indices:
         """The neighbours of one seed, or of a selected seed by its place in the selection."""
+        if not 0 <= seed < len(self.indptr) - 1:
+            raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
         return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
 
     def to_scipy(self) -> Any:
@@ -126,7 +129,8 @@ class Diagram:
     ----------
     domain : Domain
     positions : (n, d) array_like
-        Seeds; d is 2 for polygons, 3 for surfaces and volumes. They may lie outside the domain.
+        Seeds; d is 2 for polygons, 3 for surfaces and volumes. They may lie outside the domain; if
+        most do, that is warned of.
     weights : (n,) array_like, optional
         Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram.
     device : Device or str, optional
@@ -144,6 +148,11 @@ class Diagram:
         The most pairs of a region and a seed on the device at once; 0 lets the library choose.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
+
+    Warns
+    -----
+    SeedsOutsideWarning
+        Fewer than one seed in twenty lies in the domain's box.
 
     Raises
     ------
@@ -181,6 +190,7 @@ class Diagram:
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
         options = diagram_options(precision, neighbors, decisions, certify, threads, chunk_pairs)
         self.domain = domain
+        progress_function(progress)  # refuses what is none
         self._progress = progress
         self._columns: Optional[Any] = None
         checked = self._checked(positions, weights)
@@ -204,6 +214,7 @@ class Diagram:
         self._core.set_seeds(positions, weights)
         self._positions, self._weights = positions, weights
         self._selection: Optional[Indices] = None
+        warn_of_seeds_outside(self.domain, positions)
 
     def set_seeds(self, positions: ArrayLike, weights: Optional[ArrayLike] = None) -> None:
         """Replaces the seeds; memory and programs on the device are reused."""
@@ -361,7 +372,8 @@ class Diagram:
 
     def verify(self, samples: int = 1000, random_seed: int = 1) -> list[Any]:
         """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail."""
-        return list(self._core.verify(self._positions, self._weights, samples, random_seed))
+        given = {"samples": samples, "random_seed": random_seed}
+        return list(self._core.verify(self._positions, self._weights, given))
 
     def polygons(self) -> list[Any]:
         """The cells as Shapely geometries, empty where a seed has none. Polygon domains only."""

@@ -13,10 +13,6 @@ def diagram_options(
     threads: int = 0,
     chunk_pairs: int = 0,
 ) -> dict[str, Any]:
-    if threads < 0:
-        raise ValueError(f"threads is {threads}; 0 (all) or more are expected")
-    if chunk_pairs < 0:
-        raise ValueError(f"chunk_pairs is {chunk_pairs}; 0 (chosen) or more are expected")
     return {
         "precision": precision,
         "neighbors": neighbors,

@@ -9,6 +9,15 @@ from typing import Any, Callable, Iterator, Optional, Union
 Progress = Union[None, bool, Callable[[Any], Optional[bool]]]
 
 
+def progress_function(progress: Progress) -> Optional[Callable[[Any], Optional[bool]]]:
+    """The caller's function, if one was given."""
+    if callable(progress):
+        return progress
+    if progress is None or isinstance(progress, bool):
+        return None
+    raise ValueError(f"progress is a {type(progress).__name__}; True, False, None or a function is expected")
+
+
 def _bar(text: str, total: Optional[float]) -> Any:
     try:
         from tqdm.auto import tqdm
@@ -22,8 +31,9 @@ def _bar(text: str, total: Optional[float]) -> Any:
 @contextmanager
 def fraction_bar(progress: Progress, text: str) -> Iterator[Optional[Callable[[Any], Optional[bool]]]]:
     """The function for calls that report the fraction done."""
-    if progress is None or progress is False or callable(progress):
-        yield progress if callable(progress) else None
+    function = progress_function(progress)
+    if function or not progress:
+        yield function
         return
     bar = _bar(text, 1.0)
     if bar is None:
@@ -42,8 +52,9 @@ def step_bar(
     progress: Progress, text: str, describe: Callable[[Any], str]
 ) -> Iterator[Optional[Callable[[Any], Optional[bool]]]]:
     """The function for calls that report steps whose number is not known."""
-    if progress is None or progress is False or callable(progress):
-        yield progress if callable(progress) else None
+    function = progress_function(progress)
+    if function or not progress:
+        yield function
         return
     bar = _bar(text, None)
     if bar is None:

@@ -12,6 +12,7 @@ from ._density import Density, density_arguments
 from ._device import Device, open_device
 from ._domain import Domain
 from ._options import diagram_options
+from ._outside import warn_of_seeds_outside
 from ._progress import Progress, step_bar
 
 
@@ -76,6 +77,7 @@ class TransportSolver:
         self._count = len(points)
         self._core = _core.TransportSolver(open_device(device), domain._core, given, options)
         self._core.set_seeds(points, start)
+        warn_of_seeds_outside(domain, points)
         if target is not None:
             self._core.set_masses(target)
 

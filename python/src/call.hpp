@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <mutex>
+#include <utility>
 
 #include "python/src/arrays.hpp"
 
@@ -14,19 +15,44 @@ namespace powercell::python {
 /// threads are not there
 void require_same_process();
 
+/// While one lives, a thread may be without the interpreter's lock; made and destroyed with it. The
+/// interpreter's end waits for all of them, and no thread comes back from one after that: it would take a
+/// lock that is gone.
+class InFlight {
+ public:
+  /// \throw Error unsupported in the thread that ends the interpreter
+  InFlight();
+  ~InFlight();
+  InFlight(const InFlight&) = delete;
+  InFlight& operator=(const InFlight&) = delete;
+
+  static bool ending();  ///< calls have to stop: the interpreter ends
+  /// Ends the interpreter's calls. Python calls it when it exits.
+  static void end_all();
+};
+
+/// Runs `function` without the interpreter's lock.
+template <class Function>
+auto without_lock(const Function& function) {
+  const InFlight counted;
+  const nb::gil_scoped_release released;
+  return function();
+}
+
 /// One call. Functions that run within it report exceptions of Python, which come out of run() unchanged.
 class Call {
  public:
   /// \param progress  None, or a function of what is reported, which may return False to stop
-  explicit Call(nb::object progress) : progress_(std::move(progress)) {}
+  /// \param owner  what runs the call, if its functions must not come back to it
+  explicit Call(nb::object progress, const void* owner = nullptr)
+      : progress_(std::move(progress)), owner_(owner), outer_(innermost()) {}
 
   /// Runs `function` without the interpreter's lock.
   template <class Function>
   auto run(const Function& function) {
     require_same_process();
     try {
-      const nb::gil_scoped_release released;
-      return function();
+      return without_lock(function);
     } catch (...) {
       if (exception_) std::rethrow_exception(exception_);
       throw;
@@ -50,11 +76,16 @@ class Call {
     return ran && go_on;
   }
 
+  /// \throw Error invalid_argument if this call was made, over any others, by a function of a call of `owner`
+  void require_not_within(const void* owner) const;
+
   /// Runs a function of Python from any thread. \return false if it threw, now or before
   template <class Function>
   bool python(const Function& function) {
+    if (InFlight::ending()) return false;
     const nb::gil_scoped_acquire acquired;
     if (exception_) return false;
+    const Inside inside(this);
     try {
       function();
       return true;
@@ -69,7 +100,17 @@ class Call {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
   }
 
+  /// The call whose function of Python runs in this thread.
+  static const Call*& innermost();
+  struct Inside {
+    explicit Inside(const Call* call) : before(std::exchange(innermost(), call)) {}
+    ~Inside() { innermost() = before; }
+    const Call* before;
+  };
+
   nb::object progress_;
+  const void* owner_;
+  const Call* outer_;             // within whose function of Python this call was made
   std::exception_ptr exception_;  // guarded by the interpreter's lock
 };
 
@@ -79,7 +120,8 @@ class CallSlot {
  public:
   template <class Function>
   auto run(nb::object progress, const Function& function) {
-    Call call(std::move(progress));
+    Call call(std::move(progress), this);
+    call.require_not_within(this);
     return call.run([&] {
       const std::scoped_lock lock(mutex_);
       call_ = &call;
@@ -112,5 +154,6 @@ void bind_sampling(nb::module_& m);
 void bind_remeshing(nb::module_& m);
 void bind_treemaps(nb::module_& m);
 void bind_files(nb::module_& m);
+void bind_seeds_outside(nb::module_& m);
 
 }  // namespace powercell::python

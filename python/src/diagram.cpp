@@ -48,9 +48,11 @@ class PyDiagram {
   std::shared_ptr<Cells> cells() { return held(&Diagram::cells); }
   std::shared_ptr<Dual> dual() { return held(&Diagram::dual); }
   std::shared_ptr<JoinedCells> joined() { return held(&Diagram::joined); }
-  std::vector<LawCheck> verify(const Matrix<double>& positions, const Weights& weights, std::size_t samples,
-                               std::uint64_t random_seed) {
+  std::vector<LawCheck> verify(const Matrix<double>& positions, const Weights& weights,
+                               const nb::dict& given) {
     const SeedsView seeds = seeds_of(positions, weights);
+    const auto samples = whole<std::size_t>(given, "samples");
+    const auto random_seed = whole<std::uint64_t>(given, "random_seed");
     return slot_.run(nb::none(), [&] {
       return powercell::verify(diagram_, seeds, {samples, random_seed, [this](double fraction) {
                                                    return slot_.report(fraction);
@@ -137,7 +139,7 @@ void bind_diagrams(nb::module_& m) {
       .def("cells", &PyDiagram::cells)
       .def("joined", &PyDiagram::joined)
       .def("dual", &PyDiagram::dual)
-      .def("verify", &PyDiagram::verify, "positions"_a, "weights"_a.none(), "samples"_a, "random_seed"_a)
+      .def("verify", &PyDiagram::verify, "positions"_a, "weights"_a.none(), "given"_a)
       .def_prop_ro("timings", [](const PyDiagram& d) { return d.diagram().timings(); })
       .def_prop_ro("device", [](const PyDiagram& d) { return d.diagram().device(); })
       .def_prop_ro("precision", [](const PyDiagram& d) { return name_of(d.diagram().precision()); });

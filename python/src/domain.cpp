@@ -29,14 +29,12 @@ Domain polygon(const std::vector<std::vector<Matrix<double>>>& parts) {
         ring.push_back({rings[r].data()[2 * k], rings[r].data()[2 * k + 1]});
     }
   }
-  const nb::gil_scoped_release released;
-  return Domain::polygon(result);
+  return without_lock([&] { return Domain::polygon(result); });
 }
 
 template <Domain (*make)(std::span<const double>, std::span<const std::uint32_t>)>
 Domain mesh(const Matrix<double>& vertices, const Matrix<std::uint32_t>& elements) {
-  const nb::gil_scoped_release released;
-  return make(span_of(vertices), span_of(elements));
+  return without_lock([&] { return make(span_of(vertices), span_of(elements)); });
 }
 
 Domain box(const std::vector<double>& low, const std::vector<double>& high,

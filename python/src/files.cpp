@@ -24,7 +24,7 @@ void bind_files(nb::module_& m) {
       .def_prop_ro("crs", [](const io::LoadedDomain& d) { return d.crs.name; });
   m.def("read_domain", [](const std::string& path, const std::string& kind) {
     const auto wanted = kind_of(kind);
-    return Call(nb::none()).run([&] { return io::read_domain(path, wanted); });
+    return without_lock([&] { return io::read_domain(path, wanted); });
   });
 
   nb::class_<io::SeedTable>(m, "SeedTable")
@@ -50,7 +50,7 @@ void bind_files(nb::module_& m) {
           io::ColumnChoice choice;
           choice.weight = weight;
           choice.radius = radius;
-          return Call(nb::none()).run([&] { return io::read_seed_file(path, dimension, choice); });
+          return without_lock([&] { return io::read_seed_file(path, dimension, choice); });
         });
 }
 

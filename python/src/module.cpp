@@ -26,6 +26,7 @@ NB_MODULE(_core, m) {
   nb::set_leak_warnings(false);  // objects may live on when the interpreter ends
   nb::register_exception_translator(translate);
   m.def("version", &powercell::version);
+  nb::module_::import_("atexit").attr("register")(nb::cpp_function(&InFlight::end_all));
   bind_devices(m);
   bind_queues(m);
   bind_domains(m);
@@ -36,4 +37,5 @@ NB_MODULE(_core, m) {
   bind_remeshing(m);
   bind_treemaps(m);
   bind_files(m);
+  bind_seeds_outside(m);
 }

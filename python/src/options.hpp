@@ -2,8 +2,10 @@
 /// Options of diagrams, by the names that the tool gives them.
 #pragma once
 
+#include <limits>
 #include <powercell/error.hpp>
 #include <powercell/options.hpp>
+#include <utility>
 
 #include "python/src/arrays.hpp"
 
@@ -21,6 +23,20 @@ T chosen(const char* argument, const std::string& name,
   throw nb::value_error((std::string(argument) + " is '" + name + "'; choose one of " + all).c_str());
 }
 
+/// The whole number of a key. \throw nb::value_error naming it, if it is below 0, too large or something else
+template <class T>
+T whole(const nb::dict& given, const char* key) {
+  const nb::object value = given[key];
+  try {
+    const T number = nb::cast<T>(value);
+    if (std::cmp_greater_equal(number, 0)) return number;
+  } catch (const nb::cast_error&) {  // said below
+  }
+  throw nb::value_error((std::string(key) + " is " + nb::repr(value).c_str() + "; a whole number from 0 to " +
+                         std::to_string(std::numeric_limits<T>::max()) + " is expected")
+                            .c_str());
+}
+
 /// The options of a dictionary with the keys precision, neighbors, decisions, certify, threads, chunk_pairs.
 inline Options options_of(const nb::dict& given) {
   Options options;
@@ -34,8 +50,8 @@ inline Options options_of(const nb::dict& given) {
   options.decisions = chosen<Decisions>("decisions", text("decisions"),
                                         {{"exact", Decisions::exact}, {"fast", Decisions::fast}});
   options.certify = nb::cast<bool>(given["certify"]);
-  options.threads = nb::cast<int>(given["threads"]);
-  options.chunk_pairs = nb::cast<std::uint64_t>(given["chunk_pairs"]);
+  options.threads = whole<int>(given, "threads");
+  options.chunk_pairs = whole<std::uint64_t>(given, "chunk_pairs");
   return options;
 }
 

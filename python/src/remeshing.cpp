@@ -14,13 +14,13 @@ RemeshResult remesh_with(const Matrix<double>& vertices, const Triangles& triang
   options.method =
       chosen<RemeshMethod>("method", nb::cast<std::string>(given["method"]),
                            {{"fpo", RemeshMethod::farthest_point}, {"transport", RemeshMethod::transport}});
-  options.count = nb::cast<std::size_t>(given["count"]);
+  options.count = whole<std::size_t>(given, "count");
   options.gradation = nb::cast<double>(given["gradation"]);
   options.contrast = nb::cast<double>(given["contrast"]);
   options.sharp_angle = nb::cast<double>(given["sharp_angle"]);
-  options.rounds = nb::cast<int>(given["rounds"]);
-  options.relaxations = nb::cast<int>(given["relaxations"]);
-  options.random_seed = nb::cast<std::uint64_t>(given["random_seed"]);
+  options.rounds = whole<int>(given, "rounds");
+  options.relaxations = whole<int>(given, "relaxations");
+  options.random_seed = whole<std::uint64_t>(given, "random_seed");
   options.repair = nb::cast<bool>(given["repair"]);
   options.device = device;
   Call call(std::move(progress));
@@ -79,7 +79,7 @@ void bind_remeshing(nb::module_& m) {
   m.def("repair", [](const Matrix<double>& vertices, const Triangles& triangles, double weld) {
     const std::span positions = span_of(vertices);
     const std::span corners = span_of(triangles);
-    return Call(nb::none()).run([&] { return repair(positions, corners, {weld}); });
+    return without_lock([&] { return repair(positions, corners, {weld}); });
   });
   m.def("mesh_quality", [](const Matrix<double>& vertices, const Triangles& triangles) {
     return mesh_quality(span_of(vertices), span_of(triangles));

@@ -18,11 +18,11 @@ SamplingOptions sampling_options(const nb::dict& given, CallSlot& slot, int dime
                                             {{"auto", SamplingDescent::automatic},
                                              {"lloyd", SamplingDescent::lloyd},
                                              {"lbfgs", SamplingDescent::lbfgs}});
-  options.iterations = nb::cast<int>(given["iterations"]);
+  options.iterations = whole<int>(given, "iterations");
   options.hexatic = nb::cast<double>(given["hexatic"]);
   options.movement = nb::cast<double>(given["movement"]);
   options.capacity_tolerance = nb::cast<double>(given["capacity_tolerance"]);
-  options.random_seed = nb::cast<std::uint64_t>(given["random_seed"]);
+  options.random_seed = whole<std::uint64_t>(given, "random_seed");
   return options;
 }
 

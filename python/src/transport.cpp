@@ -47,7 +47,7 @@ class PySolver {
     TransportOptions result;
     result.density = density_of(nb::cast<nb::tuple>(given["density"]), slot_, domain.dimension());
     result.tolerance = nb::cast<double>(given["tolerance"]);
-    result.max_steps = nb::cast<int>(given["max_steps"]);
+    result.max_steps = whole<int>(given, "max_steps");
     result.rescale = nb::cast<bool>(given["rescale"]);
     result.linear = chosen<LinearSolver>("linear", nb::cast<std::string>(given["linear"]),
                                          {{"auto", LinearSolver::automatic},

@@ -1,6 +1,7 @@
 #include <powercell/treemap.hpp>
 
 #include "python/src/call.hpp"
+#include "python/src/options.hpp"
 
 namespace powercell::python {
 namespace {
@@ -10,9 +11,9 @@ Treemap lay_out(const Vector<std::int64_t>& parent, const Vector<double>& value,
                 const nb::dict& given, const std::optional<Device>& device, nb::object progress) {
   TreemapOptions options;
   options.tolerance = nb::cast<double>(given["tolerance"]);
-  options.rounds = nb::cast<int>(given["rounds"]);
-  options.random_seed = nb::cast<std::uint64_t>(given["random_seed"]);
-  options.threads = nb::cast<int>(given["threads"]);
+  options.rounds = whole<int>(given, "rounds");
+  options.random_seed = whole<std::uint64_t>(given, "random_seed");
+  options.threads = whole<int>(given, "threads");
   if (start) options.start = span_of(*start);
   const auto names = nb::cast<std::vector<std::string>>(given["names"]);
   if (!names.empty()) options.name = [&](std::size_t node) { return names[node]; };

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the Python package's wheel, installs it in a virtual environment of its own, and tests it there: its tests, the
-# examples in its documents, and its types. Needs python3-venv, python3-dev and the packages that ./setup.sh installs.
+# examples in its documents, the notebooks, and its types. Needs python3-venv, python3-dev and the packages that ./setup.sh installs.
 # With ccache as in .ci/run, objects come from build/release: the extension has the same.
 #
 #   python/tests/run.sh [FOLDER]   FOLDER: for the environment and the wheel; default: build/python-test
@@ -14,7 +14,7 @@ python3 -m venv --clear "$folder/venv"
 python="$folder/venv/bin/python"
 "$python" -m pip -q install --upgrade pip
 "$python" -m pip -q install pytest pytest-timeout mypy scipy scipy-stubs shapely geopandas matplotlib meshio pyvista \
-  trimesh tqdm pyopencl intel-opencl-rt intel-cmplr-lib-rt
+  trimesh tqdm pyopencl intel-opencl-rt intel-cmplr-lib-rt nbclient ipykernel pyvoro2
 
 say "the wheel"
 rm -f "$folder"/*.whl
@@ -39,6 +39,9 @@ if failed:
 for number, code in enumerate(re.findall(r"```python\n(.*?)```", open(sys.argv[1]).read(), re.S)):
     exec(compile(code, f"{sys.argv[1]}: example {number}", "exec"), {})
 END
+"$python" "$root/bench/coming_from.py"
+say "notebooks"
+"$python" "$root/tools/run_notebooks.py" "$root"/examples/notebooks/*.ipynb
 say "types"
 "$python" -m mypy --config-file "$root/pyproject.toml" -p powercell
 say "the Python package works"

@@ -41,6 +41,29 @@ def test_shapes_and_types_are_named(square):
         pc.Domain("square")
 
 
+def test_whole_numbers_are_checked(rng, square):
+    p = rng.random((20, 2))
+    diagram = pc.Diagram(square, p)
+    value_error("chunk_pairs is -1; a whole number from 0", lambda: pc.Diagram(square, p, chunk_pairs=-1))
+    value_error("threads is 1000000000000; a whole number from 0 to", lambda: pc.Diagram(square, p, threads=10**12))
+    value_error("threads is 1.5; a whole number", lambda: pc.Diagram(square, p, threads=1.5))
+    value_error("random_seed is -1", lambda: pc.sample(square, 10, random_seed=-1))
+    value_error("iterations is -1", lambda: pc.sample(square, 10, iterations=-1))
+    value_error("points is -3", lambda: pc.sample(square, -3))
+    value_error("max_steps is -1", lambda: pc.transport(square, p, max_steps=-1))
+    value_error("rounds is -1", lambda: pc.treemap({"a": 1, "b": 2}, rounds=-1))
+    value_error("count is -5", lambda: pc.remesh(*pc.sphere(4), count=-5))
+    value_error("samples is -1", lambda: diagram.verify(samples=-1))
+    value_error("seeds: row 0 has an index below 0", lambda: diagram.select([-1]))
+    value_error("progress is a int", lambda: pc.Diagram(square, p, progress=3))
+    library_error("invalid_argument", "entry 0 of the selection is 20", lambda: diagram.select([20]))
+    library_error("invalid_domain", "axis x: low 0 is not less than high -1", lambda: pc.Domain.box([0, 0], [-1, 1]))
+    assert pc.Diagram(square, p, threads=np.int32(1)).mass.sum() == pytest.approx(1)
+    for wrong in (-1, 20):
+        with pytest.raises(IndexError, match=f"seed is {wrong}; 0 to 19 are expected"):
+            diagram.adjacency.neighbors(wrong)
+
+
 def test_errors_of_the_library_have_codes(square):
     library_error("invalid_seed", "seed 1: coordinate y is NaN", lambda: pc.Diagram(square, [[0, 0], [0, np.nan]]))
     library_error("invalid_domain", "Self-intersection", lambda: pc.Domain.polygon([[0, 0], [1, 1], [1, 0], [0, 1]]))
@@ -61,7 +84,9 @@ def test_other_layouts_give_the_same(rng, square):
     frozen = p.copy()
     frozen.flags.writeable = False
     assert np.array_equal(pc.Diagram(square, frozen, w[::-1][::-1]).mass, want)
-    assert np.array_equal(pc.Diagram(square, (p * 64).astype(np.int64)).mass, pc.Diagram(square, (p * 64) // 1).mass)
+    wide, whole = pc.Domain.box([0, 0], [64, 64]), (p * 64) // 1
+    for kind in (np.int64, np.uint8, np.float16, np.longdouble):
+        assert np.array_equal(pc.Diagram(wide, whole.astype(kind)).mass, pc.Diagram(wide, whole).mass)
 
 
 def test_no_seeds(square):
@@ -69,6 +94,9 @@ def test_no_seeds(square):
     assert empty.mass.shape == (0,) and empty.centroid.shape == (0, 2)
     assert empty.adjacency.indptr.tolist() == [0] and empty.dual.shape[0] == 0
     assert pc.Diagram(square, []).status.shape == (0,)
+    assert pc.regular_triangulation(np.zeros((0, 3))).shape == (0, 4)
+    library_error("invalid_argument", "no seeds", lambda: pc.transport(square, np.zeros((0, 2))))
+    library_error("invalid_domain", "no triangles", lambda: pc.Domain.surface(np.zeros((0, 3)), np.zeros((0, 3), int)))
 
 
 def test_arrays_given_are_copied(square):

