@@ -21,10 +21,12 @@ std::vector<double> random_numbers(std::size_t count, double most, unsigned seed
 template <class T, class U>
 void check_same(const T* view, std::size_t count, const std::vector<U>& expected) {
   REQUIRE(count * sizeof(T) == expected.size() * sizeof(U));
-  if (count == 0)
+  if (count == 0) {
     CHECK(view == nullptr);
-  else
-    CHECK(std::memcmp(view, expected.data(), count * sizeof(T)) == 0);  // of NaN too
+    return;
+  }
+  const bool same_bits = std::memcmp(view, expected.data(), count * sizeof(T)) == 0;  // of NaN too
+  CHECK(same_bits);
 }
 
 /// The same diagram in C and in C++.

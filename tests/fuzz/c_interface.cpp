@@ -132,6 +132,8 @@ class Session {
         const pc_status status = pc_domain_measure(domain_, input_.below(8) == 7 ? nullptr : &measure);
         check(status);
         require(status == PC_OK || measure == -1, "a failed call wrote its result");
+        if (input_.flag()) read_selected();
+        read_views();
       }
     }
   }
@@ -214,6 +216,48 @@ class Session {
     const pc_status second = pc_diagram_dual(diagram_, &corners, simplices.data(), &given);
     check(second, certified_);
     require((second == PC_OK) == (room >= count), "an array too short was taken, or a long one not");
+  }
+
+  /// Any seeds, selected for the views of one step.
+  void read_selected() {
+    std::vector<std::uint32_t> seeds(input_.below(6));
+    for (std::uint32_t& seed : seeds) seed = static_cast<std::uint32_t>(input_.below(16));
+    const pc_status status = pc_diagram_select(diagram_, seeds.data(), seeds.size());
+    check(status);
+    if (status != PC_OK) return;
+    const pc_measures* measures = nullptr;
+    const pc_status viewed = pc_diagram_measures_view(diagram_, &measures);
+    check(viewed, certified_);
+    if (viewed == PC_OK) require(measures->count == seeds.size(), "a row for each selected seed");
+    check(pc_diagram_select_all(diagram_));
+  }
+
+  void read_views() {
+    const pc_measures* measures = nullptr;
+    const pc_adjacency* adjacency = nullptr;
+    const pc_cells* cells = nullptr;
+    const pc_joined_cells* joined = nullptr;
+    const std::size_t n = diagram_ ? size() : 0;
+    const pc_status status = pc_diagram_measures_view(diagram_, &measures);
+    check(status, certified_);
+    if (status == PC_OK) require(measures->count == n, "a row for each seed");
+    const pc_status adjacent = pc_diagram_adjacency_view(diagram_, &adjacency);
+    check(adjacent, certified_);
+    if (adjacent == PC_OK)
+      require(adjacency->count == n && (n == 0 || adjacency->offset[n] == adjacency->entry_count),
+              "the last offset is not the count");
+    const pc_status cut = pc_diagram_cells_view(diagram_, &cells);
+    check(cut, certified_);
+    if (cut == PC_OK)
+      require(cells->count == n && (n == 0 || cells->cell_offset[n] == cells->piece_count),
+              "the last offset is not the count of pieces");
+    const pc_status whole = pc_diagram_joined_view(diagram_, &joined);
+    check(whole, certified_);
+    if (whole == PC_OK)
+      require(joined->count == n && (n == 0 || joined->face_offset[n] == joined->face_count),
+              "the last offset is not the count of faces");
+    require((status == PC_OK) == (measures != nullptr) && (cut == PC_OK) == (cells != nullptr),
+            "a failed call wrote its result");
   }
 
   Input& input_;
