@@ -20,8 +20,7 @@ extern "C" {
  * pc_device_destroy(). */
 POWERCELL_API pc_status pc_device_from_queue(cl_command_queue queue, pc_device** device);
 
-/** The state of a seed, as pc_device_diagram_enqueue() writes it: the values of pc_seed_status, and two more.
- */
+/** The state of a seed, as pc_device_diagram_enqueue() writes it: those of pc_seed_status, and two more. */
 typedef enum pc_device_seed_status {
   PC_DEVICE_SEED_OK = 0,
   PC_DEVICE_SEED_HIDDEN,

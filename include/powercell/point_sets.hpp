@@ -65,7 +65,8 @@ struct Spectrum {
 /// \param positions  n x 2, row-major
 /// \param highest    F; 0 means 2 sqrt(n), rounded up
 /// \param threads    on the host; 0 means all
-/// \throw Error invalid_argument (no points; highest < 0), unsupported (a domain that is not in the plane)
+/// \throw Error invalid_argument (no points; highest < 0), invalid_seed (not finite: which), unsupported (a
+///   domain that is not in the plane)
 POWERCELL_API Spectrum spectrum(const Domain& box, std::span<const double> positions, int highest = 0,
                                 int threads = 0);
 

@@ -51,8 +51,7 @@ typedef struct pc_device_list {
 POWERCELL_API pc_status pc_device_list_create(const pc_device_list** list);
 POWERCELL_API void pc_device_list_destroy(const pc_device_list* list);
 
-/** Opens the device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "" for the default.
- */
+/** Opens the device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "": the default. */
 POWERCELL_API pc_status pc_device_create(const char* selector, pc_device** device);
 POWERCELL_API void pc_device_destroy(pc_device* device);
 /** The device's name; owned by the handle. NULL for a NULL handle. */

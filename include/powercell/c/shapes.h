@@ -30,8 +30,7 @@ typedef struct pc_tetrahedral_mesh {
 POWERCELL_API pc_status pc_shape_disk(int segments, double* points);
 /** The unit sphere about the origin, of 20 resolution^2 triangles. \param resolution  1 to 4096 */
 POWERCELL_API pc_status pc_shape_sphere(int resolution, const pc_triangle_mesh** mesh);
-/** The torus about the z axis with radii 1 and 0.4. \param resolution  segments around the tube, 3 to 16384
- */
+/** The torus about the z axis with radii 1 and 0.4. \param resolution  around the tube, 3 to 16384 */
 POWERCELL_API pc_status pc_shape_torus(int resolution, const pc_triangle_mesh** mesh);
 /** The unit ball about the origin, of 8 resolution^3 tetrahedra. \param resolution  1 to 256 */
 POWERCELL_API pc_status pc_shape_ball(int resolution, const pc_tetrahedral_mesh** mesh);

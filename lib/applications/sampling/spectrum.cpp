@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 #include <powercell/point_sets.hpp>
+#include <string>
 
 #include "lib/base/threads.hpp"
 
@@ -58,6 +59,9 @@ Spectrum spectrum(const Domain& box, std::span<const double> positions, int high
   const std::size_t n = positions.size() / 2;
   if (n == 0 || positions.size() % 2 != 0 || highest < 0)
     throw Error(ErrorCode::invalid_argument, "a spectrum needs points with two coordinates each");
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    if (!std::isfinite(positions[k]))
+      throw Error(ErrorCode::invalid_seed, "point " + std::to_string(k / 2) + " of a spectrum is not finite");
   Spectrum result;
   result.points = n;
   result.highest = highest > 0 ? highest : static_cast<int>(std::ceil(2 * std::sqrt(static_cast<double>(n))));
