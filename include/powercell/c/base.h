@@ -48,8 +48,8 @@ typedef int (*pc_progress)(double fraction, void* user);
 /** The detail of the log (powercell::LogLevel). */
 typedef enum pc_log_level { PC_LOG_INFO = 0, PC_LOG_DETAIL } pc_log_level;
 
-/** Receives a line of the log, ended by a zero byte. It must not call pc_set_log(); exceptions are ignored.
- */
+/** Receives a line of the log, ended by a zero byte. It must not call pc_set_log(); what it throws is
+ * ignored. */
 typedef void (*pc_log_sink)(pc_log_level level, const char* line, void* user);
 
 /** Sends the lines of the log up to level `most` to `sink`, from any thread, one call at a time; NULL removes
