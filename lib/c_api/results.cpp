@@ -27,6 +27,21 @@ const std::uint8_t* pointer(const std::vector<SeedStatus>& status) {
   return status.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(status.data());
 }
 
+std::vector<Border> borders_of(const pc_border* borders, std::size_t count) {
+  std::vector<Border> all;
+  for (const pc_border& border : view(borders, count, "an array of borders")) {
+    require(border.kind <= PC_BORDER_INTERIOR, "the kind of a border is not a value of pc_border_kind");
+    all.push_back({static_cast<Border::Kind>(border.kind), border.index});
+  }
+  return all;
+}
+
+std::vector<std::array<std::int32_t, 3>> shifts_of(const std::int32_t* shifts, std::size_t count) {
+  std::vector<std::array<std::int32_t, 3>> all(count);
+  for (std::size_t k = 0; k < count; ++k) std::copy_n(shifts + 3 * k, 3, all[k].begin());
+  return all;
+}
+
 pc_measures view_of(const Measures& from) {
   pc_measures to{};
   to.count = from.mass.size();

@@ -42,6 +42,16 @@ inline const std::int32_t* pointer(const std::vector<std::array<std::int32_t, 3>
 POWERCELL_API const pc_border* pointer(const std::vector<Border>& borders);
 POWERCELL_API const std::uint8_t* pointer(const std::vector<SeedStatus>& status);
 
+/// Copies of the caller's arrays.
+template <class T>
+std::vector<T> vector_of(const T* values, std::size_t count) {
+  const std::span<const T> all = view(values, count, "an array");
+  return {all.begin(), all.end()};
+}
+POWERCELL_API std::vector<Border> borders_of(const pc_border* borders, std::size_t count);
+POWERCELL_API std::vector<std::array<std::int32_t, 3>> shifts_of(const std::int32_t* shifts,
+                                                                 std::size_t count);
+
 /// Structs that point into the results, which must stay where they are.
 POWERCELL_API pc_measures view_of(const Measures& measures);
 POWERCELL_API pc_adjacency view_of(const Adjacency& adjacency);

@@ -28,6 +28,7 @@ TEST_CASE("every function that destroys accepts NULL") {
   pc_device_list_destroy(nullptr);
   pc_diagram_destroy(nullptr);
   pc_domain_destroy(nullptr);
+  pc_joined_destroy(nullptr);
   pc_law_checks_destroy(nullptr);
   pc_mesh_quality_destroy(nullptr);
   pc_remesh_result_destroy(nullptr);

@@ -321,6 +321,92 @@ TEST_CASE("one-off measures and triangulations are those of C++") {
   CHECK(none == nullptr);
 }
 
+TEST_CASE("joining cells gives the joined cells of the diagram") {
+  Grid f;
+  const pc_cells* cells = nullptr;
+  const pc_joined_cells* expected = nullptr;
+  Owned<const pc_joined, pc_joined_destroy> joined;
+  REQUIRE(pc_diagram_cells_view(f.diagram.handle, &cells) == PC_OK);
+  REQUIRE(pc_join(f.domain.handle, cells, &joined.handle) == PC_OK);
+  REQUIRE(pc_diagram_joined_view(f.diagram.handle, &expected) == PC_OK);
+  REQUIRE(joined->cells.count == 4);
+  REQUIRE(joined->cells.vertex_count == expected->vertex_count);
+  CHECK(std::equal(expected->vertices, expected->vertices + 2 * expected->vertex_count,
+                   joined->cells.vertices));
+  REQUIRE(joined->cells.loop_count == expected->loop_count);
+  CHECK(std::equal(expected->loop, expected->loop + expected->loop_count, joined->cells.loop));
+  const pc_joined* none = nullptr;
+  CHECK(pc_join(nullptr, cells, &none) == PC_INVALID_ARGUMENT);
+  CHECK(pc_join(f.domain.handle, nullptr, &none) == PC_INVALID_ARGUMENT);
+  CHECK(pc_join(f.domain.handle, cells, nullptr) == PC_INVALID_ARGUMENT);
+  Domain cube;
+  REQUIRE(pc_domain_box(low, high, 3, &cube.handle) == PC_OK);
+  CHECK(pc_join(cube.handle, cells, &none) == PC_INVALID_ARGUMENT);
+  CHECK(none == nullptr);
+}
+
+TEST_CASE("the laws of a saved diagram are checked from its arrays") {
+  Grid f;
+  const pc_measures* measures = nullptr;
+  const pc_joined_cells* joined = nullptr;
+  REQUIRE(pc_diagram_measures_view(f.diagram.handle, &measures) == PC_OK);
+  REQUIRE(pc_diagram_joined_view(f.diagram.handle, &joined) == PC_OK);
+  pc_saved_diagram saved;
+  REQUIRE(pc_saved_diagram_init(&saved, sizeof saved) == PC_OK);
+  REQUIRE(pc_diagram_precision(f.diagram.handle, &saved.precision) == PC_OK);
+  saved.kind = PC_POLYGON;
+  saved.count = 4;
+  saved.dimension = saved.cell_dimension = 2;
+  saved.positions = f.positions.data();
+  saved.domain_measure = measures->domain_measure;
+  saved.mass = measures->mass;
+  saved.centroid = measures->centroid;
+  saved.status = measures->status;
+  saved.vertex_offset = joined->vertex_offset;
+  saved.vertices = joined->vertices;
+  saved.face_offset = joined->face_offset;
+  saved.loop_offset = joined->loop_offset;
+  saved.loop = joined->loop;
+  saved.edge_border = joined->edge_border;
+  const auto passed = [&] {
+    Owned<const pc_law_checks, pc_law_checks_destroy> checks;
+    REQUIRE(pc_saved_diagram_verify(&saved, nullptr, &checks.handle) == PC_OK);
+    CHECK(checks->count > 3);
+    return checks->passed == 1;
+  };
+  CHECK(passed());
+  std::vector<double> wrong(measures->mass, measures->mass + 4);
+  wrong[2] *= 1.01;
+  saved.mass = wrong.data();
+  CHECK(!passed());
+  saved.mass = measures->mass;
+
+  const pc_law_checks* none = nullptr;
+  const auto refused = [&] { return pc_saved_diagram_verify(&saved, nullptr, &none) == PC_INVALID_ARGUMENT; };
+  saved.dimension = 4;
+  CHECK(refused());
+  saved.dimension = 2;
+  saved.kind = static_cast<pc_domain_kind>(3);
+  CHECK(refused());
+  saved.kind = PC_POLYGON;
+  const std::vector<std::uint32_t> outside(joined->loop_count, 99);
+  saved.loop = outside.data();
+  CHECK(refused());
+  saved.loop = nullptr;
+  CHECK(refused());
+  saved.loop = joined->loop;
+  const std::uint8_t status[4] = {0, 0, 3, 0};
+  saved.status = status;
+  CHECK(refused());
+  saved.status = measures->status;
+  saved.struct_size = 8;
+  CHECK(refused());
+  CHECK(pc_saved_diagram_verify(nullptr, nullptr, &none) == PC_INVALID_ARGUMENT);
+  CHECK(pc_saved_diagram_verify(&saved, nullptr, nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(pc_saved_diagram_init(&saved, 8) == PC_INVALID_ARGUMENT);
+  CHECK(none == nullptr);
+}
+
 TEST_CASE("the laws of a diagram are checked, and bad options are refused") {
   Grid f;
   Owned<const pc_law_checks, pc_law_checks_destroy> checks;

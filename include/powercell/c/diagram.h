@@ -97,6 +97,16 @@ POWERCELL_API pc_status pc_diagram_timings_view(pc_diagram* diagram, const pc_ti
 POWERCELL_API pc_status pc_diagram_hold_results(pc_diagram* diagram, pc_results** results);
 POWERCELL_API void pc_results_destroy(pc_results* results);
 
+/** Joined cells of the caller's. */
+typedef struct pc_joined {
+  pc_joined_cells cells;
+} pc_joined;
+
+/** Joins the pieces of each cell across the regions of the domain, as pc_diagram_joined_view() does.
+ * \param cells  of a diagram in the same domain */
+POWERCELL_API pc_status pc_join(const pc_domain* domain, const pc_cells* cells, const pc_joined** joined);
+POWERCELL_API void pc_joined_destroy(const pc_joined* joined);
+
 /** The measures of the cells of seeds without a diagram that is kept: arrays as for pc_diagram_set_seeds()
  * and pc_diagram_measures(). */
 POWERCELL_API pc_status pc_measure(const pc_device* device, const pc_domain* domain, const double* positions,

@@ -22,6 +22,34 @@ typedef struct pc_verify_options {
 /** Sets every option to its default. \param struct_size  sizeof(pc_verify_options) */
 POWERCELL_API pc_status pc_verify_options_init(pc_verify_options* options, size_t struct_size);
 
+/** A diagram without its domain, as the tool saves it. Fill with pc_saved_diagram_init() first. Arrays are
+ * the caller's, as in pc_measures and pc_joined_cells. */
+typedef struct pc_saved_diagram {
+  size_t struct_size; /**< set by pc_saved_diagram_init() */
+  pc_domain_kind kind;
+  pc_precision precision; /**< in which it was computed: PC_FLOAT64, the default, or PC_FLOAT32 */
+  size_t count;           /**< n */
+  int dimension;          /**< d */
+  int cell_dimension;
+  const double* positions; /**< n x d */
+  const double* weights;   /**< n; NULL means all zero */
+  double domain_measure;
+  const double* mass;            /**< n */
+  const double* centroid;        /**< n x d; may be NULL */
+  const uint8_t* status;         /**< n: a pc_seed_status each */
+  const uint64_t* vertex_offset; /**< n + 1 */
+  const double* vertices;        /**< vertex_offset[n] x d */
+  const uint64_t* face_offset;   /**< n + 1 */
+  const uint64_t* loop_offset;   /**< face_offset[n] + 1 */
+  const uint32_t* loop;          /**< loop_offset[face_offset[n]] */
+  const pc_border* face_border;  /**< per face (volumes only) */
+  const pc_border* edge_border;  /**< per loop entry (polygons and surfaces only) */
+  const int32_t* shift;          /**< 3 per border in a periodic domain, else NULL */
+} pc_saved_diagram;
+
+/** Sets everything to 0 and the precision to PC_FLOAT64. \param struct_size  sizeof(pc_saved_diagram) */
+POWERCELL_API pc_status pc_saved_diagram_init(pc_saved_diagram* diagram, size_t struct_size);
+
 /** One law and how well it holds. */
 typedef struct pc_law_check {
   const char* law;    /**< e.g. "partition: the measures sum to the domain's" */
@@ -45,6 +73,11 @@ typedef struct pc_law_checks {
 POWERCELL_API pc_status pc_diagram_verify(pc_diagram* diagram, const double* positions, const double* weights,
                                           size_t count, const pc_verify_options* options,
                                           const pc_law_checks** checks);
+/** The same laws from the arrays alone, nothing of which is trusted but their sizes; vertices of the cells
+ * take the place of random points. PC_INVALID_ARGUMENT if the arrays do not fit together (which cell). */
+POWERCELL_API pc_status pc_saved_diagram_verify(const pc_saved_diagram* diagram,
+                                                const pc_verify_options* options,
+                                                const pc_law_checks** checks);
 POWERCELL_API void pc_law_checks_destroy(const pc_law_checks* checks);
 
 #ifdef __cplusplus
