@@ -16,10 +16,10 @@
  * - An array whose size is not known beforehand takes two calls: the first with NULL for the array sets only
  *   *count; the second takes an array of at least that many entries. If the array is too short nothing is
  *   written and the call fails with PC_INVALID_ARGUMENT.
- * - Structs of results belong to the library, which hands out pointers to const: those of functions that end
- * in _view belong to a handle and last as their function says; all others last until the matching _destroy
- * function. An array without entries may be NULL. Later versions may add members at the end: do not copy such
- * a struct by its size.
+ * - Structs of results belong to the library, which hands out pointers to const. Those of functions that
+ *   end in _view belong to a handle and last as their function says; all others last until the matching
+ *   _destroy function. An array without entries may be NULL. Later versions may add members at the end: do
+ *   not copy such a struct by its size.
  *
  * Structs of options are the caller's. Their _init function takes the size of the struct as the caller knows
  * it and sets each option to its default: `pc_options options; pc_options_init(&options, sizeof options);`.

@@ -35,8 +35,8 @@ typedef struct pc_device_diagram pc_device_diagram;
 
 /** Uploads the domain and builds the kernels; this waits. Periodic domains are PC_UNSUPPORTED.
  * \param device   of pc_device_from_queue()
- * \param options  NULL for the defaults. `precision` is that of the caller's arrays; `threads`, `progress`,
- * `decisions` and `certify` are ignored */
+ * \param options  NULL for the defaults. `precision` is that of the caller's arrays; `threads`,
+ *   `progress`, `decisions` and `certify` are ignored */
 POWERCELL_API pc_status pc_device_diagram_create(const pc_device* device, const pc_domain* domain,
                                                  const pc_options* options, pc_device_diagram** diagram);
 POWERCELL_API void pc_device_diagram_destroy(pc_device_diagram* diagram);
@@ -53,14 +53,16 @@ POWERCELL_API pc_status pc_device_diagram_device(const pc_device_diagram* diagra
  * waits for the queue once to read their number. It waits in no other case. */
 POWERCELL_API pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32_t pairs);
 
-/** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context of the
- * device and must not change between the wait list and `done`. \param positions   read: n x d reals,
- * row-major \param weights     read: n reals; NULL means all zero \param n           at most 2^30; with 0 the
- * buffers may be NULL \param measures    written: n x (2 + d) reals, row-major: mass, centroid, second moment
- * about the seed. 0, NaN..., 0 for hidden and duplicate seeds; all NaN for invalid and unfinished ones \param
- * status      written: n cl_uint, each a pc_device_seed_status \param wait_count, wait_list  events that must
- * be complete before the first command runs \param done        if not NULL: the event of the last command,
- * for the caller to release */
+/** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context
+ * of the device and must not change between the wait list and `done`.
+ * \param positions  read: n x d reals, row-major
+ * \param weights    read: n reals; NULL means all zero
+ * \param n          at most 2^30; with 0 the buffers may be NULL
+ * \param measures   written: n x (2 + d) reals, row-major: mass, centroid, second moment about the
+ *   seed. 0, NaN..., 0 for hidden and duplicate seeds; all NaN for invalid and unfinished ones
+ * \param status     written: n cl_uint, each a pc_device_seed_status
+ * \param wait_count, wait_list  events that must be complete before the first command runs
+ * \param done       if not NULL: the event of the last command, for the caller to release */
 POWERCELL_API pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl_mem positions,
                                                   cl_mem weights, uint32_t n, cl_mem measures, cl_mem status,
                                                   cl_uint wait_count, const cl_event* wait_list,

@@ -123,8 +123,8 @@ pc_status pc_diagram_dual(pc_diagram* diagram, int* corners, uint32_t* simplices
   return guarded([&] {
     require(count != nullptr && corners != nullptr, "corners and count must not be NULL");
     const Dual& dual = diagram_in(diagram).dual();
-    *corners = dual.corners;
     fit(simplices, "simplices", dual.size(), count);
+    *corners = dual.corners;
     copy_out(dual.simplices, simplices);
   });
 }

@@ -21,14 +21,16 @@ typedef int (*pc_density_value)(const double* point, double* value, void* user);
 /** The same value everywhere, above 0. */
 POWERCELL_API pc_status pc_density_constant(double value, pc_density** density);
 /** An expression in x, y and z: + - * / ^, comparisons, `a ? b : c`, sin, exp, sqrt, abs, min, max and
- * others. \param tolerance  of each mass, relative, below 1; 0 means 1e-9 */
+ * others.
+ * \param tolerance  of each mass, relative, below 1; 0 means 1e-9 */
 POWERCELL_API pc_status pc_density_formula(const char* expression, double tolerance, pc_density** density);
 /** The same for a function, which must last as long as the handle and all that was made with it. */
 POWERCELL_API pc_status pc_density_function(pc_density_value function, void* user, double tolerance,
                                             pc_density** density);
 /** Constant in each pixel of an image and 0 outside its rectangle, for polygons only. The integrals are
- * exact. \param values     height x width, row-major from the top row (largest y) down, not negative \param
- * low, high  lower left and upper right corner of the rectangle, 2 doubles each */
+ * exact.
+ * \param values     height x width, row-major from the top row (largest y) down, not negative
+ * \param low, high  lower left and upper right corner of the rectangle, 2 doubles each */
 POWERCELL_API pc_status pc_density_image(const double* values, size_t width, size_t height, const double* low,
                                          const double* high, pc_density** density);
 /** Linear in each triangle or tetrahedron. The integrals are exact.

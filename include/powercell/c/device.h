@@ -67,9 +67,10 @@ POWERCELL_API pc_status pc_device_build_seconds(const pc_device* device, double*
  * \param processor_seconds  of this process meanwhile */
 POWERCELL_API pc_status pc_kernel_builds(int* running, double* seconds, double* processor_seconds);
 
-/** Measures the best rates that a device reaches, in about a second and up to 512 MiB of device memory. Any
- * pointer may be NULL. \param copied_bytes  bytes read plus bytes written per second while copying a large
- * buffer \param operations    multiplications plus additions per second; a fused one counts as two */
+/** Measures the best rates that a device reaches, in about a second and up to 512 MiB of device memory.
+ * Any pointer may be NULL.
+ * \param copied_bytes  bytes read plus bytes written per second while copying a large buffer
+ * \param operations    multiplications plus additions per second; a fused one counts as two */
 POWERCELL_API pc_status pc_device_rates(const pc_device* device, pc_precision precision, double* copied_bytes,
                                         double* operations);
 

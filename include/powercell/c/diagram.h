@@ -16,8 +16,8 @@ extern "C" {
 typedef struct pc_diagram pc_diagram; /**< a power diagram of seeds in a domain, on a device */
 typedef struct pc_results pc_results; /**< results of a diagram that are kept */
 
-/** A diagram without seeds. Device and domain may be destroyed before it. \param options  NULL for the
- * defaults */
+/** A diagram without seeds. Device and domain may be destroyed before it.
+ * \param options  NULL for the defaults */
 POWERCELL_API pc_status pc_diagram_create(const pc_device* device, const pc_domain* domain,
                                           const pc_options* options, pc_diagram** diagram);
 POWERCELL_API void pc_diagram_destroy(pc_diagram* diagram);
@@ -32,9 +32,10 @@ POWERCELL_API pc_status pc_diagram_set_seeds(pc_diagram* diagram, const double* 
 /** Sets new weights for the same positions; only the work that depends on weights is repeated. */
 POWERCELL_API pc_status pc_diagram_set_weights(pc_diagram* diagram, const double* weights, size_t count);
 
-/** From now on computes the cells of some seeds only, against all seeds, until pc_diagram_select_all() or
- * pc_diagram_set_seeds(). Row k of the results is of seed seeds[k]; neighbours and borders name seeds by
- * their index among all. \param seeds  count indices, each once, in any order */
+/** From now on computes the cells of some seeds only, against all seeds, until pc_diagram_select_all()
+ * or pc_diagram_set_seeds(). Row k of the results is of seed seeds[k]; neighbours and borders name
+ * seeds by their index among all.
+ * \param seeds  count indices, each once, in any order */
 POWERCELL_API pc_status pc_diagram_select(pc_diagram* diagram, const uint32_t* seeds, size_t count);
 POWERCELL_API pc_status pc_diagram_select_all(pc_diagram* diagram);
 /** 1 from pc_diagram_select() on, else 0. */
@@ -56,10 +57,12 @@ POWERCELL_API pc_status pc_diagram_device(const pc_diagram* diagram, pc_device**
  * passes as possible. The functions below compute what is missing, each in a pass of its own. */
 POWERCELL_API pc_status pc_diagram_compute(pc_diagram* diagram, int adjacency, int cells);
 
-/** The measures of the cells, in the order of the seeds, or of the selected ones. Any array may be NULL. n
- * rows, d coordinates. \param mass           n: area or volume; 0 where empty \param centroid       n x d,
- * row-major; NaN where empty \param second_moment  n: integral of |x - p_i|^2 over the cell \param status n:
- * a pc_seed_status each */
+/** The measures of the cells, in the order of the seeds, or of the selected ones. Any array may be
+ * NULL. n rows, d coordinates.
+ * \param mass           n: area or volume; 0 where empty
+ * \param centroid       n x d, row-major; NaN where empty
+ * \param second_moment  n: integral of |x - p_i|^2 over the cell
+ * \param status         n: a pc_seed_status each */
 POWERCELL_API pc_status pc_diagram_measures(pc_diagram* diagram, double* mass, double* centroid,
                                             double* second_moment, uint8_t* status);
 

@@ -120,9 +120,10 @@ POWERCELL_API pc_status pc_domain_report_view(const pc_domain* domain, const pc_
 /** The convex regions; last as long as the handle. */
 POWERCELL_API pc_status pc_domain_regions_view(const pc_domain* domain, const pc_regions** regions);
 
-/** Points moved by whole periods into the domain, but for rounding: the positions that diagrams compute with.
- * In domains that are not periodic they stay. \param positions  count x dimension, row-major \param wrapped
- * count x dimension; may be the same array */
+/** Points moved by whole periods into the domain, but for rounding: the positions that diagrams compute
+ * with. In domains that are not periodic they stay.
+ * \param positions  count x dimension, row-major
+ * \param wrapped    count x dimension; may be the same array */
 POWERCELL_API pc_status pc_domain_wrap(const pc_domain* domain, const double* positions, size_t count,
                                        double* wrapped);
 /** Random points uniform in area or volume; the same ones for the same random seed on every machine.

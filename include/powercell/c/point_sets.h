@@ -10,8 +10,9 @@
 extern "C" {
 #endif
 
-/** Draws independent random points of the domain with the given density; the same random seed gives the same
- * points. \param positions  count x d, row-major */
+/** Draws independent random points of the domain with the given density; the same random seed gives the
+ * same points.
+ * \param positions  count x d, row-major */
 POWERCELL_API pc_status pc_random_points(const pc_domain* domain, const pc_density* density, size_t count,
                                          uint64_t random_seed, double* positions);
 

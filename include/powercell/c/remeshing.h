@@ -48,9 +48,9 @@ typedef struct pc_repaired_mesh {
 /** Makes a mesh an oriented manifold with boundary, as far as nothing of its shape is lost.
  * \param vertices   vertex_count x 3, row-major
  * \param triangles  triangle_count x 3, indices from 0
- * \param weld       edges of the boundary whose ends are up to this far apart are joined; 0: edges at the
- * same position only; below 0, as a rule: 10^-6 of the diagonal, or the rounding of coordinates if that is
- * more */
+ * \param weld       edges of the boundary whose ends are up to this far apart are joined; 0: edges
+ *   at the same position only; below 0, as a rule: 10^-6 of the diagonal, or the rounding of
+ *   coordinates if that is more */
 POWERCELL_API pc_status pc_repair(const double* vertices, size_t vertex_count, const uint32_t* triangles,
                                   size_t triangle_count, double weld, const pc_repaired_mesh** mesh);
 POWERCELL_API void pc_repaired_mesh_destroy(const pc_repaired_mesh* mesh);
@@ -99,10 +99,11 @@ typedef struct pc_remesh_result {
   double seconds_sample, seconds_dual, seconds_relax; /**< wall-clock times of the stages */
 } pc_remesh_result;
 
-/** Remeshes a surface. The new mesh is a manifold with the same Euler characteristic and number of boundary
- * loops; it reproduces the boundaries, the edges sharper than `sharp_angle` and their corners. \param
- * vertices   vertex_count x 3, row-major \param triangles  triangle_count x 3, indices from 0 \param options
- * NULL for the defaults */
+/** Remeshes a surface. The new mesh is a manifold with the same Euler characteristic and number of
+ * boundary loops; it reproduces the boundaries, the edges sharper than `sharp_angle` and their corners.
+ * \param vertices   vertex_count x 3, row-major
+ * \param triangles  triangle_count x 3, indices from 0
+ * \param options    NULL for the defaults */
 POWERCELL_API pc_status pc_remesh(const double* vertices, size_t vertex_count, const uint32_t* triangles,
                                   size_t triangle_count, const pc_remesh_options* options,
                                   const pc_remesh_result** result);

@@ -112,8 +112,9 @@ POWERCELL_API pc_status pc_transport(const pc_device* device, const pc_domain* d
                                      const double* masses, const pc_transport_options* options,
                                      const pc_transport_result** result);
 
-/** A solver without seeds. Device, domain and density may be destroyed before it, but not what a function of
- * pc_density_function() uses. \param options  NULL for the defaults */
+/** A solver without seeds. Device, domain and density may be destroyed before it, but not what a
+ * function of pc_density_function() uses.
+ * \param options  NULL for the defaults */
 POWERCELL_API pc_status pc_transport_solver_create(const pc_device* device, const pc_domain* domain,
                                                    const pc_transport_options* options,
                                                    pc_transport_solver** solver);

@@ -17,11 +17,13 @@ typedef struct pc_triangulation {
   pc_dual dual;
 } pc_triangulation;
 
-/** The regular triangulation of seeds in the plane (triangles) or in space (tetrahedra). It triangulates the
- * convex hull of any seeds without flat simplices. Seeds that are not vertices of it are hidden or
- * duplicates. Empty if the seeds do not span the space. \param dimension  2 or 3 \param positions  count x
- * dimension, row-major; not below 1e-100 or above 1e100 \param weights    count; NULL means all zero \param
- * options    NULL for the defaults; `decisions` is ignored */
+/** The regular triangulation of seeds in the plane (triangles) or in space (tetrahedra). It
+ * triangulates the convex hull of any seeds without flat simplices. Seeds that are not vertices of it
+ * are hidden or duplicates. Empty if the seeds do not span the space.
+ * \param dimension  2 or 3
+ * \param positions  count x dimension, row-major; not below 1e-100 or above 1e100
+ * \param weights    count; NULL means all zero
+ * \param options    NULL for the defaults; `decisions` is ignored */
 POWERCELL_API pc_status pc_triangulation_create(const pc_device* device, int dimension,
                                                 const double* positions, const double* weights, size_t count,
                                                 const pc_options* options,
