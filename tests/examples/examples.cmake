@@ -13,6 +13,8 @@ function(c_example name libraries)
     COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/examples/run.py $<TARGET_FILE:${target}> ${ARGN})
 endfunction()
 
+find_package(OpenCL REQUIRED)  # c_own_queue has a context of its own
+
 c_example(host_c powercell_core "cell 4: volume 0\\.\\d+, walls" "sum of volumes (1\\.0|0\\.99999)")
 c_example(c_cells powercell_core
   "cell 0: area \\d\\.\\d+, 1 rings" "cell 2: area \\d" "total 12\\.0000" "border 24\\.000")
