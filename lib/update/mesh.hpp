@@ -12,41 +12,47 @@
 
 namespace powercell {
 
-/// Triangles (D = 2) or tetrahedra (D = 3) that fill the convex hull of the sites, and for each facet of the
-/// hull an infinite simplex whose remaining corner is `infinite`. So each simplex has a neighbour across each
-/// of its facets. Corners are in positive order; an infinite simplex is ordered as if its infinite corner
-/// were a point beyond its facet. Sites without a simplex have no cell anywhere: they are hidden.
+/// The regular triangulation of the sites and a few more far around them, the frame: triangles (D = 2) or
+/// tetrahedra (D = 3) that fill the frame, a simplex. Corners are in positive order. Since the frame does not
+/// move, positive simplices that are glued along facets cover it once. Sites without a simplex have no cell:
+/// they are hidden.
+///
+/// The frame is so far away that none of its points has a cell near the sites (FarFrame), so in a domain
+/// there the diagram is that of the sites alone.
 template <int D>
 class DualMesh {
  public:
-  static constexpr std::uint32_t infinite = ~std::uint32_t{0}, none = infinite - 1;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr std::size_t corners = D + 1;
   using Corners = std::array<std::uint32_t, corners>;
   struct Simplex {
     Corners corner;
-    Corners across;  ///< 4 x the neighbour across the facet opposite each corner + its corner there
+    Corners across;  ///< the facet opposite each corner, as a facet of the neighbour; or `outside`
   };
   /// One of the facets of a simplex: 4 x the simplex + the corner opposite.
   using Facet = std::uint32_t;
+  static constexpr Facet outside = ~Facet{0};  ///< beyond the frame
   static Facet facet(std::uint32_t simplex, std::size_t corner) {
     return 4 * simplex + static_cast<std::uint32_t>(corner);
   }
 
-  /// The mesh of all sites. \throw MeshUnusable if they tie, or do not span the space
-  void build(std::vector<Site> sites);
+  /// The mesh of all sites. \param frame  \throw MeshUnusable if they tie
+  void build(std::vector<Site> sites, const std::array<Site, corners>& frame);
   /// Adds a site that has no simplex. The mesh must be regular and stays so.
   /// \param near  a site with a simplex, near the new one
+  /// \param added  if not null, the new simplices are appended
   /// \return whether the site has a cell; else it stays hidden
-  bool insert(std::uint32_t site, std::uint32_t near);
+  /// \throw MeshUnusable in a tie, or if the site is at the place of another
+  bool insert(std::uint32_t site, std::uint32_t near, std::vector<std::uint32_t>* added = nullptr);
 
-  std::size_t site_count() const { return sites_.size(); }
+  std::size_t site_count() const { return sites_.size() - corners; }
+  bool is_frame(std::uint32_t site) const { return site >= site_count(); }
+  /// The sites, then those of the frame.
   std::span<const Site> sites() const { return sites_; }
   std::span<Site> sites() { return sites_; }
   std::size_t simplex_count() const { return simplex_.size(); }  ///< those removed included
   const Simplex& simplex(std::uint32_t s) const { return simplex_[s]; }
   bool is_removed(std::uint32_t s) const { return simplex_[s].corner[0] == none; }
-  bool is_infinite(std::uint32_t s) const { return infinite_corner(s) < corners; }
-  std::size_t infinite_corner(std::uint32_t s) const { return index_of(simplex_[s].corner, infinite); }
   static std::size_t index_of(const Corners& corner, std::uint32_t site) {
     std::size_t k = 0;
     while (k < corners && corner[k] != site) ++k;
@@ -60,33 +66,29 @@ class DualMesh {
 
   // For repairs.
   std::array<const Site*, corners> places(std::uint32_t s) const;
-  /// The orientation of finite corners.
   int orientation_of(const Corners& corner) const;
-  /// Whether a site is in conflict with a simplex: +1 if it lies within the sphere orthogonal to the corners,
-  /// or beyond the facet of an infinite simplex; 0 in a tie.
+  /// As conflict_sign().
   int conflict(std::uint32_t s, std::uint32_t site) const;
   std::uint32_t add(const Corners& corner);
   void remove(std::uint32_t s);
+  /// \param b  may be `outside`
   void link(Facet a, Facet b) {
     simplex_[a / 4].across[a % 4] = b;
-    simplex_[b / 4].across[b % 4] = a;
+    if (b != outside) simplex_[b / 4].across[b % 4] = a;
   }
   Facet across(Facet f) const { return simplex_[f / 4].across[f % 4]; }
-  void set_simplex_at(std::uint32_t site, std::uint32_t s) {
-    if (site != infinite) at_[site] = s;
-  }
+  /// The corner opposite a facet.
+  std::uint32_t opposite(Facet f) const { return simplex_[f / 4].corner[f % 4]; }
   /// The site has no simplex any more.
   void hide(std::uint32_t site, std::uint32_t near);
   /// Takes the list of hidden sites away, to be filled again.
   std::vector<std::uint32_t> take_hidden() { return std::exchange(hidden_, {}); }
 
  private:
-  void build_first();
-  std::vector<std::uint32_t> spanning_sites() const;
   std::uint32_t locate(std::uint32_t site, std::uint32_t start) const;
   void find_cavity(std::uint32_t site, std::uint32_t start);
   void fill_cavity(std::uint32_t site);
-  bool in_cavity(std::uint32_t s) const { return mark_[s] == epoch_; }
+  bool in_cavity(Facet f) const { return f != outside && mark_[f / 4] == epoch_; }
 
   std::vector<Site> sites_;
   std::vector<Simplex> simplex_;
@@ -97,10 +99,25 @@ class DualMesh {
   // Scratch memory of insert(). A simplex of the cavity has the mark epoch_, one found outside epoch_ + 1.
   std::vector<std::uint32_t> mark_;
   std::uint32_t epoch_ = 2;
-  std::vector<std::uint32_t> cavity_;
+  std::vector<std::uint32_t> cavity_, made_;
   std::vector<Facet> border_;  // facets of the cavity, from inside
 };
 
+/// Points far around sites and a domain. \throw as around()
+template <int D>
+struct FarFrame {
+  std::array<Site, D + 1> points;
+  std::array<double, 3> low, high;  ///< where sites may be
+  double least_weight;              ///< of sites
+
+  /// \throw MeshUnusable if coordinates or weights are too large or too small for products of five
+  static FarFrame around(std::span<const Site> sites, const std::array<double, 3>& low,
+                         const std::array<double, 3>& high);
+  bool holds(std::span<const Site> sites) const;
+};
+
+extern template struct FarFrame<2>;
+extern template struct FarFrame<3>;
 extern template class DualMesh<2>;
 extern template class DualMesh<3>;
 
