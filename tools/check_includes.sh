@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 # Stages of the core, each above those before it.
-core="base report cl primitives domain regions seeds periodic scene neighbors clip pairs solid integrate collect verify diagram"
+core="base report cl primitives domain regions seeds periodic scene neighbors clip pairs solid integrate collect update verify diagram"
 kernels="base cell seeds neighbors clip pairs integrate diagram"
 applications="linear density transport sampling remeshing treemap"
 
@@ -45,7 +45,7 @@ one_way() {
 }
 inner=$(echo "$core" | sed 's/^base //' | tr ' ' '|')
 complain lib/applications "lib/($inner|c_api|device_rates)/" "the applications are built on the public headers and lib/base"
-complain lib/device_rates "lib/(primitives|domain|regions|seeds|scene|neighbors|clip|pairs|solid|integrate|collect|verify|diagram)/" \
+complain lib/device_rates "lib/(primitives|domain|regions|seeds|scene|neighbors|clip|pairs|solid|integrate|collect|update|verify|diagram)/" \
   "lib/device_rates may include lib/cl only"
 complain lib/c_api "lib/" "the C interface is built on the public headers"
 complain apps "lib/" "the tool is built on the public headers"
