@@ -63,7 +63,8 @@ std::optional<KeptDiagram::Results> Loop::compute(const Setup& setup, const Inpu
     KeptDiagram::Results results = mesh_->evaluate(input.seeds, setup.domain.measure(), adjacency);
     timings.clip = watch.seconds() - timings.neighbors;
     timings.pair_count = input.seeds.size();
-    timings.reused = results.from_mesh;
+    timings.reused = input.seeds.size();
+    timings.on_host = results.clipped;
     return results;
   } catch (const MeshUnusable&) {
     fail();

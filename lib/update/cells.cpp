@@ -119,7 +119,7 @@ void CellEvaluator<D>::visit(std::uint32_t vertex) {
     std::size_t at, leave;  // the wall's corner, and the one opposite the facet of its next edge
     if constexpr (D == 3) {
       at = tetrahedron_facet[own][p];
-      leave = tetrahedron_facet[own][(p + 2) % 3];
+      leave = tetrahedron_facet[own][(p + 1) % 3];
     } else {
       at = (own + 1 + p) % 3;
       leave = (own + 2 - p) % 3;

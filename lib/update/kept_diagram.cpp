@@ -49,22 +49,23 @@ class KeptMesh final : public KeptDiagram {
   Results evaluate(const SeedSet& seeds, double domain_measure, bool adjacency) override {
     MomentSums sums(domain_, seeds, domain_measure, threads_);
     WallCollector walls(adjacency ? seeds.size() : 0, threads_);
-    std::vector<std::uint64_t> from_mesh(evaluators_.size());
+    std::vector<std::uint64_t> clipped(evaluators_.size());
     parallel_for(threads_, evaluators_.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t t = first; t < last; ++t) {
         const std::size_t begin = seeds.size() * t / evaluators_.size(),
                           end = seeds.size() * (t + 1) / evaluators_.size();
         CellEvaluator<D>& cell = evaluators_[t];
         for (auto rank = static_cast<std::uint32_t>(begin); rank < end; ++rank) {
-          if (!cell.evaluate(rank)) continue;
-          if (!cell.was_clipped()) ++from_mesh[t];
+          const bool has_points = cell.evaluate(rank);
+          if (cell.was_clipped()) ++clipped[t];
+          if (!has_points) continue;
           sums.set(rank, cell.moments());
           if (adjacency) walls.set_row(rank, cell.neighbors(), cell.walls(), t);
         }
       }
     });
     Results results{sums.finish(), {}, 0};
-    for (const std::uint64_t count : from_mesh) results.from_mesh += count;
+    for (const std::uint64_t count : clipped) results.clipped += count;
     if (!(results.measures.relative_error() < most_missing)) throw MeshUnusable();
     if (adjacency)
       results.adjacency = walls.finish(seeds, results.measures.status, domain_.frame().unit(D - 1), 0);

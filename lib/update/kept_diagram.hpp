@@ -18,7 +18,7 @@ class KeptDiagram {
   struct Results {
     Measures measures;
     std::optional<Adjacency> adjacency;
-    std::uint64_t from_mesh = 0;  ///< cells computed from the vertices of the mesh, without clipping
+    std::uint64_t clipped = 0;  ///< cells that were clipped by their neighbours
   };
 
   virtual ~KeptDiagram() = default;
