@@ -64,7 +64,11 @@ template <int D>
 void CellEvaluator<D>::start(std::uint32_t site) {
   if (simplex_mark_.size() < mesh_.simplex_count()) simplex_mark_.resize(mesh_.simplex_count(), {0, 0});
   if (site_mark_.size() < mesh_.sites().size()) site_mark_.resize(mesh_.sites().size(), {0, 0});
-  ++cell_;
+  if (++cell_ == 0) {  // all numbers are used up
+    std::fill(simplex_mark_.begin(), simplex_mark_.end(), Mark{0, 0});
+    std::fill(site_mark_.begin(), site_mark_.end(), Mark{0, 0});
+    cell_ = 1;
+  }
   site_ = site;
   here_ = mesh_.sites()[site];
   meets_frame_ = was_clipped_ = false;

@@ -48,8 +48,7 @@ class CellEvaluator {
 
  private:
   struct Mark {
-    std::uint64_t cell;
-    std::uint32_t place;
+    std::uint32_t cell, place;
   };
   /// A vertex of the cell, relative to its site.
   struct Vertex {
@@ -78,7 +77,7 @@ class CellEvaluator {
   const ConvexBounds& bounds_;
   std::unique_ptr<HostClipper> clipper_;
   std::vector<Mark> simplex_mark_, site_mark_;
-  std::uint64_t cell_ = 0;  // the number of the cell among all that were evaluated
+  std::uint32_t cell_ = 0;  // the number of the cell among all that were evaluated
   std::uint32_t site_ = 0;
   Site here_{};
   bool meets_frame_ = false;

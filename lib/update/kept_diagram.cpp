@@ -35,6 +35,7 @@ class KeptMesh final : public KeptDiagram {
     }
     frame_ = FarFrame<D>::around(scene_.points, low, high);
     mesh_.build(scene_.points, frame_.points);
+    mesh_.sort_simplices();
     find_broken(mesh_, false, threads_, centers_);
     for (int t = 0; t < threads_; ++t) evaluators_.emplace_back(mesh_, centers_, bounds_, scene_);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace powercell {
@@ -94,6 +95,32 @@ void DualMesh<D>::build(std::vector<Site> sites, const std::array<Site, corners>
         hide(site, last);
       if (at_[last] == none) last = near_hidden(last);
     }
+}
+
+template <int D>
+void DualMesh<D>::sort_simplices() {
+  std::vector<std::uint32_t> first(sites_.size() + 1), number(simplex_.size());
+  const auto lowest = [&](std::uint32_t s) {
+    return *std::min_element(simplex_[s].corner.begin(), simplex_[s].corner.end());
+  };
+  for (std::uint32_t s = 0; s < simplex_.size(); ++s)
+    if (!is_removed(s)) ++first[lowest(s) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Simplex> sorted(first.back());
+  for (std::uint32_t s = 0; s < simplex_.size(); ++s)
+    if (!is_removed(s)) number[s] = first[lowest(s)]++;
+  for (std::uint32_t s = 0; s < simplex_.size(); ++s) {
+    if (is_removed(s)) continue;
+    Simplex& simplex = sorted[number[s]];
+    simplex = simplex_[s];
+    for (Facet& f : simplex.across)
+      if (f != outside) f = facet(number[f / 4], f % 4);
+  }
+  for (std::uint32_t& s : at_)
+    if (s != none) s = number[s];
+  simplex_ = std::move(sorted);
+  mark_.assign(simplex_.size(), 0);
+  free_.clear();
 }
 
 template <int D>

@@ -45,6 +45,10 @@ class DualMesh {
   /// \throw MeshUnusable in a tie, or if the site is at the place of another
   bool insert(std::uint32_t site, std::uint32_t near, std::vector<std::uint32_t>* added = nullptr);
 
+  /// Numbers the simplices by their lowest sites, which are near each other in Hilbert order: so those that are
+  /// used together lie together in memory.
+  void sort_simplices();
+
   std::size_t site_count() const { return sites_.size() - corners; }
   bool is_frame(std::uint32_t site) const { return site >= site_count(); }
   /// The sites, then those of the frame.
