@@ -61,136 +61,217 @@ ConvexBounds::ConvexBounds(const HostScene& scene) {
 }
 
 template <int D>
-void CellEvaluator<D>::start(std::uint32_t site) {
-  if (simplex_mark_.size() < mesh_.simplex_count()) simplex_mark_.resize(mesh_.simplex_count(), {0, 0});
-  if (site_mark_.size() < mesh_.sites().size()) site_mark_.resize(mesh_.sites().size(), {0, 0});
-  if (++cell_ == 0) {  // all numbers are used up
-    std::fill(simplex_mark_.begin(), simplex_mark_.end(), Mark{0, 0});
-    std::fill(site_mark_.begin(), site_mark_.end(), Mark{0, 0});
-    cell_ = 1;
-  }
-  site_ = site;
-  here_ = mesh_.sites()[site];
-  meets_frame_ = was_clipped_ = false;
-  reach_ = error_ = 0;
+void CellEvaluator<D>::find_vertices(const CellGraph& graph) {
   vertices_.clear();
-  sums_.clear();
-  neighbors_.clear();
-  walls_.clear();
-}
-
-template <int D>
-std::uint32_t CellEvaluator<D>::vertex_of(std::uint32_t simplex) {
-  Mark& mark = simplex_mark_[simplex];
-  if (mark.cell == cell_) return mark.place;
-  mark = {cell_, static_cast<std::uint32_t>(vertices_.size())};
-  const Center& center = centers_[simplex];
-  const Site& origin = mesh_.sites()[mesh_.simplex(simplex).corner[0]];
-  Vertex vertex{{}, simplex};
-  for (std::size_t k = 0; k < 3; ++k) vertex.at[k] = (origin[k] - here_[k]) + center.at[k];
-  reach_ = std::max(reach_, dot(vertex.at, vertex.at));
-  error_ = std::max(error_, center.error);
-  vertices_.push_back(vertex);
-  return mark.place;
-}
-
-template <int D>
-std::uint32_t CellEvaluator<D>::wall_with(std::uint32_t other, std::uint32_t vertex) {
-  Mark& mark = site_mark_[other];
-  if (mark.cell == cell_) return mark.place;
-  mark = {cell_, static_cast<std::uint32_t>(sums_.size())};
-  const Site& there = mesh_.sites()[other];
-  sums_.push_back({other, vertex, {there[0] - here_[0], there[1] - here_[1], there[2] - here_[2]}, 0, 0, {}});
-  meets_frame_ = meets_frame_ || mesh_.is_frame(other);
-  return mark.place;
-}
-
-template <int D>
-void CellEvaluator<D>::add_triangle(Wall& wall, const Vertex& from, const Vertex& to) {
-  const Point &top = vertices_[wall.first].at, s = top + from.at + to.at;
-  const double part = dot(cross(from.at - top, to.at - top), wall.normal);
-  wall.sum += part;
-  wall.squares += part * (dot(top, top) + dot(from.at, from.at) + dot(to.at, to.at) + dot(s, s));
-  for (std::size_t k = 0; k < 3; ++k) wall.first_sums[k] += part * s[k];
-}
-
-/// Goes from a vertex along the edges that follow it on its walls.
-template <int D>
-void CellEvaluator<D>::visit(std::uint32_t vertex) {
-  const auto& simplex = mesh_.simplex(vertices_[vertex].simplex);
-  const std::size_t own = mesh_.index_of(simplex.corner, site_);
-  for (std::size_t p = 0; p < D; ++p) {
-    std::size_t at, leave;  // the wall's corner, and the one opposite the facet of its next edge
-    if constexpr (D == 3) {
-      at = tetrahedron_facet[own][p];
-      leave = tetrahedron_facet[own][(p + 1) % 3];
-    } else {
-      at = (own + 1 + p) % 3;
-      leave = (own + 2 - p) % 3;
-    }
-    const std::uint32_t wall = wall_with(simplex.corner[at], vertex);
-    const typename DualMesh<D>::Facet next = simplex.across[leave];
-    if (next == mesh_.outside) continue;  // a facet of the frame, at a corner of it
-    const std::uint32_t to = vertex_of(next / 4);
-    if constexpr (D == 3) {
-      if (sums_[wall].first != vertex && sums_[wall].first != to)
-        add_triangle(sums_[wall], vertices_[vertex], vertices_[to]);
-    } else if (p == 1) {
-      const Point &a = vertices_[vertex].at, &b = vertices_[to].at, &q = sums_[wall].normal;
-      const double length = q[0] * (b[1] - a[1]) - q[1] * (b[0] - a[0]);
-      sums_[wall].sum = length;
-      sums_[wall].first_sums = length * (a + b);
-      sums_[wall].squares = length * (dot(a, a) + dot(b, b) + dot(a, b));
-    }
+  double square = 0, error = 0;
+  for (const std::uint32_t s : graph.vertices) {
+    const Center& center = centers_[s];
+    Point at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = (center.at[k] - here_[k]) + static_cast<double>(center.rest[k]);
+    square = std::max(square, dot(at, at));
+    error = std::max(error, static_cast<double>(center.error));
+    vertices_.push_back(at);
   }
+  reach_ = std::sqrt(square) * (1 + 8 * unit);
+  error_ = error;
+}
+
+/// On which side of a facet all vertices are, with the sides of each in outside_.
+template <int D>
+typename CellEvaluator<D>::Place CellEvaluator<D>::side_of(const ConvexBounds::Plane& plane, double room) {
+  const double margin = error_ + 16 * unit * (reach_ + bounds_.size);
+  std::size_t outside = 0;
+  outside_.clear();
+  for (const Point& v : vertices_) {
+    const double beyond = dot(plane.normal, v) - room;
+    if (!(std::fabs(beyond) > margin)) return Place::unclear;
+    outside_.push_back(beyond > 0 ? 1 : 0);
+    outside += outside_.back();
+  }
+  return outside == 0 ? Place::inside : outside == vertices_.size() ? Place::outside : Place::cut;
 }
 
 template <int D>
-bool CellEvaluator<D>::is_inside() const {
+typename CellEvaluator<D>::Place CellEvaluator<D>::find_place() {
   const Point here{here_[0], here_[1], here_[2]};
-  const double reach = std::sqrt(reach_) * (1 + 8 * unit),
-               margin = error_ + 16 * unit * (reach + bounds_.size + norm(here));
+  const double margin = error_ + 16 * unit * (reach_ + bounds_.size + norm(here));
+  std::size_t cuts = 0;
   for (const ConvexBounds::Plane& plane : bounds_.planes) {
-    const double room = plane.offset - dot(plane.normal, here) - margin;
-    if (reach < room) continue;
-    for (const Vertex& v : vertices_)
-      if (!(dot(plane.normal, v.at) < room)) return false;
+    const double room = plane.offset - dot(plane.normal, here);
+    if (reach_ < room - margin) continue;
+    std::vector<std::uint8_t> before = cuts > 0 ? outside_ : std::vector<std::uint8_t>();
+    const Place place = side_of(plane, room);
+    if (place == Place::outside || place == Place::unclear) return place;
+    if (place == Place::inside) {
+      outside_ = std::move(before);
+      continue;
+    }
+    if (++cuts > 1) return Place::unclear;
+    facet_ = plane;
+    room_ = room;
   }
-  return true;
+  return cuts == 0 ? Place::inside : Place::cut;
+}
+
+template <int D>
+Point CellEvaluator<D>::normal_of(std::uint32_t neighbor) const {
+  const Site& there = mesh_.sites()[neighbor];
+  return {there[0] - here_[0], there[1] - here_[1], there[2] - here_[2]};
+}
+
+template <int D>
+double CellEvaluator<D>::level_of(std::uint32_t neighbor, const Point& normal) const {
+  const double square = dot(normal, normal);
+  return 0.5 * (square + (here_[3] - mesh_.sites()[neighbor][3])) / square;
+}
+
+/// Adds the cone from the site over a wall.
+template <int D>
+void CellEvaluator<D>::add_cone(double level, const WallSums& sums) {
+  constexpr double one = D == 3 ? 1.0 / 6 : 1.0 / 2, x = D == 3 ? 1.0 / 24 : 1.0 / 6,
+                   square = D == 3 ? 1.0 / 120 : 1.0 / 12;
+  moments_[0] += level * one * sums.one;
+  for (std::size_t k = 0; k < D; ++k) moments_[1 + k] += level * x * sums.x[k];
+  moments_[D + 1] += level * square * sums.square;
+}
+
+template <int D>
+void CellEvaluator<D>::add_wall(std::uint32_t neighbor, const WallSums& sums) {
+  const Point normal = normal_of(neighbor);
+  add_cone(level_of(neighbor, normal), sums);
+  neighbors_.push_back(neighbor);
+  const double area = sums.one / norm(normal) / (D - 1);
+  walls_.push_back(std::max(area, next_to_nothing * (D == 3 ? reach_ * reach_ : reach_)));
+}
+
+template <int D>
+double CellEvaluator<D>::least_measure() const {
+  return plainly_solid * reach_ * reach_ * (D == 3 ? reach_ : 1);
 }
 
 /// \return whether the cell is large enough for its measures to be right
 template <int D>
-bool CellEvaluator<D>::sum_walls() {
-  moments_ = {};
-  const double reach = std::sqrt(reach_);
-  for (const Wall& wall : sums_) {
-    const double square = dot(wall.normal, wall.normal), length = std::sqrt(square),
-                 level = 0.5 * (square + here_[3] - mesh_.sites()[wall.site][3]) / square;
-    double area = wall.sum / length;
+bool CellEvaluator<D>::sum_inside(const CellGraph& graph) {
+  const std::uint8_t* loop = graph.loop.data();
+  for (std::size_t f = 0; f < graph.neighbors.size(); ++f) {
+    if (mesh_.is_frame(graph.neighbors[f])) return false;
+    const Point normal = normal_of(graph.neighbors[f]);
+    WallSums sums;
     if constexpr (D == 3) {
-      area *= 0.5;
-      moments_[0] += level * wall.sum / 6;
-      moments_[D + 1] += level * wall.squares / 120;
-      for (std::size_t k = 0; k < 3; ++k) moments_[1 + k] += level * wall.first_sums[k] / 24;
+      const std::size_t count = graph.loop_size[f];
+      const Point& top = vertices_[loop[0]];
+      for (std::size_t k = 1; k + 1 < count; ++k)
+        sums.add_triangle(top, vertices_[loop[k]], vertices_[loop[k + 1]], normal);
+      loop += count;
     } else {
-      moments_[0] += level * wall.sum / 2;
-      moments_[D + 1] += level * wall.squares / 12;
-      for (std::size_t k = 0; k < 2; ++k) moments_[1 + k] += level * wall.first_sums[k] / 6;
+      sums.add_edge(vertices_[f], vertices_[f + 1 == vertices_.size() ? 0 : f + 1], normal);
     }
-    neighbors_.push_back(wall.site);
-    walls_.push_back(std::max(area, next_to_nothing * (D == 3 ? reach_ : reach)));
+    add_wall(graph.neighbors[f], sums);
   }
-  return moments_[0] > plainly_solid * reach_ * (D == 3 ? reach : 1);
+  return is_plain();
 }
 
 template <int D>
-bool CellEvaluator<D>::clip() {
+void CellEvaluator<D>::find_faces_of_vertices(const CellGraph& graph) {
+  faces_of_.assign(vertices_.size(), {});
+  normals_.clear();
+  offsets_.clear();
+  const std::uint8_t* loop = graph.loop.data();
+  for (std::size_t f = 0; f < graph.neighbors.size(); ++f) {
+    for (std::size_t k = 0; k < graph.loop_size[f]; ++k, ++loop) {
+      auto& faces = faces_of_[*loop];
+      faces[++faces[0]] = static_cast<std::uint8_t>(f);
+    }
+    const Point normal = normal_of(graph.neighbors[f]);
+    normals_.push_back(normal);
+    offsets_.push_back(level_of(graph.neighbors[f], normal) * dot(normal, normal));
+  }
+}
+
+/// Where the facet cuts the edge of a face. \return false if rounding leaves too little of the point
+template <int D>
+bool CellEvaluator<D>::cross_edge(std::size_t face, std::uint8_t from, std::uint8_t to, Point& point) const {
+  constexpr double least_determinant = 1e-6;
+  std::size_t beside = face;
+  for (std::size_t i = 1; i <= 3; ++i)
+    for (std::size_t j = 1; j <= 3; ++j)
+      if (faces_of_[from][i] == faces_of_[to][j] && faces_of_[from][i] != face) beside = faces_of_[from][i];
+  if (beside == face) return false;
+  // In the same order from both faces, for the same point.
+  const auto [a, b] = std::minmax(face, beside);
+  const Point &p = normals_[a], &q = normals_[b], &n = facet_.normal;
+  const Point pq = cross(p, q);
+  const double determinant = dot(pq, n);
+  if (!(std::fabs(determinant) > least_determinant * std::sqrt(dot(p, p) * dot(q, q)))) return false;
+  point = 1 / determinant * (offsets_[a] * cross(q, n) + offsets_[b] * cross(n, p) + room_ * pq);
+  return true;
+}
+
+/// Adds the part of a wall within the facet to `sums`, and the triangle of the facet along it to cap_.
+template <int D>
+bool CellEvaluator<D>::cut_loop(const CellGraph& graph, std::size_t face, const std::uint8_t* loop,
+                                WallSums& sums) {
+  const std::size_t count = graph.loop_size[face];
+  Point leave{}, enter{};
+  std::size_t last = count;  // the vertex inside after which the loop leaves
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint8_t from = loop[k], to = loop[k + 1 == count ? 0 : k + 1];
+    if (outside_[from] == outside_[to]) continue;
+    if (!cross_edge(face, from, to, outside_[to] != 0 ? leave : enter)) return false;
+    if (outside_[to] != 0) {
+      if (last != count) return false;  // no convex loop leaves twice
+      last = k;
+    }
+  }
+  if (last == count) return false;
+  const Point &top = leave, &normal = normals_[face];
+  sums.add_triangle(top, enter, enter, normal);
+  Point before = enter;
+  for (std::size_t k = last + 1; k <= last + count; ++k) {
+    const std::uint8_t v = loop[k % count];
+    if (outside_[v] != 0) continue;
+    sums.add_triangle(top, before, vertices_[v], normal);
+    before = vertices_[v];
+  }
+  if (!has_cap_) cap_top_ = leave;
+  has_cap_ = true;
+  cap_.add_triangle(cap_top_, enter, leave, facet_.normal);
+  return true;
+}
+
+/// Of a cell that one facet of the domain cuts. \return whether its measures are right
+template <int D>
+bool CellEvaluator<D>::sum_cut(const CellGraph& graph) {
+  if (D == 2) return false;
+  find_faces_of_vertices(graph);
+  cap_ = {};
+  has_cap_ = false;
+  const std::uint8_t* loop = graph.loop.data();
+  for (std::size_t f = 0; f < graph.neighbors.size(); loop += graph.loop_size[f++]) {
+    const std::size_t count = graph.loop_size[f];
+    std::size_t outside = 0;
+    for (std::size_t k = 0; k < count; ++k) outside += outside_[loop[k]];
+    if (outside == count) continue;
+    if (mesh_.is_frame(graph.neighbors[f])) return false;
+    WallSums sums;
+    if (outside > 0) {
+      if (!cut_loop(graph, f, loop, sums)) return false;
+    } else {
+      for (std::size_t k = 1; k + 1 < count; ++k)
+        sums.add_triangle(vertices_[loop[0]], vertices_[loop[k]], vertices_[loop[k + 1]], normals_[f]);
+    }
+    add_wall(graph.neighbors[f], sums);
+  }
+  add_cone(room_, cap_);
+  return is_plain();
+}
+
+template <int D>
+bool CellEvaluator<D>::clip(std::span<const std::uint32_t> neighbors) {
   was_clipped_ = true;
-  neighbors_.clear();
   walls_.clear();
-  for (const Wall& wall : sums_)
-    if (!mesh_.is_frame(wall.site)) neighbors_.push_back(wall.site);
+  neighbors_.assign(neighbors.begin(), neighbors.end());
+  std::erase_if(neighbors_, [&](std::uint32_t neighbor) { return mesh_.is_frame(neighbor); });
   piece_.clear();
   const int status = clipper_->clip_by(site_, 0, neighbors_, {moments_.data(), D + 2}, piece_);
   if (status == PIECE_FLAT || clipper_->met_tie()) throw MeshUnusable();
@@ -206,13 +287,21 @@ bool CellEvaluator<D>::clip() {
 
 template <int D>
 bool CellEvaluator<D>::evaluate(std::uint32_t site) {
-  start(site);
+  was_clipped_ = false;
   if (mesh_.simplex_at(site) == mesh_.none) return false;
-  vertex_of(mesh_.simplex_at(site));
-  for (std::uint32_t v = 0; v < vertices_.size(); ++v) visit(v);
-  const bool is_certain = !meets_frame_ && error_ * error_ <= most_error * most_error * reach_ && is_inside();
-  if (is_certain && sum_walls()) return true;
-  return clip();
+  site_ = site;
+  here_ = mesh_.sites()[site];
+  const CellGraph graph = graphs_.graph(site, mesh_.is_changed(site));
+  if (graph.vertices.empty()) return clip(graphs_.neighbors());
+  find_vertices(graph);
+  const Place place = error_ <= most_error * reach_ ? find_place() : Place::unclear;
+  if (place == Place::outside) return false;
+  neighbors_.clear();
+  walls_.clear();
+  moments_ = {};
+  if (place == Place::inside && sum_inside(graph)) return true;
+  if (place == Place::cut && sum_cut(graph)) return true;
+  return clip(graph.neighbors);
 }
 
 template class CellEvaluator<2>;

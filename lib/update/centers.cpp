@@ -36,11 +36,29 @@ struct Equation {
   }
 };
 
+/// Of a simplex, relative to its first corner.
+struct RelativeCenter {
+  Point at;
+  double error;
+  int orientation;  ///< of the simplex, or 0 if that is not certain
+
+  Center absolute(const Site& origin) const {
+    Center center{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double sum = origin[k] + at[k], part = sum - origin[k];
+      center.at[k] = sum;
+      center.rest[k] = static_cast<float>((origin[k] - (sum - part)) + (at[k] - part));
+    }
+    center.error = static_cast<float>(1.001 * error);
+    return center;
+  }
+};
+
 /// With m the largest coordinate of the edges and H the largest size of a right side, determinants have
 /// parts of at most 6 m^3 (2 m^2 in the plane) and numerators of 9 m^2 H (4 m H), each with some ten roundings.
-Center with_error(const Point& sum, double determinant, double m, double power, double h) {
+RelativeCenter with_error(const Point& sum, double determinant, double m, double power, double h) {
   const double scale = 0.5 / determinant;
-  Center center{scale * sum, 0};
+  RelativeCenter center{scale * sum, 0, 0};
   center.error =
       64 * unit * (2 * power * h + power * m * size_of(center.at)) / std::fabs(determinant);
   if (!(center.error >= 0)) center.error = std::numeric_limits<double>::infinity();
@@ -50,6 +68,30 @@ Center with_error(const Point& sum, double determinant, double m, double power, 
 int certain_sign(double determinant, double size) {
   if (!(size > least) || !(std::fabs(determinant) > 32 * unit * size)) return 0;
   return determinant > 0 ? 1 : -1;
+}
+
+template <int D>
+RelativeCenter relative_center(const DualMesh<D>& mesh, std::uint32_t s) {
+  const auto& corner = mesh.simplex(s).corner;
+  const std::span<const Site> sites = mesh.sites();
+  const Site& origin = sites[corner[0]];
+  const Equation a(sites[corner[1]], origin), b(sites[corner[2]], origin);
+  if constexpr (D == 2) {
+    const double m = std::max(size_of(a.r), size_of(b.r)), determinant = a.r[0] * b.r[1] - a.r[1] * b.r[0];
+    const Point sum{a.h * b.r[1] - b.h * a.r[1], b.h * a.r[0] - a.h * b.r[0], 0};
+    RelativeCenter center = with_error(sum, determinant, m, m, std::max(a.h_size, b.h_size));
+    center.orientation = certain_sign(determinant, 2 * m * m);
+    return center;
+  } else {
+    const Equation c(sites[corner[3]], origin);
+    const Point bc = cross(b.r, c.r), ca = cross(c.r, a.r), ab = cross(a.r, b.r);
+    const double determinant = dot(a.r, bc), m = std::max({size_of(a.r), size_of(b.r), size_of(c.r)});
+    const Point sum = a.h * bc + (b.h * ca + c.h * ab);
+    RelativeCenter center =
+        with_error(sum, determinant, m, 6 * m * m, std::max({a.h_size, b.h_size, c.h_size}));
+    center.orientation = certain_sign(determinant, 6 * m * m * m);
+    return center;
+  }
 }
 
 /// Finds what is broken in a range of simplices.
@@ -62,9 +104,9 @@ class Finder {
   Broken run(std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t s = begin; s < end; ++s) {
       if (mesh_.is_removed(s)) continue;
-      const auto [center, sign] = center_of(mesh_, s);
-      centers_[s] = center;
-      if (moved_ && sign <= 0 && (sign < 0 || mesh_.orientation_of(mesh_.simplex(s).corner) <= 0)) {
+      const RelativeCenter center = relative_center(mesh_, s);
+      centers_[s] = center.absolute(mesh_.sites()[mesh_.simplex(s).corner[0]]);
+      if (const int sign = center.orientation; moved_ && sign <= 0 && (sign < 0 || mesh_.orientation_of(mesh_.simplex(s).corner) <= 0)) {
         found_.inverted.push_back(s);
         continue;
       }
@@ -75,7 +117,7 @@ class Finder {
 
  private:
   /// Each facet between two simplices is checked from the lower one.
-  void check_facets(std::uint32_t s, const Center& center) {
+  void check_facets(std::uint32_t s, const RelativeCenter& center) {
     const auto& simplex = mesh_.simplex(s);
     const Site& origin = mesh_.sites()[simplex.corner[0]];
     for (std::size_t k = 0; k < mesh_.corners; ++k) {
@@ -109,24 +151,8 @@ void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& m
 }  // namespace
 
 template <int D>
-std::pair<Center, int> center_of(const DualMesh<D>& mesh, std::uint32_t s) {
-  const auto& corner = mesh.simplex(s).corner;
-  const std::span<const Site> sites = mesh.sites();
-  const Site& origin = sites[corner[0]];
-  const Equation a(sites[corner[1]], origin), b(sites[corner[2]], origin);
-  if constexpr (D == 2) {
-    const double m = std::max(size_of(a.r), size_of(b.r)), determinant = a.r[0] * b.r[1] - a.r[1] * b.r[0];
-    const Point sum{a.h * b.r[1] - b.h * a.r[1], b.h * a.r[0] - a.h * b.r[0], 0};
-    return {with_error(sum, determinant, m, m, std::max(a.h_size, b.h_size)),
-            certain_sign(determinant, 2 * m * m)};
-  } else {
-    const Equation c(sites[corner[3]], origin);
-    const Point bc = cross(b.r, c.r), ca = cross(c.r, a.r), ab = cross(a.r, b.r);
-    const double determinant = dot(a.r, bc), m = std::max({size_of(a.r), size_of(b.r), size_of(c.r)});
-    const Point sum = a.h * bc + (b.h * ca + c.h * ab);
-    return {with_error(sum, determinant, m, 6 * m * m, std::max({a.h_size, b.h_size, c.h_size})),
-            certain_sign(determinant, 6 * m * m * m)};
-  }
+Center center_of(const DualMesh<D>& mesh, std::uint32_t s) {
+  return relative_center(mesh, s).absolute(mesh.sites()[mesh.simplex(s).corner[0]]);
 }
 
 template <int D>
@@ -149,8 +175,8 @@ Broken find_broken(const DualMesh<D>& mesh, bool moved, int threads, std::vector
   return all;
 }
 
-template std::pair<Center, int> center_of(const DualMesh<2>&, std::uint32_t);
-template std::pair<Center, int> center_of(const DualMesh<3>&, std::uint32_t);
+template Center center_of(const DualMesh<2>&, std::uint32_t);
+template Center center_of(const DualMesh<3>&, std::uint32_t);
 template Broken find_broken(const DualMesh<2>&, bool, int, std::vector<Center>&);
 template Broken find_broken(const DualMesh<3>&, bool, int, std::vector<Center>&);
 

@@ -9,15 +9,16 @@
 
 namespace powercell {
 
-/// The point of equal power distance from the corners, relative to the first corner.
+/// The point of equal power distance from the corners: `at` and, from there, `rest`, so that places relative to
+/// a corner are as exact as those computed relative to it.
 struct Center {
   std::array<double, 3> at;
-  double error;  ///< at least the distance from the true point; infinite if rounding leaves nothing
+  std::array<float, 3> rest;
+  float error;  ///< at least the distance from the true point; infinite if rounding leaves nothing
 };
 
-/// \return the centre, and the simplex's orientation if it is certain, else 0
 template <int D>
-std::pair<Center, int> center_of(const DualMesh<D>& mesh, std::uint32_t s);
+Center center_of(const DualMesh<D>& mesh, std::uint32_t s);
 
 /// What new places or weights break.
 struct Broken {

@@ -37,7 +37,11 @@ class KeptMesh final : public KeptDiagram {
     mesh_.build(scene_.points, frame_.points);
     mesh_.sort_simplices();
     find_broken(mesh_, false, threads_, centers_);
-    for (int t = 0; t < threads_; ++t) evaluators_.emplace_back(mesh_, centers_, bounds_, scene_);
+    const auto share = [&](std::size_t t) {
+      return static_cast<std::uint32_t>(seeds.size() * t / static_cast<std::size_t>(threads_));
+    };
+    for (std::size_t t = 0; t < static_cast<std::size_t>(threads_); ++t)
+      evaluators_.emplace_back(mesh_, centers_, bounds_, scene_, share(t), share(t + 1));
   }
 
   void update(const SeedSet& seeds, bool moved) override {
@@ -65,6 +69,7 @@ class KeptMesh final : public KeptDiagram {
         }
       }
     });
+    mesh_.clear_changes();
     Results results{sums.finish(), {}, 0};
     for (const std::uint64_t count : clipped) results.clipped += count;
     if (!(results.measures.relative_error() < most_missing)) throw MeshUnusable();

@@ -39,7 +39,10 @@ std::uint32_t DualMesh<D>::add(const Corners& corner) {
     free_.pop_back();
   }
   simplex_[s].corner = corner;
-  for (const std::uint32_t site : corner) at_[site] = s;
+  for (const std::uint32_t site : corner) {
+    at_[site] = s;
+    changed_[site] = 1;
+  }
   return s;
 }
 
@@ -80,6 +83,7 @@ void DualMesh<D>::build(std::vector<Site> sites, const std::array<Site, corners>
   hidden_.clear();
   at_.assign(sites_.size(), none);
   near_.assign(sites_.size(), 0);
+  changed_.assign(sites_.size(), 0);
   Corners first{};
   for (std::size_t k = 0; k < corners; ++k) first[k] = count + static_cast<std::uint32_t>(k);
   simplex_[add(first)].across.fill(outside);

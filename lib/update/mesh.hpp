@@ -2,6 +2,7 @@
 /// The dual mesh: the regular triangulation of the seeds, with the space around it. Internal.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -85,6 +86,9 @@ class DualMesh {
   std::uint32_t opposite(Facet f) const { return simplex_[f / 4].corner[f % 4]; }
   /// The site has no simplex any more.
   void hide(std::uint32_t site, std::uint32_t near);
+  /// Whether a simplex was added at a site since clear_changes().
+  bool is_changed(std::uint32_t site) const { return changed_[site] != 0; }
+  void clear_changes() { std::fill(changed_.begin(), changed_.end(), std::uint8_t{0}); }
   /// Takes the list of hidden sites away, to be filled again.
   std::vector<std::uint32_t> take_hidden() { return std::exchange(hidden_, {}); }
 
@@ -98,6 +102,7 @@ class DualMesh {
   std::vector<Simplex> simplex_;
   std::vector<std::uint32_t> at_;    // per site: a simplex, or none
   std::vector<std::uint32_t> near_;  // per site, where hidden: a site near it
+  std::vector<std::uint8_t> changed_;  // per site
   std::vector<std::uint32_t> hidden_;
   std::vector<std::uint32_t> free_;
   // Scratch memory of insert(). A simplex of the cavity has the mark epoch_, one found outside epoch_ + 1.

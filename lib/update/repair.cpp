@@ -66,7 +66,7 @@ RepairCounts repair(DualMesh<D>& mesh, const Broken& broken, bool moved, std::ve
   counts.inserted = insert_hidden(mesh, moved, added);
   centers.resize(mesh.simplex_count());
   for (const std::uint32_t s : added)
-    if (!mesh.is_removed(s)) centers[s] = center_of(mesh, s).first;
+    if (!mesh.is_removed(s)) centers[s] = center_of(mesh, s);
   return counts;
 }
 
