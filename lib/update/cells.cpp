@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kernels/layout.h"
+#include "lib/base/vector_copies.hpp"
 #include "lib/base/vectors.hpp"
 #include "lib/domain/region_mesh.hpp"
 
@@ -27,6 +29,48 @@ ConvexBounds::Plane plane_through(const Point& at, const Point& normal) {
   if (!(length > 0)) return {{}, 0};
   const Point n = 1 / length * normal;
   return {n, dot(n, at)};
+}
+
+/// The vertices of a cell relative to its site. \return the largest squared distance and error of one
+POWERCELL_VECTOR_COPIES std::pair<double, double> place_vertices(const Center* centers,
+                                                                 std::span<const std::uint32_t> simplices,
+                                                                 const Site& here, Point* vertices) {
+  double square = 0;
+  float error = 0;
+  for (std::size_t v = 0; v < simplices.size(); ++v) {
+    const Center& center = centers[simplices[v]];
+    Point at;
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = (center.at[k] - here[k]) + static_cast<double>(center.rest[k]);
+    const double distance = dot(at, at);
+    square = distance > square ? distance : square;
+    error = center.error > error ? center.error : error;
+    vertices[v] = at;
+  }
+  return {square, static_cast<double>(error)};
+}
+
+POWERCELL_VECTOR_COPIES void sum_loop(const Point* vertices, const std::uint8_t* loop, std::size_t count,
+                                      const Point& normal, WallSums& sums) {
+  const Point top = vertices[loop[0]];
+  Point a = vertices[loop[1]] - top;
+  double one = 0, square = 0, x = 0, y = 0, z = 0, aa = dot(a, a);
+  for (std::size_t k = 2; k < count; ++k) {
+    const Point b = vertices[loop[k]] - top;
+    const double part = dot(cross(a, b), normal), bb = dot(b, b);
+    one += part;
+    square += part * (aa + bb + dot(a, b));
+    x += part * (a[0] + b[0]);
+    y += part * (a[1] + b[1]);
+    z += part * (a[2] + b[2]);
+    a = b;
+    aa = bb;
+  }
+  // Moved from the top to the site.
+  sums.one += one;
+  const Point s{x, y, z};
+  for (std::size_t k = 0; k < 3; ++k) sums.x[k] += s[k] + 3 * one * top[k];
+  sums.square += 2 * square + 8 * dot(top, s) + 12 * one * dot(top, top);
 }
 
 }  // namespace
@@ -62,16 +106,8 @@ ConvexBounds::ConvexBounds(const HostScene& scene) {
 
 template <int D>
 void CellEvaluator<D>::find_vertices(const CellGraph& graph) {
-  vertices_.clear();
-  double square = 0, error = 0;
-  for (const std::uint32_t s : graph.vertices) {
-    const Center& center = centers_[s];
-    Point at;
-    for (std::size_t k = 0; k < 3; ++k) at[k] = (center.at[k] - here_[k]) + static_cast<double>(center.rest[k]);
-    square = std::max(square, dot(at, at));
-    error = std::max(error, static_cast<double>(center.error));
-    vertices_.push_back(at);
-  }
+  vertices_.resize(graph.vertices.size());
+  const auto [square, error] = place_vertices(centers_.data(), graph.vertices, here_, vertices_.data());
   reach_ = std::sqrt(square) * (1 + 8 * unit);
   error_ = error;
 }
@@ -159,9 +195,7 @@ bool CellEvaluator<D>::sum_inside(const CellGraph& graph) {
     WallSums sums;
     if constexpr (D == 3) {
       const std::size_t count = graph.loop_size[f];
-      const Point& top = vertices_[loop[0]];
-      for (std::size_t k = 1; k + 1 < count; ++k)
-        sums.add_triangle(top, vertices_[loop[k]], vertices_[loop[k + 1]], normal);
+      sum_loop(vertices_.data(), loop, count, normal, sums);
       loop += count;
     } else {
       sums.add_edge(vertices_[f], vertices_[f + 1 == vertices_.size() ? 0 : f + 1], normal);
@@ -257,8 +291,7 @@ bool CellEvaluator<D>::sum_cut(const CellGraph& graph) {
     if (outside > 0) {
       if (!cut_loop(graph, f, loop, sums)) return false;
     } else {
-      for (std::size_t k = 1; k + 1 < count; ++k)
-        sums.add_triangle(vertices_[loop[0]], vertices_[loop[k]], vertices_[loop[k + 1]], normals_[f]);
+      sum_loop(vertices_.data(), loop, count, normals_[f], sums);
     }
     add_wall(graph.neighbors[f], sums);
   }

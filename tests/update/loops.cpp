@@ -11,7 +11,8 @@
 namespace powercell::test {
 namespace {
 
-constexpr double most_difference = 1e-13;  // in means
+/// In means. In the plane the ends of walls between lines that are nearly parallel are less certain than areas.
+constexpr double most_difference = 1e-13, most_wall_difference = 1e-10;
 
 const Device& device() {
   static const Device chosen = Device::choose();
@@ -83,7 +84,7 @@ bool step(Work& work, Random& random) {
 }
 
 /// Compares two diagrams. \return what is different first, or nothing
-std::string compare(Diagram& kept, Diagram& fresh, double& worst) {
+std::string compare(Diagram& kept, Diagram& fresh, LoopTally& tally) {
   const Measures &a = kept.measures(), &b = fresh.measures();
   if (a.status != b.status) return "a status";
   const Adjacency &c = kept.adjacency(), &d = fresh.adjacency();
@@ -100,13 +101,13 @@ std::string compare(Diagram& kept, Diagram& fresh, double& worst) {
     // Second moments are about the seed, which may be far from the cell.
     const double scale = std::max(length * length, b.second_moment[i] / std::max(b.mass[i], 1e-6 * mean));
     difference = std::max(difference, std::abs(a.second_moment[i] - b.second_moment[i]) / mean / scale);
-    worst = std::max(worst, difference);
+    tally.worst_measure = std::max(tally.worst_measure, difference);
     if (difference > most_difference) return "the measures of seed " + std::to_string(i) + " by " + std::to_string(difference * 1e15) + "e-15";
   }
   for (std::size_t k = 0; k < c.wall.size(); ++k) {
     const double difference = std::abs(c.wall[k] - d.wall[k]) / std::pow(length, dimension - 1);
-    worst = std::max(worst, difference);
-    if (difference > most_difference) return "a wall by " + std::to_string(difference * 1e15) + "e-15";
+    tally.worst_wall = std::max(tally.worst_wall, difference);
+    if (difference > most_wall_difference) return "a wall by " + std::to_string(difference * 1e15) + "e-15";
   }
   return "";
 }
@@ -137,7 +138,7 @@ void run_loop(std::uint64_t random_seed, std::size_t most_seeds, LoopTally& tall
     tally.cells += work.seeds.size();
     tally.reused += reused;
     tally.from_mesh += reused > 0 ? 1 : 0;
-    const std::string what = compare(kept, one, tally.worst);
+    const std::string what = compare(kept, one, tally);
     if (what.empty()) continue;
     ++tally.different;
     if (tally.first_difference.empty())
