@@ -95,17 +95,21 @@ std::string compare(Diagram& kept, Diagram& fresh, LoopTally& tally) {
   const auto n = static_cast<std::size_t>(dimension);
   for (std::size_t i = 0; i < a.mass.size(); ++i) {
     if (b.status[i] != SeedStatus::ok) continue;
-    double difference = std::abs(a.mass[i] - b.mass[i]) / mean;
+    // Of a cell larger than the mean, of its own. Moments are about the seed, which may be far from the cell.
+    const double mass = std::max(mean, b.mass[i]),
+                 reach = std::max(length, std::sqrt(b.second_moment[i] / std::max(b.mass[i], 1e-6 * mean)));
+    double difference = std::abs(a.mass[i] - b.mass[i]) / mass;
     for (std::size_t k = 0; k < n; ++k)
-      difference = std::max(difference, std::abs(a.centroid[i * n + k] - b.centroid[i * n + k]) * b.mass[i] / mean / length);
-    // Second moments are about the seed, which may be far from the cell.
-    const double scale = std::max(length * length, b.second_moment[i] / std::max(b.mass[i], 1e-6 * mean));
-    difference = std::max(difference, std::abs(a.second_moment[i] - b.second_moment[i]) / mean / scale);
+      difference = std::max(difference, std::abs(a.centroid[i * n + k] - b.centroid[i * n + k]) * b.mass[i] /
+                                            mass / reach);
+    difference =
+        std::max(difference, std::abs(a.second_moment[i] - b.second_moment[i]) / mass / reach / reach);
     tally.worst_measure = std::max(tally.worst_measure, difference);
     if (difference > most_difference) return "the measures of seed " + std::to_string(i) + " by " + std::to_string(difference * 1e15) + "e-15";
   }
   for (std::size_t k = 0; k < c.wall.size(); ++k) {
-    const double difference = std::abs(c.wall[k] - d.wall[k]) / std::pow(length, dimension - 1);
+    const double difference =
+        std::abs(c.wall[k] - d.wall[k]) / std::max(d.wall[k], std::pow(length, dimension - 1));
     tally.worst_wall = std::max(tally.worst_wall, difference);
     if (difference > most_wall_difference) return "a wall by " + std::to_string(difference * 1e15) + "e-15";
   }
