@@ -214,7 +214,8 @@ std::unique_ptr<Contender> our_contender(const std::string& stage, const std::st
     made = std::make_unique<OursInLoop>(domain, seeds, options, weight_step, move);
   else
     made = std::make_unique<Ours>(
-        stage == "periodic" ? Domain::periodic_box(std::span(low).first(d), std::span(high).first(d)) : domain,
+        stage == "periodic" ? Domain::periodic_box(std::span(low).first(d), std::span(high).first(d))
+                            : domain,
         seeds, options);
   made->stage = stage;
   made->provider = provider;

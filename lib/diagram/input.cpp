@@ -128,8 +128,9 @@ Input with_places(const Setup& setup, const Input& input, const SeedsView& view)
   const auto d = static_cast<std::size_t>(view.dimension);
   Input next;
   next.is_in_order = false;
-  next.seeds = {view.dimension, view.size(), std::vector<double>(view.size() * d),
-                std::vector<double>(view.size()), input.seeds.input, {}};
+  next.seeds = {
+      view.dimension,    view.size(), std::vector<double>(view.size() * d), std::vector<double>(view.size()),
+      input.seeds.input, {}};
   const double* const weights = view.weights.empty() ? nullptr : view.weights.data();
   parallel_for(threads_for(view.size(), setup.threads), view.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {

@@ -43,10 +43,9 @@ Input make_input(const Setup& setup, const SeedsView& seeds);
 /// \throw Error invalid_argument (size), invalid_seed; `input` is then unchanged
 Input with_weights(const Setup& setup, Input&& input, std::span<const double> weights);
 
-/// The same seeds with new places and weights, in the caller's order. They keep their ranks, so that they need
-/// not be in Hilbert order any more, and duplicates are not looked for.
-/// \pre as many seeds, without duplicates and not periodic
-/// \throw as make_input
+/// The same seeds with new places and weights, in the caller's order. They keep their ranks, so that they
+/// need not be in Hilbert order any more, and duplicates are not looked for. \pre as many seeds, without
+/// duplicates and not periodic \throw as make_input
 Input with_places(const Setup& setup, const Input& input, const SeedsView& seeds);
 
 }  // namespace powercell

@@ -11,8 +11,9 @@
 namespace powercell {
 
 /// A diagram that gets new weights or places again and again is in a loop. To make a mesh takes as long as a
-/// diagram without it, so one is made when the second change has come. Where a mesh turns out to be of no use,
-/// because seeds tie or change too much, twice as many diagrams are computed without one before the next try.
+/// diagram without it, so one is made when the second change has come. Where a mesh turns out to be of no
+/// use, because seeds tie or change too much, twice as many diagrams are computed without one before the next
+/// try.
 class Loop {
  public:
   /// To be called when the seeds are replaced.
@@ -37,9 +38,9 @@ class Loop {
   void fail();
 
   std::unique_ptr<KeptDiagram> mesh_;
-  bool is_current_ = false;  // the mesh is that of the seeds as they are
-  bool moved_ = false;       // places have changed since the mesh was brought up to date
-  int changes_ = 0;          // of the same seeds
+  bool is_current_ = false;            // the mesh is that of the seeds as they are
+  bool moved_ = false;                 // places have changed since the mesh was brought up to date
+  int changes_ = 0;                    // of the same seeds
   unsigned wait_ = 0, next_wait_ = 1;  // diagrams to compute without a mesh: now, and after the next failure
 };
 

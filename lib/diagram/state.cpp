@@ -223,9 +223,9 @@ void Diagram::State::certify() {
   const Stopwatch watch(setup.device);
   try {
     require_certificate({setup.domain, input->seeds,
-                         active && active->images() ? active->seeds() : input->seeds,
-                         *results->measures, results->adjacency ? &*results->adjacency : nullptr,
-                         setup.float32(), setup.threads, [this]() -> const Cells& {
+                         active && active->images() ? active->seeds() : input->seeds, *results->measures,
+                         results->adjacency ? &*results->adjacency : nullptr, setup.float32(), setup.threads,
+                         [this]() -> const Cells& {
                            if (!results->cells) pass(PlanKind::geometry, {.cells = true});
                            return *results->cells;
                          }});

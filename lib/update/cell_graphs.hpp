@@ -59,7 +59,8 @@ class CellGraphs {
   std::vector<Mark> simplex_mark_, site_mark_;
   std::uint32_t cell_ = 0;
   std::vector<std::uint32_t> simplices_, faces_;
-  std::vector<std::array<std::uint8_t, 3>> face_, next_;  // per vertex: three faces, and the vertex after it on each
+  std::vector<std::array<std::uint8_t, 3>> face_,
+      next_;  // per vertex: three faces, and the vertex after it on each
 };
 
 extern template class CellGraphs<2>;

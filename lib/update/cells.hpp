@@ -102,8 +102,8 @@ class CellEvaluator {
   std::unique_ptr<HostClipper> clipper_;
   std::uint32_t site_ = 0;
   Site here_{};
-  double reach_ = 0, error_ = 0;            // the largest distance of a vertex, and error of one
-  std::vector<Vector3<double>> vertices_;   // relative to the site
+  double reach_ = 0, error_ = 0;           // the largest distance of a vertex, and error of one
+  std::vector<Vector3<double>> vertices_;  // relative to the site
   // Of a cell that a facet cuts: its plane, the sides of the vertices and their faces, and what is cut off.
   ConvexBounds::Plane facet_{};
   double room_ = 0;

@@ -55,12 +55,12 @@ struct RelativeCenter {
 };
 
 /// With m the largest coordinate of the edges and H the largest size of a right side, determinants have
-/// parts of at most 6 m^3 (2 m^2 in the plane) and numerators of 9 m^2 H (4 m H), each with some ten roundings.
+/// parts of at most 6 m^3 (2 m^2 in the plane) and numerators of 9 m^2 H (4 m H), each with some ten
+/// roundings.
 RelativeCenter with_error(const Point& sum, double determinant, double m, double power, double h) {
   const double scale = 0.5 / determinant;
   RelativeCenter center{scale * sum, 0, 0};
-  center.error =
-      64 * unit * (2 * power * h + power * m * size_of(center.at)) / std::fabs(determinant);
+  center.error = 64 * unit * (2 * power * h + power * m * size_of(center.at)) / std::fabs(determinant);
   if (!(center.error >= 0)) center.error = std::numeric_limits<double>::infinity();
   return center;
 }
@@ -106,7 +106,8 @@ class Finder {
       if (mesh_.is_removed(s)) continue;
       const RelativeCenter center = relative_center(mesh_, s);
       centers_[s] = center.absolute(mesh_.sites()[mesh_.simplex(s).corner[0]]);
-      if (const int sign = center.orientation; moved_ && sign <= 0 && (sign < 0 || mesh_.orientation_of(mesh_.simplex(s).corner) <= 0)) {
+      if (const int sign = center.orientation;
+          moved_ && sign <= 0 && (sign < 0 || mesh_.orientation_of(mesh_.simplex(s).corner) <= 0)) {
         found_.inverted.push_back(s);
         continue;
       }
@@ -125,7 +126,8 @@ class Finder {
       if (f == mesh_.outside || f / 4 < s) continue;
       const std::uint32_t site = mesh_.opposite(f);
       const Equation e(mesh_.sites()[site], origin);
-      const double level = e.h - 2 * dot(e.r, center.at), size = std::fabs(e.r[0]) + std::fabs(e.r[1]) + std::fabs(e.r[2]),
+      const double level = e.h - 2 * dot(e.r, center.at),
+                   size = std::fabs(e.r[0]) + std::fabs(e.r[1]) + std::fabs(e.r[2]),
                    error = 2 * size * center.error + 8 * unit * (e.h_size + size * size_of(center.at));
       if (level > error) continue;
       if (level < -error || is_broken(s, site)) found_.facets.push_back(mesh_.facet(s, k));

@@ -9,8 +9,8 @@
 
 namespace powercell {
 
-/// The point of equal power distance from the corners: `at` and, from there, `rest`, so that places relative to
-/// a corner are as exact as those computed relative to it.
+/// The point of equal power distance from the corners: `at` and, from there, `rest`, so that places relative
+/// to a corner are as exact as those computed relative to it.
 struct Center {
   std::array<double, 3> at;
   std::array<float, 3> rest;

@@ -184,7 +184,8 @@ template <int D>
 std::vector<std::uint32_t> Flipper<D>::take_stuck_sites() {
   std::vector<std::uint32_t> sites;
   for (const std::uint32_t s : inverted_list_)
-    if (is_inverted(s)) sites.insert(sites.end(), mesh_.simplex(s).corner.begin(), mesh_.simplex(s).corner.end());
+    if (is_inverted(s))
+      sites.insert(sites.end(), mesh_.simplex(s).corner.begin(), mesh_.simplex(s).corner.end());
   for (const Facet f : stuck_) {
     if (mesh_.is_removed(f / 4) || !is_broken(f)) continue;
     for (std::size_t k = 0; k < mesh_.corners; ++k)

@@ -109,7 +109,8 @@ class KeptMesh final : public KeptDiagram {
 
 bool KeptDiagram::is_possible(const DomainBuffers& domain) {
   const RegionMesh& mesh = domain.mesh();
-  return mesh.region_count() == 1 && !mesh.period && mesh.dimension == mesh.cell_dimension && !domain.float32();
+  return mesh.region_count() == 1 && !mesh.period && mesh.dimension == mesh.cell_dimension &&
+         !domain.float32();
 }
 
 std::unique_ptr<KeptDiagram> KeptDiagram::make(const DomainBuffers& domain, const SeedSet& seeds,

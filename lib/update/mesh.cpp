@@ -253,7 +253,8 @@ FarFrame<D> FarFrame<D>::around(std::span<const Site> sites, const std::array<do
   // from the domain, the frame is at least 20 times the reach away in each direction. No place of it is
   // special, so that seeds in order do not tie with it.
   const double far = 200 * reach;
-  constexpr double direction[4][3] = {{-1.02, -0.71, -0.53}, {1.09, -0.67, -0.61}, {0.07, 1.13, -0.57}, {0.03, 0.05, 1.21}};
+  constexpr double direction[4][3] = {
+      {-1.02, -0.71, -0.53}, {1.09, -0.67, -0.61}, {0.07, 1.13, -0.57}, {0.03, 0.05, 1.21}};
   for (std::size_t p = 0; p <= D; ++p) {
     frame.points[p] = {0, 0, 0, lowest};
     for (std::size_t k = 0; k < D; ++k)

@@ -46,8 +46,8 @@ class DualMesh {
   /// \throw MeshUnusable in a tie, or if the site is at the place of another
   bool insert(std::uint32_t site, std::uint32_t near, std::vector<std::uint32_t>* added = nullptr);
 
-  /// Numbers the simplices by their lowest sites, which are near each other in Hilbert order: so those that are
-  /// used together lie together in memory.
+  /// Numbers the simplices by their lowest sites, which are near each other in Hilbert order: so those that
+  /// are used together lie together in memory.
   void sort_simplices();
 
   std::size_t site_count() const { return sites_.size() - corners; }
@@ -100,8 +100,8 @@ class DualMesh {
 
   std::vector<Site> sites_;
   std::vector<Simplex> simplex_;
-  std::vector<std::uint32_t> at_;    // per site: a simplex, or none
-  std::vector<std::uint32_t> near_;  // per site, where hidden: a site near it
+  std::vector<std::uint32_t> at_;      // per site: a simplex, or none
+  std::vector<std::uint32_t> near_;    // per site, where hidden: a site near it
   std::vector<std::uint8_t> changed_;  // per site
   std::vector<std::uint32_t> hidden_;
   std::vector<std::uint32_t> free_;

@@ -114,10 +114,10 @@ class Hole {
   std::unordered_set<std::uint32_t> in_hole_;
   std::vector<Facet> border_;  // of the mesh, from inside
   DualMesh<D> local_;
-  std::vector<Facet> local_border_;     // per border_: the same facet of the local mesh, from inside
+  std::vector<Facet> local_border_;      // per border_: the same facet of the local mesh, from inside
   std::vector<std::uint8_t> is_border_;  // per local facet, from either side
-  std::vector<std::uint32_t> filling_;  // local simplices
-  std::vector<std::uint32_t> made_;     // per local simplex: that of the mesh
+  std::vector<std::uint32_t> filling_;   // local simplices
+  std::vector<std::uint32_t> made_;      // per local simplex: that of the mesh
 };
 
 /// \return the facets that the local mesh does not have
@@ -166,13 +166,15 @@ bool Hole<D>::flood() {
     const auto& simplex = local_.simplex(filling_[k]);
     for (std::size_t c = 0; c < mesh_.corners; ++c) {
       if (!local_.is_frame(simplex.corner[c])) has_simplex[simplex.corner[c]] = 1;
-      if (is_border_[mesh_.facet(filling_[k], c)] == 0 && simplex.across[c] != mesh_.outside) visit(simplex.across[c] / 4);
+      if (is_border_[mesh_.facet(filling_[k], c)] == 0 && simplex.across[c] != mesh_.outside)
+        visit(simplex.across[c] / 4);
     }
   }
   for (std::size_t b = 0; b < border_.size(); ++b) {
     const Facet beyond = local_.across(local_border_[b]), there = mesh_.across(border_[b]);
     if (beyond != mesh_.outside && made_[beyond / 4] != mesh_.none) return false;
-    if (there != mesh_.outside && mesh_.opposite(there) == global(local_.opposite(local_border_[b]))) return false;
+    if (there != mesh_.outside && mesh_.opposite(there) == global(local_.opposite(local_border_[b])))
+      return false;
   }
   for (std::uint32_t site = 0; site < sites_.size(); ++site)
     if (has_simplex[site] == 0 && local_.simplex_at(site) != mesh_.none) return false;

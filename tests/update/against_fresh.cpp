@@ -14,8 +14,8 @@ LoopTally run_loops(std::size_t loops, std::size_t most_seeds) {
   LoopTally tally;
   for (std::size_t k = 0; k < loops; ++k) run_loop(test_seed() + k, most_seeds, tally);
   MESSAGE(tally.updates << " updates, " << tally.from_mesh << " from the mesh, " << tally.reused << " of "
-                        << tally.cells << " cells reused; largest difference of a measure " << tally.worst_measure
-                        << " of the mean, of a wall " << tally.worst_wall);
+                        << tally.cells << " cells reused; largest difference of a measure "
+                        << tally.worst_measure << " of the mean, of a wall " << tally.worst_wall);
   return tally;
 }
 

@@ -11,7 +11,8 @@
 namespace powercell::test {
 namespace {
 
-/// In means. In the plane the ends of walls between lines that are nearly parallel are less certain than areas.
+/// In means. In the plane the ends of walls between lines that are nearly parallel are less certain than
+/// areas.
 constexpr double most_difference = 1e-13, most_wall_difference = 1e-10;
 
 const Device& device() {
@@ -21,7 +22,8 @@ const Device& device() {
 
 Domain random_domain(int dimension, Random& random) {
   if (dimension == 2 && random.index(4) == 0)
-    return Domain::polygon(std::vector{PolygonPart{Ring{{0.1, 0}, {0.9, 0.1}, {1, 0.7}, {0.6, 1}, {0, 0.5}}, {}}});
+    return Domain::polygon(
+        std::vector{PolygonPart{Ring{{0.1, 0}, {0.9, 0.1}, {1, 0.7}, {0.6, 1}, {0, 0.5}}, {}}});
   std::vector<double> low, high;
   for (int k = 0; k < dimension; ++k) {
     low.push_back(random.index(2) == 0 ? 0 : random.uniform(-0.2, 0.3));
@@ -32,13 +34,14 @@ Domain random_domain(int dimension, Random& random) {
 
 struct Work {
   SeedArray seeds;
-  double h;  ///< their spacing
+  double h;             ///< their spacing
   double move, change;  ///< steps of a place and a weight, in h and h^2
 };
 
 Work random_work(int dimension, std::size_t most_seeds, Random& random) {
   Work work;
-  const auto n = static_cast<std::size_t>(std::exp(random.uniform(0, std::log(static_cast<double>(most_seeds) + 1))));
+  const auto n =
+      static_cast<std::size_t>(std::exp(random.uniform(0, std::log(static_cast<double>(most_seeds) + 1))));
   const Distribution distributions[] = {Distribution::white, Distribution::blue, Distribution::cluster};
   const WeightRange ranges[] = {WeightRange::W0, WeightRange::W1, WeightRange::W2};
   const WeightRange range = ranges[random.index(3)];
@@ -52,7 +55,8 @@ Work random_work(int dimension, std::size_t most_seeds, Random& random) {
         box.low[k] = -0.5;
         box.high[k] = 1.5;
       }
-    work.seeds = random_seeds(distributions[random.index(3)], range, std::max<std::size_t>(n, 1), dimension, random, box);
+    work.seeds = random_seeds(distributions[random.index(3)], range, std::max<std::size_t>(n, 1), dimension,
+                              random, box);
   }
   const double steps[] = {0, 1e-6, 1e-3, 1e-2, 0.1, 0.5};
   work.move = steps[random.index(6)];
@@ -100,12 +104,14 @@ std::string compare(Diagram& kept, Diagram& fresh, LoopTally& tally) {
                  reach = std::max(length, std::sqrt(b.second_moment[i] / std::max(b.mass[i], 1e-6 * mean)));
     double difference = std::abs(a.mass[i] - b.mass[i]) / mass;
     for (std::size_t k = 0; k < n; ++k)
-      difference = std::max(difference, std::abs(a.centroid[i * n + k] - b.centroid[i * n + k]) * b.mass[i] /
-                                            mass / reach);
+      difference = std::max(
+          difference, std::abs(a.centroid[i * n + k] - b.centroid[i * n + k]) * b.mass[i] / mass / reach);
     difference =
         std::max(difference, std::abs(a.second_moment[i] - b.second_moment[i]) / mass / reach / reach);
     tally.worst_measure = std::max(tally.worst_measure, difference);
-    if (difference > most_difference) return "the measures of seed " + std::to_string(i) + " by " + std::to_string(difference * 1e15) + "e-15";
+    if (difference > most_difference)
+      return "the measures of seed " + std::to_string(i) + " by " + std::to_string(difference * 1e15) +
+             "e-15";
   }
   for (std::size_t k = 0; k < c.wall.size(); ++k) {
     const double difference =
@@ -147,7 +153,8 @@ void run_loop(std::uint64_t random_seed, std::size_t most_seeds, LoopTally& tall
     ++tally.different;
     if (tally.first_difference.empty())
       tally.first_difference = what + ", random seed " + std::to_string(random_seed) + ", step " +
-                               std::to_string(k) + ", " + std::to_string(work.seeds.size()) + " seeds, " + std::to_string(reused) + " reused";
+                               std::to_string(k) + ", " + std::to_string(work.seeds.size()) + " seeds, " +
+                               std::to_string(reused) + " reused";
   }
 }
 

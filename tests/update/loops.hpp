@@ -8,12 +8,12 @@
 namespace powercell::test {
 
 struct LoopTally {
-  std::size_t updates = 0;     ///< compared with fresh diagrams
-  std::size_t from_mesh = 0;   ///< of these, those computed from the kept mesh
-  std::size_t different = 0;   ///< with another status, neighbour, or measure
+  std::size_t updates = 0;    ///< compared with fresh diagrams
+  std::size_t from_mesh = 0;  ///< of these, those computed from the kept mesh
+  std::size_t different = 0;  ///< with another status, neighbour, or measure
   std::uint64_t cells = 0, reused = 0;
-  double worst_measure = 0;    ///< difference of a mass or a moment, in means
-  double worst_wall = 0;       ///< the same of a wall
+  double worst_measure = 0;  ///< difference of a mass or a moment, in means
+  double worst_wall = 0;     ///< the same of a wall
   std::string first_difference;
 };
 
