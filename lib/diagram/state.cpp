@@ -19,7 +19,8 @@ void log_run(std::size_t seeds, const Timings& t) {
            in_seconds(t.total) + " (prepare " + in_seconds(t.prepare) + ", pairs " + in_seconds(t.pairs) +
            ", neighbours " + in_seconds(t.neighbors) + ", clip " + in_seconds(t.clip) + ", collect " +
            in_seconds(t.collect) + ") and " + in_seconds(t.build) + " of compilation; " +
-           "pieces finished on the host: " + std::to_string(t.on_host);
+           "pieces finished on the host: " + std::to_string(t.on_host) +
+           (t.reused > 0 ? "; from the kept mesh" : "");
   });
 }
 
