@@ -37,8 +37,9 @@ class POWERCELL_API Diagram {
   /// repairs it instead of searching and clipping anew (Timings::reused). Then statuses and adjacency are
   /// those of a fresh diagram, and measures differ from its by rounding, some 1e-14 of their mean. So it is
   /// in boxes and other domains of one convex region, not periodic, in double precision with exact decisions,
-  /// for measures and adjacency of all cells; everything else is computed anew. The mesh takes about 500
-  /// bytes a seed in space and 150 in the plane. \throw Error invalid_argument (size), invalid_seed
+  /// for measures and adjacency of all cells; everything else is computed anew. The mesh takes about 900
+  /// bytes a seed in space and 300 in the plane.
+  /// \throw Error invalid_argument (size), invalid_seed
   void set_weights(std::span<const double> weights);
 
   /// From now on computes the cells of some seeds only, against all seeds, until select_all() or set_seeds().

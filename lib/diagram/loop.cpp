@@ -42,10 +42,6 @@ void Loop::fail() {
   });
 }
 
-bool Loop::release_memory() {
-  return std::exchange(mesh_, nullptr) != nullptr;
-}
-
 std::optional<KeptDiagram::Results> Loop::compute(const Setup& setup, const Input& input, bool adjacency,
                                                   Timings& timings) {
   if (!is_due(setup, input)) return {};

@@ -29,8 +29,6 @@ class Loop {
   /// \return nothing if they must be computed without one
   std::optional<KeptDiagram::Results> compute(const Setup& setup, const Input& input, bool adjacency,
                                               Timings& timings);
-  /// Frees the mesh; false if there is none.
-  bool release_memory();
 
  private:
   /// Whether diagrams can be kept, and this one is to be.

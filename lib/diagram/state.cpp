@@ -114,7 +114,7 @@ Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
 }
 
 bool Diagram::State::release_memory() {
-  if (!workspace.clip && !workspace.facets) return false;  // the mesh of a loop is not on the device
+  if (!workspace.clip && !workspace.facets) return false;
   workspace.clip.reset();
   workspace.facets.reset();
   return true;

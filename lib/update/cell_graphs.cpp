@@ -31,8 +31,8 @@ bool CellGraphs<D>::find_star(std::uint32_t site) {
   face_.clear();
   next_.clear();
   place_of(simplex_mark_, mesh_.simplex_at(site), simplices_);
-  for (std::size_t v = 0; v < simplices_.size(); ++v) {
-    const auto& simplex = mesh_.simplex(simplices_[v]);
+  for (std::size_t v = 0; v != simplices_.size();) {  // which grow
+    const auto& simplex = mesh_.simplex(simplices_[v++]);
     const std::size_t own = mesh_.index_of(simplex.corner, site);
     if constexpr (D == 2) {
       // Counter-clockwise: across the facet opposite the first of the other corners.

@@ -78,10 +78,6 @@ class KeptMesh final : public KeptDiagram {
     return results;
   }
 
-  std::size_t bytes() const override {
-    return mesh_.simplex_count() * (sizeof(typename DualMesh<D>::Simplex) + sizeof(Center));
-  }
-
  private:
   std::vector<Site> sites_of(const SeedSet& seeds) const {
     const double scale = domain_.frame().scale;

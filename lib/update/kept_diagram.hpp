@@ -35,7 +35,6 @@ class KeptDiagram {
   virtual void update(const SeedSet& seeds, bool moved) = 0;
   /// \throw MeshUnusable as update()
   virtual Results evaluate(const SeedSet& seeds, double domain_measure, bool adjacency) = 0;
-  virtual std::size_t bytes() const = 0;
 };
 
 }  // namespace powercell

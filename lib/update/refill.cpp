@@ -162,11 +162,12 @@ bool Hole<D>::flood() {
   if (border_.empty())  // the hole is all of the mesh
     for (std::uint32_t s = 0; s < local_.simplex_count(); ++s)
       if (!local_.is_removed(s)) visit(s);
-  for (std::size_t k = 0; k < filling_.size(); ++k) {
-    const auto& simplex = local_.simplex(filling_[k]);
+  for (std::size_t k = 0; k != filling_.size();) {  // which grow
+    const std::uint32_t s = filling_[k++];
+    const auto& simplex = local_.simplex(s);
     for (std::size_t c = 0; c < mesh_.corners; ++c) {
       if (!local_.is_frame(simplex.corner[c])) has_simplex[simplex.corner[c]] = 1;
-      if (is_border_[mesh_.facet(filling_[k], c)] == 0 && simplex.across[c] != mesh_.outside)
+      if (is_border_[mesh_.facet(s, c)] == 0 && simplex.across[c] != mesh_.outside)
         visit(simplex.across[c] / 4);
     }
   }
