@@ -13,8 +13,8 @@ bool same_place(const Site& a, const Site& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/// Two hidden seeds, or a hidden one and a corner of its simplex, at one place are duplicates, which the mesh
-/// does not know. \throw MeshUnusable
+/// Seeds at one place are duplicates, which the mesh does not know. Two that have cells make flat simplices,
+/// and insert() finds one that has; this finds those among the hidden. \throw MeshUnusable
 template <int D>
 void refuse_duplicates(const DualMesh<D>& mesh, std::vector<std::uint32_t> hidden) {
   const auto place = [&](std::uint32_t site) {
@@ -35,7 +35,6 @@ std::size_t insert_hidden(DualMesh<D>& mesh, bool moved, std::vector<std::uint32
   std::size_t inserted = 0;
   std::vector<std::uint32_t> hidden = mesh.take_hidden();
   std::sort(hidden.begin(), hidden.end());
-  if (moved) refuse_duplicates(mesh, hidden);
   for (const std::uint32_t site : hidden) {
     const std::uint32_t near = mesh.near_hidden(site);
     if (mesh.insert(site, near, &added))
@@ -43,6 +42,7 @@ std::size_t insert_hidden(DualMesh<D>& mesh, bool moved, std::vector<std::uint32
     else
       mesh.hide(site, near);
   }
+  if (moved) refuse_duplicates(mesh, mesh.hidden());
   return inserted;
 }
 

@@ -90,7 +90,12 @@ bool step(Work& work, Random& random) {
 /// Compares two diagrams. \return what is different first, or nothing
 std::string compare(Diagram& kept, Diagram& fresh, LoopTally& tally) {
   const Measures &a = kept.measures(), &b = fresh.measures();
-  if (a.status != b.status) return "a status";
+  for (std::size_t i = 0; i < a.status.size(); ++i)
+    if (a.status[i] != b.status[i])
+      return "the status of seed " + std::to_string(i) + ", " +
+             std::to_string(static_cast<int>(a.status[i])) + " with mass " + std::to_string(a.mass[i]) +
+             " instead of " + std::to_string(static_cast<int>(b.status[i])) + " with " +
+             std::to_string(b.mass[i]);
   const Adjacency &c = kept.adjacency(), &d = fresh.adjacency();
   if (c.offset != d.offset || c.neighbor != d.neighbor) return "the adjacency";
   const auto cells = static_cast<double>(std::max<std::size_t>(b.count(SeedStatus::ok), 1));
@@ -151,10 +156,10 @@ void run_loop(std::uint64_t random_seed, std::size_t most_seeds, LoopTally& tall
     const std::string what = compare(kept, one, tally);
     if (what.empty()) continue;
     ++tally.different;
-    if (tally.first_difference.empty())
-      tally.first_difference = what + ", random seed " + std::to_string(random_seed) + ", step " +
-                               std::to_string(k) + ", " + std::to_string(work.seeds.size()) + " seeds, " +
-                               std::to_string(reused) + " reused";
+    if (tally.different <= 5)
+      tally.differences += what + ", random seed " + std::to_string(random_seed) + ", step " +
+                           std::to_string(k) + ", " + std::to_string(work.seeds.size()) + " seeds, " +
+                           std::to_string(reused) + " reused; ";
   }
 }
 

@@ -14,7 +14,7 @@ struct LoopTally {
   std::uint64_t cells = 0, reused = 0;
   double worst_measure = 0;  ///< difference of a mass or a moment, in means
   double worst_wall = 0;     ///< the same of a wall
-  std::string first_difference;
+  std::string differences;   ///< the first few
 };
 
 /// A loop of a few updates, of seeds, domain and steps that follow from `random_seed`.
