@@ -42,7 +42,13 @@ std::size_t insert_hidden(DualMesh<D>& mesh, bool moved, std::vector<std::uint32
     else
       mesh.hide(site, near);
   }
-  if (moved) refuse_duplicates(mesh, mesh.hidden());
+  if (moved) {
+    // Those hidden before or after: one of two may have been inserted once the other was found hidden.
+    hidden.insert(hidden.end(), mesh.hidden().begin(), mesh.hidden().end());
+    std::sort(hidden.begin(), hidden.end());
+    hidden.erase(std::unique(hidden.begin(), hidden.end()), hidden.end());
+    refuse_duplicates(mesh, std::move(hidden));
+  }
   return inserted;
 }
 
