@@ -16,9 +16,10 @@ namespace {
 using Point = Vector3<double>;
 
 constexpr double unit = std::numeric_limits<double>::epsilon();
-/// Of the cell's radius, the largest error of a vertex that is used: as it lies along the common line of
-/// planes that are nearly dependent, measures hardly depend on it.
-constexpr double most_error = 1e-8;
+/// Of the cell's radius, the largest error of a vertex that is used: in space, where it lies along the common
+/// line of planes that are nearly dependent, measures hardly depend on it; in the plane the lengths of walls
+/// do.
+constexpr double most_error[] = {1e-11, 1e-9};
 /// Cells smaller than this part of the cube (or square) of their radius are clipped exactly.
 constexpr double plainly_solid = 1e-9;
 /// A wall in the mesh is none without extent, whatever rounding leaves of it (as in HostWalls).
@@ -327,7 +328,7 @@ bool CellEvaluator<D>::evaluate(std::uint32_t site) {
   const CellGraph graph = graphs_.graph(site, mesh_.is_changed(site));
   if (graph.vertices.empty()) return clip(graphs_.neighbors());
   find_vertices(graph);
-  const Place place = error_ <= most_error * reach_ ? find_place() : Place::unclear;
+  const Place place = error_ <= most_error[D - 2] * reach_ ? find_place() : Place::unclear;
   if (place == Place::outside) return false;
   neighbors_.clear();
   walls_.clear();
