@@ -91,6 +91,7 @@ nlohmann::json as_json(const RunReport& report) {
           {"uncertain", t.uncertain},
           {"on_host", t.on_host},
           {"rounds", t.rounds},
+          {"reused", t.reused},
           {"crs", report.crs},
           {"projection", report.projection},
           {"notes", report.notes},

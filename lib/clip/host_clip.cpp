@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "lib/clip/host_polygon.hpp"
 #include "lib/clip/host_polyhedron.hpp"
@@ -22,9 +23,28 @@ class PieceClipper final : public HostClipper {
 
   int clip(std::uint32_t rank, std::uint32_t region, std::span<double> moments, PieceBatch& rows) override {
     start(rank, region);
+    search_.start(rank);
+    return finish(cut_by_all(), moments, rows);
+  }
+
+  int clip_by(std::uint32_t rank, std::uint32_t region, std::span<const std::uint32_t> others,
+              std::span<double> moments, PieceBatch& rows) override {
+    start(rank, region);
+    const bool is_left =
+        std::all_of(others.begin(), others.end(), [this](std::uint32_t other) { return cut_by(other); });
+    return finish(is_left, moments, rows);
+  }
+
+  double radius() const override { return radius_; }
+
+ private:
+  using Wall = typename HostWalls<Cell>::Wall;
+
+  /// \param is_left  whether the cell has points
+  int finish(bool is_left, std::span<double> moments, PieceBatch& rows) {
     std::array<double, 5> sums{};
     std::vector<Wall> walls;
-    int status = cut_by_all() ? PIECE_DONE : PIECE_EMPTY;
+    int status = is_left ? PIECE_DONE : PIECE_EMPTY;
     if (status == PIECE_DONE) {
       cell_.finish({exact_, radius_, true});
       sums = cell_.moments();
@@ -32,18 +52,13 @@ class PieceClipper final : public HostClipper {
       if (perturbed_)
         walls = finished.perturbed();
       else
-        status = drop_infinitesimals(region, finished, sums, walls);
+        status = drop_infinitesimals(region_number_, finished, sums, walls);
     }
     std::copy_n(sums.begin(), moments.size() - 1, moments.begin());
     moments.back() = sums.back();
     append_row(status, walls, rows);
     return status;
   }
-
-  double radius() const override { return radius_; }
-
- private:
-  using Wall = typename HostWalls<Cell>::Wall;
 
   /// \return the status of the piece, which is not empty with the infinitesimals
   int drop_infinitesimals(std::uint32_t region, HostWalls<Cell>& finished, std::array<double, 5>& sums,
@@ -59,8 +74,8 @@ class PieceClipper final : public HostClipper {
   void start(std::uint32_t rank, std::uint32_t region) {
     const RegionMesh& mesh = *scene_.mesh;
     rank_ = rank;
+    region_number_ = region;
     exact_.start(rank, region);
-    search_.start(rank);
     region_ = {{}, 0, mesh.dimension != mesh.cell_dimension, &scene_.shape};
     double reach = 0;
     for (std::uint32_t k = mesh.region_offset[region]; k < mesh.region_offset[region + 1]; ++k) {
@@ -147,7 +162,7 @@ class PieceClipper final : public HostClipper {
   HostSearch search_;
   Cell cell_;
   HostRegion region_;
-  std::uint32_t rank_ = 0;
+  std::uint32_t rank_ = 0, region_number_ = 0;
   double radius_ = 0;  ///< no vertex is farther from the seed
   std::vector<double> side_;
 };
@@ -162,21 +177,27 @@ std::vector<std::array<double, 4>> pack(const Frame& frame, int dimension, std::
 
 }  // namespace
 
+HostScene make_host_scene(const RegionMesh& mesh, const Frame& frame,
+                          std::vector<std::array<double, 4>> points) {
+  return {&mesh,
+          nullptr,
+          pack(frame, mesh.dimension, mesh.vertices, {}),
+          std::move(points),
+          {},
+          regions_behind(mesh),
+          region_shape(mesh.shape)};
+}
+
 HostScene make_host_scene(const Scene& scene) {
   Frame frame = scene.frame();
   frame.split = false;  // differences of doubles need no shift, and scaling is exact
   frame.centre = {};
   const SeedSet& seeds = scene.seeds;
   const PackedTree& tree = scene.tree;
-  const RegionMesh& mesh = scene.mesh();
-  HostScene host{&mesh,
-                 &tree,
-                 pack(frame, mesh.dimension, mesh.vertices, {}),
-                 pack(frame, seeds.dimension, seeds.positions, seeds.weights),
-                 {},
-                 regions_behind(mesh),
-                 region_shape(mesh.shape),
-                 scene.ties_by_position};
+  HostScene host =
+      make_host_scene(scene.mesh(), frame, pack(frame, seeds.dimension, seeds.positions, seeds.weights));
+  host.tree = &tree;
+  host.ties_by_position = scene.ties_by_position;
   const auto low = pack(frame, tree.dimension, tree.low, tree.weight);
   const auto high = pack(frame, tree.dimension, tree.high, {});
   for (std::size_t k = 0; k < low.size(); ++k)

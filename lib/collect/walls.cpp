@@ -162,8 +162,8 @@ void WallCollector::add(std::span<const std::uint32_t> pair_seed, const PieceSet
 }
 
 void WallCollector::set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors,
-                            std::span<const double> measures) {
-  const WallRow row = rows_.add(0, rank, neighbors.size());
+                            std::span<const double> measures, std::size_t thread) {
+  const WallRow row = rows_.add(thread, rank, neighbors.size());
   std::size_t lower = 0, higher = neighbors.size();
   for (std::size_t f = 0; f < neighbors.size(); ++f) {
     const std::size_t k = neighbors[f] < rank ? lower++ : --higher;

@@ -67,8 +67,9 @@ class WallCollector {
   void add(std::span<const std::uint32_t> pair_seed, const PieceSet& pieces);
 
   /// Replaces the walls of a rank, after all chunks. \param neighbors  distinct
-  void set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors,
-               std::span<const double> measures);
+  /// \param thread  the number of the calling thread: several may set rows at a time
+  void set_row(std::uint32_t rank, std::span<const std::uint32_t> neighbors, std::span<const double> measures,
+               std::size_t thread = 0);
   /// Subtracts from the wall of a rank with a neighbour, if it has that wall. What is left within rounding
   /// counts as 0, so that there is no wall.
   void subtract(std::uint32_t rank, std::uint32_t neighbor, double measure);

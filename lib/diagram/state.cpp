@@ -19,7 +19,8 @@ void log_run(std::size_t seeds, const Timings& t) {
            in_seconds(t.total) + " (prepare " + in_seconds(t.prepare) + ", pairs " + in_seconds(t.pairs) +
            ", neighbours " + in_seconds(t.neighbors) + ", clip " + in_seconds(t.clip) + ", collect " +
            in_seconds(t.collect) + ") and " + in_seconds(t.build) + " of compilation; " +
-           "pieces finished on the host: " + std::to_string(t.on_host);
+           "pieces finished on the host: " + std::to_string(t.on_host) +
+           (t.reused > 0 ? "; from the kept mesh" : "");
   });
 }
 
@@ -27,7 +28,14 @@ void log_run(std::size_t seeds, const Timings& t) {
 
 void Diagram::State::set_seeds(const SeedsView& seeds) {
   const Stopwatch watch(setup.device);
-  Input next = make_input(setup, seeds);
+  const bool same_count = input && seeds.size() == input->seeds.input_count;
+  const bool same_ranks = same_count && loop.has_mesh() && !input->unwrapped;
+  Input next = same_ranks ? with_places(setup, *input, seeds) : make_input(setup, seeds);
+  loop.seeds_changed(same_count, results->measures.has_value());
+  if (same_ranks)
+    loop.places_changed();
+  else
+    loop.ranks_changed();
   retire_active();
   tree.reset();
   input = std::move(next);
@@ -62,6 +70,8 @@ void Diagram::State::set_weights(std::span<const double> weights) {
   const Stopwatch watch(setup.device);
   const bool same_positions = input->seeds.duplicate.empty();
   Input next = with_weights(setup, std::move(*input), weights);
+  loop.seeds_changed(true, results->measures.has_value());
+  if (!same_positions) loop.ranks_changed();
   retire_active();
   if (!same_positions) tree.reset();
   input = std::move(next);
@@ -86,12 +96,22 @@ Plan& Diagram::State::plan(PlanKind kind) {
   return *kept;
 }
 
-Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
-  if (!active) {
-    const Stopwatch watch(setup.device);
-    active.emplace(setup, *input, seed_buffers, std::exchange(tree, std::nullopt));
-    timings.prepare += watch.seconds();
+void Diagram::State::make_active() {
+  if (active) return;
+  const Stopwatch watch(setup.device);
+  // Measures from the mesh prove that nothing ties, so that the order does not matter.
+  if (!input->is_in_order && !results->measures) {
+    const SeedRows given = input->given();
+    input = make_input(setup, {setup.domain.dimension(), given.positions, given.weights});
+    loop.ranks_changed();
+    tree.reset();
   }
+  active.emplace(setup, *input, seed_buffers, std::exchange(tree, std::nullopt));
+  timings.prepare += watch.seconds();
+}
+
+Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
+  make_active();
   return clip(setup, *active, plan(kind), want, workspace, timings);
 }
 
@@ -173,6 +193,15 @@ void Diagram::State::compute_in_solid(Wanted want) {
   if (all.joined) results->joined = select_rows(*all.joined, *selection);
 }
 
+bool Diagram::State::compute_from_mesh(Wanted want) {
+  if (want.cells || selection || active) return false;
+  std::optional<KeptDiagram::Results> computed = loop.compute(setup, *input, want.adjacency, timings);
+  if (!computed) return false;
+  if (!results->measures) results->measures = std::move(computed->measures);
+  if (computed->adjacency) results->adjacency = std::move(computed->adjacency);
+  return true;
+}
+
 void Diagram::State::compute(Wanted want) {
   want.adjacency = want.adjacency && !results->adjacency;
   want.cells = want.cells && !results->cells && !(setup.domain.is_solid() && results->joined);
@@ -182,7 +211,8 @@ void Diagram::State::compute(Wanted want) {
   const double prepared = timings.prepare;  // by set_seeds or set_weights
   const Stopwatch watch(setup.device);
   setup.progress->begin_computation();
-  compute_missing(want);
+  timings.reused = 0;
+  if (!compute_from_mesh(want)) compute_missing(want);
   if (setup.options.certify) certify();
   timings.build = setup.device.build_seconds() - built_before;
   timings.total = prepared + watch.seconds();
@@ -192,9 +222,10 @@ void Diagram::State::compute(Wanted want) {
 void Diagram::State::certify() {
   const Stopwatch watch(setup.device);
   try {
-    require_certificate({setup.domain, input->seeds, active->images() ? active->seeds() : input->seeds,
-                         *results->measures, results->adjacency ? &*results->adjacency : nullptr,
-                         setup.float32(), setup.threads, [this]() -> const Cells& {
+    require_certificate({setup.domain, input->seeds,
+                         active && active->images() ? active->seeds() : input->seeds, *results->measures,
+                         results->adjacency ? &*results->adjacency : nullptr, setup.float32(), setup.threads,
+                         [this]() -> const Cells& {
                            if (!results->cells) pass(PlanKind::geometry, {.cells = true});
                            return *results->cells;
                          }});
@@ -214,6 +245,7 @@ const BoundaryWalls& Diagram::State::boundary_walls() {
   compute({});  // excludes flat cells, and has images enough
   setup.progress->begin_computation();
   setup.progress->begin_pass(0, 1);
+  make_active();
   for (;;) {
     try {
       results->boundary_walls =

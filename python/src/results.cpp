@@ -85,7 +85,8 @@ void bind_results(nb::module_& m) {
       .def_ro("retried", &Timings::retried)
       .def_ro("on_host", &Timings::on_host)
       .def_ro("uncertain", &Timings::uncertain)
-      .def_ro("rounds", &Timings::rounds);
+      .def_ro("rounds", &Timings::rounds)
+      .def_ro("reused", &Timings::reused);
 }
 
 }  // namespace powercell::python
