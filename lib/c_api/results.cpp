@@ -142,7 +142,8 @@ pc_timings view_of(const Timings& from) {
           from.retried,
           from.on_host,
           from.uncertain,
-          static_cast<std::uint64_t>(from.rounds)};
+          static_cast<std::uint64_t>(from.rounds),
+          from.reused};
 }
 
 }  // namespace powercell::c_api

@@ -13,9 +13,9 @@ namespace {
 
 using Point = Vector3<double>;
 
-constexpr double unit = std::numeric_limits<double>::epsilon();
-constexpr double least = 1e-260;  // of products that did not underflow
-constexpr std::size_t least_shared = 4096;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double least_product = 1e-260;  // of products that did not underflow
+constexpr std::size_t shared_simplices = 4096;
 
 double size_of(const Point& a) {
   return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
@@ -60,13 +60,13 @@ struct RelativeCenter {
 RelativeCenter with_error(const Point& sum, double determinant, double m, double power, double h) {
   const double scale = 0.5 / determinant;
   RelativeCenter center{scale * sum, 0, 0};
-  center.error = 64 * unit * (2 * power * h + power * m * size_of(center.at)) / std::fabs(determinant);
+  center.error = 64 * epsilon * (2 * power * h + power * m * size_of(center.at)) / std::fabs(determinant);
   if (!(center.error >= 0)) center.error = std::numeric_limits<double>::infinity();
   return center;
 }
 
 int certain_sign(double determinant, double size) {
-  if (!(size > least) || !(std::fabs(determinant) > 32 * unit * size)) return 0;
+  if (!(size > least_product) || !(std::fabs(determinant) > 32 * epsilon * size)) return 0;
   return determinant > 0 ? 1 : -1;
 }
 
@@ -128,7 +128,7 @@ class Finder {
       const Equation e(mesh_.sites()[site], origin);
       const double level = e.h - 2 * dot(e.r, center.at),
                    size = std::fabs(e.r[0]) + std::fabs(e.r[1]) + std::fabs(e.r[2]),
-                   error = 2 * size * center.error + 8 * unit * (e.h_size + size * size_of(center.at));
+                   error = 2 * size * center.error + 8 * epsilon * (e.h_size + size * size_of(center.at));
       if (level > error) continue;
       if (level < -error || is_broken(s, site)) found_.facets.push_back(mesh_.facet(s, k));
     }
@@ -161,7 +161,7 @@ template <int D>
 Broken find_broken(const DualMesh<D>& mesh, bool moved, int threads, std::vector<Center>& centers) {
   const std::size_t count = mesh.simplex_count();
   centers.resize(count);
-  const int workers = threads_for(count, threads, least_shared);
+  const int workers = threads_for(count, threads, shared_simplices);
   std::vector<Broken> parts(static_cast<std::size_t>(workers));
   parallel_for(workers, parts.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)

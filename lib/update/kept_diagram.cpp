@@ -13,7 +13,7 @@
 namespace powercell {
 namespace {
 
-constexpr std::size_t least_shared = 512;  // cells; fewer are faster on one thread
+constexpr std::size_t shared_cells = 512;  // cells; fewer are faster on one thread
 /// The cells fill the domain but for rounding.
 constexpr double most_missing = 1e-9;
 
@@ -22,7 +22,7 @@ class KeptMesh final : public KeptDiagram {
  public:
   KeptMesh(const DomainBuffers& domain, const SeedSet& seeds, int threads)
       : domain_(domain),
-        threads_(threads_for(seeds.size(), threads, least_shared)),
+        threads_(threads_for(seeds.size(), threads, shared_cells)),
         scene_(make_host_scene(domain.mesh(), domain.frame(), sites_of(seeds))),
         bounds_(scene_) {
     std::array<double, 3> low{}, high{};

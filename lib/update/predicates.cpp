@@ -13,7 +13,7 @@ using Rational = boost::multiprecision::cpp_rational;
 
 /// In units of the sums of the sizes of all products, more than the rounding of the determinants below.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
-constexpr double least = 1e-260;  // of sums of sizes whose products did not underflow
+constexpr double least_sum = 1e-260;  // of sums of sizes whose products did not underflow
 
 /// A corner relative to a site, and its power distance from the site less that of the site.
 template <class Number>
@@ -35,7 +35,7 @@ Row<Number> row_of(const Site& corner, const Site& site) {
 
 /// Whether the sign of a sum is known, given the sum of the sizes of its parts.
 bool is_certain(double sum, double size) {
-  return size > least && std::fabs(sum) > rounding * size;
+  return size > least_sum && std::fabs(sum) > rounding * size;
 }
 
 template <class Number>

@@ -103,7 +103,7 @@ TEST_CASE("a largest allocation far smaller than the memory: smaller chunks with
     const std::uint64_t uploads_at_best = uploads();
 
     // Less than all pairs need, but enough for the smallest chunk.
-    const std::size_t largest = (c.domain.domain.cell_dimension() == 3 ? 2 : 1) * MiB;
+    const std::size_t largest = (c.domain.domain.cell_dimension() == 3 ? 4 : 1) * MiB / 2;
     shim::pretend(CL_DEVICE_MAX_MEM_ALLOC_SIZE, largest);
     const Device small = Device::choose(setup.device.info().selector());
     REQUIRE(small.info().largest_allocation == largest);
