@@ -38,6 +38,10 @@ class Adjacency:
         Neighbours, ascending in each row.
     data : (m,) float64
         Length or area of the wall.
+    asymmetry : float
+        The largest difference of a wall as seen from its two sides, before these were averaged.
+    asymmetric : (int, int)
+        The seeds of that wall; equal if there was none.
     shift : (m, 3) int32 or None
         In a periodic domain the image of the neighbour, in units of ``Domain.periods``: the wall is with the
         neighbour moved by ``shift @ periods``.
@@ -62,6 +66,14 @@ class Adjacency:
     @property
     def shift(self) -> Optional[NDArray[np.int32]]:
         return self._core.shift  # type: ignore[no-any-return]
+
+    @property
+    def asymmetry(self) -> float:
+        return float(self._core.asymmetry)
+
+    @property
+    def asymmetric(self) -> tuple[int, int]:
+        return self._core.asymmetric  # type: ignore[no-any-return]
 
     def neighbors(self, seed: int) -> Indices:
         """The neighbours of one seed, or of a selected seed by its place in the selection."""
@@ -146,6 +158,12 @@ class Diagram:
         On the host; 0 for all.
     chunk_pairs : int
         The most pairs of a region and a seed on the device at once; 0 lets the library choose.
+    initial_neighbors : int
+        FLANN: length of the first neighbour lists; 0 for 16, in volumes 32.
+    lift_eta : float, optional
+        FLANN: the height eta of the lift ``sqrt(eta - w)``, at least the largest weight, which is the default.
+    twin_queries : bool
+        FLANN: query with the twin of a lifted seed instead of the seed itself.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
 
@@ -184,11 +202,16 @@ class Diagram:
         certify: bool = False,
         threads: int = 0,
         chunk_pairs: int = 0,
+        initial_neighbors: int = 0,
+        lift_eta: Optional[float] = None,
+        twin_queries: bool = True,
         progress: Progress = None,
     ) -> None:
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
-        options = diagram_options(precision, neighbors, decisions, certify, threads, chunk_pairs)
+        options = diagram_options(
+            precision, neighbors, decisions, certify, threads, chunk_pairs, initial_neighbors, lift_eta, twin_queries
+        )
         self.domain = domain
         progress_function(progress)  # refuses what is none
         self._progress = progress
@@ -254,6 +277,11 @@ class Diagram:
         """Computes all cells again."""
         self._core.select_all()
         self._selection = None
+
+    @property
+    def has_selection(self) -> bool:
+        """Whether :meth:`select` is in force."""
+        return bool(self._core.has_selection)
 
     def _require_all(self, what: str) -> None:
         if self._selection is not None:
@@ -367,13 +395,28 @@ class Diagram:
         return str(self._core.precision)
 
     @property
+    def neighbors(self) -> str:
+        """As chosen: ``"tree"`` or ``"flann"``."""
+        return str(self._core.neighbors)
+
+    @property
     def device(self) -> Device:
         return Device(self._core.device.info)
 
-    def verify(self, samples: int = 1000, random_seed: int = 1) -> list[Any]:
-        """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail."""
+    def verify(self, samples: int = 1000, random_seed: int = 1, progress: Progress = None) -> list[Any]:
+        """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail.
+
+        Parameters
+        ----------
+        samples : int
+            Random points at which all seeds are tried.
+        random_seed : int
+        progress : bool or callable, optional
+            As for :class:`Diagram`; called after each law.
+        """
         given = {"samples": samples, "random_seed": random_seed}
-        return list(self._core.verify(self._positions, self._weights, given))
+        with fraction_bar(progress, "checking") as report:
+            return list(self._core.verify(self._positions, self._weights, given, report))
 
     def polygons(self) -> list[Any]:
         """The cells as Shapely geometries, empty where a seed has none. Polygon domains only."""
