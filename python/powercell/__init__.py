@@ -33,7 +33,7 @@ from ._device import (  # noqa: E402
     kernel_builds,
     measure_device_rates,
 )
-from ._diagram import Adjacency, BoundaryWalls, Diagram, Status, regular_triangulation  # noqa: E402
+from ._diagram import Diagram, regular_triangulation  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._log import set_log  # noqa: E402
@@ -41,6 +41,7 @@ from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, 
 from ._outside import SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
 from ._queue import DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
+from ._results import Adjacency, BoundaryWalls, Status  # noqa: E402
 from ._sampling import sample  # noqa: E402
 from ._saved import SavedDiagram  # noqa: E402
 from ._seeds import Seeds, read_seeds  # noqa: E402

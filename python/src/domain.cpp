@@ -75,7 +75,7 @@ const char* name_of(RegionShape shape) {
   }
 }
 
-#define POWERCELL_SPAN(member)                                 \
+#define POWERCELL_VECTOR(member)                                 \
   def_prop_ro(#member, [](nb::handle self) {                   \
     const std::span all = nb::cast<RegionsView&>(self).member; \
     return view(all.data(), {all.size()}, self);               \
@@ -113,11 +113,11 @@ boundary_count : int
                      const auto d = static_cast<std::size_t>(r.dimension);
                      return view(r.vertices.data(), {d ? r.vertices.size() / d : 0, d}, self);
                    })
-      .POWERCELL_SPAN(region_offset)
-      .POWERCELL_SPAN(region_vertex)
-      .POWERCELL_SPAN(facet_offset)
+      .POWERCELL_VECTOR(region_offset)
+      .POWERCELL_VECTOR(region_vertex)
+      .POWERCELL_VECTOR(facet_offset)
       .def_prop_ro("facet", &facets)
-      .POWERCELL_SPAN(source)
+      .POWERCELL_VECTOR(source)
       .def_ro("boundary_count", &RegionsView::boundary_count)
       .def("__len__", &RegionsView::size);
 }
