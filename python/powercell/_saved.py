@@ -41,7 +41,7 @@ def _cells(cells: Any) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class SavedDiagram:
-    """A diagram without its domain, as it may have been saved: its arrays, nothing of which is trusted. Of bounded domains.
+    """A diagram without its domain, as it may have been saved: arrays that are not trusted. Not of periodic domains.
 
     Attributes
     ----------

@@ -75,7 +75,7 @@ const char* name_of(RegionShape shape) {
   }
 }
 
-#define POWERCELL_VECTOR(member)                                 \
+#define POWERCELL_VECTOR(member)                               \
   def_prop_ro(#member, [](nb::handle self) {                   \
     const std::span all = nb::cast<RegionsView&>(self).member; \
     return view(all.data(), {all.size()}, self);               \
