@@ -12,15 +12,38 @@ from ._runtime import show_packaged_runtime
 show_packaged_runtime()
 
 from . import _core  # noqa: E402
+from ._core import (  # noqa: E402
+    DensityIntegrals,
+    LawCheck,
+    MeshReport,
+    Overlap,
+    PartsApart,
+    RegionsView,
+    RepairCount,
+    Spacing,
+    Spectrum,
+)
 from ._core import version as _version  # noqa: E402
-from ._device import Device, devices  # noqa: E402
-from ._diagram import Adjacency, BoundaryWalls, Diagram, Status, regular_triangulation  # noqa: E402
+from ._density import integrate  # noqa: E402
+from ._device import (  # noqa: E402
+    Device,
+    DeviceRates,
+    KernelBuilds,
+    devices,
+    kernel_builds,
+    measure_device_rates,
+)
+from ._diagram import Diagram, regular_triangulation  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
-from ._meshes import ball, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
+from ._log import set_log  # noqa: E402
+from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
 from ._outside import SeedsOutsideWarning  # noqa: E402
+from ._point_sets import random_points, spacing, spectrum  # noqa: E402
 from ._queue import DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
+from ._results import Adjacency, BoundaryWalls, Status  # noqa: E402
 from ._sampling import sample  # noqa: E402
+from ._saved import SavedDiagram  # noqa: E402
 from ._seeds import Seeds, read_seeds  # noqa: E402
 from ._transport import TransportSolver, transport  # noqa: E402
 from ._treemap import Treemap, treemap  # noqa: E402
@@ -30,27 +53,47 @@ __version__: str = _version()
 __all__ = [
     "Adjacency",
     "BoundaryWalls",
+    "DensityIntegrals",
     "Device",
     "DeviceDiagram",
     "DeviceMeasures",
+    "DeviceRates",
     "DeviceStatus",
     "Diagram",
     "Domain",
     "Error",
+    "KernelBuilds",
+    "LawCheck",
+    "MeshReport",
+    "Overlap",
+    "PartsApart",
+    "RegionsView",
+    "RepairCount",
+    "SavedDiagram",
     "Seeds",
     "SeedsOutsideWarning",
+    "Spacing",
+    "Spectrum",
     "Status",
     "TransportSolver",
     "Treemap",
     "ball",
     "devices",
+    "farthest_from",
+    "integrate",
+    "kernel_builds",
+    "measure_device_rates",
     "mesh_quality",
+    "random_points",
     "read_domain",
     "read_seeds",
     "regular_triangulation",
     "remesh",
     "repair",
     "sample",
+    "set_log",
+    "spacing",
+    "spectrum",
     "sphere",
     "torus",
     "transport",

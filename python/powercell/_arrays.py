@@ -56,15 +56,21 @@ def optional_reals(
     return None if value is None else reals(value, name, shape, why)
 
 
-def indices(value: ArrayLike, name: str, columns: Optional[int] = None) -> Indices:
-    """Rows of indices from 0; without `columns` single indices."""
+def integers(value: ArrayLike, name: str, shape: Sequence[Optional[int]], dtype: Any, why: str = "") -> NDArray[Any]:
+    """A C-contiguous array of that type of integers, whose values are in its range."""
     array = _plain(value, name)
-    if array.size == 0 and columns is None:
-        array = array.astype(np.uint32)
+    if array.size == 0 and len(shape) == 1:
+        array = array.astype(dtype)
     if array.dtype.kind not in "iu":
         raise ValueError(f"{name} has the type {array.dtype}; integers are expected")
-    _check_shape(array, name, (None,) if columns is None else (None, columns), "")
-    if array.size and (array.min() < 0 or array.max() >= 2**32):
-        row = int(np.argwhere((array < 0) | (array >= 2**32))[0, 0])
-        raise ValueError(f"{name}: row {row} has an index below 0 or above 2^32 - 1")
-    return np.ascontiguousarray(array, dtype=np.uint32)
+    _check_shape(array, name, shape, why)
+    least, most = int(np.iinfo(dtype).min), int(np.iinfo(dtype).max)
+    if array.size and (int(array.min()) < least or int(array.max()) > most):
+        row = next(k for k, values in enumerate(array) if int(values.min()) < least or int(values.max()) > most)
+        raise ValueError(f"{name}: row {row} has a number below {least} or above {most}")
+    return np.ascontiguousarray(array, dtype=dtype)
+
+
+def indices(value: ArrayLike, name: str, columns: Optional[int] = None) -> Indices:
+    """Rows of indices from 0; without `columns` single indices."""
+    return integers(value, name, (None,) if columns is None else (None, columns), np.uint32)

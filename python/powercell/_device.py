@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Optional, Union
+from typing import Any, NamedTuple, Optional, Union
 from weakref import WeakValueDictionary
 
 from . import _core
@@ -14,14 +14,18 @@ class Device:
 
     Attributes
     ----------
-    name, platform, vendor, driver : str
+    name, platform, vendor, driver, opencl_c_version : str
+    selector : str
+        ``"P:D"``, as :meth:`choose` takes it.
     kind : str
         ``"cpu"``, ``"gpu"``, ``"accelerator"`` or ``"other"``.
     fp64 : bool
         Whether the device has double precision.
     compute_units : int
-    memory : int
-        Global memory in bytes.
+    clock_mhz : int
+    memory, largest_allocation : int
+        Bytes of global memory, and of its largest single buffer.
+    max_work_group_size : int
     queue : pyopencl.CommandQueue or None
         That of :meth:`from_queue`.
     """
@@ -38,10 +42,15 @@ class Device:
         self.platform: str = info.platform
         self.vendor: str = info.vendor
         self.driver: str = info.driver
+        self.opencl_c_version: str = info.opencl_c_version
+        self.selector: str = info.selector
         self.kind: str = info.kind
         self.fp64: bool = info.fp64
         self.compute_units: int = info.compute_units
+        self.clock_mhz: int = info.clock_mhz
         self.memory: int = info.memory
+        self.largest_allocation: int = info.largest_allocation
+        self.max_work_group_size: int = info.max_work_group_size
 
     @classmethod
     def choose(cls, selector: str = "") -> Device:
@@ -79,6 +88,11 @@ class Device:
             core = _core.device_from_queue(pointer)
             found = cls._of_queues[pointer] = cls(core.info, core, queue)
         return found
+
+    @property
+    def build_seconds(self) -> float:
+        """Seconds spent on compiling kernels since the device was opened; 0 if all came from the cache."""
+        return float(self._open().build_seconds)
 
     def _open(self) -> Any:
         return _open(self._info.selector) if self._core is None else self._core
@@ -119,3 +133,50 @@ def open_device(device: Union[None, str, Device]) -> Any:
 
 def optional_device(device: Union[None, str, Device]) -> Optional[Any]:
     return None if device is None else open_device(device)
+
+
+class KernelBuilds(NamedTuple):
+    """Compilation of kernels in this process, on all devices and in all threads."""
+
+    running: bool
+    """Whether a kernel is being compiled now."""
+    seconds: float
+    """Wall-clock time spent so far."""
+    processor_seconds: float
+    """Of this process meanwhile."""
+
+
+def kernel_builds() -> KernelBuilds:
+    """The compilation of kernels so far.
+
+    >>> import powercell as pc
+    >>> pc.kernel_builds().running
+    False
+    """
+    return KernelBuilds(*_core.kernel_builds())
+
+
+class DeviceRates(NamedTuple):
+    """Rates of two small kernels, each the best of several launches."""
+
+    copied_bytes: float
+    """Bytes read plus bytes written per second while a large buffer is copied."""
+    operations: float
+    """Multiplications plus additions per second; a fused one counts as two."""
+
+
+def measure_device_rates(device: Union[None, str, Device] = None, precision: str = "auto") -> DeviceRates:
+    """The best rates that a device reaches. Takes about a second and up to 512 MiB of its memory.
+
+    Parameters
+    ----------
+    device : Device or str, optional
+        As for :meth:`Device.choose`.
+    precision : {"auto", "double", "float"}
+
+    Raises
+    ------
+    Error
+        ``no_fp64``, ``self_test_failed`` (a wrong result), ``out_of_device_memory``.
+    """
+    return DeviceRates(*_core.measure_device_rates(open_device(device), precision))

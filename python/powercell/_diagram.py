@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -15,107 +14,8 @@ from ._domain import Domain
 from ._options import diagram_options
 from ._outside import warn_of_seeds_outside
 from ._progress import Progress, fraction_bar, progress_function
+from ._results import Adjacency, BoundaryWalls, Status
 from ._shapes import require_same_crs
-
-class Status(enum.IntEnum):
-    """State of a seed."""
-
-    OK = 0
-    """Its cell has a positive measure."""
-    HIDDEN = 1
-    """Its cell in the domain is empty."""
-    DUPLICATE = 2
-    """Another seed at the same position has a larger weight, or the same and a lower index."""
-
-
-class Adjacency:
-    """The pairs of cells that share a wall, as compressed sparse rows like those of ``scipy.sparse``.
-
-    Attributes
-    ----------
-    indptr : (n + 1,) uint64
-    indices : (m,) uint32
-        Neighbours, ascending in each row.
-    data : (m,) float64
-        Length or area of the wall.
-    shift : (m, 3) int32 or None
-        In a periodic domain the image of the neighbour, in units of ``Domain.periods``: the wall is with the
-        neighbour moved by ``shift @ periods``.
-    """
-
-    def __init__(self, core: Any, seeds: int) -> None:
-        self._core = core
-        self._seeds = seeds
-
-    @property
-    def indptr(self) -> NDArray[np.uint64]:
-        return self._core.indptr  # type: ignore[no-any-return]
-
-    @property
-    def indices(self) -> Indices:
-        return self._core.indices  # type: ignore[no-any-return]
-
-    @property
-    def data(self) -> Reals:
-        return self._core.data  # type: ignore[no-any-return]
-
-    @property
-    def shift(self) -> Optional[NDArray[np.int32]]:
-        return self._core.shift  # type: ignore[no-any-return]
-
-    def neighbors(self, seed: int) -> Indices:
-        """The neighbours of one seed, or of a selected seed by its place in the selection."""
-        if not 0 <= seed < len(self.indptr) - 1:
-            raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
-        return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
-
-    def to_scipy(self) -> Any:
-        """An (n, n) ``scipy.sparse.csr_array`` of the walls' measures. Images of one neighbour are summed.
-
-        Of k selected seeds it is (k, n).
-        """
-        csr_array = _looks.package("scipy.sparse").csr_array
-        kind = np.int32 if len(self.indices) < 2**31 else np.int64
-        parts: Any = (np.array(self.data), self.indices.astype(kind), self.indptr.astype(kind))
-        matrix = csr_array(parts, shape=(len(self.indptr) - 1, self._seeds))
-        if self.shift is not None:
-            matrix.sum_duplicates()
-        return matrix
-
-    def __repr__(self) -> str:
-        return f"<powercell.Adjacency of {len(self.indptr) - 1} cells, {len(self.indices)} sides of walls>"
-
-
-class BoundaryWalls:
-    """The facets of the domain that each cell has, as compressed sparse rows.
-
-    Attributes
-    ----------
-    indptr : (n + 1,) uint64
-    indices : (m,) uint32
-        Facets, ascending in each row. In a box of space 0 to 5 are -x +x -y +y -z +z, in one of the plane 0 to 3
-        are -y +x +y -x; of a solid they are its triangles.
-    data : (m,) float64
-        Length or area of the part of the facet that belongs to the cell.
-    """
-
-    def __init__(self, core: Any) -> None:
-        self._core = core
-
-    @property
-    def indptr(self) -> NDArray[np.uint64]:
-        return self._core.indptr  # type: ignore[no-any-return]
-
-    @property
-    def indices(self) -> Indices:
-        return self._core.indices  # type: ignore[no-any-return]
-
-    @property
-    def data(self) -> Reals:
-        return self._core.data  # type: ignore[no-any-return]
-
-    def __repr__(self) -> str:
-        return f"<powercell.BoundaryWalls of {len(self.indptr) - 1} cells, {len(self.indices)} parts of facets>"
 
 
 class Diagram:
@@ -146,6 +46,12 @@ class Diagram:
         On the host; 0 for all.
     chunk_pairs : int
         The most pairs of a region and a seed on the device at once; 0 lets the library choose.
+    initial_neighbors : int
+        FLANN: length of the first neighbour lists; 0 for 16, in volumes 32.
+    lift_eta : float, optional
+        FLANN: the height eta of the lift ``sqrt(eta - w)``, at least the largest weight, which is the default.
+    twin_queries : bool
+        FLANN: query with the twin of a lifted seed instead of the seed itself.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
 
@@ -184,11 +90,16 @@ class Diagram:
         certify: bool = False,
         threads: int = 0,
         chunk_pairs: int = 0,
+        initial_neighbors: int = 0,
+        lift_eta: Optional[float] = None,
+        twin_queries: bool = True,
         progress: Progress = None,
     ) -> None:
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
-        options = diagram_options(precision, neighbors, decisions, certify, threads, chunk_pairs)
+        options = diagram_options(
+            precision, neighbors, decisions, certify, threads, chunk_pairs, initial_neighbors, lift_eta, twin_queries
+        )
         self.domain = domain
         progress_function(progress)  # refuses what is none
         self._progress = progress
@@ -254,6 +165,11 @@ class Diagram:
         """Computes all cells again."""
         self._core.select_all()
         self._selection = None
+
+    @property
+    def has_selection(self) -> bool:
+        """Whether :meth:`select` is in force."""
+        return bool(self._core.has_selection)
 
     def _require_all(self, what: str) -> None:
         if self._selection is not None:
@@ -367,13 +283,28 @@ class Diagram:
         return str(self._core.precision)
 
     @property
+    def neighbors(self) -> str:
+        """As chosen: ``"tree"`` or ``"flann"``."""
+        return str(self._core.neighbors)
+
+    @property
     def device(self) -> Device:
         return Device(self._core.device.info)
 
-    def verify(self, samples: int = 1000, random_seed: int = 1) -> list[Any]:
-        """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail."""
+    def verify(self, samples: int = 1000, random_seed: int = 1, progress: Progress = None) -> list[Any]:
+        """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail.
+
+        Parameters
+        ----------
+        samples : int
+            Random points at which all seeds are tried.
+        random_seed : int
+        progress : bool or callable, optional
+            As for :class:`Diagram`; called after each law.
+        """
         given = {"samples": samples, "random_seed": random_seed}
-        return list(self._core.verify(self._positions, self._weights, given))
+        with fraction_bar(progress, "checking") as report:
+            return list(self._core.verify(self._positions, self._weights, given, report))
 
     def polygons(self) -> list[Any]:
         """The cells as Shapely geometries, empty where a seed has none. Polygon domains only."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import reals
+from ._arrays import Indices, Reals, reals
 from ._shapes import crs_of, is_geographic, polygon_parts, surface_arrays, volume_arrays
 
 
@@ -188,6 +188,47 @@ class Domain:
     def periods(self) -> np.ndarray:
         """(d, d): the vectors that shifts count; rows of 0 for axes that are not periodic."""
         return np.array(self._core.periods)
+
+    @property
+    def region_count(self) -> int:
+        """Number of :attr:`regions`."""
+        return int(self._core.region_count)
+
+    @property
+    def regions(self) -> Any:
+        """The convex regions (``RegionsView``): pieces of a polygon, triangles, tetrahedra; none in a solid.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> regions = pc.Domain.box([0, 0], [1, 1]).regions
+        >>> regions.shape, regions.vertices.shape, regions.boundary_count
+        ('polygon', (4, 2), 4)
+        """
+        return self._core.regions
+
+    def random_points(self, count: int, random_seed: int = 1) -> tuple[Indices, Reals]:
+        """Points uniform in area or volume; the same ones for the same random seed on every machine.
+
+        Returns
+        -------
+        (count,) uint32, (count, d) float64
+            The region that each point lies in (0 in a solid), and the points.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> regions, points = pc.Domain.box([0, 0, 0], [1, 1, 1]).random_points(5)
+        >>> regions.tolist(), points.shape
+        ([0, 0, 0, 0, 0], (5, 3))
+        """
+        found: Any = _core.region_points(self._core, {"count": count, "random_seed": random_seed})
+        return found  # type: ignore[no-any-return]
+
+    @property
+    def report(self) -> Any:
+        """The same as :attr:`notes` in numbers (``MeshReport``)."""
+        return self._core.report
 
     @property
     def notes(self) -> list[str]:

@@ -50,7 +50,7 @@ def remesh(
     Returns
     -------
     RemeshResult
-        With vertices, triangles, sizing, repair, collapsed and intersections.
+        With vertices, triangles, sizing, repair, collapsed, inseparable and intersections (a count and a place).
 
     Examples
     --------
@@ -89,7 +89,8 @@ def repair(vertices: Any, triangles: Optional[ArrayLike] = None, weld: float = -
     Returns
     -------
     RepairedMesh
-        With ``mesh.vertices``, ``mesh.triangles`` and ``report`` (``acts``, ``left``).
+        With ``mesh.vertices``, ``mesh.triangles`` and ``report``: ``acts`` and ``left`` in words, ``degenerate``,
+        ``welded`` and others as counts with a place.
     """
     points, corners = surface_arrays(vertices, triangles)
     return _core.repair(points, corners, weld)
@@ -98,6 +99,28 @@ def repair(vertices: Any, triangles: Optional[ArrayLike] = None, weld: float = -
 def mesh_quality(vertices: Any, triangles: Optional[ArrayLike] = None) -> Any:
     """Quality of a triangle mesh: q_min, q_mean, angles, topology."""
     return _core.mesh_quality(*surface_arrays(vertices, triangles))
+
+
+def farthest_from(a: Any, b: Any, samples: int = 200_000) -> float:
+    """How far one surface is from another: the largest distance from ``b`` of the vertices of ``a`` and of points
+    spread over it. A lower bound of the one-sided Hausdorff distance, short by at most the spacing of the points.
+
+    Parameters
+    ----------
+    a, b
+        Each a pair of vertices and triangles, as for :func:`remesh`, or a mesh of meshio, trimesh or PyVista.
+    samples : int
+        About how many points.
+
+    Examples
+    --------
+    >>> import powercell as pc
+    >>> vertices, triangles = pc.sphere(8)
+    >>> round(pc.farthest_from((2 * vertices, triangles), (vertices, triangles)), 6)
+    1.0
+    """
+    both = [surface_arrays(*mesh) if isinstance(mesh, tuple) else surface_arrays(mesh, None) for mesh in (a, b)]
+    return float(_core.farthest_from(*both[0], *both[1], {"samples": samples}))
 
 
 def sphere(resolution: int = 16) -> tuple[Any, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Optional
 
 
 def diagram_options(
@@ -12,6 +12,9 @@ def diagram_options(
     certify: bool = False,
     threads: int = 0,
     chunk_pairs: int = 0,
+    initial_neighbors: int = 0,
+    lift_eta: Optional[float] = None,
+    twin_queries: bool = True,
 ) -> dict[str, Any]:
     return {
         "precision": precision,
@@ -20,4 +23,7 @@ def diagram_options(
         "certify": certify,
         "threads": threads,
         "chunk_pairs": chunk_pairs,
+        "initial_neighbors": initial_neighbors,
+        "lift_eta": lift_eta,
+        "twin_queries": twin_queries,
     }

@@ -60,7 +60,8 @@ def sample(
     Returns
     -------
     SamplingResult
-        With positions (n, d), weights, mass, converged, energy, relative_energy and steps.
+        With positions (n, d), weights, mass, converged, energy, relative_energy, steps, layers, layer_spacing and
+        apart (parts of cells that are not connected with the part that has the point).
 
     Examples
     --------

@@ -10,6 +10,7 @@ from . import _core
 from ._arrays import optional_reals, reals
 from ._density import Density, density_arguments
 from ._device import Device, open_device
+from ._diagram import Diagram
 from ._domain import Domain
 from ._options import diagram_options
 from ._outside import warn_of_seeds_outside
@@ -41,6 +42,8 @@ class TransportSolver:
     rescale : bool
         Scale the masses to sum to the domain's. Otherwise they must, to 1e-9.
     linear : {"auto", "dense", "direct", "multilevel"}
+    linear_residual : float
+        Relative residual of an iterative linear solve, in (0, 1).
     device, precision, neighbors, threads
         As for :class:`Diagram`.
     """
@@ -57,6 +60,7 @@ class TransportSolver:
         max_steps: int = 500,
         rescale: bool = False,
         linear: str = "auto",
+        linear_residual: float = 1e-4,
         device: Union[None, str, Device] = None,
         precision: str = "auto",
         neighbors: str = "auto",
@@ -68,9 +72,16 @@ class TransportSolver:
             "max_steps": max_steps,
             "rescale": rescale,
             "linear": linear,
+            "linear_residual": linear_residual,
         }
         options = diagram_options(precision, neighbors, threads=threads)
         self.domain = domain
+        self._of_diagram: dict[str, Any] = {
+            "device": device,
+            "precision": precision,
+            "neighbors": neighbors,
+            "threads": threads,
+        }
         points = reals(positions, "positions", (None, domain.dimension))
         start = optional_reals(weights, "weights", (len(points),), ", one for each seed")
         target = optional_reals(masses, "masses", (len(points),), ", one for each seed")
@@ -95,6 +106,31 @@ class TransportSolver:
 
     def set_tolerance(self, tolerance: float) -> None:
         self._core.set_tolerance(tolerance)
+
+    def set_max_steps(self, steps: int) -> None:
+        """Sets the limit on the steps of all phases together."""
+        self._core.set_max_steps(steps)
+
+    @property
+    def diagram(self) -> Diagram:
+        """The diagram of all seeds with the weights of the last solve: a new one, which stays as it is when the solver
+        goes on.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` before the first solve, or if seeds were set or moved since.
+
+        Examples
+        --------
+        >>> import powercell as pc
+        >>> solver = pc.TransportSolver(pc.Domain.box([0, 0], [1, 1]), [[0.1, 0.5], [0.2, 0.5]], [0.75, 0.25])
+        >>> result = solver.solve()
+        >>> solver.diagram.mass.round(6).tolist()
+        [0.75, 0.25]
+        """
+        positions, weights = self._core.diagram_seeds()
+        return Diagram(self.domain, positions, weights, **self._of_diagram)
 
     def solve(self, progress: Progress = None) -> Any:
         """Solves from the current weights.

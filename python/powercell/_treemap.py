@@ -28,15 +28,28 @@ class Treemap:
     depth : (n,) uint32
     worst_error : float
         The largest relative error of a leaf's area.
+    worst_leaf : int
+        The leaf that has it.
     not_converged : list of int
         Groups whose areas missed the tolerance.
+    mean_aspect : float
+        Of the leaves: the ratio of the longer to the shorter principal axis.
+    leaves : int
+    diagrams, newton_steps : int
+        Of all groups together.
+    seeds : (n, 2)
+        Near the centroids; NaN where a node has no polygon.
     """
 
     def __init__(self, core: Any, parent: np.ndarray, names: list[str]) -> None:
         self._core, self.parent, self.names = core, parent, names
         self.value, self.kind, self.depth = core.value, core.kind, core.depth
         self.worst_error, self.not_converged = core.worst_error, list(core.not_converged)
+        self.worst_leaf: int = core.worst_leaf
         self.mean_aspect, self.leaves = core.mean_aspect, core.leaves
+        self.diagrams: int = core.diagrams
+        self.newton_steps: int = core.newton_steps
+        self.seeds: Reals = core.seeds
 
     def polygon(self, node: int) -> Reals:
         """(m, 2): the corners of a node's polygon, counter-clockwise; none if it was dropped."""
@@ -81,6 +94,7 @@ def treemap(
     rounds: int = 25,
     random_seed: int = 1,
     threads: int = 0,
+    large_group: int = 4096,
     device: Union[None, str, Device] = None,
     progress: Progress = None,
 ) -> Treemap:
@@ -102,6 +116,12 @@ def treemap(
         Largest relative error of an area.
     rounds : int
         Moves of seeds to centroids; more make rounder cells.
+    random_seed, threads : int
+        0 threads for all.
+    large_group : int
+        Groups of more siblings are laid out on the device, others on the host.
+    device : Device or str, optional
+        As for :meth:`Device.choose`.
 
     Examples
     --------
@@ -135,6 +155,7 @@ def treemap(
         "rounds": rounds,
         "random_seed": random_seed,
         "threads": threads,
+        "large_group": large_group,
         "names": labels,
     }
     with fraction_bar(progress, "treemap") as report:

@@ -46,4 +46,12 @@ nb::object rows(const std::vector<T>& values, std::size_t columns, nb::handle ow
   return view(values.data(), {columns ? values.size() / columns : 0, columns}, owner);
 }
 
+/// A read-only array of that shape, which owns the values.
+template <class T>
+nb::object owned(std::vector<T> values, std::vector<std::size_t> shape) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  return view(kept->data(), std::move(shape), owner);
+}
+
 }  // namespace powercell::python

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <powercell/error.hpp>
+#include <powercell/log.hpp>
 #include <thread>
 
 namespace powercell::python {
@@ -58,6 +59,14 @@ void InFlight::end_all() {
   if (counted_in != getpid()) return;
   const nb::gil_scoped_release released;
   while (in_flight > 0) std::this_thread::sleep_for(while_ending);
+  set_log({});
+}
+
+std::shared_ptr<nb::object> shared(nb::object object) {
+  return {new nb::object(std::move(object)), [](nb::object* last) {
+            const nb::gil_scoped_acquire acquired;
+            delete last;
+          }};
 }
 
 const Call*& Call::innermost() {

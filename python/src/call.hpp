@@ -4,6 +4,7 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <utility>
 
@@ -38,6 +39,9 @@ auto without_lock(const Function& function) {
   const nb::gil_scoped_release released;
   return function();
 }
+
+/// An object of Python that may be let go of in any thread.
+std::shared_ptr<nb::object> shared(nb::object object);
 
 /// One call. Functions that run within it report exceptions of Python, which come out of run() unchanged.
 class Call {
@@ -148,6 +152,10 @@ void bind_devices(nb::module_& m);
 void bind_queues(nb::module_& m);
 void bind_domains(nb::module_& m);
 void bind_results(nb::module_& m);
+void bind_densities(nb::module_& m);
+void bind_point_sets(nb::module_& m);
+void bind_checks(nb::module_& m);
+void bind_log(nb::module_& m);
 void bind_diagrams(nb::module_& m);
 void bind_transport(nb::module_& m);
 void bind_sampling(nb::module_& m);

@@ -12,4 +12,8 @@ namespace powercell::python {
 ///   the package makes it; functions run within the call of the slot
 Density density_of(const nb::tuple& given, CallSlot& slot, int dimension);
 
+/// \param given  with the keys walls, walls_if (None or a function, which runs within the call of the slot),
+///   tolerance, threads
+IntegrationOptions integration_options(const nb::dict& given, CallSlot& slot);
+
 }  // namespace powercell::python

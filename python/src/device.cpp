@@ -1,6 +1,8 @@
 #include <powercell/device.hpp>
+#include <powercell/device_rates.hpp>
 
 #include "python/src/call.hpp"
+#include "python/src/options.hpp"
 
 namespace powercell::python {
 void bind_devices(nb::module_& m) {
@@ -9,9 +11,13 @@ void bind_devices(nb::module_& m) {
       .def_ro("platform", &DeviceInfo::platform_name)
       .def_ro("vendor", &DeviceInfo::vendor)
       .def_ro("driver", &DeviceInfo::driver_version)
+      .def_ro("opencl_c_version", &DeviceInfo::opencl_c_version)
       .def_prop_ro("kind", [](const DeviceInfo& d) { return name(d.type); })
       .def_ro("fp64", &DeviceInfo::fp64)
       .def_ro("compute_units", &DeviceInfo::compute_units)
+      .def_ro("clock_mhz", &DeviceInfo::clock_mhz)
+      .def_ro("largest_allocation", &DeviceInfo::largest_allocation)
+      .def_ro("max_work_group_size", &DeviceInfo::max_work_group_size)
       .def_ro("memory", &DeviceInfo::memory_bytes)
       .def_prop_ro("selector", &DeviceInfo::selector);
   m.def("devices", [] {
@@ -29,6 +35,16 @@ void bind_devices(nb::module_& m) {
           "selector"_a = "")
       .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_ro("build_seconds", &Device::build_seconds);
+
+  m.def("kernel_builds", [] {
+    const KernelBuilds builds = kernel_builds();
+    return nb::make_tuple(builds.running, builds.seconds, builds.processor_seconds);
+  });
+  m.def("measure_device_rates", [](const Device& device, const std::string& precision) {
+    const Precision wanted = precision_of(precision);
+    const DeviceRates rates = Call(nb::none()).run([&] { return measure_device_rates(device, wanted); });
+    return nb::make_tuple(rates.copied_bytes, rates.operations);
+  });
 }
 
 }  // namespace powercell::python

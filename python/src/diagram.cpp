@@ -5,6 +5,7 @@
 #include <powercell/verify.hpp>
 
 #include "python/src/call.hpp"
+#include "python/src/density.hpp"
 #include "python/src/options.hpp"
 
 namespace powercell::python {
@@ -21,7 +22,7 @@ SeedsView seeds_of(const Matrix<double>& positions, const Weights& weights) {
 class PyDiagram {
  public:
   PyDiagram(const Device& device, const Domain& domain, const nb::dict& options)
-      : diagram_(device, domain, with_progress(options_of(options))) {}
+      : diagram_(made(device, domain, with_progress(options_of(options)))) {}
 
   void set_seeds(const Matrix<double>& positions, const Weights& weights) {
     const SeedsView seeds = seeds_of(positions, weights);
@@ -48,23 +49,34 @@ class PyDiagram {
   std::shared_ptr<Cells> cells() { return held(&Diagram::cells); }
   std::shared_ptr<Dual> dual() { return held(&Diagram::dual); }
   std::shared_ptr<JoinedCells> joined() { return held(&Diagram::joined); }
-  std::vector<LawCheck> verify(const Matrix<double>& positions, const Weights& weights,
-                               const nb::dict& given) {
+  std::vector<LawCheck> verify(const Matrix<double>& positions, const Weights& weights, const nb::dict& given,
+                               const nb::object& progress) {
     const SeedsView seeds = seeds_of(positions, weights);
     const auto samples = whole<std::size_t>(given, "samples");
     const auto random_seed = whole<std::uint64_t>(given, "random_seed");
-    return slot_.run(nb::none(), [&] {
+    return slot_.run(progress, [&] {
+      const Checking checking(this);
       return powercell::verify(diagram_, seeds, {samples, random_seed, [this](double fraction) {
                                                    return slot_.report(fraction);
                                                  }});
     });
   }
+  DensityIntegrals integrate(const nb::tuple& density, const nb::dict& given, const nb::object& progress) {
+    const Density of = density_of(density, slot_, diagram_.domain().dimension());
+    const IntegrationOptions options = integration_options(given, slot_);
+    return slot_.run(progress, [&] { return powercell::integrate(diagram_, of, options); });
+  }
 
   const Diagram& diagram() const { return diagram_; }
 
  private:
+  /// Without the interpreter's lock, which the sink of the log needs.
+  static Diagram made(const Device& device, const Domain& domain, const Options& options) {
+    return Call(nb::none()).run([&] { return Diagram(device, domain, options); });
+  }
+
   Options with_progress(Options options) {
-    options.progress = [this](double fraction) { return slot_.report(fraction); };
+    options.progress = [this](double fraction) { return checks_ ? slot_.check() : slot_.report(fraction); };
     return options;
   }
 
@@ -78,7 +90,15 @@ class PyDiagram {
     });
   }
 
+  /// While one lives, computations do not report: the checks do.
+  struct Checking {
+    explicit Checking(PyDiagram* d) : diagram(d) { diagram->checks_ = true; }
+    ~Checking() { diagram->checks_ = false; }
+    PyDiagram* diagram;
+  };
+
   CallSlot slot_;
+  bool checks_ = false;  // within a call of the slot alone
   Diagram diagram_;
 };
 
@@ -119,12 +139,6 @@ void bind_diagrams(nb::module_& m) {
         const auto corners = static_cast<std::size_t>(dual.corners);
         return view(dual.shift.front().data(), {dual.shift.size() / corners, corners, 3}, self);
       });
-  nb::class_<LawCheck>(m, "LawCheck")
-      .def_ro("law", &LawCheck::law)
-      .def_ro("passed", &LawCheck::passed)
-      .def_ro("value", &LawCheck::value)
-      .def_ro("tolerance", &LawCheck::tolerance)
-      .def_ro("detail", &LawCheck::detail);
 
   nb::class_<PyDiagram>(m, "Diagram")
       .def(nb::init<const Device&, const Domain&, const nb::dict&>())
@@ -139,7 +153,12 @@ void bind_diagrams(nb::module_& m) {
       .def("cells", &PyDiagram::cells)
       .def("joined", &PyDiagram::joined)
       .def("dual", &PyDiagram::dual)
-      .def("verify", &PyDiagram::verify, "positions"_a, "weights"_a.none(), "given"_a)
+      .def("verify", &PyDiagram::verify, "positions"_a, "weights"_a.none(), "given"_a, "progress"_a.none())
+      .def("integrate", &PyDiagram::integrate, "density"_a, "given"_a, "progress"_a.none())
+      .def_prop_ro("has_selection", [](const PyDiagram& d) { return d.diagram().has_selection(); })
+      .def_prop_ro(
+          "neighbors",
+          [](const PyDiagram& d) { return d.diagram().neighbors() == Neighbors::flann ? "flann" : "tree"; })
       .def_prop_ro("timings", [](const PyDiagram& d) { return d.diagram().timings(); })
       .def_prop_ro("device", [](const PyDiagram& d) { return d.diagram().device(); })
       .def_prop_ro("precision", [](const PyDiagram& d) { return name_of(d.diagram().precision()); });

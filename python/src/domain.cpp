@@ -59,9 +59,115 @@ nb::object periods(const Domain& domain) {
   return nb::tuple(values);
 }
 
+nb::object facets(nb::handle self) {
+  const std::span all = nb::cast<RegionsView&>(self).facet;
+  return view(reinterpret_cast<const std::uint32_t*>(all.data()), {all.size(), 2}, self);
+}
+
+const char* name_of(RegionShape shape) {
+  switch (shape) {
+    case RegionShape::polygon:
+      return "polygon";
+    case RegionShape::tetrahedron:
+      return "tetrahedron";
+    default:
+      return "box";
+  }
+}
+
+#define POWERCELL_VECTOR(member)                               \
+  def_prop_ro(#member, [](nb::handle self) {                   \
+    const std::span all = nb::cast<RegionsView&>(self).member; \
+    return view(all.data(), {all.size()}, self);               \
+  })
+
+void bind_regions(nb::module_& m) {
+  nb::class_<RegionsView>(m, "RegionsView", R"(The convex regions of a domain.
+
+Region r has the vertices ``region_vertex[region_offset[r]:region_offset[r + 1]]`` and the facets
+``facet[facet_offset[r]:facet_offset[r + 1]]``: of a polygon, edge k from its vertex k to vertex k + 1; of a
+tetrahedron, facet k opposite vertex k; of a box, -x +x -y +y -z +z.
+
+Attributes
+----------
+shape : str
+    ``"polygon"`` (counter-clockwise), ``"tetrahedron"`` (positively oriented) or ``"box"`` (corner k is low along x
+    where ``k & 1`` is 0, along y for ``k & 2``, along z for ``k & 4``).
+dimension, cell_dimension : int
+    Of a vertex, and of the regions.
+vertices : (nv, dimension) float64
+region_offset, facet_offset : (regions + 1,) uint32
+region_vertex : (m,) uint32
+facet : (k, 2) uint32
+    Rows (kind, index): 1 and the number of a boundary facet, or 2 and the region behind it.
+source : (regions,) uint32
+    The part, triangle or tetrahedron of the input.
+boundary_count : int
+    Number of boundary facets.)")
+      .def_prop_ro("shape", [](const RegionsView& r) { return name_of(r.shape); })
+      .def_ro("dimension", &RegionsView::dimension)
+      .def_ro("cell_dimension", &RegionsView::cell_dimension)
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     const RegionsView& r = nb::cast<RegionsView&>(self);
+                     const auto d = static_cast<std::size_t>(r.dimension);
+                     return view(r.vertices.data(), {d ? r.vertices.size() / d : 0, d}, self);
+                   })
+      .POWERCELL_VECTOR(region_offset)
+      .POWERCELL_VECTOR(region_vertex)
+      .POWERCELL_VECTOR(facet_offset)
+      .def_prop_ro("facet", &facets)
+      .POWERCELL_VECTOR(source)
+      .def_ro("boundary_count", &RegionsView::boundary_count)
+      .def("__len__", &RegionsView::size);
+}
+
+void bind_reports(nb::module_& m) {
+  nb::class_<Overlap>(m, "Overlap", R"(Two triangles or tetrahedra of a mesh that overlap.
+
+Attributes
+----------
+first, second : int
+    Indices of the input, ascending.
+measure : float
+    Area or volume of their common part.
+at : list of float
+    The centroid of that part.)")
+      .def_ro("first", &Overlap::first)
+      .def_ro("second", &Overlap::second)
+      .def_ro("measure", &Overlap::measure)
+      .def_ro("at", &Overlap::at);
+  nb::class_<MeshReport>(m, "MeshReport",
+                         R"(The elements of a mesh that were left out, and those that overlap.
+
+Attributes
+----------
+flat : (k,) uint32
+    Elements without area or volume, left out.
+repeated : (m, 2) uint32
+    Elements with the corners of an earlier one, left out: the index of each and of the earlier one.
+overlaps : int
+    Pairs of the others that overlap by more than rounding; their common part counts twice.
+overlap : float
+    The sum of the measures of the common parts.
+largest : Overlap
+    The pair with the largest common part.)")
+      .def_prop_ro("flat", [](nb::handle self) { return view(nb::cast<MeshReport&>(self).flat, self); })
+      .def_prop_ro("repeated",
+                   [](nb::handle self) {
+                     const auto& all = nb::cast<MeshReport&>(self).repeated;
+                     return view(all.empty() ? nullptr : all.front().data(), {all.size(), 2}, self);
+                   })
+      .def_ro("overlaps", &MeshReport::overlaps)
+      .def_ro("overlap", &MeshReport::overlap)
+      .def_ro("largest", &MeshReport::largest);
+}
+
 }  // namespace
 
 void bind_domains(nb::module_& m) {
+  bind_regions(m);
+  bind_reports(m);
   nb::class_<Domain>(m, "Domain")
       .def_static("box", &box)
       .def_static("lattice",
@@ -84,6 +190,8 @@ void bind_domains(nb::module_& m) {
       .def_prop_ro("low", [](const Domain& d) { return corner(d, d.low()); })
       .def_prop_ro("high", [](const Domain& d) { return corner(d, d.high()); })
       .def_prop_ro("region_count", &Domain::region_count)
+      .def_prop_ro("regions", &Domain::regions, nb::keep_alive<0, 1>())
+      .def_prop_ro("report", &Domain::report)
       .def_prop_ro("notes", &Domain::notes);
 
   m.def("shape_disk", [](int segments) { return disk(segments); });

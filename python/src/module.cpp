@@ -31,6 +31,10 @@ NB_MODULE(_core, m) {
   bind_queues(m);
   bind_domains(m);
   bind_results(m);
+  bind_densities(m);
+  bind_point_sets(m);
+  bind_checks(m);
+  bind_log(m);
   bind_diagrams(m);
   bind_transport(m);
   bind_sampling(m);

@@ -37,19 +37,26 @@ T whole(const nb::dict& given, const char* key) {
                             .c_str());
 }
 
-/// The options of a dictionary with the keys precision, neighbors, decisions, certify, threads, chunk_pairs.
+inline Precision precision_of(const std::string& name) {
+  return chosen<Precision>(
+      "precision", name,
+      {{"auto", Precision::automatic}, {"double", Precision::float64}, {"float", Precision::float32}});
+}
+
+/// The options of a dictionary, as diagram_options of the package makes it.
 inline Options options_of(const nb::dict& given) {
   Options options;
   const auto text = [&](const char* key) { return nb::cast<std::string>(given[key]); };
-  options.precision = chosen<Precision>(
-      "precision", text("precision"),
-      {{"auto", Precision::automatic}, {"double", Precision::float64}, {"float", Precision::float32}});
+  options.precision = precision_of(text("precision"));
   options.neighbors = chosen<Neighbors>(
       "neighbors", text("neighbors"),
       {{"auto", Neighbors::automatic}, {"tree", Neighbors::tree}, {"flann", Neighbors::flann}});
   options.decisions = chosen<Decisions>("decisions", text("decisions"),
                                         {{"exact", Decisions::exact}, {"fast", Decisions::fast}});
   options.certify = nb::cast<bool>(given["certify"]);
+  options.initial_neighbors = whole<int>(given, "initial_neighbors");
+  if (const nb::object eta = given["lift_eta"]; !eta.is_none()) options.lift_eta = nb::cast<double>(eta);
+  options.twin_queries = nb::cast<bool>(given["twin_queries"]);
   options.threads = whole<int>(given, "threads");
   options.chunk_pairs = whole<std::uint64_t>(given, "chunk_pairs");
   return options;

@@ -39,9 +39,28 @@ nb::object fixed(const RemeshResult& result) {
 }  // namespace
 
 void bind_remeshing(nb::module_& m) {
+  nb::class_<RepairCount>(m, "RepairCount", R"(How often something was done or found.
+
+Attributes
+----------
+count : int
+first : list of float
+    A place of the first time.)")
+      .def_ro("count", &RepairCount::count)
+      .def_ro("first", &RepairCount::first);
   nb::class_<RepairReport>(m, "RepairReport", "What was done to a mesh, and what was left.")
       .def_prop_ro("acts", &RepairReport::acts)
       .def_prop_ro("left", &RepairReport::left)
+      .def_ro("degenerate", &RepairReport::degenerate)
+      .def_ro("repeated", &RepairReport::repeated)
+      .def_ro("split_edges", &RepairReport::split_edges)
+      .def_ro("split_vertices", &RepairReport::split_vertices)
+      .def_ro("welded", &RepairReport::welded)
+      .def_ro("turned", &RepairReport::turned)
+      .def_ro("flat", &RepairReport::flat)
+      .def_ro("left_flat", &RepairReport::left_flat)
+      .def_ro("intersections", &RepairReport::intersections)
+      .def_prop_ro("changed", &RepairReport::changed)
       .def_ro("components", &RepairReport::components)
       .def_ro("boundary_edges", &RepairReport::boundary_edges)
       .def_ro("moved", &RepairReport::moved);
@@ -55,6 +74,7 @@ void bind_remeshing(nb::module_& m) {
       .def_ro("q_mean", &MeshQuality::q_mean)
       .def_ro("angle_min", &MeshQuality::angle_min)
       .def_ro("angle_max", &MeshQuality::angle_max)
+      .def_ro("angle_min_mean", &MeshQuality::angle_min_mean)
       .def_ro("below_30", &MeshQuality::below_30)
       .def_ro("regular", &MeshQuality::regular)
       .def_ro("euler_characteristic", &MeshQuality::euler_characteristic)
@@ -73,7 +93,11 @@ void bind_remeshing(nb::module_& m) {
       .def_ro("repair", &RemeshResult::repair)
       .def_ro("added", &RemeshResult::added)
       .def_ro("collapsed", &RemeshResult::collapsed)
-      .def_prop_ro("intersections", [](const RemeshResult& r) { return r.intersections.count; });
+      .def_ro("inseparable", &RemeshResult::inseparable)
+      .def_ro("intersections", &RemeshResult::intersections)
+      .def_ro("seconds_sample", &RemeshResult::seconds_sample)
+      .def_ro("seconds_dual", &RemeshResult::seconds_dual)
+      .def_ro("seconds_relax", &RemeshResult::seconds_relax);
   m.def("remesh", &remesh_with, "vertices"_a, "triangles"_a, "given"_a, "device"_a.none(),
         "progress"_a.none());
   m.def("repair", [](const Matrix<double>& vertices, const Triangles& triangles, double weld) {

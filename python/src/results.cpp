@@ -31,7 +31,9 @@ void bind_results(nb::module_& m) {
       .def_prop_ro("indices", [](nb::handle self) { return view(nb::cast<Adjacency&>(self).neighbor, self); })
       .def_prop_ro("data", [](nb::handle self) { return view(nb::cast<Adjacency&>(self).wall, self); })
       .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<Adjacency&>(self), self); })
-      .def_ro("asymmetry", &Adjacency::asymmetry);
+      .def_ro("asymmetry", &Adjacency::asymmetry)
+      .def_prop_ro("asymmetric",
+                   [](const Adjacency& a) { return nb::make_tuple(a.asymmetric[0], a.asymmetric[1]); });
   nb::class_<BoundaryWalls>(m, "BoundaryWalls")
       .def_prop_ro("indptr",
                    [](nb::handle self) { return view(nb::cast<BoundaryWalls&>(self).offset, self); })

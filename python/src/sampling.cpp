@@ -54,6 +54,20 @@ void bind_sampling(nb::module_& m) {
       .def_ro("capacity_error", &SamplingStep::capacity_error)
       .def_ro("newton_steps", &SamplingStep::newton_steps)
       .def_ro("seconds", &SamplingStep::seconds);
+  nb::class_<PartsApart>(m, "PartsApart",
+                         R"(Parts of cells that are not connected with the part that has the point.
+
+Attributes
+----------
+cells : int
+    Cells with such parts.
+share : float
+    Of the domain's area or volume in such parts.
+distance : float
+    Of such a part's centroid from the part with the point, the median by area or volume; 0 without such parts.)")
+      .def_ro("cells", &PartsApart::cells)
+      .def_ro("share", &PartsApart::share)
+      .def_ro("distance", &PartsApart::distance);
   nb::class_<SamplingResult>(m, "SamplingResult", "Points whose cells have equal masses.")
       .def_ro("converged", &SamplingResult::converged)
       .def_prop_ro("positions",
@@ -69,7 +83,8 @@ void bind_sampling(nb::module_& m) {
       .def_ro("energy", &SamplingResult::energy)
       .def_ro("relative_energy", &SamplingResult::relative_energy)
       .def_ro("layers", &SamplingResult::layers)
-      .def_prop_ro("share_apart", [](const SamplingResult& r) { return r.apart.share; })
+      .def_ro("layer_spacing", &SamplingResult::layer_spacing)
+      .def_ro("apart", &SamplingResult::apart)
       .def_ro("steps", &SamplingResult::steps);
   m.def("sample", &sample_from, "device"_a, "domain"_a, "start"_a, "given"_a, "diagram"_a,
         "progress"_a.none());

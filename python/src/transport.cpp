@@ -12,7 +12,7 @@ using Weights = std::optional<Vector<double>>;
 class PySolver {
  public:
   PySolver(const Device& device, const Domain& domain, const nb::dict& given, const nb::dict& options)
-      : solver_(device, domain, transport_options(domain, given, options)) {}
+      : solver_(made(device, domain, transport_options(domain, given, options))) {}
 
   void set_seeds(const Matrix<double>& positions, const Weights& weights) {
     const SeedsView seeds{static_cast<int>(positions.shape(1)), span_of(positions),
@@ -41,8 +41,26 @@ class PySolver {
   TransportResult solve(nb::object progress) {
     return slot_.run(std::move(progress), [&] { return solver_.solve(); });
   }
+  /// Positions and weights of the diagram of the last solve.
+  nb::tuple diagram_seeds() {
+    std::size_t n = 0;
+    std::vector<double> positions, weights;
+    slot_.run(nb::none(), [&] {
+      const Diagram& diagram = solver_.diagram();
+      n = diagram.size();
+      positions = diagram.positions();
+      weights = solver_.result().weights;
+    });
+    const std::size_t d = positions.size() / n;
+    return nb::make_tuple(owned(std::move(positions), {n, d}), owned(std::move(weights), {n}));
+  }
 
  private:
+  /// Without the interpreter's lock, which the sink of the log needs.
+  static TransportSolver made(const Device& device, const Domain& domain, const TransportOptions& options) {
+    return Call(nb::none()).run([&] { return TransportSolver(device, domain, options); });
+  }
+
   TransportOptions transport_options(const Domain& domain, const nb::dict& given, const nb::dict& options) {
     TransportOptions result;
     result.density = density_of(nb::cast<nb::tuple>(given["density"]), slot_, domain.dimension());
@@ -54,6 +72,7 @@ class PySolver {
                                           {"dense", LinearSolver::dense},
                                           {"direct", LinearSolver::direct},
                                           {"multilevel", LinearSolver::multilevel}});
+    result.linear_residual = nb::cast<double>(given["linear_residual"]);
     result.diagram = options_of(options);
     result.diagram.progress = [this](double) { return slot_.check(); };
     result.progress = [this](const TransportStep& step) { return slot_.report(step); };
@@ -73,6 +92,8 @@ void bind_transport(nb::module_& m) {
   nb::class_<TransportStep>(m, "TransportStep", "One accepted step of the solver.")
       .def_ro("step", &TransportStep::step)
       .def_prop_ro("phase", [](const TransportStep& s) { return name(s.phase); })
+      .def_ro("exponent", &TransportStep::exponent)
+      .def_ro("spread", &TransportStep::spread)
       .def_ro("error", &TransportStep::error)
       .def_ro("gradient", &TransportStep::gradient)
       .def_ro("least", &TransportStep::least)
@@ -80,6 +101,9 @@ void bind_transport(nb::module_& m) {
       .def_ro("dual", &TransportStep::dual)
       .def_ro("length", &TransportStep::length)
       .def_ro("diagrams", &TransportStep::diagrams)
+      .def_prop_ro("linear", [](const TransportStep& s) { return name(s.linear); })
+      .def_ro("linear_iterations", &TransportStep::linear_iterations)
+      .def_ro("linear_residual", &TransportStep::linear_residual)
       .def_ro("diagram_seconds", &TransportStep::diagram_seconds)
       .def_ro("linear_seconds", &TransportStep::linear_seconds);
   nb::class_<TransportResult>(m, "TransportResult",
@@ -99,12 +123,14 @@ void bind_transport(nb::module_& m) {
                    })
       .POWERCELL_VECTOR(second_moment)
       .POWERCELL_VECTOR(merged_with)
+      .def_ro("merged", &TransportResult::merged)
       .def_ro("total_mass", &TransportResult::total_mass)
       .def_ro("cost", &TransportResult::primal,
               "W2 squared, once converged: the cost of moving the masses to their seeds.")
       .def_ro("dual", &TransportResult::dual)
       .def_ro("steps", &TransportResult::steps)
-      .def_ro("diagrams", &TransportResult::diagrams);
+      .def_ro("diagrams", &TransportResult::diagrams)
+      .def_prop_ro("newton_steps", &TransportResult::newton_steps);
   nb::class_<PySolver>(m, "TransportSolver")
       .def(nb::init<const Device&, const Domain&, const nb::dict&, const nb::dict&>())
       .def("set_seeds", &PySolver::set_seeds, "positions"_a, "weights"_a.none())
@@ -113,6 +139,7 @@ void bind_transport(nb::module_& m) {
       .def("set_masses", &PySolver::set_masses, "masses"_a.none())
       .def("set_tolerance", &PySolver::set_tolerance)
       .def("set_max_steps", &PySolver::set_max_steps)
+      .def("diagram_seeds", &PySolver::diagram_seeds)
       .def("solve", &PySolver::solve, "progress"_a.none());
 }
 

@@ -17,6 +17,7 @@ Treemap lay_out(const Vector<std::int64_t>& parent, const Vector<double>& value,
   if (start) options.start = span_of(*start);
   const auto names = nb::cast<std::vector<std::string>>(given["names"]);
   if (!names.empty()) options.name = [&](std::size_t node) { return names[node]; };
+  options.large_group = whole<std::size_t>(given, "large_group");
   options.device = device;
   Ring ring;
   for (std::size_t k = 0; k < outline.shape(0); ++k)
@@ -50,7 +51,9 @@ void bind_treemaps(nb::module_& m) {
       .def_ro("worst_leaf", &Treemap::worst_leaf)
       .def_ro("mean_aspect", &Treemap::mean_aspect)
       .def_ro("leaves", &Treemap::leaves)
-      .def_ro("not_converged", &Treemap::not_converged);
+      .def_ro("not_converged", &Treemap::not_converged)
+      .def_ro("diagrams", &Treemap::diagrams)
+      .def_ro("newton_steps", &Treemap::newton_steps);
   m.def("treemap", &lay_out, "parent"_a, "value"_a, "outline"_a, "start"_a.none(), "given"_a,
         "device"_a.none(), "progress"_a.none());
   m.def("relative_positions", [](const Vector<std::int64_t>& parent, const Treemap& earlier) {

@@ -24,6 +24,22 @@ def test_progress_is_called_and_may_stop(rng, cube):
     assert caught.value.code == "interrupted"
 
 
+def test_progress_of_checks_and_integrals(rng, square):
+    diagram = pc.Diagram(square, rng.random((500, 2)))
+    seen = []
+    checks = diagram.verify(progress=seen.append)
+    assert seen == pytest.approx(np.arange(1, len(checks) + 1) / len(checks))
+    assert all(check.passed for check in checks)
+    with pytest.raises(pc.Error) as caught:
+        diagram.verify(progress=lambda fraction: False)
+    assert caught.value.code == "interrupted"
+    seen.clear()
+    pc.integrate(pc.Diagram(square, rng.random((500, 2)), progress=seen.append), "x")
+    assert seen and 0 <= min(seen) and max(seen) == 1
+    with pytest.raises(Boom):
+        pc.integrate(pc.Diagram(square, rng.random((500, 2)), progress=boom), "x")
+
+
 class Boom(Exception):
     pass
 

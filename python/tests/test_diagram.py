@@ -1,6 +1,7 @@
 """Diagrams against brute force and other packages, and what their results promise."""
 
 import gc
+import types
 import weakref
 
 import numpy as np
@@ -259,3 +260,101 @@ def test_facets_sum_to_the_boundary(rng, cube):
     walls = pc.Diagram(cube, rng.random((100, 3))).boundary_walls
     np.testing.assert_allclose(np.bincount(walls.indices, walls.data), np.ones(6), rtol=1e-12)
     assert walls.indptr.shape == (101,)
+
+
+def test_flann_options_change_the_way_and_not_the_cells(rng, cube):
+    p, w = rng.random((300, 3)), rng.random(300) * 0.02
+    tree = pc.Diagram(cube, p, w)
+    assert tree.neighbors == "tree"
+    for options in ({"initial_neighbors": 4}, {"lift_eta": 0.5}, {"twin_queries": False}):
+        flann = pc.Diagram(cube, p, w, neighbors="flann", **options)
+        assert flann.neighbors == "flann" and flann.mass == pytest.approx(tree.mass, abs=1e-12)
+    few = pc.Diagram(cube, p, w, neighbors="flann", initial_neighbors=4)
+    many = pc.Diagram(cube, p, w, neighbors="flann", initial_neighbors=299)
+    assert few.compute().timings.rounds > many.compute().timings.rounds == 1
+    with pytest.raises(pc.Error, match="the height of the lift, -1"):
+        pc.Diagram(cube, p, w, neighbors="flann", lift_eta=-1).mass
+    with pytest.raises(ValueError, match="initial_neighbors is -1"):
+        pc.Diagram(cube, p, initial_neighbors=-1)
+
+
+def test_a_selection_shows(rng, square):
+    diagram = pc.Diagram(square, rng.random((20, 2)))
+    assert not diagram.has_selection
+    diagram.select([3, 1])
+    assert diagram.has_selection and len(diagram.mass) == 2
+    diagram.select_all()
+    assert not diagram.has_selection and len(diagram.mass) == 20
+
+
+def test_walls_tell_how_well_their_sides_agree(rng, cube):
+    grid = np.stack(np.meshgrid(*[np.arange(4) / 4 + 0.125] * 3), axis=-1).reshape(-1, 3)
+    walls = pc.Diagram(cube, grid).adjacency
+    assert walls.asymmetry < 1e-15
+    walls = pc.Diagram(cube, rng.random((2000, 3)), precision="float").adjacency
+    i, j = walls.asymmetric
+    assert 1e-12 < walls.asymmetry < 1e-5 and j in walls.neighbors(i) and i in walls.neighbors(j)
+
+
+def saved(d, **changed):
+    fields = dict(
+        kind=d.domain.kind,
+        positions=d.positions,
+        weights=d.weights,
+        mass=d.mass,
+        centroid=d.centroid,
+        status=d.status,
+        domain_measure=d.domain_measure,
+        cells=d.joined,
+    )
+    return pc.SavedDiagram(**{**fields, **changed})
+
+
+@pytest.mark.parametrize("kind", ["square", "cube", "sphere", "solid"])
+def test_saved_diagrams_are_checked(rng, kind):
+    sphere = pc.sphere(4)
+    domain = {
+        "square": lambda: pc.Domain.box([0, 0], [1, 1]),
+        "cube": lambda: pc.Domain.box([0, 0, 0], [1, 1, 1]),
+        "sphere": lambda: pc.Domain.surface(*sphere),
+        "solid": lambda: pc.Domain.solid(*sphere),
+    }[kind]()
+    d = pc.Diagram(domain, rng.random((60, domain.dimension)), rng.random(60) * 0.01)
+    checks = saved(d).verify()
+    assert len(checks) > 5 and all(check.passed for check in checks), [c.detail for c in checks if not c.passed]
+    assert all(check.passed for check in saved(d, centroid=None).verify())
+    mass = d.mass.copy()
+    largest = int(mass.argmax())
+    mass[largest] *= 1.001
+    wrong = [check for check in saved(d, mass=mass).verify() if not check.passed]
+    assert wrong and any(str(largest) in check.detail for check in wrong)
+
+
+def test_saved_diagrams_are_not_trusted(rng, square):
+    d = pc.Diagram(square, rng.random((10, 2)))
+    names = [name for name in dir(d.joined) if not name.startswith("_")]
+    members = {name: getattr(d.joined, name) for name in names}
+
+    def cells(**changed):
+        return types.SimpleNamespace(**{**members, **changed})
+
+    assert all(check.passed for check in saved(d, cells=cells()).verify())
+    assert all(check.passed for check in saved(d, cells=cells(), weights=None).verify())
+    with pytest.raises(pc.Error) as caught:
+        saved(d, cells=cells(loop=members["loop"] + 1000)).verify()
+    assert caught.value.code == "invalid_argument"
+    with pytest.raises(pc.Error):
+        saved(d, cells=cells(loop_offset=members["loop_offset"][:-1])).verify()
+    torus = pc.Diagram(pc.Domain.box([0, 0], [1, 1], periodic=True), d.positions)
+    for part, change in (
+        ("the cells are periodic", {"cells": torus.joined}),
+        ("status: row 0 is 3", {"status": np.full(10, 3)}),
+        ("status: row 0 has a number below 0", {"status": np.full(10, -1)}),
+        (r"mass has the shape \(9,\)", {"mass": d.mass[:9]}),
+        ("kind is 'disk'", {"kind": "disk"}),
+        ("precision is 'auto'", {"precision": "auto"}),
+        ("cells.edge_border: row 0 is 3", {"cells": cells(edge_border=np.full((4, 2), 3))}),
+        ("cells has no cell_dimension", {"cells": None}),
+    ):
+        with pytest.raises(ValueError, match=part):
+            saved(d, **change).verify()
