@@ -86,12 +86,17 @@ class Ours : public Contender {
   Diagram diagram_;
 };
 
+Options keeping(Options options) {
+  options.keep_mesh = true;
+  return options;
+}
+
 /// A loop: each run follows a small change of the seeds before.
 class OursInLoop : public Contender {
  public:
   OursInLoop(const Domain& domain, const SeedArray& seeds, const Options& options, double weight_step,
              double move)
-      : seeds_(seeds), diagram_(device(), domain, options), random_(1) {
+      : seeds_(seeds), diagram_(device(), domain, keeping(options)), random_(1) {
     const auto [least, most] = std::minmax_element(seeds.weights.begin(), seeds.weights.end());
     weight_step_ = weight_step * (*most - *least);
     move_ = move * test::spacing(domain.measure(), seeds.size(), domain.cell_dimension());

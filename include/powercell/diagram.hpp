@@ -26,19 +26,12 @@ class POWERCELL_API Diagram {
   Diagram& operator=(Diagram&&) noexcept;
   ~Diagram();
 
-  /// Copies the seeds, at most 2^30. As many seeds as before count as the same seeds at new places (see
-  /// set_weights()).
+  /// Copies the seeds, at most 2^30. As many seeds as before count as the same seeds at new places
+  /// (Options::keep_mesh).
   /// \throw Error invalid_argument (sizes), invalid_seed (names the seed: NaN, infinity, or so large that its
   /// square is not finite in the precision)
   void set_seeds(const SeedsView& seeds);
   /// Sets new weights for the same positions; only the work that depends on weights is repeated.
-  ///
-  /// In a loop of new weights or places the diagram keeps its dual mesh from the second change on, and
-  /// repairs it instead of searching and clipping anew (Timings::reused). Then statuses and adjacency are
-  /// those of a fresh diagram, and measures differ from its by rounding, some 1e-14 of their mean. So it is
-  /// in boxes and other domains of one convex region, not periodic, in double precision with exact decisions,
-  /// for measures and adjacency of all cells; everything else is computed anew. The mesh takes about 900
-  /// bytes a seed in space and 300 in the plane.
   /// \throw Error invalid_argument (size), invalid_seed
   void set_weights(std::span<const double> weights);
 

@@ -155,7 +155,7 @@ struct Timings {
   std::uint64_t uncertain = 0;   ///< pairs in which rounding may have decided
   int rounds = 0;                ///< rounds of neighbour lists (FLANN)
   /// Seeds whose cells were computed from the mesh that a diagram in a loop keeps, without a search
-  /// (Diagram::set_weights): all or none. Then `neighbors` is the time to make or repair the mesh, and
+  /// (Options::keep_mesh): all or none. Then `neighbors` is the time to make or repair the mesh, and
   /// `on_host` counts the cells that had to be clipped by their neighbours there.
   std::uint64_t reused = 0;
 };

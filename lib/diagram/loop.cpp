@@ -1,6 +1,7 @@
 #include "lib/diagram/loop.hpp"
 
 #include <algorithm>
+#include <powercell/error.hpp>
 #include <utility>
 
 #include "lib/diagram/stopwatch.hpp"
@@ -11,6 +12,13 @@ namespace {
 
 constexpr int changes_of_a_loop = 2;
 constexpr unsigned longest_wait = 1U << 20;
+/// Of a computation from a mesh, when the mesh is up to date.
+constexpr double repaired = 0.3;
+
+void report(const Setup& setup, double fraction) {
+  if (setup.options.progress && !setup.options.progress(fraction))
+    throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
+}
 
 }  // namespace
 
@@ -26,9 +34,9 @@ void Loop::seeds_changed(bool same_seeds, bool was_computed) {
 }
 
 bool Loop::is_due(const Setup& setup, const Input& input) {
-  return changes_ >= changes_of_a_loop && wait_ == 0 && setup.options.decisions == Decisions::exact &&
-         setup.neighbors == Neighbors::tree && input.seeds.duplicate.empty() && input.seeds.size() > 0 &&
-         KeptDiagram::is_possible(setup.on_device);
+  return setup.options.keep_mesh && changes_ >= changes_of_a_loop && wait_ == 0 &&
+         setup.options.decisions == Decisions::exact && setup.neighbors == Neighbors::tree &&
+         input.seeds.duplicate.empty() && input.seeds.size() > 0 && KeptDiagram::is_possible(setup.on_device);
 }
 
 void Loop::fail() {
@@ -45,6 +53,8 @@ void Loop::fail() {
 std::optional<KeptDiagram::Results> Loop::compute(const Setup& setup, const Input& input, bool adjacency,
                                                   Timings& timings) {
   if (!is_due(setup, input)) return {};
+  setup.progress->begin_pass(0, 1);
+  report(setup, 0);
   try {
     const Stopwatch watch(setup.device);
     if (mesh_ == nullptr) {
@@ -56,11 +66,13 @@ std::optional<KeptDiagram::Results> Loop::compute(const Setup& setup, const Inpu
     is_current_ = true;
     moved_ = false;
     timings.neighbors = watch.seconds();
+    report(setup, repaired);
     KeptDiagram::Results results = mesh_->evaluate(input.seeds, setup.domain.measure(), adjacency);
     timings.clip = watch.seconds() - timings.neighbors;
     timings.pair_count = input.seeds.size();
     timings.reused = input.seeds.size();
     timings.on_host = results.clipped;
+    report(setup, 1);
     return results;
   } catch (const MeshUnusable&) {
     fail();

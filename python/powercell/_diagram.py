@@ -52,6 +52,9 @@ class Diagram:
         FLANN: the height eta of the lift ``sqrt(eta - w)``, at least the largest weight, which is the default.
     twin_queries : bool
         FLANN: query with the twin of a lifted seed instead of the seed itself.
+    keep_mesh : bool
+        In loops of :meth:`set_weights`, or of :meth:`set_seeds` with as many seeds, repair the last diagram where little
+        changes, in boxes and convex polygons: the same statuses and neighbours, measures equal to some 1e-14 of the mean.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
 
@@ -93,12 +96,22 @@ class Diagram:
         initial_neighbors: int = 0,
         lift_eta: Optional[float] = None,
         twin_queries: bool = True,
+        keep_mesh: bool = False,
         progress: Progress = None,
     ) -> None:
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
         options = diagram_options(
-            precision, neighbors, decisions, certify, threads, chunk_pairs, initial_neighbors, lift_eta, twin_queries
+            precision,
+            neighbors,
+            decisions,
+            certify,
+            threads,
+            chunk_pairs,
+            initial_neighbors,
+            lift_eta,
+            twin_queries,
+            keep_mesh,
         )
         self.domain = domain
         progress_function(progress)  # refuses what is none

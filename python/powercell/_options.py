@@ -15,6 +15,7 @@ def diagram_options(
     initial_neighbors: int = 0,
     lift_eta: Optional[float] = None,
     twin_queries: bool = True,
+    keep_mesh: bool = False,
 ) -> dict[str, Any]:
     return {
         "precision": precision,
@@ -26,4 +27,5 @@ def diagram_options(
         "initial_neighbors": initial_neighbors,
         "lift_eta": lift_eta,
         "twin_queries": twin_queries,
+        "keep_mesh": keep_mesh,
     }

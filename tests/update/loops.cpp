@@ -137,7 +137,9 @@ void run_loop(std::uint64_t random_seed, std::size_t most_seeds, LoopTally& tall
   Work work = random_work(dimension, most_seeds, random);
   Options options;
   options.threads = 1 + static_cast<int>(random.index(2));
+  options.keep_mesh = true;
   Diagram kept(device(), domain, options);
+  options.keep_mesh = false;
   kept.set_seeds(work.seeds.view());
   kept.measures();
   for (int k = 0; k < steps; ++k) {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <powercell/diagram.hpp>
+#include <powercell/error.hpp>
 #include <powercell/log.hpp>
 #include <powercell/transport.hpp>
 #include <string>
@@ -17,6 +18,12 @@ namespace {
 const Device& device() {
   static const Device chosen = Device::choose();
   return chosen;
+}
+
+Options keeping() {
+  Options options;
+  options.keep_mesh = true;
+  return options;
 }
 
 /// Counts lines of the log.
@@ -48,7 +55,7 @@ std::uint64_t reused_after(Diagram& diagram, SeedArray& seeds, double change, Ra
 TEST_CASE("a diagram is kept from the second change on") {
   Random random(test_seed());
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 500, 3, random);
-  Diagram diagram(device(), unit_box(3), {});
+  Diagram diagram(device(), unit_box(3), keeping());
   diagram.set_seeds(seeds.view());
   diagram.compute(true, false);
   CHECK(diagram.timings().reused == 0);
@@ -69,15 +76,49 @@ TEST_CASE("a diagram is kept from the second change on") {
   CHECK(diagram.timings().reused == 0);
 }
 
+TEST_CASE("no mesh is kept unless it is asked for") {
+  Random random(test_seed());
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 50, 2, random);
+  Diagram diagram(device(), unit_box(2));
+  diagram.set_seeds(seeds.view());
+  diagram.measures();
+  for (int k = 0; k < 3; ++k) CHECK(reused_after(diagram, seeds, 1e-6, random) == 0);
+}
+
+TEST_CASE("a stopped update goes on") {
+  Random random(test_seed());
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 200, 3, random);
+  int calls = 0, stop_at = 0;
+  Options options = keeping();
+  options.progress = [&](double) { return ++calls != stop_at; };
+  Diagram diagram(device(), unit_box(3), options);
+  diagram.set_seeds(seeds.view());
+  diagram.measures();
+  for (int k = 0; k < 2; ++k) reused_after(diagram, seeds, 1e-5, random);
+  for (stop_at = 1; stop_at <= 3; ++stop_at) {
+    CAPTURE(stop_at);
+    for (double& w : seeds.weights) w += random.uniform(-1e-5, 1e-5);
+    diagram.set_weights(seeds.weights);
+    calls = 0;
+    CHECK_THROWS_AS(diagram.measures(), Error);
+    CHECK(calls == stop_at);
+    diagram.compute(true, false);
+    CHECK(diagram.timings().reused == 200);
+    Diagram fresh(device(), unit_box(3));
+    fresh.set_seeds(seeds.view());
+    CHECK(diagram.adjacency().neighbor == fresh.adjacency().neighbor);
+  }
+}
+
 TEST_CASE("what cannot be kept is computed anew") {
   Random random(test_seed());
-  Options fast;
+  Options fast = keeping();
   fast.decisions = Decisions::fast;
   const std::vector<std::pair<Domain, Options>> cases{
       {unit_box(3), fast},
-      {volume_of(ball_tetrahedra(0)), {}},
-      {Domain::polygon(islands()), {}},
-      {Domain::periodic_box(std::vector<double>{0, 0}, std::vector<double>{1, 1}), {}}};
+      {volume_of(ball_tetrahedra(0)), keeping()},
+      {Domain::polygon(islands()), keeping()},
+      {Domain::periodic_box(std::vector<double>{0, 0}, std::vector<double>{1, 1}), keeping()}};
   for (const auto& [domain, options] : cases) {
     SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 50, domain.dimension(), random);
     Diagram diagram(device(), domain, options);
@@ -89,7 +130,7 @@ TEST_CASE("what cannot be kept is computed anew") {
 
 TEST_CASE("after failures a mesh is tried more and more seldom") {
   SeedArray seeds = grid(5, 3);
-  Diagram diagram(device(), unit_box(3), {});
+  Diagram diagram(device(), unit_box(3), keeping());
   diagram.set_seeds(seeds.view());
   diagram.measures();
   const LogCounter failures("the dual mesh is of no use");
@@ -104,9 +145,9 @@ TEST_CASE("after failures a mesh is tried more and more seldom") {
 TEST_CASE("selected cells and certified diagrams do without a mesh, or with it") {
   Random random(test_seed());
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 300, 2, random);
-  Options options;
+  Options options = keeping();
   options.certify = true;
-  Diagram certified(device(), unit_box(2), options), selected(device(), unit_box(2), {});
+  Diagram certified(device(), unit_box(2), options), selected(device(), unit_box(2), keeping());
   for (Diagram* diagram : {&certified, &selected}) {
     diagram->set_seeds(seeds.view());
     diagram->measures();
@@ -126,7 +167,9 @@ TEST_CASE("transport goes on from the kept mesh") {
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 2000, 3, random);
   const LogCounter kept("from the kept mesh");
-  TransportSolver solver(device(), unit_box(3));
+  TransportOptions options;
+  options.diagram.keep_mesh = true;
+  TransportSolver solver(device(), unit_box(3), options);
   solver.set_seeds(seeds.view());
   CHECK(solver.solve().converged);
   CHECK(kept.count() > 2);
