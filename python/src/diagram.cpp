@@ -22,7 +22,7 @@ SeedsView seeds_of(const Matrix<double>& positions, const Weights& weights) {
 class PyDiagram {
  public:
   PyDiagram(const Device& device, const Domain& domain, const nb::dict& options)
-      : diagram_(made(device, domain, with_progress(options_of(options)))) {}
+      : diagram_(device, domain, with_progress(options_of(options))) {}
 
   void set_seeds(const Matrix<double>& positions, const Weights& weights) {
     const SeedsView seeds = seeds_of(positions, weights);
@@ -70,11 +70,6 @@ class PyDiagram {
   const Diagram& diagram() const { return diagram_; }
 
  private:
-  /// Without the interpreter's lock, which the sink of the log needs.
-  static Diagram made(const Device& device, const Domain& domain, const Options& options) {
-    return Call(nb::none()).run([&] { return Diagram(device, domain, options); });
-  }
-
   Options with_progress(Options options) {
     options.progress = [this](double fraction) { return checks_ ? slot_.check() : slot_.report(fraction); };
     return options;

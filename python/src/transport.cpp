@@ -12,7 +12,7 @@ using Weights = std::optional<Vector<double>>;
 class PySolver {
  public:
   PySolver(const Device& device, const Domain& domain, const nb::dict& given, const nb::dict& options)
-      : solver_(made(device, domain, transport_options(domain, given, options))) {}
+      : solver_(device, domain, transport_options(domain, given, options)) {}
 
   void set_seeds(const Matrix<double>& positions, const Weights& weights) {
     const SeedsView seeds{static_cast<int>(positions.shape(1)), span_of(positions),
@@ -56,11 +56,6 @@ class PySolver {
   }
 
  private:
-  /// Without the interpreter's lock, which the sink of the log needs.
-  static TransportSolver made(const Device& device, const Domain& domain, const TransportOptions& options) {
-    return Call(nb::none()).run([&] { return TransportSolver(device, domain, options); });
-  }
-
   TransportOptions transport_options(const Domain& domain, const nb::dict& given, const nb::dict& options) {
     TransportOptions result;
     result.density = density_of(nb::cast<nb::tuple>(given["density"]), slot_, domain.dimension());

@@ -23,10 +23,12 @@ def test_lines_come_by_level(rng, square, lines):
     pc.Diagram(square, p, chunk_pairs=1000).mass
     assert lines and {level for level, _ in lines} == {"info"}
     assert any("3000 seeds" in line or "3,000 seeds" in line for _, line in lines)
-    few = len(lines)
+    assert not any("pairs clipped" in line for _, line in lines)
+    lines.clear()
     pc.set_log(lambda level, line: lines.append((level, line)), "detail")
     pc.Diagram(square, p, chunk_pairs=1000).mass
-    assert len(lines) > 2 * few and "detail" in {level for level, _ in lines}
+    chunks = [line for level, line in lines if level == "detail" and "pairs clipped" in line]
+    assert len(chunks) == 3 and "info" in {level for level, _ in lines}
     pc.set_log(None)
     count = len(lines)
     pc.Diagram(square, p).mass
