@@ -34,7 +34,7 @@ bool run(const Device& device, const Lattice& lattice, const Place& place, Preci
   const LatticeSeeds seeds = lattice_seeds(lattice, place);
   Options options;
   options.precision = precision;
-  Diagram diagram(device, room_for(place, lattice.dimension), options);
+  Diagram diagram(device, box_around(place, lattice.dimension), options);
   diagram.set_seeds(seeds.array.view());
   const double start = bench::processor_seconds();
   diagram.compute(true, with_dual);
