@@ -36,7 +36,8 @@ struct Spacing {
 /// \param positions  n x d, row-major, in the domain
 /// \param periodic   the domain is a box with its opposite sides identified: short for Domain::periodic_box
 /// \param uniform    the points are meant to have constant density
-/// \throw Error invalid_argument (fewer than two points; a point outside the domain or given twice),
+/// \throw Error invalid_argument (fewer than two points; a point without a cell, as those given twice or far
+/// outside),
 ///   unsupported (a periodic domain that is not a box); as Diagram
 POWERCELL_API Spacing spacing(const Device& device, const Domain& domain, std::span<const double> positions,
                               bool periodic = false, bool uniform = true, const Options& options = {});

@@ -44,7 +44,8 @@ POWERCELL_API std::vector<LawCheck> verify(Diagram& diagram, const SeedsView& se
                                            const VerifyOptions& options = {});
 
 /// The same laws from the arrays alone, nothing of which is trusted; vertices of the cells take the place of
-/// random points. \throw Error invalid_argument if the arrays do not fit together (which cell)
+/// random points. \throw Error invalid_argument if the arrays do not fit together (which cell); unsupported
+/// for cells of a periodic domain, which have shifts
 POWERCELL_API std::vector<LawCheck> verify(const SavedDiagram& diagram, const VerifyOptions& options = {});
 
 }  // namespace powercell

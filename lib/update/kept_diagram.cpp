@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t shared_cells = 512;  // cells; fewer are faster on one thread
 /// The cells fill the domain but for rounding.
-constexpr double most_missing = 1e-9;
+constexpr double most_missing = 1e-11;
 
 template <int D>
 class KeptMesh final : public KeptDiagram {

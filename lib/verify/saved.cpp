@@ -37,6 +37,10 @@ void require_fit(const SavedDiagram& saved) {
       !is_offset(cells.face_offset, n, faces) || !is_offset(cells.loop_offset, faces, cells.loop.size()) ||
       (volume ? cells.face_border.size() != faces : cells.edge_border.size() != cells.loop.size()))
     refuse_saved("the arrays of the cells differ in length");
+  if (!cells.shift.empty())
+    throw Error(ErrorCode::unsupported,
+                "the cells are those of a periodic domain, whose periods are not saved with them; check the "
+                "diagram itself (verify(Diagram&))");
   const std::vector<Border>& border = volume ? cells.face_border : cells.edge_border;
   for (std::size_t i = 0; i < n; ++i)
     for (std::uint64_t f = cells.face_offset[i]; f < cells.face_offset[i + 1]; ++f) {

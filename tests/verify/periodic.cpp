@@ -1,6 +1,7 @@
 // The laws in periodic domains: of boxes periodic along some axes, lattices, few seeds and seeds far outside.
 #include <doctest/doctest.h>
 
+#include <powercell/error.hpp>
 #include <powercell/verify.hpp>
 
 #include "lib/verify/laws.hpp"
@@ -85,5 +86,22 @@ TEST_CASE("in periodic diagrams each law finds its fault") {
         break;
       }
     CHECK_FALSE(check_walls(adjacency, &named.domain.mesh(), rounding).passed);
+  }
+}
+
+TEST_CASE("saved diagrams of periodic domains are refused, as their periods are not known") {
+  const Setup setup = main_setups().front();
+  Random random(test_seed());
+  const Domain square = Domain::periodic_box(std::array{0.0, 0.0}, std::array{1.0, 1.0});
+  const SeedArray seeds = seeds_for(square, Distribution::white, WeightRange::W0, 20, random);
+  Diagram diagram(setup.device, square, setup.options);
+  diagram.set_seeds(seeds.view());
+  const SavedDiagram saved{square.kind(), diagram.precision(), seeds.view(), diagram.measures(),
+                           diagram.joined()};
+  try {
+    verify(saved);
+    FAIL("checked without periods");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::unsupported);
   }
 }

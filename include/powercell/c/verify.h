@@ -44,7 +44,7 @@ typedef struct pc_saved_diagram {
   const uint32_t* loop;          /**< loop_offset[face_offset[n]] */
   const pc_border* face_border;  /**< per face (volumes only) */
   const pc_border* edge_border;  /**< per loop entry (polygons and surfaces only) */
-  const int32_t* shift;          /**< 3 per border in a periodic domain, else NULL */
+  const int32_t* shift;          /**< NULL: with the 3 per border of a periodic domain PC_UNSUPPORTED */
 } pc_saved_diagram;
 
 /** Sets everything to 0 and the precision to PC_FLOAT64. \param struct_size  sizeof(pc_saved_diagram) */
