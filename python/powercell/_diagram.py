@@ -54,7 +54,7 @@ class Diagram:
         FLANN: query with the twin of a lifted seed instead of the seed itself.
     keep_mesh : bool
         In loops of :meth:`set_weights`, or of :meth:`set_seeds` with as many seeds, repair the last diagram where little
-        changes, in boxes and convex polygons: the same statuses and neighbours, measures equal to some 1e-14 of the mean.
+        changes, in boxes and convex polygons: the same statuses and neighbours, measures equal to 1e-12 of the mean.
     progress : bool or callable, optional
         True for a bar, or a function of the fraction done, which may return False to stop.
 

@@ -13,7 +13,7 @@ namespace {
 
 /// In means. In the plane the ends of walls between lines that are nearly parallel are less certain than
 /// areas.
-constexpr double most_difference = 1e-13, most_wall_difference = 1e-9;
+constexpr double most_difference = 1e-12, most_wall_difference = 1e-9;
 
 const Device& device() {
   static const Device chosen = Device::choose();
