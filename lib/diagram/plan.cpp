@@ -116,8 +116,7 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, bool faces, Work
   SolidMemory memory{std::exchange(workspace.facets, {}), std::exchange(workspace.clip, {})};
   plan.solid = compute_solid_cells(
       {setup.domain.mesh(), boundary, scene, on_facets, active.by_region, facet_candidates, tree,
-       chunk_pairs(setup, on_facets.region.size(), ChunkOf::facets), faces, setup.threads,
-       setup.options.progress},
+       chunk_pairs(setup, on_facets.region.size()), faces, setup.threads, setup.options.progress},
       memory, plan.solid_statistics);
   workspace.clip = std::move(memory.cells);  // clipping goes on with them
   if (memory.facets && memory.facets->bytes() <= kept_bytes) workspace.facets = std::move(memory.facets);
