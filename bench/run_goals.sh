@@ -1,6 +1,6 @@
 #!/bin/sh
 # Measures every goal of this project for speed and memory and prints a Markdown table of goals and measured values. The
-# JSON files are in build/bench/goals/. Takes about ten minutes on two cores.
+# JSON files are in build/bench/goals/. Takes ten to twenty minutes on two cores.
 #
 #   bench/run_goals.sh [--quick] [--cpu] [ratios|small|periodic|growth|memory|weights|loops|start|gpu]...
 #
@@ -42,6 +42,10 @@ for part in $parts; do
       done
       for domain in surface tets; do
         run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree $rounds --n 5000 100000
+      done
+      # Parts as they are: thin, not convex, with holes.
+      for domain in bracket gyroid; do
+        run ratios "$domain" --domain $domain --distribution white --ours adjacency:tree $rounds --n 200 1000 5000 100000
       done ;;
     small)
       run small small --domain box2 --distribution white --ours adjacency:tree --seconds 4 --rounds 1000 \
