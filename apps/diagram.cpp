@@ -21,6 +21,7 @@ namespace {
 struct DiagramArguments : CommonOptions, InputArguments {
   std::string table, walls, only;
   bool facets = false;
+  int repeat = 1;
   std::vector<std::string> outputs;
 };
 
@@ -64,6 +65,22 @@ void check_together(const DiagramArguments& arguments) {
     throw WrongUsage("--facets adds rows to --walls; name that file");
 }
 
+/// Computes everything that the files need in one pass, as often as --repeat says. Returns the seconds of
+/// each time.
+std::vector<double> compute_repeatedly(const DiagramArguments& arguments, Diagram& diagram,
+                                       const SeedsView& seeds, std::span<const std::uint32_t> only) {
+  const bool geometry = !arguments.outputs.empty(),
+             walls = geometry || !arguments.table.empty() || !arguments.walls.empty();
+  std::vector<double> seconds;
+  for (int k = 0; k < arguments.repeat; ++k) {
+    diagram.set_seeds(seeds);
+    if (!arguments.only.empty()) diagram.select(only);
+    compute([&] { diagram.compute(walls, geometry); });
+    seconds.push_back(diagram.timings().total);
+  }
+  return seconds;
+}
+
 int run(const DiagramArguments& arguments) {
   check_together(arguments);
   check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
@@ -80,15 +97,11 @@ int run(const DiagramArguments& arguments) {
   progress.begin("computing");
   progress.count(static_cast<double>(seeds.size()), "cells");
   Diagram diagram(device, domain, library_options(arguments, progress));
-  diagram.set_seeds(seeds);
   const std::vector<std::uint32_t> only =
       arguments.only.empty() ? std::vector<std::uint32_t>() : read_only(arguments.only, inputs.seeds);
-  if (!arguments.only.empty()) diagram.select(only);
-  // Everything that the files need, in one pass.
-  const bool geometry = !arguments.outputs.empty();
-  compute(
-      [&] { diagram.compute(geometry || !arguments.table.empty() || !arguments.walls.empty(), geometry); });
+  const std::vector<double> seconds = compute_repeatedly(arguments, diagram, seeds, only);
   RunReport report = report_of(diagram);
+  report.repeats = seconds;
   describe_inputs(inputs, report);
   if (arguments.only.empty()) require_partition(report);
   progress.begin(stage::writing);
@@ -133,6 +146,12 @@ Command add_diagram(CLI::App& app) {
           "or an id (--id-column), in each line")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
+  command
+      ->add_option(
+          "--repeat", arguments->repeat,
+          "Compute the diagram that often and report the time of each: the first one allocates memory, later "
+          "ones are those of a loop")
+      ->check(CLI::Range(1, 1000000));
   add_common_options(*command, *arguments);
   command->footer(diagram_examples);
   return [arguments] { return run(*arguments); };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/common.hpp"
@@ -75,6 +76,7 @@ nlohmann::json as_json(const RunReport& report) {
           {"version", version()},
           {"seconds",
            {{"total", t.total},
+            {"repeats", report.repeats},
             {"prepare", t.prepare},
             {"pairs", t.pairs},
             {"neighbors", t.neighbors},
@@ -121,7 +123,12 @@ std::string self_check_line(const RunReport& report) {
                   with_commas(report.hidden), with_commas(report.duplicate), sum_text(report), report.device,
                   report.precision, report.neighbors, report.timings.total);
   line += fmt::format(" (and {:.3f} s reading, {:.3f} s writing", report.read, report.write);
-  return line + building_note(report.build) + ")";
+  line += building_note(report.build) + ")";
+  if (report.repeats.size() > 1)
+    line += fmt::format("; first {:.4g} s, least of the {} after it {:.4g} s", report.repeats.front(),
+                        report.repeats.size() - 1,
+                        *std::min_element(report.repeats.begin() + 1, report.repeats.end()));
+  return line;
 }
 
 double partition_tolerance(Precision precision) {

@@ -33,7 +33,8 @@ struct RunReport {
   std::size_t outside = 0;   ///< seeds outside the domain's box
   double measure = 0, domain_measure = 0, relative_error = 0;
   std::string device, precision, neighbors;
-  Timings timings;
+  Timings timings;              ///< of the last time
+  std::vector<double> repeats;  ///< `total` of each time, where a diagram is computed several times
   /// Seconds beside `timings.total`: of reading, opening the device, compiling kernels and writing, and of
   /// the whole run, which is their sum but for milliseconds.
   double read = 0, open = 0, build = 0, write = 0, run = 0;
