@@ -7,9 +7,9 @@
 True
 """
 
-from ._runtime import show_packaged_runtime
+from ._runtime import prepare
 
-show_packaged_runtime()
+prepare()
 
 from . import _core  # noqa: E402
 from ._core import (  # noqa: E402

@@ -1,17 +1,35 @@
-"""Makes an OpenCL runtime from a Python package visible where the system has none."""
+"""Loads OpenCL before the extension needs it: the system's loader, else the one that a wheel carries; and makes a driver from
+a Python package visible where the system has none."""
 
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 from importlib import metadata
 from pathlib import Path
 
+LOADER = "libOpenCL.so.1"
+CARRIED = Path(__file__).with_name("carried") / LOADER  # python/repair_wheel.py puts it there
 VENDORS = Path("/etc/OpenCL/vendors")
 PACKAGE, LIBRARY = "intel-opencl-rt", "libintelocl.so"  # powercell[cpu]
 
 
-def packaged_runtime() -> str:
+def open_loader() -> None:
+    """The extension names its loader as LOADER, and the dynamic linker then takes the library of that name that is open."""
+    errors = []
+    for name in (LOADER, str(CARRIED)):
+        try:
+            ctypes.CDLL(name)  # it stays open
+            return
+        except OSError as error:
+            errors.append(str(error))
+    raise ImportError(
+        "powercell found no OpenCL loader (" + "; ".join(errors) + "): install one, on Debian with: apt-get install ocl-icd-libopencl1"
+    )
+
+
+def packaged_driver() -> str:
     """The path of the package's library; empty if it is not installed."""
     try:
         files = metadata.files(PACKAGE) or []
@@ -20,10 +38,17 @@ def packaged_runtime() -> str:
     return next((str(Path(str(f.locate())).resolve()) for f in files if f.name == LIBRARY), "")
 
 
-def show_packaged_runtime() -> None:
-    """Called before the extension is loaded: the OpenCL loader reads its variables once. What the user has set
-    stays."""
-    if not sys.platform.startswith("linux") or "OCL_ICD_VENDORS" in os.environ or any(VENDORS.glob("*.icd")):
+def show_packaged_driver() -> None:
+    """Loaders read their variables at their first call. What the user has set stays."""
+    variables = "OCL_ICD_VENDORS", "OCL_ICD_FILENAMES"  # of ocl-icd and of Khronos' loader; each ignores the other's
+    if any(name in os.environ for name in variables) or any(VENDORS.glob("*.icd")):
         return
-    if library := packaged_runtime():
-        os.environ["OCL_ICD_VENDORS"] = library
+    if library := packaged_driver():
+        os.environ.update(dict.fromkeys(variables, library))
+
+
+def prepare() -> None:
+    """Called before the extension is loaded."""
+    if sys.platform.startswith("linux"):
+        open_loader()
+        show_packaged_driver()

@@ -164,7 +164,8 @@ def test_objects_may_live_when_the_interpreter_ends():
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_a_packaged_runtime_is_used_where_the_system_has_none():
+@pytest.mark.parametrize("loader", ["the system's", "Khronos'"])
+def test_a_packaged_driver_is_used_where_the_system_has_none(loader):
     program = """
 import importlib.util, pathlib, sys
 import importlib.metadata
@@ -178,13 +179,17 @@ spec = importlib.util.spec_from_file_location("runtime", folder / "_runtime.py")
 runtime = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(runtime)
 runtime.VENDORS = pathlib.Path("/no/such/folder")
-runtime.show_packaged_runtime()
+runtime.prepare()
 import powercell as pc
 names = [device.platform for device in pc.devices()]
 assert names and all("Intel" in name for name in names), names
+loaders = {line.split()[-1] for line in open("/proc/self/maps") if "libOpenCL" in line}
+assert len(loaders) == 1 and loaders.pop().startswith(sys.argv[1]), loaders
 assert abs(pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[.2, .3], [.5, .5]]).mass.sum() - 1) < 1e-12
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=200)
+    folder = os.path.join(sys.prefix, "lib") if loader == "Khronos'" else "/"  # the driver's package has that loader
+    environment = dict(os.environ, LD_LIBRARY_PATH=folder) if folder != "/" else None
+    done = subprocess.run([sys.executable, "-c", program, folder], capture_output=True, text=True, timeout=200, env=environment)
     if done.stderr.strip() == "none":
         pytest.skip("powercell[cpu] is not installed")
     assert done.returncode == 0, done.stderr
