@@ -68,11 +68,14 @@ void check_together(const DiagramArguments& arguments) {
 /// Computes everything that the files need in one pass, as often as --repeat says. Returns the seconds of
 /// each time.
 std::vector<double> compute_repeatedly(const DiagramArguments& arguments, Diagram& diagram,
-                                       const SeedsView& seeds, std::span<const std::uint32_t> only) {
+                                       const SeedsView& seeds, std::span<const std::uint32_t> only,
+                                       Progress& progress) {
   const bool geometry = !arguments.outputs.empty(),
              walls = geometry || !arguments.table.empty() || !arguments.walls.empty();
   std::vector<double> seconds;
+  progress.count(static_cast<double>(seeds.size()) * arguments.repeat, "cells");
   for (int k = 0; k < arguments.repeat; ++k) {
+    progress.part(static_cast<double>(k) / arguments.repeat, (k + 1.0) / arguments.repeat);
     diagram.set_seeds(seeds);
     if (!arguments.only.empty()) diagram.select(only);
     compute([&] { diagram.compute(walls, geometry); });
@@ -95,11 +98,10 @@ int run(const DiagramArguments& arguments) {
   progress.begin(stage::opening);
   const Device device = open_device(arguments);
   progress.begin("computing");
-  progress.count(static_cast<double>(seeds.size()), "cells");
   Diagram diagram(device, domain, library_options(arguments, progress));
   const std::vector<std::uint32_t> only =
       arguments.only.empty() ? std::vector<std::uint32_t>() : read_only(arguments.only, inputs.seeds);
-  const std::vector<double> seconds = compute_repeatedly(arguments, diagram, seeds, only);
+  const std::vector<double> seconds = compute_repeatedly(arguments, diagram, seeds, only, progress);
   RunReport report = report_of(diagram);
   report.repeats = seconds;
   describe_inputs(inputs, report);
