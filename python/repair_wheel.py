@@ -27,8 +27,10 @@ def run(*command):
 
 
 def only(paths):
-    (path,) = paths
-    return path
+    paths = list(paths)
+    if len(paths) != 1:
+        sys.exit(f"one file is expected, not {len(paths)}: {[str(path) for path in paths]}")
+    return paths[0]
 
 
 def libraries(extension):
@@ -60,17 +62,19 @@ def main(wheel, into):
         root = only(path for path in folder.glob("powercell-*") if path.is_dir())
         run(*python, "wheel", "unpack", "-d", str(folder / "plain"), wheel)  # its names are those of the system
         system = libraries(only((folder / "plain").glob("*/powercell/_core*.so")))
-        carried = {name for name in system if any((root / "powercell.libs").glob(name.split(".")[0] + "-*"))} | {LOADER}
-        missing = len(list((root / "powercell.libs").glob("*.so*"))) + 1 - len(carried)
-        if missing:
-            sys.exit(f"{missing} libraries of the wheel are not known by name: {sorted(carried)}")
+        # auditwheel puts a hash between a library's name and its first dot.
+        carried = {name for name in system if any((root / "powercell.libs").glob(name.split(".")[0] + "-*"))}
+        if len(carried) != len(list((root / "powercell.libs").glob("*.so*"))):
+            sys.exit(f"the names of the wheel's libraries are not those of the system's: {sorted(carried)}")
         (root / "powercell" / "carried").mkdir()
         shutil.copy(system[LOADER], root / "powercell" / "carried" / LOADER)
-        for name in carried:
+        for name in carried | {LOADER}:
             add_licence(system[name], root / "powercell.libs" / "licences")
+        (folder / "packed").mkdir()
+        run(*python, "wheel", "pack", "-d", str(folder / "packed"), str(root))
+        packed = only((folder / "packed").glob("*.whl"))
         pathlib.Path(into).mkdir(parents=True, exist_ok=True)
-        run(*python, "wheel", "pack", "-d", into, str(root))
-        print(only(pathlib.Path(into).glob("powercell-*.whl")))
+        print(shutil.copy(packed, pathlib.Path(into) / packed.name))
 
 
 if __name__ == "__main__":

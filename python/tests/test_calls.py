@@ -187,8 +187,9 @@ loaders = {line.split()[-1] for line in open("/proc/self/maps") if "libOpenCL" i
 assert len(loaders) == 1 and loaders.pop().startswith(sys.argv[1]), loaders
 assert abs(pc.Diagram(pc.Domain.box([0, 0], [1, 1]), [[.2, .3], [.5, .5]]).mass.sum() - 1) < 1e-12
 """
-    folder = os.path.join(sys.prefix, "lib") if loader == "Khronos'" else "/"  # the driver's package has that loader
-    environment = dict(os.environ, LD_LIBRARY_PATH=folder) if folder != "/" else None
+    folder, environment = "/", dict(os.environ)
+    if loader == "Khronos'":
+        folder = environment["LD_LIBRARY_PATH"] = os.path.join(sys.prefix, "lib")  # the driver's package has that loader
     done = subprocess.run([sys.executable, "-c", program, folder], capture_output=True, text=True, timeout=200, env=environment)
     if done.stderr.strip() == "none":
         pytest.skip("powercell[cpu] is not installed")
