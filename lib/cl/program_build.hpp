@@ -21,8 +21,8 @@ struct ProgramRequest {
   std::string options;  ///< of clBuildProgram
 };
 
-/// "-cl-std=CL1.2" and a -D for each of `defines`. Never fast-math: sides are decided in kernels.
-/// \throw Error internal for a define with a blank, which no driver could tell from the next option
+/// "-cl-std=CL1.2", no warnings, and a -D for each of `defines`. Never fast-math: sides are decided in
+/// kernels. \throw Error internal for a define with a blank, which no driver could tell from the next option
 std::string build_options(const std::vector<std::string>& defines);
 
 /// Names the program on this device with this driver and this version of the library.

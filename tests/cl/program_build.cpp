@@ -38,7 +38,7 @@ TEST_CASE("a kernel that does not build is reported with place, device, options 
   const std::string message = error->what();
   CHECK(contains(message, "kernels/stage/bad.cl"));
   CHECK(contains(message, context.info().name));
-  CHECK(contains(message, "-cl-std=CL1.2 -DTEST=1"));
+  CHECK(contains(message, "-cl-std=CL1.2 -w -DTEST=1"));
   CHECK(contains(message, "missing"));
   CHECK(contains(message, "bad.cl:3"));  // through #line
 }
@@ -53,7 +53,7 @@ TEST_CASE("a log of any length is cut to something readable") {
 }
 
 TEST_CASE("options hold the defines in order and never a blank") {
-  CHECK(cl::build_options({"B=1", "A=2"}) == "-cl-std=CL1.2 -DB=1 -DA=2");
+  CHECK(cl::build_options({"B=1", "A=2"}) == "-cl-std=CL1.2 -w -DB=1 -DA=2");
   for (const char* bad : {"", "A=1 -cl-fast-relaxed-math", "A=\"x\""})
     CHECK_THROWS_AS(cl::build_options({bad}), Error);
 }
