@@ -34,7 +34,7 @@ struct RunReport {
   double measure = 0, domain_measure = 0, relative_error = 0;
   std::string device, precision, neighbors;
   Timings timings;              ///< of the last time
-  std::vector<double> repeats;  ///< `total` of each time, where a diagram is computed several times
+  std::vector<double> repeats;  ///< seconds in all of each time that the diagram was computed
   /// Seconds beside `timings.total`: of reading, opening the device, compiling kernels and writing, and of
   /// the whole run, which is their sum but for milliseconds.
   double read = 0, open = 0, build = 0, write = 0, run = 0;
