@@ -1,57 +1,48 @@
-# Installation of libraries, headers, tool, CMake package and pkg-config files.
+# Installation of libraries, headers, tool and CMake package. What names no component is a part of the tool's.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-
-install(TARGETS powercell powercell_core powercell_applications EXPORT powercellTargets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME tool)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/powercell)
-install(EXPORT powercellTargets NAMESPACE powercell:: DESTINATION ${package_folder})
+
+# powercell_install(KIND SUFFIX): the libraries of a kind (shared or static), whose targets end in SUFFIX, each exported to
+# a file of its own.
+function(powercell_install kind suffix)
+  set(export_core powercell-core-${kind})
+  set(export_applications powercell-applications-${kind})
+  install(TARGETS powercell${suffix} EXPORT ${export_applications})
+  foreach(name core applications)
+    install(TARGETS powercell_${name}${suffix} EXPORT ${export_${name}}
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name} NAMELINK_COMPONENT development
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+      RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name}
+      INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(EXPORT ${export_${name}} NAMESPACE powercell:: DESTINATION ${package_folder} COMPONENT development)
+  endforeach()
+endfunction()
+if(BUILD_SHARED_LIBS)
+  powercell_install(shared "")
+  # One library finds the other beside it, also in a moved tree.
+  set_target_properties(powercell_applications PROPERTIES INSTALL_RPATH "$ORIGIN")
+else()
+  powercell_install(static "")
+endif()
+if(TARGET powercell_archive)
+  powercell_install(static "_archive")
+endif()
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT core)
+
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/powercellConfig.cmake.in ${PROJECT_BINARY_DIR}/powercellConfig.cmake
-  INSTALL_DESTINATION ${package_folder})
+  INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/powercellConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)  # before 1.0 a minor version may change the interface
 install(FILES
   ${PROJECT_BINARY_DIR}/powercellConfig.cmake
   ${PROJECT_BINARY_DIR}/powercellConfigVersion.cmake
-  DESTINATION ${package_folder})
-
-# Paths in the .pc files are relative to the file, so the installed tree can be moved.
-file(RELATIVE_PATH pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
-
-# powercell_pkg_config(NAME DESCRIPTION LIBS REQUIRES STATIC_REQUIRES): writes and installs NAME.pc. A static library
-# also requires STATIC_REQUIRES, the packages that a shared one links itself.
-function(powercell_pkg_config name description libs requires static_requires)
-  set(pc_name ${name})
-  set(pc_description "${description}")
-  set(pc_libs "${libs}")
-  set(pc_cflags "")
-  if(NOT BUILD_SHARED_LIBS)
-    string(APPEND requires " ${static_requires}")
-    set(pc_cflags " -DPOWERCELL_STATIC")
-  endif()
-  string(STRIP "${requires}" pc_requires)
-  configure_file(${PROJECT_SOURCE_DIR}/cmake/powercell.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-endfunction()
-
-set(core_packages "OpenCL geos")
-if(POWERCELL_FLANN)
-  string(APPEND core_packages " flann")
-endif()
-set(core_libs "-lpowercell_core")
-if(NOT BUILD_SHARED_LIBS)
-  string(APPEND core_libs " -lstdc++ -pthread")
-endif()
-powercell_pkg_config(powercell-core "Power diagrams (weighted Voronoi diagrams) on OpenCL"
-  "${core_libs}" "" "${core_packages}")
-powercell_pkg_config(powercell "Power diagrams on OpenCL, and applications: transport, sampling, remeshing, treemaps"
-  "-lpowercell_applications" "powercell-core" "muparser")
+  DESTINATION ${package_folder} COMPONENT development)
 
 if(TARGET powercell_tool)
   file(RELATIVE_PATH library_from_tool /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})

@@ -1,0 +1,51 @@
+#!/bin/sh
+# What find_package accepts and what it refuses, by name, for an installed powercell with shared and static libraries
+# that CMAKE_PREFIX_PATH and PKG_CONFIG_PATH lead to.
+# usage: tests/packaging/find_package.sh WORK
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+work=${1:?usage: find_package.sh WORK}
+version=$(pkg-config --modversion powercell)
+major=${version%%.*}
+minor=${version#*.}
+minor=${minor%%.*}
+
+# request LANGUAGES REQUEST TARGETS: configures a project with find_package(powercell REQUEST); all are lists of CMake.
+request() {
+  folder=$work/request-$(echo "$1" | tr ';' '-')
+  rm -f "$folder/CMakeCache.txt" # what was found; what is known of compilers stays
+  cmake -S "$here/find_package" -B "$folder" -G Ninja \
+    -DLANGUAGES="$1" -DREQUEST="$2" -DTARGETS="$3" >"$work/request.log" 2>&1
+}
+accepts() {
+  request "$@" || { cat "$work/request.log" >&2; echo "find_package(powercell $2) was refused" >&2; exit 1; }
+}
+# refuses LANGUAGES REQUEST WORDS: the message has the words.
+refuses() {
+  ! request "$1" "$2" "" || { echo "find_package(powercell $2) was accepted" >&2; exit 1; }
+  tr -s ' \n' '  ' <"$work/request.log" | grep -qF -e "$3" || {
+    cat "$work/request.log" >&2
+    echo "find_package(powercell $2) was refused without the words: $3" >&2
+    exit 1
+  }
+}
+
+accepts NONE "" "powercell::core;powercell::applications;powercell::powercell"
+accepts NONE "$major.$minor;COMPONENTS;core" powercell::core
+accepts NONE "$version;COMPONENTS;core;applications" powercell::powercell
+accepts NONE "COMPONENTS;shared;OPTIONAL_COMPONENTS;gui" powercell::powercell
+for other in "$major.$((minor + 1))" "$((major + 1)).0" "$version.1"; do
+  refuses NONE "$other" "compatible with requested version \"$other\""
+done
+refuses NONE "COMPONENTS;gui" "no component 'gui', only: core, applications, shared, static"
+refuses NONE "COMPONENTS;shared;static" "'shared' and 'static'"
+
+refuses C "COMPONENTS;static" "enable the language CXX"
+# The core needs nothing of the applications.
+mkdir -p "$work/core_only"
+for module in geos liblz4; do
+  ln -sf "$(pkg-config --variable=pcfiledir $module)/$module.pc" "$work/core_only"
+done
+export PKG_CONFIG_LIBDIR="$work/core_only" PKG_CONFIG_PATH=
+accepts "C;CXX" "COMPONENTS;core;static" powercell::core
+refuses "C;CXX" "COMPONENTS;applications;static" "need 'muparser'"
