@@ -10,6 +10,20 @@ from conan.tools.gnu import PkgConfigDeps
 
 required_conan_version = ">=2.0"
 
+# What the command line tool needs besides the libraries, and the least version.
+TOOL_PACKAGES = {
+    "cairo": "1.16",
+    "cli11": "2.2",
+    "fmt": "9",
+    "libjpeg": "9",
+    "libpng": "1.6",
+    "nlohmann_json": "3.11",
+    "proj": "8.2",
+    "pugixml": "1.12",
+    "sqlite3": "3.40",
+    "zlib": "1.2",
+}
+
 
 class PowercellConan(ConanFile):
     """powercell has no public address yet: the source is the clone that this recipe lies in."""
@@ -46,10 +60,8 @@ class PowercellConan(ConanFile):
             self.requires("flann/[>=1.9.2]")
             self.requires("lz4/[>=1.9]")
         if self.options.with_tool:
-            for package in ("cairo/[>=1.16]", "cli11/[>=2.2]", "fmt/[>=9]", "libjpeg/[>=9]", "libpng/[>=1.6]",
-                            "nlohmann_json/[>=3.11]", "proj/[>=8.2]", "pugixml/[>=1.12]", "sqlite3/[>=3.40]",
-                            "zlib/[>=1.2]"):  # fmt: skip
-                self.requires(package)
+            for name, version in TOOL_PACKAGES.items():
+                self.requires(f"{name}/[>={version}]")
 
     def validate(self):
         check_min_cppstd(self, 20)
@@ -81,26 +93,47 @@ class PowercellConan(ConanFile):
         for folder in ("lib/cmake", "lib/pkgconfig", "share/doc"):  # Conan makes its own
             rmdir(self, os.path.join(self.package_folder, folder))
 
+    def _link(self, component, packages):
+        """Links packages, {name: (target, library)}; of those that the profile takes from the platform Conan has no target,
+        and a static library needs them by name."""
+        known = {dependency.ref.name for dependency in self.dependencies.direct_host.values()}
+        for name, (target, library) in packages.items():
+            if name in known:
+                component.requires.append(target)
+            elif library and not self.options.shared:
+                component.system_libs.append(library)
+
     def package_info(self):
         core = self.cpp_info.components["core"]
         core.libs = ["powercell_core"]
         core.set_property("cmake_target_name", "powercell::core")
         core.set_property("pkg_config_name", "powercell-core")
-        core.requires = ["geos::geos", "opencl-icd-loader::opencl-icd-loader", "opencl-headers::opencl-headers",
-                         "boost::headers"]  # fmt: skip
-        if self.options.with_flann:
-            core.requires += ["flann::flann", "lz4::lz4"]
         if not self.options.shared:
             core.defines = ["POWERCELL_STATIC"]
             core.system_libs = ["m", "pthread"]
+        packages = {
+            "geos": ("geos::geos", "geos_c"),
+            "opencl-icd-loader": ("opencl-icd-loader::opencl-icd-loader", "OpenCL"),
+            "opencl-headers": ("opencl-headers::opencl-headers", None),
+            "boost": ("boost::headers", None),
+        }
+        if self.options.with_flann:
+            packages |= {"flann": ("flann::flann", None), "lz4": ("lz4::lz4", "lz4")}
+        self._link(core, packages)
 
         applications = self.cpp_info.components["applications"]
         applications.libs = ["powercell_applications"]
         applications.set_property("cmake_target_name", "powercell::applications")
-        applications.requires = ["core", "muparser::muparser", "eigen::eigen"]
+        applications.requires = ["core"]
+        self._link(applications, {"muparser": ("muparser::muparser", "muparser"), "eigen": ("eigen::eigen", None)})
 
         both = self.cpp_info.components["powercell"]
         both.set_property("cmake_target_name", "powercell::powercell")
         both.set_property("pkg_config_name", "powercell")
         both.libdirs, both.includedirs = [], []
         both.requires = ["core", "applications"]
+
+        if self.options.with_tool:
+            tool = self.cpp_info.components["tool"]
+            tool.libdirs, tool.includedirs = [], []
+            self._link(tool, {name: (f"{name}::{name}", None) for name in TOOL_PACKAGES})
