@@ -30,15 +30,16 @@ refuses() {
   }
 }
 
-accepts NONE "" "powercell::core;powercell::applications;powercell::powercell"
-accepts NONE "$major.$minor;COMPONENTS;core" powercell::core
-accepts NONE "$version;COMPONENTS;core;applications" powercell::powercell
-accepts NONE "COMPONENTS;shared;OPTIONAL_COMPONENTS;gui" powercell::powercell
+# With a language: without one CMake does not look into folders of an architecture, where Debian has libraries.
+accepts C "" "powercell::core;powercell::applications;powercell::powercell"
+accepts C "$major.$minor;COMPONENTS;core" powercell::core
+accepts C "$version;COMPONENTS;core;applications" powercell::powercell
+accepts C "COMPONENTS;shared;OPTIONAL_COMPONENTS;gui" powercell::powercell
 for other in "$major.$((minor + 1))" "$((major + 1)).0" "$version.1"; do
-  refuses NONE "$other" "compatible with requested version \"$other\""
+  refuses C "$other" "compatible with requested version \"$other\""
 done
-refuses NONE "COMPONENTS;gui" "no component 'gui', only: core, applications, shared, static"
-refuses NONE "COMPONENTS;shared;static" "'shared' and 'static'"
+refuses C "COMPONENTS;gui" "no component 'gui', only: core, applications, shared, static"
+refuses C "COMPONENTS;shared;static" "'shared' and 'static'"
 
 refuses C "COMPONENTS;static" "enable the language CXX"
 # The core needs nothing of the applications.
