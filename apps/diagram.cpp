@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/output.hpp"
+#include "apps/io/read_file.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/only.hpp"
 #include "apps/outputs.hpp"
@@ -20,7 +22,7 @@ namespace {
 
 struct DiagramArguments : CommonOptions, InputArguments {
   std::string table, walls, only;
-  bool facets = false;
+  bool facets = false, whole_cells = false;
   int repeat = 1;
   std::vector<std::string> outputs;
 };
@@ -28,7 +30,7 @@ struct DiagramArguments : CommonOptions, InputArguments {
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
                  std::span<const std::uint32_t> only, RunReport& report) {
   const SeedsView seeds = inputs.seeds.view();
-  write_diagram(arguments.outputs, diagram, seeds, inputs.view());
+  write_diagram(arguments.outputs, diagram, seeds, inputs.view(), true, arguments.whole_cells);
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
     io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view(), only);
@@ -63,6 +65,9 @@ void check_together(const DiagramArguments& arguments) {
     throw WrongUsage("--certify checks laws of all cells; leave it or --only out");
   if (arguments.facets && arguments.walls.empty())
     throw WrongUsage("--facets adds rows to --walls; name that file");
+  const auto is_vtu = [](const std::string& path) { return io::lower_extension(path) == ".vtu"; };
+  if (arguments.whole_cells && std::none_of(arguments.outputs.begin(), arguments.outputs.end(), is_vtu))
+    throw WrongUsage("--whole-cells is for .vtu files; name one with -o");
 }
 
 /// Computes everything that the files need in one pass, as often as --repeat says. Returns the seconds of
@@ -92,7 +97,9 @@ int run(const DiagramArguments& arguments) {
   const Inputs inputs = read_inputs(arguments);
   print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain);
+  if (arguments.whole_cells && domain.kind() != DomainKind::volume)
+    throw WrongUsage("--whole-cells is for volumes: a polygon of VTK has no holes, and lies in one plane");
   const SeedsView seeds = inputs.seeds.view();
 
   progress.begin(stage::opening);
@@ -141,6 +148,10 @@ Command add_diagram(CLI::App& app) {
       "--facets", arguments->facets,
       "In --walls, also the facets of the domain that cells have: rows with a facet instead of a "
       "neighbor");
+  command->add_flag(
+      "--whole-cells", arguments->whole_cells,
+      "In .vtu of a volume, one polyhedron for each cell in place of one for each convex piece of "
+      "it, of which it has one in each element of the mesh that it meets");
   command
       ->add_option(
           "--only", arguments->only,

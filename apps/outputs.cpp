@@ -22,26 +22,6 @@ bool is_stream(const std::string& path) {
   return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
 }
 
-/// The joined cells of a solid in place of its pieces, of which it has none: one for each cell.
-Cells as_pieces(const JoinedCells& joined) {
-  Cells cells;
-  cells.dimension = cells.cell_dimension = joined.dimension;
-  cells.vertices = joined.vertices;
-  cells.border = joined.face_border;
-  cells.loop_offset = joined.loop_offset;
-  cells.loop = joined.loop;
-  cells.cell_offset = cells.vertex_offset = cells.face_offset = {0};
-  for (std::size_t i = 0; i + 1 < joined.face_offset.size(); ++i) {
-    if (joined.face_offset[i] < joined.face_offset[i + 1]) {
-      cells.region.push_back(0);
-      cells.vertex_offset.push_back(joined.vertex_offset[i + 1]);
-      cells.face_offset.push_back(joined.face_offset[i + 1]);
-    }
-    cells.cell_offset.push_back(cells.region.size());
-  }
-  return cells;
-}
-
 }  // namespace
 
 void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds,
@@ -88,15 +68,15 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
 }
 
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   const io::InputView& inputs, bool weights_as_discs) {
+                   const io::InputView& inputs, bool weights_as_discs, bool whole_cells) {
   if (files.empty()) return;
   const bool solid = diagram.domain().is_solid();
   diagram.compute(true, true);
+  const Cells none;
   const JoinedCells& joined = diagram.joined();
-  const Cells of_solid = solid ? as_pieces(joined) : Cells{};
   for (const std::string& path : files)
-    io::write_output(path, {diagram.domain(), seeds, diagram.measures(), solid ? of_solid : diagram.cells(),
-                            joined, diagram.adjacency(), weights_as_discs, inputs});
+    io::write_output(path, {diagram.domain(), seeds, diagram.measures(), solid ? none : diagram.cells(),
+                            joined, diagram.adjacency(), weights_as_discs, inputs, whole_cells});
 }
 
 }  // namespace powercell::app

@@ -27,8 +27,8 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
 void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more, bool json);
 
 /// Writes the cells to each of the files, by its extension; computes what the diagram has not yet.
-/// \param weights_as_discs  see io::DiagramOutput
+/// \param weights_as_discs, whole_cells  see io::DiagramOutput
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   const io::InputView& inputs = {}, bool weights_as_discs = true);
+                   const io::InputView& inputs = {}, bool weights_as_discs = true, bool whole_cells = false);
 
 }  // namespace powercell::app

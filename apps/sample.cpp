@@ -157,7 +157,7 @@ int run(const SampleArguments& arguments) {
   const Source source = read_source(arguments.source);
   print_notes(source.domain.notes(), arguments.source.domain, arguments, progress);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
-  for (const std::string& path : arguments.cells) io::check_output(path, source.domain.kind());
+  for (const std::string& path : arguments.cells) io::check_output(path, source.domain);
   progress.begin(stage::opening);
   const Device device = open_device(arguments);
   progress.begin(sampling_stage);

@@ -183,7 +183,7 @@ int run(const TransportArguments& arguments) {
   print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
   const io::SeedTable& table = inputs.seeds;
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain.kind());
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain);
   std::vector<double> masses;
   if (!arguments.masses.empty())
     masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());

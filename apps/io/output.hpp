@@ -17,25 +17,27 @@ struct DiagramOutput {
   const Domain& domain;
   SeedsView seeds;
   const Measures& measures;
-  const Cells& cells;  ///< of a solid, which has no regions: the joined cells, one piece each
+  const Cells& cells;  ///< empty for a solid, which has no regions to cut cells along
   const JoinedCells& joined;
   const Adjacency& adjacency;
   /// Whether flat pictures show a weight w as a disc of radius sqrt(w). It makes no sense for weights that
   /// are determined up to a constant, such as those of a transport.
   bool weights_as_discs = true;
   InputView inputs = {};
+  /// Whether a .vtu of a volume has one polyhedron for each cell in place of one for each convex piece.
+  bool whole_cells = false;
 };
 
 /// Extensions that `write_output` accepts: ".svg .png ...".
 std::string_view known_outputs();
 /// \throw Error invalid_file for another extension
 void check_output_format(const std::string& path);
-/// Checks before a long computation that `write_output` accepts the file for this kind of domain.
-/// \throw Error invalid_file (unknown extension), unsupported (a flat format for a surface or volume)
-void check_output(const std::string& path, DomainKind kind);
+/// Checks before a long computation that `write_output` accepts the file for this domain.
+/// \throw Error invalid_file (unknown extension), unsupported (a format that cannot hold such cells)
+void check_output(const std::string& path, const Domain& domain);
 
-/// Writes a picture (.svg .png .pdf), geometry (.vtu .vtp .obj .ply .off .geojson) or everything (.json), by
-/// the extension of `path`.
+/// Writes a picture (.svg .png .pdf), geometry (.vtu .vtp .obj .ply .off .stl .msh .tess .geojson) or
+/// everything (.json), by the extension of `path`.
 /// \throw Error as check_output; write_failed
 void write_output(const std::string& path, const DiagramOutput& output);
 

@@ -4,6 +4,7 @@
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/names.hpp"
+#include "apps/io/shared_cells.hpp"
 #include "apps/io/write_formats.hpp"
 
 namespace powercell::io {
@@ -35,30 +36,50 @@ void write_border(AtomicFile& file, const Border& border) {
   file.number(std::uint64_t{border.index} + (border.kind == Border::Kind::boundary ? 1u : 0u));
 }
 
-void write_faces(AtomicFile& file, const JoinedCells& joined, std::size_t cell) {
-  for (std::uint64_t f = joined.face_offset[cell]; f < joined.face_offset[cell + 1]; ++f) {
-    file.write(f == joined.face_offset[cell] ? "[" : ",[");
-    for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
-      if (e > joined.loop_offset[f]) file.write(',');
-      file.number(std::uint64_t{joined.loop[e]});
+/// Writes the faces of cells, and numbers their points within each cell.
+class GeometryWriter {
+ public:
+  GeometryWriter(AtomicFile& file, const DiagramOutput& output, const SharedCells& cells)
+      : file_(file), dimension_(output.domain.dimension()), cells_(cells), place_(cells.point_count()) {}
+
+  void write(std::size_t cell);
+
+ private:
+  void write_faces(std::size_t cell);
+  void write_borders(std::size_t cell);
+  void write_shifts(std::size_t cell);
+
+  AtomicFile& file_;
+  int dimension_;
+  const SharedCells& cells_;
+  std::vector<std::uint32_t> place_;  // of each point in the present cell
+};
+
+void GeometryWriter::write_faces(std::size_t cell) {
+  for (std::uint64_t f = cells_.face_offset[cell]; f < cells_.face_offset[cell + 1]; ++f) {
+    file_.write(f == cells_.face_offset[cell] ? "[" : ",[");
+    const auto loop = cells_.face(f);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      if (k > 0) file_.write(',');
+      file_.number(std::uint64_t{place_[loop[k]]});
     }
-    file.write(']');
+    file_.write(']');
   }
 }
 
-void write_borders(AtomicFile& file, const JoinedCells& joined, std::size_t cell) {
-  for (std::uint64_t f = joined.face_offset[cell]; f < joined.face_offset[cell + 1]; ++f) {
-    if (f > joined.face_offset[cell]) file.write(',');
-    if (joined.cell_dimension == 3) {
-      write_border(file, joined.face_border[f]);
+void GeometryWriter::write_borders(std::size_t cell) {
+  for (std::uint64_t f = cells_.face_offset[cell]; f < cells_.face_offset[cell + 1]; ++f) {
+    if (f > cells_.face_offset[cell]) file_.write(',');
+    if (cells_.cell_dimension == 3) {
+      write_border(file_, cells_.face_border[f]);
       continue;
     }
-    file.write('[');
-    for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
-      if (e > joined.loop_offset[f]) file.write(',');
-      write_border(file, joined.edge_border[e]);
+    file_.write('[');
+    for (std::uint64_t e = cells_.loop_offset[f]; e < cells_.loop_offset[f + 1]; ++e) {
+      if (e > cells_.loop_offset[f]) file_.write(',');
+      write_border(file_, cells_.edge_border[e]);
     }
-    file.write(']');
+    file_.write(']');
   }
 }
 
@@ -72,39 +93,47 @@ void write_shift(AtomicFile& file, const std::array<std::int32_t, 3>& shift, int
 }
 
 /// Of a periodic domain: shifts parallel to the borders.
-void write_shifts(AtomicFile& file, const JoinedCells& joined, std::size_t cell) {
-  file.write("],\"shifts\":[");
-  for (std::uint64_t f = joined.face_offset[cell]; f < joined.face_offset[cell + 1]; ++f) {
-    if (f > joined.face_offset[cell]) file.write(',');
-    if (joined.cell_dimension == 3) {
-      write_shift(file, joined.shift[f], joined.dimension);
+void GeometryWriter::write_shifts(std::size_t cell) {
+  file_.write("],\"shifts\":[");
+  for (std::uint64_t f = cells_.face_offset[cell]; f < cells_.face_offset[cell + 1]; ++f) {
+    if (f > cells_.face_offset[cell]) file_.write(',');
+    if (cells_.cell_dimension == 3) {
+      write_shift(file_, cells_.shift[f], dimension_);
       continue;
     }
-    file.write('[');
-    for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e) {
-      if (e > joined.loop_offset[f]) file.write(',');
-      write_shift(file, joined.shift[e], joined.dimension);
+    file_.write('[');
+    for (std::uint64_t e = cells_.loop_offset[f]; e < cells_.loop_offset[f + 1]; ++e) {
+      if (e > cells_.loop_offset[f]) file_.write(',');
+      write_shift(file_, cells_.shift[e], dimension_);
     }
-    file.write(']');
+    file_.write(']');
   }
 }
 
-void write_geometry(AtomicFile& file, const JoinedCells& joined, std::size_t cell) {
-  const auto d = static_cast<std::size_t>(joined.dimension);
-  file.write(",\"vertices\":[");
-  for (std::uint64_t v = joined.vertex_offset[cell]; v < joined.vertex_offset[cell + 1]; ++v) {
-    if (v > joined.vertex_offset[cell]) file.write(',');
-    write_point(file, &joined.vertices[v * d], d);
+void GeometryWriter::write(std::size_t cell) {
+  const std::vector<std::uint32_t> points = cells_.points_of(cell);
+  file_.write(",\"vertices\":[");
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    place_[points[k]] = static_cast<std::uint32_t>(k);
+    if (k > 0) file_.write(',');
+    write_point(file_, cells_.point(points[k]), static_cast<std::size_t>(dimension_));
   }
-  file.write("],\"faces\":[");
-  write_faces(file, joined, cell);
-  file.write("],\"borders\":[");
-  write_borders(file, joined, cell);
-  if (!joined.shift.empty()) write_shifts(file, joined, cell);
-  file.write(']');
+  if (cells_.fault.empty()) {
+    file_.write("],\"points\":[");
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (k > 0) file_.write(',');
+      file_.number(std::uint64_t{points[k]});
+    }
+  }
+  file_.write("],\"faces\":[");
+  write_faces(cell);
+  file_.write("],\"borders\":[");
+  write_borders(cell);
+  if (!cells_.shift.empty()) write_shifts(cell);
+  file_.write(']');
 }
 
-void write_cell(AtomicFile& file, const DiagramOutput& output, std::size_t i) {
+void write_cell(AtomicFile& file, const DiagramOutput& output, GeometryWriter& geometry, std::size_t i) {
   const auto d = static_cast<std::size_t>(output.seeds.dimension);
   const Measures& measures = output.measures;
   file.write("{\"seed\":");
@@ -124,7 +153,7 @@ void write_cell(AtomicFile& file, const DiagramOutput& output, std::size_t i) {
     file.write("null");
   file.write(",\"second_moment\":");
   write_number(file, measures.second_moment[i]);
-  if (i + 1 < output.joined.vertex_offset.size()) write_geometry(file, output.joined, i);
+  geometry.write(i);
   file.write('}');
 }
 
@@ -132,7 +161,7 @@ std::string json_string(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void write_head(AtomicFile& file, const DiagramOutput& output) {
+void write_head(AtomicFile& file, const DiagramOutput& output, const SharedCells& cells) {
   const Measures& measures = output.measures;
   file.write(std::string("{\"powercell\":\"") + version() + "\",\n\"domain\":{\"kind\":\"" +
              name(output.domain.kind()) + "\",\"dimension\":" + std::to_string(output.domain.dimension()) +
@@ -160,8 +189,13 @@ void write_head(AtomicFile& file, const DiagramOutput& output) {
   write_number(file, measures.domain_measure);
   file.write(",\"relative_error\":");
   write_number(file, measures.relative_error());
+  file.write("},\n\"points\":");
+  if (cells.fault.empty())
+    file.number(std::uint64_t{cells.point_count()});
+  else
+    file.write("null");
   file.write(
-      "},\n\"borders\":\"j >= 0: the cell of seed j; -1-f: facet f of the domain's boundary; null: the same "
+      ",\n\"borders\":\"j >= 0: the cell of seed j; -1-f: facet f of the domain's boundary; null: the same "
       "cell"
       " goes on\",\n\"cells\":[\n");
 }
@@ -169,11 +203,14 @@ void write_head(AtomicFile& file, const DiagramOutput& output) {
 }  // namespace
 
 void write_json(const std::string& path, const DiagramOutput& output) {
+  SharedCells cells = share_cells(output);
+  if (!cells.fault.empty()) cells = separate_cells(output, cells.fault);
   AtomicFile file(path);
-  write_head(file, output);
+  write_head(file, output, cells);
+  GeometryWriter geometry(file, output, cells);
   for (std::size_t i = 0; i < output.seeds.size(); ++i) {
     if (i > 0) file.write(",\n");
-    write_cell(file, output, i);
+    write_cell(file, output, geometry, i);
   }
   file.write("\n]}\n");
   file.commit();

@@ -9,24 +9,47 @@
 namespace powercell::io {
 namespace {
 
+/// What domains a format is for.
+enum class For {
+  all,
+  polygons,       ///< vector pictures and GeoJSON
+  volumes,        ///< closed surfaces
+  flat_or_solid,  ///< tessellations of the plane and of space
+};
+
 struct Format {
   std::string_view extension;
-  bool flat_only;  // vector pictures and GeoJSON, which only polygons have
+  For domains;
   void (*write)(const std::string& path, const DiagramOutput& output);
 };
 
 constexpr std::array<Format, 10> formats = {{
-    {".svg", true, write_svg},
-    {".png", false, write_png},
-    {".pdf", true, write_pdf},
-    {".vtu", false, write_vtu},
-    {".vtp", false, write_vtp},
-    {".obj", false, write_obj},
-    {".ply", false, write_ply},
-    {".off", false, write_off},
-    {".json", false, write_json},
-    {".geojson", true, write_geojson},
+    {".svg", For::polygons, write_svg},
+    {".png", For::all, write_png},
+    {".pdf", For::polygons, write_pdf},
+    {".vtu", For::all, write_vtu},
+    {".vtp", For::all, write_vtp},
+    {".obj", For::all, write_obj},
+    {".ply", For::all, write_ply},
+    {".off", For::all, write_off},
+    {".json", For::all, write_json},
+    {".geojson", For::polygons, write_geojson},
 }};
+
+/// Why a format is not for a domain; empty if it is.
+std::string refusal(For domains, const Domain& domain) {
+  const DomainKind kind = domain.kind();
+  if (domains == For::polygons && kind != DomainKind::polygon)
+    return "holds flat shapes, of polygon domains; for a surface or volume use .png for a picture, .vtu for "
+           "geometry";
+  if (domains == For::volumes && kind != DomainKind::volume)
+    return "holds closed bodies, of volumes; for cells of a polygon or surface use .obj, .ply or .vtp";
+  if (domains == For::flat_or_solid && kind == DomainKind::surface)
+    return "holds tessellations of polygons and volumes; for cells of a surface use .vtu or .msh";
+  if (domains == For::flat_or_solid && domain.is_periodic())
+    return "is written for bounded domains only; for a periodic one use .vtu, .msh or .json";
+  return {};
+}
 
 const Format& format_of(const std::string& path) {
   check_output_format(path);
@@ -48,17 +71,15 @@ void check_output_format(const std::string& path) {
   check_extension(path, known_outputs());
 }
 
-void check_output(const std::string& path, DomainKind kind) {
+void check_output(const std::string& path, const Domain& domain) {
   const Format& format = format_of(path);
-  if (!format.flat_only || kind == DomainKind::polygon) return;
-  throw Error(ErrorCode::unsupported,
-              path + ": " + std::string(format.extension) +
-                  " holds flat shapes, of polygon domains; for a surface or volume use .png for a picture, "
-                  ".vtu for geometry");
+  const std::string why = refusal(format.domains, domain);
+  if (!why.empty())
+    throw Error(ErrorCode::unsupported, path + ": " + std::string(format.extension) + " " + why);
 }
 
 void write_output(const std::string& path, const DiagramOutput& output) {
-  check_output(path, output.domain.kind());
+  check_output(path, output.domain);
   format_of(path).write(path, output);
 }
 

@@ -24,6 +24,7 @@ PolygonSoup soup_of_pieces(const Cells& cells) {
       soup.offset.push_back(soup.corner.size());
       soup.seed.push_back(static_cast<std::uint32_t>(i));
       soup.neighbor.push_back(-1);
+      soup.facet.push_back(-1);
     }
   }
   return soup;
@@ -42,6 +43,7 @@ PolygonSoup soup_of_faces(const JoinedCells& cells) {
       soup.seed.push_back(static_cast<std::uint32_t>(i));
       const Border& border = cells.face_border[f];
       soup.neighbor.push_back(border.kind == Border::Kind::wall ? std::int64_t{border.index} : -1);
+      soup.facet.push_back(border.kind == Border::Kind::boundary ? std::int64_t{border.index} : -1);
     }
   }
   return soup;

@@ -17,6 +17,7 @@ struct PolygonSoup {
   std::vector<std::uint64_t> corner;
   std::vector<std::uint32_t> seed;     ///< per polygon: its cell
   std::vector<std::int64_t> neighbor;  ///< per polygon: the seed behind the wall (volumes), or -1
+  std::vector<std::int64_t> facet;     ///< per polygon: the domain's facet that it lies in (volumes), or -1
   std::size_t size() const { return seed.size(); }
   std::size_t vertex_count() const { return vertices.size() / 3; }
 };

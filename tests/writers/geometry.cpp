@@ -227,7 +227,7 @@ TEST_CASE("VTK files are XML with the announced counts") {
     REQUIRE(document.load_file(folder.file("d.vtu").c_str()));
     const auto piece = document.child("VTKFile").child("UnstructuredGrid").child("Piece");
     CHECK(piece.attribute("NumberOfCells").as_ullong() == made.cells.piece_count());
-    CHECK(piece.attribute("NumberOfPoints").as_ullong() == made.cells.vertex_offset.back());
+    CHECK(piece.attribute("NumberOfPoints").as_ullong() < made.cells.vertex_offset.back() / 2);  // shared
     const bool solid = made.domain.cell_dimension() == 3;
     CHECK(!piece.child("Cells").find_child_by_attribute("Name", "faces").empty() == solid);
     for (const char* name : {"seed", "region", "weight", "measure", "piece_measure"}) {

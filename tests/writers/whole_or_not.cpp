@@ -167,6 +167,6 @@ TEST_CASE("vector pictures of surfaces and volumes are refused and point to PNG"
           ErrorCode::unsupported);
     CHECK(contains(message, ".png"));
   }
-  CHECK_NOTHROW(io::check_output("d.png", DomainKind::volume));
+  CHECK_NOTHROW(io::check_output("d.png", made.domain));
   CHECK(folder.count() == 0);
 }
