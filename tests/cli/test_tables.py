@@ -4,9 +4,21 @@
 usage: test_tables.py PATH_OF_POWERCELL [unittest options]
 """
 
+import json
+import math
 import unittest
 
 from tool import DATA, ToolTest
+
+
+def polygon_area(p):
+    """Of a flat polygon in space."""
+    twice = [0, 0, 0]
+    for k in range(1, len(p) - 1):
+        a, b = [p[k][c] - p[0][c] for c in range(3)], [p[k + 1][c] - p[0][c] for c in range(3)]
+        for c in range(3):
+            twice[c] += a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3]
+    return math.hypot(*twice) / 2
 
 
 class Tables(ToolTest):
@@ -41,6 +53,29 @@ class Tables(ToolTest):
             self.assertAlmostEqual(side, 1, delta=1e-12)
         self.bad(2, "--facets adds rows to --walls", "diagram", "--domain", "cube", "--seeds", "random:5", "--facets",
                    "--table", "t.csv")
+
+    def test_walls_and_facets_are_the_surface_of_a_cell(self):
+        """The faces in JSON add up to the rows of a seed, seed by seed and border by border."""
+        for domain in ("cube", "ball:3", "square", "disk:9"):
+            self.good("diagram", "--domain", domain, "--seeds", "random:40", "--walls", "w.csv", "--facets", "-o",
+                      "c.json")
+            rows = {}
+            for wall in self.rows("w.csv"):
+                border = int(wall["neighbor"]) if wall["neighbor"] else -1 - int(wall["facet"])
+                rows[int(wall["seed"]), border] = float(wall["measure"])
+            found = {}
+            for cell in json.loads((self.folder / "c.json").read_text())["cells"]:
+                for face, border in zip(cell["faces"], cell["borders"]):
+                    p = [(cell["vertices"][v] + [0])[:3] for v in face]
+                    if isinstance(border, list):
+                        parts = [(b, math.dist(p[k], p[(k + 1) % len(p)])) for k, b in enumerate(border)]
+                    else:
+                        parts = [(border, polygon_area(p))]
+                    for b, size in parts:
+                        found[cell["seed"], b] = found.get((cell["seed"], b), 0) + size
+            for key in rows.keys() | found.keys():
+                with self.subTest(domain=domain, seed_and_border=key):
+                    self.assertAlmostEqual(rows.get(key, 0), found.get(key, 0), delta=1e-11)
 
     def test_some_of_the_cells(self):
         (self.folder / "s.csv").write_text("name,x,y\n" + "".join(
