@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <powercell/domain.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,12 @@ std::size_t checked_vertex_count(std::uint64_t count, const std::string& name);
 /// The faces as triangles, nt x 3, with corners in the order of the face and faces in the order of the file.
 /// Refuses faces with fewer than 3 corners, by number.
 std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& name);
+
+/// Appends the triangles of one face, three corners each: a convex one as a fan from its first corner.
+/// \param vertices  rows of 3 \return false for a concave one of more than 4,096 corners, of which none are
+/// appended
+bool append_triangles(const std::vector<double>& vertices, std::span<const std::uint32_t> corners,
+                      std::vector<std::uint32_t>& triangles);
 
 /// The vertices and elements of a mesh domain.
 struct MeshArrays {

@@ -22,11 +22,11 @@ double turn(const Point& a, const Point& b, const Point& c) {
 
 // The corners projected along the axis nearest to the face's normal (Newell's method), counter-clockwise.
 // Projection along an axis does not round.
-std::vector<Point> projected(const MeshFile& mesh, std::span<const std::uint32_t> corners) {
-  const double* origin = &mesh.vertices[3 * std::size_t{corners[0]}];
+std::vector<Point> projected(const std::vector<double>& vertices, std::span<const std::uint32_t> corners) {
+  const double* origin = &vertices[3 * std::size_t{corners[0]}];
   std::array<double, 3> normal{};
   const auto at = [&](std::size_t k, int axis) {
-    return mesh.vertices[3 * std::size_t{corners[k % corners.size()]} + axis] - origin[axis];
+    return vertices[3 * std::size_t{corners[k % corners.size()]} + axis] - origin[axis];
   };
   for (std::size_t k = 0; k < corners.size(); ++k) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,6 +85,21 @@ void cut_ears(const std::vector<Point>& points, std::span<const std::uint32_t> c
 
 }  // namespace
 
+bool append_triangles(const std::vector<double>& vertices, std::span<const std::uint32_t> corners,
+                      std::vector<std::uint32_t>& triangles) {
+  if (corners.size() > 3) {
+    const std::vector<Point> points = projected(vertices, corners);
+    if (!is_convex(points)) {
+      if (corners.size() > most_corners_of_concave_face) return false;
+      cut_ears(points, corners, triangles);
+      return true;
+    }
+  }
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    triangles.insert(triangles.end(), {corners[0], corners[k - 1], corners[k]});
+  return true;
+}
+
 std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& name) {
   std::vector<std::uint32_t> triangles;
   triangles.reserve(mesh.face_vertex.size());
@@ -95,21 +110,10 @@ std::vector<std::uint32_t> triangulate(const MeshFile& mesh, const std::string& 
       fail_file(name, fmt::format("face {} (from 0) has {} corners; a face needs at least 3", face,
                                   corners.size()));
     }
-    if (corners.size() > 3) {
-      const std::vector<Point> points = projected(mesh, corners);
-      if (!is_convex(points)) {
-        if (corners.size() > most_corners_of_concave_face) {
-          fail_file(
-              name,
-              fmt::format("face {} (from 0) is concave with {} corners, more than {}; triangulate it first",
-                          face, corners.size(), most_corners_of_concave_face));
-        }
-        cut_ears(points, corners, triangles);
-        continue;
-      }
-    }
-    for (std::size_t k = 2; k < corners.size(); ++k) {
-      triangles.insert(triangles.end(), {corners[0], corners[k - 1], corners[k]});
+    if (!append_triangles(mesh.vertices, corners, triangles)) {
+      fail_file(name,
+                fmt::format("face {} (from 0) is concave with {} corners, more than {}; triangulate it first",
+                            face, corners.size(), most_corners_of_concave_face));
     }
   }
   return triangles;

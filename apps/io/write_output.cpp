@@ -23,7 +23,7 @@ struct Format {
   void (*write)(const std::string& path, const DiagramOutput& output);
 };
 
-constexpr std::array<Format, 10> formats = {{
+constexpr std::array<Format, 13> formats = {{
     {".svg", For::polygons, write_svg},
     {".png", For::all, write_png},
     {".pdf", For::polygons, write_pdf},
@@ -32,6 +32,9 @@ constexpr std::array<Format, 10> formats = {{
     {".obj", For::all, write_obj},
     {".ply", For::all, write_ply},
     {".off", For::all, write_off},
+    {".stl", For::volumes, write_stl},
+    {".msh", For::all, write_gmsh},
+    {".tess", For::flat_or_solid, write_tess},
     {".json", For::all, write_json},
     {".geojson", For::polygons, write_geojson},
 }};

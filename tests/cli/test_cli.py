@@ -147,9 +147,10 @@ class Diagram(ToolTest):
         self.assertEqual(*tables)
 
     def test_every_output_format(self):
-        common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".json"]
+        common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".msh", ".json"]
         for shape, dimension in SHAPES.items():
-            for extension in common + ([".svg", ".pdf", ".geojson"] if dimension == 2 else []):
+            bodies = [".stl", ".tess"] if shape == "bracket.mesh" else []
+            for extension in common + bodies + ([".svg", ".pdf", ".geojson"] if dimension == 2 else []):
                 with self.subTest(shape=shape, extension=extension):
                     name = "out" + extension
                     report = self.report("diagram", "--domain", DATA / shape, "--seeds", "random:60", "-o", name)
@@ -157,6 +158,30 @@ class Diagram(ToolTest):
                     self.assertGreater((self.folder / name).stat().st_size, 200)
                     self.assertEqual([p.name for p in self.folder.iterdir()], [name])
                     (self.folder / name).unlink()
+
+    def test_whole_cells(self):
+        """A cell of a mesh is one polyhedron or several convex pieces, which share their points."""
+        base = ["diagram", "--domain", DATA / "bracket.mesh", "--seeds", "random:40"]
+        report = self.report(*base, "-o", "pieces.vtu")
+        self.good(*base, "-o", "whole.vtu", "--whole-cells")
+        counts = {}
+        for name in ("pieces", "whole"):
+            text = (self.folder / (name + ".vtu")).read_text()
+            counts[name] = [int(n) for n in re.search(r'NumberOfPoints="(\d+)" NumberOfCells="(\d+)"', text).groups()]
+            self.assertEqual("piece_measure" in text, name == "pieces")
+        self.assertEqual(counts["whole"][1], report["cells"])
+        self.assertGreater(counts["pieces"][1], report["cells"])
+        self.assertLess(counts["pieces"][0], 4 * counts["pieces"][1])  # a piece has at least four, all of its own
+        self.bad(2, "--whole-cells is for .vtu files", *base, "--whole-cells", "-o", "a.json")
+        self.bad(2, "--whole-cells is for volumes", "diagram", "--domain", "square", "--seeds", "random:9",
+                 "--whole-cells", "-o", "a.vtu")
+
+    def test_formats_that_do_not_suit_the_domain(self):
+        for domain, name, message in (("square", "a.stl", r"a\.stl: \.stl holds closed bodies"),
+                                      ("sphere", "a.tess", r"a\.tess: \.tess holds tessellations of polygons and volumes")):
+            self.bad(1, message, "diagram", "--domain", domain, "--seeds", "random:9", "-o", name)
+        self.bad(1, r"\.tess is written for bounded domains", "diagram", "--domain", "cube", "--periodic", "--seeds",
+                 "random:9", "-o", "a.tess")
 
     def test_few_and_equal_seeds(self):
         for text, cells, duplicate in (("# none\n", 0, 0), ("0.5 0.5 0\n", 1, 0), ("0.5 0.5 0\n" * 3, 1, 2),

@@ -294,5 +294,12 @@ TEST_CASE("files for other programs" * doctest::skip(std::getenv("POWERCELL_WRIT
   }
   io::write_output(folder + "polygon.svg", flat.output());
   io::write_output(folder + "polygon.pdf", flat.output());
+  io::write_output(folder + "polygon.msh", flat.output());
+  io::write_output(folder + "surface.msh", surface.output());
+  io::DiagramOutput whole = solid.output();
+  whole.whole_cells = true;
+  io::write_output(folder + "whole.vtu", whole);
+  for (const std::string extension : {".stl", ".msh"})
+    io::write_output(folder + "volume" + extension, solid.output());
   CHECK(std::filesystem::exists(folder + "volume.vtu"));
 }
