@@ -14,11 +14,11 @@
 namespace powercell::io {
 namespace {
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using PointPair = std::pair<std::uint32_t, std::uint32_t>;
 
 constexpr std::array<std::int32_t, 3> no_shift{};
 
-void start(SharedCells& shared, const DiagramOutput& output) {
+void start_cells(SharedCells& shared, const DiagramOutput& output) {
   shared.cell_dimension = output.domain.cell_dimension();
   shared.face_offset = shared.loop_offset = {0};
 }
@@ -69,7 +69,7 @@ void add_volumes(SharedCells& shared, const std::vector<SharedWall>& walls, std:
 
 /// Of each cell every edge must occur as often in one direction as in the other.
 std::string fault_of_volumes(const SharedCells& shared) {
-  std::vector<Edge> forth, back;
+  std::vector<PointPair> forth, back;
   for (std::size_t i = 0; i < shared.cell_count(); ++i) {
     forth.clear();
     back.clear();
@@ -156,7 +156,7 @@ void add_polygons(SharedCells& shared, const DiagramOutput& output, const Shared
 
 /// Each edge between two cells must be in both, with the same ends.
 std::string fault_of_polygons(const SharedCells& shared) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, Edge>, int>
+  std::map<std::tuple<std::uint32_t, std::uint32_t, PointPair>, int>
       sides;  // seeds, ends; of the lower seed minus the other
   for (std::uint32_t i = 0; i < shared.cell_count(); ++i)
     for (std::uint64_t f = shared.face_offset[i]; f < shared.face_offset[i + 1]; ++f) {
@@ -213,7 +213,7 @@ std::vector<std::uint32_t> SharedCells::points_of(std::size_t cell) const {
 
 SharedCells share_cells(const DiagramOutput& output) {
   SharedCells shared;
-  start(shared, output);
+  start_cells(shared, output);
   const SharedPoints points = share_points(output);
   if (shared.cell_dimension == 3)
     add_volumes(shared, shared_walls(output, points), output.measures.mass.size(),
@@ -228,7 +228,7 @@ SharedCells share_cells(const DiagramOutput& output) {
 SharedCells separate_cells(const DiagramOutput& output, std::string fault) {
   const JoinedCells& joined = output.joined;
   SharedCells separate;
-  start(separate, output);
+  start_cells(separate, output);
   separate.fault = std::move(fault);
   const auto d = static_cast<std::size_t>(joined.dimension);
   for (std::size_t v = 0; d > 0 && v < joined.vertices.size(); v += d)

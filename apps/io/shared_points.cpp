@@ -32,10 +32,10 @@ struct Labels {
 
 /// Four seeds and the four corners of a box's facet are the most that a vertex in general position has.
 constexpr std::size_t most_labels = 8;
-using Name = std::array<Label, most_labels>;
+using PointName = std::array<Label, most_labels>;
 
-struct NameHash {
-  std::size_t operator()(const Name& name) const {
+struct PointNameHash {
+  std::size_t operator()(const PointName& name) const {
     std::uint64_t hash = 0;
     for (const Label label : name) {
       hash = (hash ^ label) * 0x9e3779b97f4a7c15U;
@@ -51,7 +51,7 @@ class NamedPoints {
   /// \param owner  a polytope; its vertices are different points even if rounding gave them one name
   std::uint32_t add(const Labels& labels, std::uint64_t owner, const double* at, std::size_t dimension) {
     if (labels.list.size() > most_labels) return add_point(owner, at, dimension);
-    Name name{};
+    PointName name{};
     std::copy(labels.list.begin(), labels.list.end(), name.begin());
     std::sort(name.begin(), name.end());
     const auto [found, is_new] = known_.try_emplace(name, 0);
@@ -71,7 +71,7 @@ class NamedPoints {
     return static_cast<std::uint32_t>(owner_.size() - 1);
   }
 
-  std::unordered_map<Name, std::uint32_t, NameHash> known_;
+  std::unordered_map<PointName, std::uint32_t, PointNameHash> known_;
   std::vector<double> at_;
   std::vector<std::uint64_t> owner_;  // per point: the polytope that used it last
 };

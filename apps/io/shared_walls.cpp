@@ -9,9 +9,9 @@
 namespace powercell::io {
 namespace {
 
-using Loop = std::vector<std::uint32_t>;
+using WallLoop = std::vector<std::uint32_t>;
 
-struct Edge {
+struct WallEdge {
   std::uint32_t from, to, wall;
 };
 
@@ -22,34 +22,34 @@ bool is_of_other(const SharedWall& wall) {
 }
 
 /// Without points that repeat the one before; empty if less than a polygon is left.
-void drop_repeated(Loop& loop) {
+void drop_repeated(WallLoop& loop) {
   loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
   while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
   if (loop.size() < 3) loop.clear();
 }
 
 /// The ring that the edges form; empty if they form several, or one that touches itself in a point.
-Loop single_ring(std::vector<Edge>& edges) {
-  const auto by_start = [](const Edge& a, const Edge& b) { return a.from < b.from; };
+WallLoop single_ring(std::vector<WallEdge>& edges) {
+  const auto by_start = [](const WallEdge& a, const WallEdge& b) { return a.from < b.from; };
   std::sort(edges.begin(), edges.end(), by_start);
-  Loop ring;
+  WallLoop ring;
   for (std::uint32_t v = edges[0].from; ring.empty() || v != ring[0];) {
-    const auto [first, last] = std::equal_range(edges.begin(), edges.end(), Edge{v, 0, 0}, by_start);
+    const auto [first, last] = std::equal_range(edges.begin(), edges.end(), WallEdge{v, 0, 0}, by_start);
     if (last - first != 1 || ring.size() == edges.size()) return {};
     ring.push_back(v);
     v = first->to;
   }
-  return ring.size() == edges.size() ? ring : Loop{};
+  return ring.size() == edges.size() ? ring : WallLoop{};
 }
 
 /// Joins the parts of one wall along their common edges, where one ring is left around them.
 void append_joined(std::vector<SharedWall> parts, std::vector<SharedWall>& out) {
   Groups groups(parts.size());
-  std::vector<Edge> edges, outline;
+  std::vector<WallEdge> edges, outline;
   for (std::uint32_t p = 0; p < parts.size(); ++p)
     for (std::size_t k = 0; k < parts[p].loop.size(); ++k)
       edges.push_back({parts[p].loop[k], parts[p].loop[(k + 1) % parts[p].loop.size()], p});
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  std::sort(edges.begin(), edges.end(), [](const WallEdge& a, const WallEdge& b) {
     return std::tuple(std::minmax(a.from, a.to), a.wall) < std::tuple(std::minmax(b.from, b.to), b.wall);
   });
   for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -60,12 +60,12 @@ void append_joined(std::vector<SharedWall> parts, std::vector<SharedWall>& out) 
       outline.push_back(edges[k]);
     }
   }
-  std::vector<std::vector<Edge>> of_group(parts.size());
-  for (const Edge& edge : outline) of_group[groups.of(edge.wall)].push_back(edge);
+  std::vector<std::vector<WallEdge>> of_group(parts.size());
+  for (const WallEdge& edge : outline) of_group[groups.of(edge.wall)].push_back(edge);
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     const std::uint32_t group = groups.of(p);
     if (p == group && !of_group[p].empty()) {
-      Loop ring = single_ring(of_group[p]);
+      WallLoop ring = single_ring(of_group[p]);
       if (ring.size() > 2) {
         parts[p].loop = std::move(ring);
         of_group[p].clear();
@@ -160,7 +160,7 @@ class SplitPoints {
     if (use.wall != of) use.two_walls = true;
   }
   /// Keeps all points of a face that would be left with fewer than three.
-  void keep_polygon(const Loop& loop) {
+  void keep_polygon(const WallLoop& loop) {
     const auto left = std::count_if(loop.begin(), loop.end(), [&](std::uint32_t p) { return !is_split(p); });
     if (left > 2) return;
     for (const std::uint32_t p : loop) of_[p].straight = false;

@@ -13,7 +13,7 @@ namespace powercell::io {
 namespace {
 
 using SpacePoint = std::array<double, 3>;
-using Loop = std::span<const std::uint32_t>;
+using Corners = std::span<const std::uint32_t>;
 
 SpacePoint vector_product(const SpacePoint& a, const SpacePoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -49,8 +49,8 @@ struct Elements {
     region.push_back(of_region);
   }
   std::size_t size() const { return seed.size(); }
-  Loop face(std::uint64_t f) const {
-    return Loop(loop).subspan(loop_offset[f], loop_offset[f + 1] - loop_offset[f]);
+  Corners face(std::uint64_t f) const {
+    return Corners(loop).subspan(loop_offset[f], loop_offset[f + 1] - loop_offset[f]);
   }
 };
 
@@ -112,7 +112,7 @@ class GridMaker {
     const double *x = &grid_.points[3 * std::size_t{p}], *o = &grid_.points[3 * std::size_t{origin}];
     return {x[0] - o[0], x[1] - o[1], x[2] - o[2]};
   }
-  double area(Loop loop) const {
+  double area(Corners loop) const {
     SpacePoint sum{};
     for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
       const SpacePoint n = vector_product(from(loop[k], loop[0]), from(loop[k + 1], loop[0]));
@@ -125,7 +125,7 @@ class GridMaker {
     const std::uint32_t origin = elements.face(begin)[0];
     double six_volumes = 0;
     for (std::uint64_t f = begin; f < end; ++f) {
-      const Loop loop = elements.face(f);
+      const Corners loop = elements.face(f);
       const SpacePoint a = from(loop[0], origin);
       for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
         const SpacePoint n = vector_product(from(loop[k], origin), from(loop[k + 1], origin));

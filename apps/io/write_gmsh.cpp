@@ -12,9 +12,9 @@ namespace {
 /// Of the elements of each dimension: Gmsh's number of the kind, and points of one.
 constexpr std::array<std::uint64_t, 4> element_kind = {15, 1, 2, 4}, element_points = {1, 2, 3, 4};
 
-class Writer {
+class GmshWriter {
  public:
-  Writer(const std::string& path, const GmshModel& model) : file_(path), model_(model) {}
+  GmshWriter(const std::string& path, const GmshModel& model) : file_(path), model_(model) {}
 
   void write() {
     file_.write("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
@@ -48,7 +48,7 @@ class Writer {
   const GmshModel& model_;
 };
 
-void Writer::write_names() {
+void GmshWriter::write_names() {
   std::size_t count = 0;
   for (const auto& groups : model_.groups) count += groups.size();
   file_.write("$PhysicalNames\n");
@@ -60,7 +60,7 @@ void Writer::write_names() {
 }
 
 /// The box around the elements or, without any, around those of the surfaces of a volume.
-void Writer::write_box(const GmshEntity& entity) {
+void GmshWriter::write_box(const GmshEntity& entity) {
   std::array<double, 6> box{};
   bool any = false;
   const auto add = [&](const GmshEntity& of) {
@@ -79,7 +79,7 @@ void Writer::write_box(const GmshEntity& entity) {
   for (const double x : box) coordinate(x);
 }
 
-void Writer::write_entity(std::size_t dimension, const GmshEntity& entity) {
+void GmshWriter::write_entity(std::size_t dimension, const GmshEntity& entity) {
   file_.number(entity.tag);
   file_.write(' ');
   if (dimension == 0) {
@@ -93,7 +93,7 @@ void Writer::write_entity(std::size_t dimension, const GmshEntity& entity) {
   file_.write('\n');
 }
 
-void Writer::write_entities() {
+void GmshWriter::write_entities() {
   const auto& entities = model_.entities;
   file_.write("$Entities\n");
   numbers({entities[0].size(), entities[1].size(), entities[2].size(), entities[3].size()});
@@ -102,7 +102,7 @@ void Writer::write_entities() {
   file_.write("$EndEntities\n");
 }
 
-void Writer::write_nodes() {
+void GmshWriter::write_nodes() {
   std::uint64_t blocks = 0, count = 0, least = ~std::uint64_t{0}, most = 0;
   for (const auto& of_dimension : model_.entities)
     for (const GmshEntity& entity : of_dimension) {
@@ -128,7 +128,7 @@ void Writer::write_nodes() {
   file_.write("$EndNodes\n");
 }
 
-void Writer::write_elements() {
+void GmshWriter::write_elements() {
   std::uint64_t blocks = 0, count = 0;
   for (std::size_t dimension = 1; dimension < 4; ++dimension)
     for (const GmshEntity& entity : model_.entities[dimension]) {
@@ -159,7 +159,7 @@ void Writer::write_elements() {
 
 void write_gmsh(const std::string& path, const DiagramOutput& output) {
   const GmshModel model = gmsh_model(path, output);
-  Writer(path, model).write();
+  GmshWriter(path, model).write();
 }
 
 }  // namespace powercell::io

@@ -47,9 +47,9 @@ std::vector<double> radii_of(const DiagramOutput& output, const std::vector<std:
   return radii;
 }
 
-class Writer {
+class TessWriter {
  public:
-  Writer(const std::string& path, const DiagramOutput& output, const Tess& tess)
+  TessWriter(const std::string& path, const DiagramOutput& output, const Tess& tess)
       : file_(path), output_(output), tess_(tess), volume_(tess.cells.cell_dimension == 3) {}
 
   void write(const TessDomain& domain) {
@@ -106,7 +106,7 @@ class Writer {
   bool volume_;
 };
 
-void Writer::write_cells() {
+void TessWriter::write_cells() {
   count(" **cell", tess_.seed.size());
   file_.write("  *id\n  ");
   for (const std::uint32_t i : tess_.seed) signed_id(i, false);
@@ -123,7 +123,7 @@ void Writer::write_cells() {
   }
 }
 
-void Writer::write_vertices() {
+void TessWriter::write_vertices() {
   count(" **vertex", tess_.cells.point_count());
   for (std::uint32_t p = 0; p < tess_.cells.point_count(); ++p) {
     id(p);
@@ -132,7 +132,7 @@ void Writer::write_vertices() {
   }
 }
 
-void Writer::write_edges() {
+void TessWriter::write_edges() {
   count(" **edge", tess_.edges.size());
   for (std::size_t e = 0; e < tess_.edges.size(); ++e) {
     id(e);
@@ -142,7 +142,7 @@ void Writer::write_edges() {
   }
 }
 
-void Writer::write_faces() {
+void TessWriter::write_faces() {
   count(" **face", tess_.face.size());
   for (std::size_t f = 0; f < tess_.face.size(); ++f) {
     const auto loop = tess_.cells.face(tess_.face[f]);
@@ -160,7 +160,7 @@ void Writer::write_faces() {
   }
 }
 
-void Writer::write_polyhedra() {
+void TessWriter::write_polyhedra() {
   const SharedCells& cells = tess_.cells;
   std::vector<std::uint32_t> number(cells.face_count());
   for (std::size_t f = 0; f < tess_.face.size(); ++f) number[tess_.face[f]] = static_cast<std::uint32_t>(f);
@@ -176,7 +176,7 @@ void Writer::write_polyhedra() {
   }
 }
 
-void Writer::write_domain(const TessDomain& domain) {
+void TessWriter::write_domain(const TessDomain& domain) {
   file_.write(" **domain\n  *general\n   ");
   file_.write(domain.box ? "cube\n" : "poly\n");
   count("  *vertex", domain.vertices.size());
@@ -234,7 +234,7 @@ std::array<double, 4> plane_of(const SharedCells& cells, std::span<const std::ui
 void write_tess(const std::string& path, const DiagramOutput& output) {
   const Tess tess = tess_of(path, output);
   const TessDomain domain = domain_of(path, output, tess);
-  Writer(path, output, tess).write(domain);
+  TessWriter(path, output, tess).write(domain);
 }
 
 }  // namespace powercell::io
