@@ -23,7 +23,7 @@ Label label(LabelKind kind, std::uint64_t number) {
 }
 
 /// The labels of a vertex, each once.
-struct Labels {
+struct VertexLabels {
   std::vector<Label> list;
   void add(Label label) {
     if (std::find(list.begin(), list.end(), label) == list.end()) list.push_back(label);
@@ -49,7 +49,8 @@ struct PointNameHash {
 class NamedPoints {
  public:
   /// \param owner  a polytope; its vertices are different points even if rounding gave them one name
-  std::uint32_t add(const Labels& labels, std::uint64_t owner, const double* at, std::size_t dimension) {
+  std::uint32_t add(const VertexLabels& labels, std::uint64_t owner, const double* at,
+                    std::size_t dimension) {
     if (labels.list.size() > most_labels) return add_point(owner, at, dimension);
     PointName name{};
     std::copy(labels.list.begin(), labels.list.end(), name.begin());
@@ -116,7 +117,8 @@ class Sharing {
  private:
   void add_piece(std::uint32_t cell, std::uint64_t piece);
   void add_face(std::uint64_t piece, std::uint64_t face, std::span<const std::uint32_t> corners);
-  void add_carrier(std::uint32_t region, const std::vector<std::uint32_t>& facets, Labels& labels) const;
+  void add_carrier(std::uint32_t region, const std::vector<std::uint32_t>& facets,
+                   VertexLabels& labels) const;
   bool has_corner(std::uint32_t facet, std::uint32_t corner, std::uint32_t corners) const;
   std::uint32_t facet_of(std::uint64_t piece, std::uint64_t face) const;
   double distance(std::uint32_t region, std::uint32_t facet, const std::array<double, 3>& from) const;
@@ -131,7 +133,7 @@ class Sharing {
   std::vector<std::uint32_t> number_;  // per vertex: a named point
   std::vector<std::uint8_t> between_;  // per vertex
   // Of the vertices of a piece:
-  std::vector<Labels> labels_;
+  std::vector<VertexLabels> labels_;
   std::vector<std::vector<std::uint32_t>> facets_;
   std::vector<std::uint8_t> in_facet_;
 };
@@ -144,7 +146,7 @@ bool Sharing::has_corner(std::uint32_t facet, std::uint32_t corner, std::uint32_
 
 /// Adds the corners that all these facets of a region have; the region, if there are none.
 void Sharing::add_carrier(std::uint32_t region, const std::vector<std::uint32_t>& facets,
-                          Labels& labels) const {
+                          VertexLabels& labels) const {
   if (facets.empty()) return labels.add(label(of_region, region));
   const std::uint32_t begin = regions_.region_offset[region],
                       corners = regions_.region_offset[region + 1] - begin;
