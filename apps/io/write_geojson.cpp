@@ -22,7 +22,7 @@ struct Part {
   std::vector<Points> holes;
 };
 
-double signed_area(const Points& ring) {
+double ring_area(const Points& ring) {
   double twice = 0;
   const Point& o = ring[0];
   for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
@@ -61,7 +61,7 @@ std::vector<Part> parts_of(const JoinedCells& joined, std::size_t cell) {
       const double* vertex = &joined.vertices[(joined.vertex_offset[cell] + joined.loop[e]) * 2];
       ring.push_back({vertex[0], vertex[1]});
     }
-    const double area = signed_area(ring);
+    const double area = ring_area(ring);
     if (area > 0)
       parts.push_back({std::move(ring), area, {}});
     else
