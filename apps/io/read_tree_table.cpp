@@ -15,7 +15,7 @@
 namespace powercell::io {
 namespace {
 
-enum Column { id_column, parent_column, name_column, value_column, columns };
+enum FileColumn { id_column, parent_column, name_column, value_column, columns };
 
 constexpr std::array<std::array<std::string_view, 4>, columns> headings = {
     {{"id", "nodeid", "node", "key"},
