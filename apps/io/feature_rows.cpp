@@ -12,13 +12,13 @@
 namespace powercell::io {
 namespace {
 
-constexpr const char* axes[] = {"x", "y", "z"};
+constexpr const char* coordinate_names[] = {"x", "y", "z"};
 
 }  // namespace
 
 FeatureRows::FeatureRows(std::string name, std::size_t dimension, const std::vector<std::string>& attributes)
     : name_(std::move(name)), dimension_(dimension), columns_(dimension + attributes.size()) {
-  fields_.assign(axes, axes + dimension);
+  fields_.assign(coordinate_names, coordinate_names + dimension);
   std::set<std::string> used(fields_.begin(), fields_.end());
   for (std::string attribute : attributes) {
     if (used.count(column_name(attribute)) != 0) attribute.insert(0, "input_");
@@ -30,7 +30,7 @@ FeatureRows::FeatureRows(std::string name, std::size_t dimension, const std::vec
 void FeatureRows::add(const std::array<double, 3>& point, const std::vector<std::string>& attributes) {
   for (std::size_t k = 0; k < dimension_; ++k) {
     if (!std::isfinite(point[k]))
-      fail_file(name_, fmt::format("feature {} (from 0): its {} is {}", count(), axes[k],
+      fail_file(name_, fmt::format("feature {} (from 0): its {} is {}", count(), coordinate_names[k],
                                    std::isnan(point[k]) ? "missing or not a number" : "not finite"));
     fields_.push_back(fmt::format("{}", point[k]));
   }

@@ -102,14 +102,14 @@ void add_gmsh_element(const GmshElement& kind, const std::uint32_t* nodes, std::
 
 namespace {
 
-struct MeshFormat {
+struct GmshFormat {
   double version = 0;
   bool ascii = true;
   std::endian order = std::endian::native;
 };
 
-MeshFormat read_format(TextScanner& scanner) {
-  MeshFormat format;
+GmshFormat read_format(TextScanner& scanner) {
+  GmshFormat format;
   format.version = scanner.number({"version", 0});
   format.ascii = scanner.count({"file type", 0}) == 0;
   const auto data_size = scanner.count({"data size", 0});
@@ -147,7 +147,7 @@ void expect_end(TextScanner& scanner, const std::string& section) {
 MeshFile parse_gmsh(std::string_view bytes, const std::string& name) {
   TextScanner scanner(bytes, name, '\0');
   if (scanner.word({"section", 0}) != "$MeshFormat") scanner.fail("does not begin with $MeshFormat");
-  const MeshFormat format = read_format(scanner);
+  const GmshFormat format = read_format(scanner);
   expect_end(scanner, "$MeshFormat");
   const bool old = format.version < 3;
   GmshNumbers numbers(scanner, format.ascii, format.order);
