@@ -14,6 +14,7 @@
 #include "apps/io/write_table.hpp"
 #include "apps/only.hpp"
 #include "apps/outputs.hpp"
+#include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 
@@ -21,6 +22,7 @@ namespace powercell::app {
 namespace {
 
 struct DiagramArguments : CommonOptions, InputArguments {
+  PictureArguments picture;
   std::string table, walls, only;
   bool facets = false, whole_cells = false;
   int repeat = 1;
@@ -28,9 +30,9 @@ struct DiagramArguments : CommonOptions, InputArguments {
 };
 
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
-                 std::span<const std::uint32_t> only, RunReport& report) {
+                 const io::PictureStyle& style, std::span<const std::uint32_t> only, RunReport& report) {
   const SeedsView seeds = inputs.seeds.view();
-  write_diagram(arguments.outputs, diagram, seeds, inputs.view(), true, arguments.whole_cells);
+  write_diagram(arguments.outputs, diagram, seeds, inputs.view(), true, arguments.whole_cells, style);
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
     io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view(), only);
@@ -101,6 +103,8 @@ int run(const DiagramArguments& arguments) {
   if (arguments.whole_cells && domain.kind() != DomainKind::volume)
     throw WrongUsage("--whole-cells is for volumes: a polygon of VTK has no holes, and lies in one plane");
   const SeedsView seeds = inputs.seeds.view();
+  const io::PictureStyle style =
+      picture_style(arguments.picture, {arguments.outputs, domain.kind(), inputs.view(), seeds});
 
   progress.begin(stage::opening);
   const Device device = open_device(arguments);
@@ -114,7 +118,7 @@ int run(const DiagramArguments& arguments) {
   describe_inputs(inputs, report);
   if (arguments.only.empty()) require_partition(report);
   progress.begin(stage::writing);
-  write_files(arguments, diagram, inputs, only, report);
+  write_files(arguments, diagram, inputs, style, only, report);
   progress.finish();
   describe_times(progress, report);
   print(arguments, inputs, report);
@@ -126,6 +130,7 @@ constexpr const char* diagram_examples =
     "  powercell diagram --domain square --seeds random:2000 -o cells.svg\n"
     "  powercell diagram --domain italy.geojson --seeds towns.csv -o map.png --table areas.csv\n"
     "  powercell diagram --domain part.mesh --seeds random:5000:0:4:7 -o grains.vtu --json\n"
+    "  powercell diagram --domain part.mesh --seeds grains.csv --color-by phase --camera iso -o part.png\n"
     "  powercell diagram --domain cube --seeds packing.csv --only probes.txt --table few.csv\n"
     "  powercell diagram --domain mesh.off --seeds s.npy --precision float --device gpu --walls walls.csv\n"
     "A weight is a length squared: for a disc or ball of radius r it is r * r.";
@@ -137,6 +142,7 @@ Command add_diagram(CLI::App& app) {
   CLI::App* command = app.add_subcommand("diagram", "Compute a power diagram and write it");
   add_inputs(*command, *arguments, true);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
+  add_picture_options(*command, arguments->picture, "-o");
   command->add_option("--table", arguments->table, "CSV with one row for each seed")->type_name("FILE.csv");
   command
       ->add_option("--walls", arguments->walls,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/io/map_frame.hpp"
+#include "apps/io/picture_style.hpp"
 
 namespace CLI {
 class App;
@@ -29,6 +30,7 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
 /// Writes the cells to each of the files, by its extension; computes what the diagram has not yet.
 /// \param weights_as_discs, whole_cells  see io::DiagramOutput
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   const io::InputView& inputs = {}, bool weights_as_discs = true, bool whole_cells = false);
+                   const io::InputView& inputs = {}, bool weights_as_discs = true, bool whole_cells = false,
+                   const io::PictureStyle& style = {});
 
 }  // namespace powercell::app

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "apps/io/write_triangles.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
+#include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 
@@ -27,6 +29,7 @@ struct RemeshArguments : CommonOptions {
   std::string input, report;
   std::string method = "fpo";
   std::vector<std::string> outputs;
+  CameraArguments picture;
   RemeshOptions remesh;
   bool no_repair = false;
   double weld = -1;
@@ -186,10 +189,25 @@ void print_remarks(const RemeshArguments& arguments, const RemeshResult& result,
   print_notes(remarks, arguments.input, arguments, progress);
 }
 
-void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh) {
+constexpr int usual_width = 2200;  // of a picture of both meshes
+
+/// \throw WrongUsage for options on pictures without one
+io::PictureStyle picture_style_of(const RemeshArguments& arguments) {
+  const CameraArguments& given = arguments.picture;
+  const bool any = !(given.size + given.camera + given.up).empty();
+  if (any && std::none_of(arguments.outputs.begin(), arguments.outputs.end(), io::is_picture))
+    throw WrongUsage("--size, --camera and --up are for pictures; name one, such as -o view.png");
+  io::PictureStyle style;
+  style.size = picture_size(given, {.width = usual_width});
+  set_camera(given, style.towards, style.up);
+  return style;
+}
+
+void write_files(const RemeshArguments& arguments, const TriangleMesh& input, const TriangleMesh& mesh,
+                 const io::PictureStyle& style) {
   for (const std::string& path : arguments.outputs) {
     if (io::lower_extension(path) == ".png")
-      io::write_before_and_after(path, input, mesh);
+      io::write_before_and_after(path, input, mesh, style);
     else
       io::write_triangles(path, mesh);
   }
@@ -231,6 +249,7 @@ void describe_times(const Progress& progress, Outcome& o) {
 
 int run(const RemeshArguments& arguments) {
   check_writable(arguments.outputs, {arguments.report}, arguments.json);
+  const io::PictureStyle style = picture_style_of(arguments);
   Outcome outcome;
   Progress progress({{stage::reading, 2},
                      {stage::opening, 1},
@@ -254,7 +273,7 @@ int run(const RemeshArguments& arguments) {
   outcome.input_to_mesh = farthest_from(input, mesh);
   outcome.mesh_to_input = farthest_from(mesh, input);
   progress.begin(stage::writing);
-  write_files(arguments, input, mesh);
+  write_files(arguments, input, mesh, style);
   progress.finish();
   describe_times(progress, outcome);
   if (!arguments.report.empty()) {
@@ -313,6 +332,7 @@ Command add_remesh(CLI::App& app) {
   add_output_files(*command, arguments->outputs,
                    std::string(io::triangle_files) + " for the mesh, .png for both meshes side by side",
                    io::check_triangle_output);
+  add_camera_options(*command, arguments->picture, usual_width);
   command->add_flag("--no-repair", arguments->no_repair,
                     "Take edges as one where vertices have the same number, and refuse what is no manifold");
   command

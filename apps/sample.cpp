@@ -14,6 +14,7 @@
 #include "apps/io/write_points.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
+#include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 #include "apps/sampling/notes.hpp"
@@ -30,6 +31,7 @@ struct SampleArguments : CommonOptions {
   double movement = 1e-4, hexatic = 0.61, tolerance = 1e-6;
   std::uint64_t random_seed = 1;
   std::vector<std::string> outputs, cells;
+  PictureArguments picture;
 };
 
 SamplingOptions sampling_options(const SampleArguments& arguments, const Source& source) {
@@ -53,27 +55,38 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
   return options;
 }
 
+/// \throw WrongUsage as picture_style
+io::PictureStyle style_of(const SampleArguments& arguments, const Domain& domain) {
+  if (!arguments.picture.color_by.empty() && arguments.cells.empty())
+    throw WrongUsage("--color-by colours cells; name a picture of them, such as --cells cells.svg");
+  std::vector<std::string> files = arguments.cells;
+  files.insert(files.end(), arguments.outputs.begin(), arguments.outputs.end());
+  const SeedsView none{domain.dimension(), {}, {}};
+  return picture_style(arguments.picture, {files, domain.kind(), {}, none});
+}
+
 void write_cells(const SampleArguments& arguments, const Device& device, const Source& source,
-                 const SamplingResult& points) {
+                 const io::PictureStyle& style, const SamplingResult& points) {
   if (arguments.cells.empty()) return;
   Diagram diagram(device, source.domain, library_options(arguments));
   const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
-  write_diagram(arguments.cells, diagram, seeds, {}, false);
+  write_diagram(arguments.cells, diagram, seeds, {}, false, false, style);
 }
 
 std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,
-                                     const Source& source, const Study& study) {
+                                     const Source& source, const io::PictureStyle& style,
+                                     const Study& study) {
   std::vector<std::string> written;
   const SamplingResult& points = study.runs.front().points;
   std::vector<double> radii;
   if (source.domain.dimension() == 2 && !arguments.outputs.empty()) radii = dot_radii(device, source, points);
   for (const std::string& path : arguments.outputs) {
-    io::write_points(path, {source.domain, points.positions, points.weights, points.mass, radii});
+    io::write_points(path, {source.domain, points.positions, points.weights, points.mass, radii, style.size});
     written.push_back(path);
   }
-  write_cells(arguments, device, source, points);
+  write_cells(arguments, device, source, style, points);
   written.insert(written.end(), arguments.cells.begin(), arguments.cells.end());
   if (!arguments.analysis.empty()) {
     io::AtomicFile file(arguments.analysis);
@@ -158,6 +171,7 @@ int run(const SampleArguments& arguments) {
   print_notes(source.domain.notes(), arguments.source.domain, arguments, progress);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
   for (const std::string& path : arguments.cells) io::check_output(path, source.domain);
+  const io::PictureStyle style = style_of(arguments, source.domain);
   progress.begin(stage::opening);
   const Device device = open_device(arguments);
   progress.begin(sampling_stage);
@@ -165,7 +179,7 @@ int run(const SampleArguments& arguments) {
   const Study study = run_study(device, source, arguments.count, options, arguments.runs,
                                 wants_spectra(arguments, source.domain), progress);
   progress.begin(stage::writing);
-  const std::vector<std::string> written = write_files(arguments, device, source, study);
+  const std::vector<std::string> written = write_files(arguments, device, source, style, study);
   progress.finish();
   const std::vector<std::string> notes = notes_of(source.domain, study, options.mode);
   print(arguments, source, study, written, notes, progress);
@@ -250,6 +264,7 @@ Command add_sample(CLI::App& app) {
       ->type_name("FILE")
       ->expected(1)
       ->take_all();
+  add_picture_options(*command, arguments->picture, "--cells");
   command
       ->add_option("--analysis", arguments->analysis,
                    "All figures and spectra as JSON; spectra of n points take n^2 time")

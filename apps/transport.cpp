@@ -17,6 +17,7 @@
 #include "apps/io/write_transport.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
+#include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 
@@ -24,6 +25,7 @@ namespace powercell::app {
 namespace {
 
 struct TransportArguments : CommonOptions, InputArguments {
+  PictureArguments picture;
   std::string masses, mass_column, linear = "auto", table, walls, log;
   DensityArguments density;
   double tolerance = 0;
@@ -66,10 +68,10 @@ struct TransportReport {
 };
 
 void write_files(const TransportArguments& arguments, TransportSolver& solver, const Inputs& inputs,
-                 RunReport& report) {
+                 const io::PictureStyle& style, RunReport& report) {
   const SeedsView seeds{inputs.seeds.dimension, inputs.seeds.positions, solver.result().weights};
   const auto written = [&report](const std::string& path) { report.files.push_back(path); };
-  write_diagram(arguments.outputs, solver.diagram(), seeds, inputs.view(), false);
+  write_diagram(arguments.outputs, solver.diagram(), seeds, inputs.view(), false, false, style);
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
     io::write_transport_table(arguments.table, seeds, solver.result(), inputs.view());
@@ -184,6 +186,10 @@ int run(const TransportArguments& arguments) {
   const Domain& domain = inputs.domain.domain;
   const io::SeedTable& table = inputs.seeds;
   for (const std::string& path : arguments.outputs) io::check_output(path, domain);
+  // The weights that will be found are not those of the table.
+  const SeedsView positions{table.dimension, table.positions, {}};
+  const io::PictureStyle style =
+      picture_style(arguments.picture, {arguments.outputs, domain.kind(), inputs.view(), positions});
   std::vector<double> masses;
   if (!arguments.masses.empty())
     masses = io::read_masses(arguments.masses, arguments.mass_column, table.count());
@@ -204,7 +210,7 @@ int run(const TransportArguments& arguments) {
   describe_inputs(inputs, report.run);
   require_partition(report.run);
   progress.begin(stage::writing);
-  write_files(arguments, solver, inputs, report.run);
+  write_files(arguments, solver, inputs, style, report.run);
   progress.finish();
   report.solve = progress.seconds(solving);
   describe_times(progress, report.run);
@@ -262,6 +268,7 @@ Command add_transport(CLI::App& app) {
   add_inputs(*command, *arguments, true);
   add_solver_options(*command, *arguments);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
+  add_picture_options(*command, arguments->picture, "-o");
   command
       ->add_option("--table", arguments->table, "CSV with one row for each seed: weight, mass, centroid, ...")
       ->type_name("FILE.csv");

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "apps/io/map_frame.hpp"
+#include "apps/io/picture_style.hpp"
 
 namespace powercell::io {
 
@@ -26,6 +27,7 @@ struct DiagramOutput {
   InputView inputs = {};
   /// Whether a .vtu of a volume has one polyhedron for each cell in place of one for each convex piece.
   bool whole_cells = false;
+  PictureStyle style = {};
 };
 
 /// Extensions that `write_output` accepts: ".svg .png ...".

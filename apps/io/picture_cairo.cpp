@@ -9,6 +9,7 @@
 #include <powercell/error.hpp>
 
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/picture_legend.hpp"
 
 namespace powercell::io {
 namespace {
@@ -104,8 +105,12 @@ void draw(cairo_t* to, const Scene& scene) {
   for (const Scene::Cell& cell : scene.cells) {
     cairo_new_path(to);
     add_rings(to, scene.cell_rings, cell.first_ring, cell.end_ring);
-    set_colour(to, cell.fill);
-    cairo_fill_preserve(to);
+    if (cell.striped) {
+      fill_striped(to, scene.stripes);
+    } else {
+      set_colour(to, cell.fill);
+      cairo_fill_preserve(to);
+    }
     set_colour(to, paper);
     if (scene.wall_width > 0) cairo_stroke(to);
   }
@@ -115,6 +120,7 @@ void draw(cairo_t* to, const Scene& scene) {
   cairo_set_line_width(to, scene.outline_width);
   cairo_stroke(to);
   for (const Scene::Disc& disc : scene.discs) draw_disc(to, scene, disc);
+  draw_legend(to, scene.legend);
 }
 
 void write_image(const std::string& path, cairo_surface_t* image) {
@@ -142,14 +148,14 @@ void paint_png(const std::string& path, double width, double height, const Paint
 }
 
 void paint_pdf(const std::string& path, double width, double height, const PageText& text,
-               const Painter& paint) {
+               const Painter& paint, double units_per_inch) {
   Sink sink{AtomicFile(path), {}};
-  // A PDF's unit is 1/72 inch, a pixel 1/96 inch.
-  const Surface page(cairo_pdf_surface_create_for_stream(Sink::write, &sink, width * 0.75, height * 0.75));
+  const double scale = 72 / units_per_inch;  // a PDF's unit is 1/72 inch
+  const Surface page(cairo_pdf_surface_create_for_stream(Sink::write, &sink, width * scale, height * scale));
   cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_TITLE, text.title.c_str());
   cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_SUBJECT, text.description.c_str());
   const Context context(cairo_create(page.get()));
-  cairo_scale(context.get(), 0.75, 0.75);
+  cairo_scale(context.get(), scale, scale);
   paint(context.get());
   const cairo_status_t drawn = cairo_status(context.get());
   cairo_surface_finish(page.get());
@@ -161,25 +167,29 @@ void draw_png(const std::string& path, const Scene& scene) {
 }
 
 void draw_pdf(const std::string& path, const Scene& scene) {
-  paint_pdf(path, scene.width, scene.height, {scene.title, scene.description},
-            [&](cairo_t* to) { draw(to, scene); });
+  paint_pdf(
+      path, scene.width, scene.height, {scene.title, scene.description},
+      [&](cairo_t* to) { draw(to, scene); }, scene.units_per_inch);
 }
 
-void write_pixels(const std::string& path, const std::vector<std::uint8_t>& rgb, int width, int height) {
-  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
-  unsigned char* pixels = cairo_image_surface_get_data(image.get());
+void write_pixels(const std::string& path, const Pixels& pixels, const PixelCanvas& canvas) {
+  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, canvas.width, canvas.height));
+  unsigned char* data = cairo_image_surface_get_data(image.get());
   const int stride = cairo_image_surface_get_stride(image.get());
-  if (!pixels) throw Error(ErrorCode::write_failed, path + ": no memory for a picture of that size");
-  for (int y = 0; y < height; ++y) {
-    auto* row = reinterpret_cast<std::uint32_t*>(pixels + std::ptrdiff_t{y} * stride);
-    for (int x = 0; x < width; ++x) {
-      const std::uint8_t* p =
-          &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-               3];
-      row[x] = static_cast<std::uint32_t>(p[0] << 16 | p[1] << 8 | p[2]);
-    }
+  if (!data) throw Error(ErrorCode::write_failed, path + ": no memory for a picture of that size");
+  const Context context(cairo_create(image.get()));
+  set_colour(context.get(), paper);
+  cairo_paint(context.get());
+  cairo_surface_flush(image.get());
+  for (int y = 0; y < pixels.height; ++y) {
+    auto* row = reinterpret_cast<std::uint32_t*>(data + std::ptrdiff_t{y + canvas.top} * stride);
+    const std::uint8_t* p =
+        &pixels.rgb[static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels.width) * 3];
+    for (int x = 0; x < pixels.width; ++x, p += 3)
+      row[x + canvas.left] = static_cast<std::uint32_t>(p[0] << 16 | p[1] << 8 | p[2]);
   }
   cairo_surface_mark_dirty(image.get());
+  if (canvas.over) canvas.over(context.get());
   write_image(path, image.get());
 }
 

@@ -26,13 +26,23 @@ struct PageText {
 /// Writes what the painter draws on a picture of that size in pixels. \throw Error write_failed
 void paint_png(const std::string& path, double width, double height, const Painter& paint);
 void paint_pdf(const std::string& path, double width, double height, const PageText& text,
-               const Painter& paint);
+               const Painter& paint, double units_per_inch = 96);
 
 /// Draws a flat picture as PNG or PDF. \throw Error write_failed
 void draw_png(const std::string& path, const Scene& scene);
 void draw_pdf(const std::string& path, const Scene& scene);
 
-/// Writes pixels as PNG. \param rgb height x width x 3, row-major, from the top. \throw Error write_failed
-void write_pixels(const std::string& path, const std::vector<std::uint8_t>& rgb, int width, int height);
+/// Nothing is owned.
+struct Pixels {
+  const std::vector<std::uint8_t>& rgb;  ///< height x width x 3, row-major, from the top
+  int width, height;
+};
+/// White paper with the pixels at a place, and what is drawn over them.
+struct PixelCanvas {
+  int width, height, left = 0, top = 0;
+  Painter over = {};
+};
+/// Writes a PNG. \pre the pixels lie on the canvas  \throw Error write_failed
+void write_pixels(const std::string& path, const Pixels& pixels, const PixelCanvas& canvas);
 
 }  // namespace powercell::io

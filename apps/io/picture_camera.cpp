@@ -21,14 +21,20 @@ Camera fit_camera(const View& view, std::span<const Vec3> points) {
     high_y = std::max(high_y, at.y);
   }
   if (points.empty()) low_x = low_y = -0.1f, high_x = high_y = 0.1f;
-  const float extent = std::max({high_x - low_x, high_y - low_y, 1e-6f});
-  const auto size = static_cast<float>(view.size);
-  const float margin = 0.04f * size;
-  camera.scale = (size - 2 * margin) / extent;
-  camera.left = margin - low_x * camera.scale;
-  camera.top = margin - low_y * camera.scale;
+  const float across = std::max(high_x - low_x, 1e-6f), along = std::max(high_y - low_y, 1e-6f);
+  const auto width = static_cast<float>(view.width), height = static_cast<float>(view.height);
+  const float margin = 0.04f * std::min(width, height);
+  camera.scale = std::min((width - 2 * margin) / across, (height - 2 * margin) / along);
   camera.width = std::max(1, static_cast<int>(std::ceil(2 * margin + (high_x - low_x) * camera.scale)));
   camera.height = std::max(1, static_cast<int>(std::ceil(2 * margin + (high_y - low_y) * camera.scale)));
+  camera.left = margin - low_x * camera.scale;
+  camera.top = margin - low_y * camera.scale;
+  if (view.exact) {
+    camera.left += (width - 2 * margin - (high_x - low_x) * camera.scale) / 2;
+    camera.top += (height - 2 * margin - (high_y - low_y) * camera.scale) / 2;
+    camera.width = view.width;
+    camera.height = view.height;
+  }
   return camera;
 }
 

@@ -12,7 +12,8 @@ namespace powercell::io {
 struct View {
   Vec3 towards{0.60f, -0.80f, 0.52f};  ///< from the model to the camera
   Vec3 up{0, 0, 1};                    ///< shown upwards; not parallel to `towards`
-  int size = 1600;                     ///< longer side of the picture in pixels
+  int width = 1600, height = 1600;     ///< largest size of the picture in pixels
+  bool exact = false;                  ///< it has this size
 };
 
 /// A point in a picture: pixels, y downwards; `nearness` is larger nearer to the camera and linear in x and y

@@ -13,9 +13,9 @@ namespace powercell::io {
 /// The cells of a surface, smooth where the surface is; each cell is a part.
 Model surface_model(const DiagramOutput& output);
 
-/// The cells of a volume without those in the octant towards `cut`, each drawn towards its centroid. With
-/// many cells they stay where they are and only the faces in sight are kept.
-Model volume_model(const DiagramOutput& output, Vec3 cut = View{}.towards);
+/// The cells of a volume, by its style all or without those in the octant towards the camera, each drawn
+/// towards its centroid. With many cells they stay where they are and only the faces in sight are kept.
+Model volume_model(const DiagramOutput& output);
 
 /// The triangles of a mesh, each a part.
 Model mesh_model(const TriangleMesh& mesh, const Normalization& normalize);

@@ -81,9 +81,9 @@ Place Renderer::place(int column, int row) const {
   if (const std::uint32_t t = pixels_.triangle[s]; t != Samples::nothing)
     return {camera_.unproject({x, y, pixels_.nearness[s]}), normal(t, x, y), size / 200};
   const Vec3 ray = camera_.ray(x, y);
-  const float down = -dot(ray, up_);
-  if (down < 1e-4f) return {};
-  return {camera_.eye + ray * ((dot(camera_.eye, up_) - ground_) / down), up_, size / 40};
+  const float down = -dot(ray, up_), above = dot(camera_.eye, up_) - ground_;
+  if (down < 1e-4f || above <= 0) return {};  // a camera below the floor sees none
+  return {camera_.eye + ray * (above / down), up_, size / 40};
 }
 
 // Towards the camera.

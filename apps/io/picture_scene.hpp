@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "apps/io/output.hpp"
+#include "apps/io/picture_legend.hpp"
 #include "apps/io/picture_palette.hpp"
 
 namespace powercell::io {
 
-/// Everything in pixels, y downwards.
+/// Everything in pixels, or in points of a page, y downwards.
 struct Scene {
   /// Rings of points: ring r has the points [offset[r], offset[r+1]) of x, y pairs.
   struct Rings {
@@ -29,6 +30,7 @@ struct Scene {
     Colour fill;
     std::uint64_t first_ring, end_ring;  ///< of `cell_rings`, filled by the even-odd rule
     std::string label;                   ///< tool tip; empty in large pictures
+    bool striped = false;                ///< instead of `fill`: it has no value
   };
   enum class Mark {
     dot,        ///< the seed itself
@@ -52,9 +54,13 @@ struct Scene {
   double outline_width = 3;
   std::vector<Disc> discs;  ///< in drawing order
   double disc_line = 1;     ///< width of the rings
+  LegendScene legend;
+  double stripes = 10;         ///< distance of those of striped cells
+  bool has_stripes = false;    ///< some cells are striped
+  double units_per_inch = 96;  ///< of a page
 };
 
-/// The picture of a diagram on a polygon, `long_side` pixels wide or high.
-Scene make_scene(const DiagramOutput& output, double long_side = 1600);
+/// The picture of a diagram on a polygon, by its style.
+Scene make_scene(const DiagramOutput& output);
 
 }  // namespace powercell::io

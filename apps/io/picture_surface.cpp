@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/io/picture_colours.hpp"
 #include "apps/io/picture_models.hpp"
 
 namespace powercell::io {
@@ -32,7 +33,7 @@ Model surface_model(const DiagramOutput& output) {
   const Normalization normalize = normalization(output.domain);
   const RegionsView mesh = output.domain.regions();
   const std::vector<Vec3> normals = corner_normals(mesh, normalize);
-  const std::vector<Colour> colours = cell_colours(output.adjacency, output.measures.mass.size());
+  const std::vector<Colour> colours = colouring_of(output).colour;
   const Cells& cells = output.cells;
   Model model;
   model.line_width = line_width(80, output.measures.count(SeedStatus::ok), 0.6, 3.2);

@@ -103,11 +103,12 @@ void write_svg(const std::string& path, const DiagramOutput& output) {
                   "<title>{2}</title>\n<desc>{3}</desc>\n",
                   scene.width, scene.height, xml_text(scene.title), xml_text(scene.description)));
   file.write(style(scene));
+  if (scene.has_stripes) file.write(stripes_svg(scene.stripes));
   file.write(
       fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n<g class=\"cells\">\n", hex(paper)));
   for (const Scene::Cell& cell : scene.cells) {
-    std::string text =
-        fmt::format("<path id=\"cell-{0}\" data-seed=\"{0}\" fill=\"{1}\" d=\"", cell.seed, hex(cell.fill));
+    std::string text = fmt::format("<path id=\"cell-{0}\" data-seed=\"{0}\" fill=\"{1}\" d=\"", cell.seed,
+                                   cell.striped ? "url(#no-value)" : hex(cell.fill));
     append_rings(text, scene.cell_rings, cell.first_ring, cell.end_ring);
     if (cell.label.empty())
       text += "\"/>\n";
@@ -119,6 +120,7 @@ void write_svg(const std::string& path, const DiagramOutput& output) {
   append_rings(outline, scene.outline, 0, scene.outline.size());
   file.write(outline + "\"/>\n");
   write_discs(file, scene);
+  file.write(legend_svg(scene.legend));
   file.write("</svg>\n");
   file.commit();
 }

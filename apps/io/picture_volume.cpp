@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/io/picture_colours.hpp"
 #include "apps/io/picture_models.hpp"
 
 namespace powercell::io {
@@ -13,13 +14,19 @@ constexpr float shrink = 0.88f;
 // boundary, which may be curved and cut into facets.
 constexpr float wall_crease = 0.999f, boundary_crease = 0.8f;
 
-// All cells but those whose centroid lies in the octant of the bounding box towards the camera.
-std::vector<char> without_octant(const DiagramOutput& output, const Normalization& normalize, Vec3 cut) {
+// All cells but those whose centroid lies in the octant of the bounding box towards the camera; towards a
+// camera that looks along a plane of the axes, in the quarter or the half.
+std::vector<char> kept_cells(const DiagramOutput& output, const Normalization& normalize) {
   std::vector<char> kept(output.measures.mass.size(), 0);
+  const Vec3 cut = normalized(output.style.towards);
+  const auto is_front = [](float at, float towards) {
+    constexpr float flat = 0.02f;
+    return std::abs(towards) < flat || at * towards > 0;
+  };
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (!std::isfinite(output.measures.centroid[3 * i])) continue;
     const Vec3 c = normalize(&output.measures.centroid[3 * i]);
-    kept[i] = !(c.x * cut.x > 0 && c.y * cut.y > 0 && c.z * cut.z > 0);
+    kept[i] = !output.style.cut || !(is_front(c.x, cut.x) && is_front(c.y, cut.y) && is_front(c.z, cut.z));
   }
   // All cells of a small diagram may lie in that octant.
   if (std::find(kept.begin(), kept.end(), 1) == kept.end()) std::fill(kept.begin(), kept.end(), 1);
@@ -42,11 +49,11 @@ void add_face(Model& model, const std::vector<Vec3>& points, std::span<const std
 
 }  // namespace
 
-Model volume_model(const DiagramOutput& output, Vec3 cut) {
+Model volume_model(const DiagramOutput& output) {
   const JoinedCells& joined = output.joined;
   const Normalization normalize = normalization(output.domain);
-  const std::vector<Colour> colours = cell_colours(output.adjacency, output.measures.mass.size());
-  const std::vector<char> kept = without_octant(output, normalize, cut);
+  const std::vector<Colour> colours = colouring_of(output).colour;
+  const std::vector<char> kept = kept_cells(output, normalize);
   const std::size_t count = std::max<std::size_t>(output.measures.count(SeedStatus::ok), 1);
   const bool apart = count <= most_apart;
   Model model;

@@ -1,20 +1,11 @@
 #include <cairo.h>
 
-#include <memory>
-
 #include "apps/io/picture_cairo.hpp"
+#include "apps/io/picture_text.hpp"
 #include "apps/io/treemap_scene.hpp"
 
 namespace powercell::io {
 namespace {
-
-constexpr const char* font = "DejaVu Sans";
-
-void select_font(cairo_t* to, bool bold, double size) {
-  cairo_select_font_face(to, font, CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(to, size);
-}
 
 void add_outline(cairo_t* to, const TreemapScene& scene, const TreemapScene::Cell& cell) {
   cairo_new_path(to);
@@ -75,20 +66,6 @@ void draw(cairo_t* to, const TreemapScene& scene) {
 }
 
 }  // namespace
-
-double text_width(const std::string& text, bool bold) {
-  struct Measure {
-    std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface{
-        cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy};
-    std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context{cairo_create(surface.get()), cairo_destroy};
-  };
-  static const Measure measure;
-  constexpr double em = 100;  // large, so that hinting does not round
-  select_font(measure.context.get(), bold, em);
-  cairo_text_extents_t extents;
-  cairo_text_extents(measure.context.get(), text.c_str(), &extents);
-  return extents.x_advance / em;
-}
 
 void draw_treemap_png(const std::string& path, const TreemapScene& scene) {
   paint_png(path, scene.width, scene.height, [&](cairo_t* to) { draw(to, scene); });

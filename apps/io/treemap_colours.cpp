@@ -1,30 +1,15 @@
-// Colours of treemaps, in Ottosson's OKLCH (2020), whose steps are perceptually uniform.
+// Colours of treemaps, in OKLCH.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <set>
 #include <string_view>
 
+#include "apps/io/colour_spaces.hpp"
 #include "apps/io/treemap_scene.hpp"
 
 namespace powercell::io {
 namespace {
-
-struct Lch {
-  double lightness, chroma, hue;  // hue in turns
-};
-
-Colour to_colour(const Lch& lch) {
-  const double a = lch.chroma * std::cos(2 * std::numbers::pi * lch.hue);
-  const double b = lch.chroma * std::sin(2 * std::numbers::pi * lch.hue);
-  const double l = std::pow(lch.lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
-  const double m = std::pow(lch.lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
-  const double s = std::pow(lch.lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-  return {to_srgb(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
-          to_srgb(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
-          to_srgb(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
-}
 
 // FNV-1a. A node keeps its colour when other nodes come, go or change their order.
 std::uint32_t hash_of(std::string_view id) {
@@ -88,7 +73,7 @@ std::vector<Colour> treemap_colours(const TreemapOutput& output) {
               above.hue + 0.045 * room * jitter(hash, 3)};
   }
   std::vector<Colour> colours(n);
-  std::transform(lch.begin(), lch.end(), colours.begin(), to_colour);
+  std::transform(lch.begin(), lch.end(), colours.begin(), [](const Lch& c) { return to_colour(c); });
   return colours;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "apps/io/picture_text.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/treemap_scene.hpp"
 

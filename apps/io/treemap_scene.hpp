@@ -44,9 +44,6 @@ std::vector<Colour> treemap_colours(const TreemapOutput& output);
 /// Adds names that fit into their cells without overlaps, large groups first.
 void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output);
 
-/// Width of a text of one em in the pictures' font.
-double text_width(const std::string& text, bool bold);
-
 void draw_treemap_svg(const std::string& path, const TreemapScene& scene, const TreemapOutput& output);
 void draw_treemap_png(const std::string& path, const TreemapScene& scene);
 void draw_treemap_pdf(const std::string& path, const TreemapScene& scene);

@@ -4,7 +4,7 @@
 #include <powercell/error.hpp>
 
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/picture_palette.hpp"
+#include "apps/io/picture_colours.hpp"
 #include "apps/io/write_formats.hpp"
 #include "apps/io/write_polygons.hpp"
 
@@ -67,7 +67,7 @@ void write_ply(const std::string& path, const DiagramOutput& output) {
                                              std::to_string(soup.vertex_count()) +
                                              " of them; write .vtp instead");
   }
-  const std::vector<Colour> colours = cell_colours(output.adjacency, output.measures.mass.size());
+  const std::vector<Colour> colours = colouring_of(output).colour;
   std::size_t most = 0;
   for (std::size_t p = 0; p < soup.size(); ++p) most = std::max(most, corners(soup, p));
   const bool long_faces = most > 255;
@@ -93,7 +93,7 @@ void write_ply(const std::string& path, const DiagramOutput& output) {
 
 void write_off(const std::string& path, const DiagramOutput& output) {
   const PolygonSoup soup = polygon_soup(output);
-  const std::vector<Colour> colours = cell_colours(output.adjacency, output.measures.mass.size());
+  const std::vector<Colour> colours = colouring_of(output).colour;
   AtomicFile file(path);
   file.write("OFF\n" + std::to_string(soup.vertex_count()) + " " + std::to_string(soup.size()) + " 0\n");
   for (std::size_t v = 0; v < soup.vertex_count(); ++v) write_point(file, &soup.vertices[3 * v]);

@@ -7,6 +7,7 @@
 
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/picture_cairo.hpp"
+#include "apps/io/picture_frame.hpp"
 #include "apps/io/read_file.hpp"
 
 namespace powercell::io {
@@ -37,18 +38,23 @@ void write_rows(const std::string& path, const PointOutput& output, bool csv) {
 
 /// Dots in pixels, y downwards.
 Scene scene_of(const PointOutput& output) {
-  constexpr double long_side = 1600;
   const auto low = output.domain.low(), high = output.domain.high();
-  const double scale = long_side / std::max(high[0] - low[0], high[1] - low[1]);
+  PictureFrame frame(output.size, {});
+  const PictureRoom& room = frame.room();
+  const double scale = std::min(room.width / (high[0] - low[0]), room.height / (high[1] - low[1]));
+  frame.place(std::max(1.0, std::ceil((high[0] - low[0]) * scale - 1e-6)),
+              std::max(1.0, std::ceil((high[1] - low[1]) * scale - 1e-6)));
   Scene scene;
-  scene.width = std::max(1.0, std::ceil((high[0] - low[0]) * scale - 1e-6));
-  scene.height = std::max(1.0, std::ceil((high[1] - low[1]) * scale - 1e-6));
+  scene.width = frame.width();
+  scene.height = frame.height();
+  scene.units_per_inch = output.size.points ? 72 : 96;
   scene.title = fmt::format("{} points", output.weights.size());
   scene.description = "dots made by powercell sample";
   for (std::size_t i = 0; i < output.weights.size(); ++i)
     scene.discs.push_back({Scene::Mark::dot, static_cast<std::uint32_t>(i),
-                           (output.positions[2 * i] - low[0]) * scale,
-                           (high[1] - output.positions[2 * i + 1]) * scale, output.radii[i] * scale});
+                           frame.left() + (output.positions[2 * i] - low[0]) * scale,
+                           frame.top() + (high[1] - output.positions[2 * i + 1]) * scale,
+                           output.radii[i] * scale});
   return scene;
 }
 

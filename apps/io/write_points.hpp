@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "apps/io/picture_style.hpp"
+
 namespace powercell::io {
 
 /// n points; nothing is owned.
@@ -16,6 +18,7 @@ struct PointOutput {
   std::span<const double> weights;    ///< n
   std::span<const double> mass;       ///< n
   std::span<const double> radii;      ///< n, of the dots, length; only pictures need them
+  PictureSize size = {};
 };
 
 inline constexpr std::string_view point_outputs = ".svg .png .pdf .csv .txt";
@@ -28,8 +31,8 @@ void check_points_format(const std::string& path);
 void check_points(const std::string& path, const Domain& domain);
 
 /// CSV `x,y[,z],weight,mass` (.csv), rows `x y [z] w` as `--seeds` takes them (.txt), or a picture of black
-/// dots on white paper (.svg .png .pdf), the domain's box 1600 pixels on its long side. \throw Error as
-/// check_points; write_failed
+/// dots on white paper (.svg .png .pdf), the domain's box, by default 1600 pixels on its long side. \throw
+/// Error as check_points; write_failed
 void write_points(const std::string& path, const PointOutput& output);
 
 }  // namespace powercell::io

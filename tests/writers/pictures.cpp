@@ -190,7 +190,7 @@ TEST_CASE("the picture of a surface shows all of it, with each cell as a part") 
 TEST_CASE("a volume is opened: cells of the octant towards the camera are omitted") {
   const MadeDiagram made = volume_diagram(64);
   const io::Model model = io::volume_model(made.output());
-  const io::Vec3 view = io::View{}.towards;
+  const io::Vec3 view = io::PictureStyle{}.towards;
   double six_volumes = 0;
   for (const auto& t : model.triangles)
     six_volumes += static_cast<double>(dot(t.corner[0], io::cross(t.corner[1], t.corner[2])));
@@ -219,7 +219,7 @@ TEST_CASE("lines divide parts and creases, and nothing else") {
     square(model, {-0.6f, -0.3f, 0}, {0.6f, 0, 0}, {0, 0.6f, 0}, 0);
     square(model, {0, -0.3f, 0}, {0.6f, 0, 0}, {0, 0.6f, 0}, second);
     square(model, {-0.6f, -0.3f, -0.6f}, {1.2f, 0, 0}, {0, 0, 0.6f}, third);
-    const io::Image image = io::render(model, {.size = 400});
+    const io::Image image = io::render(model, {.width = 400, .height = 400});
     std::ptrdiff_t dark = 0;
     for (std::size_t k = 0; k < image.rgb.size(); k += 3) dark += image.rgb[k] < 60;
     return dark;
@@ -271,7 +271,8 @@ TEST_CASE("triangles that share edges leave no sample between them") {
 
 TEST_CASE("pictures are reproducible") {
   const io::Model model = io::volume_model(volume_diagram(10).output());
-  CHECK(io::render(model, {.size = 200}).rgb == io::render(model, {.size = 200}).rgb);
+  CHECK(io::render(model, {.width = 200, .height = 200}).rgb ==
+        io::render(model, {.width = 200, .height = 200}).rgb);
   TemporaryFolder folder;
   const MadeDiagram made = polygon_diagram(30);
   for (const std::string extension : {".svg", ".png"}) {
