@@ -8,6 +8,7 @@
 
 #include "apps/common.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/picture.hpp"
 #include "apps/io/read_tree.hpp"
 #include "apps/io/write_treemap.hpp"
 #include "apps/number_checks.hpp"
@@ -20,13 +21,13 @@ namespace powercell::app {
 namespace {
 
 struct TreemapArguments : CommonOptions {
-  std::string tree, shape = "16:10", previous;
+  std::string tree, shape = "16:10", previous, color_by;
   std::vector<std::string> outputs;
   int rounds = TreemapOptions{}.rounds;
   std::uint64_t random_seed = 1;
   double tolerance = TreemapOptions{}.tolerance;
   double size = io::TreemapStyle{}.long_side;
-  bool no_labels = false;
+  bool no_labels = false, no_legend = false;
 };
 
 constexpr const char* laying_out = "laying out";
@@ -38,9 +39,14 @@ std::vector<std::string> dropped_ids(const io::NamedTree& tree, const Treemap& m
   return ids;
 }
 
-/// \param hue  output: the numbers that choose the hues of the branches
+/// The numbers that choose the hues of the branches and the shades of the groups below them.
+struct Tints {
+  std::vector<std::int64_t> hue, shade;
+};
+
+/// \param tints  output
 Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, const Ring& outline,
-                std::vector<std::int64_t>& hue, Progress& progress) {
+                Tints& tints, Progress& progress) {
   TreemapOptions options;
   options.tolerance = arguments.tolerance;
   options.rounds = arguments.rounds;
@@ -52,7 +58,7 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
     const io::EarlierLayout earlier = io::read_earlier_layout(arguments.previous, tree);
     start = relative_positions(earlier.parent, earlier.seeds, earlier.vertex_offset, earlier.vertices);
     options.start = start;
-    hue = earlier.hue;
+    tints = {earlier.hue, earlier.shade};
   }
   // A device is opened only if there is a large group.
   std::vector<std::size_t> children(tree.size());
@@ -67,7 +73,8 @@ Treemap lay_out(const TreemapArguments& arguments, const io::NamedTree& tree, co
   options.progress = progress.callback();
   Treemap map;
   compute([&] { map = treemap({tree.parent, tree.value}, outline, options); });
-  hue = io::number_branches(map, hue);
+  tints.hue = io::number_branches(map, tints.hue);
+  tints.shade = io::number_groups(map, tree.parent, tints.shade);
   return map;
 }
 
@@ -116,19 +123,36 @@ void print(const io::NamedTree& tree, const Treemap& map, const std::vector<std:
              building_note(progress.build()));
 }
 
+/// \throw WrongUsage for options that would have no effect, or leave no room
+void check_colours(const TreemapArguments& arguments) {
+  constexpr double least_with_legend = 200;
+  if (arguments.color_by.empty() && arguments.no_legend)
+    throw WrongUsage("--no-legend leaves out the legend of --color-by, which is not given");
+  if (arguments.color_by.empty()) return;
+  if (std::none_of(arguments.outputs.begin(), arguments.outputs.end(), io::is_picture))
+    throw WrongUsage("--color-by is for pictures; name one, such as -o map.svg");
+  if (!arguments.no_legend && arguments.size < least_with_legend)
+    throw WrongUsage(fmt::format(
+        "--size {}: below {} there is no room for the legend of --color-by; leave it out with --no-legend",
+        arguments.size, least_with_legend));
+}
+
 int run(const TreemapArguments& arguments) {
+  check_colours(arguments);
   check_writable(arguments.outputs, {}, arguments.json);
   Progress progress({{stage::reading, 3}, {stage::opening, 2}, {laying_out, 85}, {stage::writing, 10}},
                     arguments.silent());
   std::vector<std::string> notes;
   const Ring outline = treemap_shape(arguments.shape, notes);
-  io::NamedTree tree = io::read_tree(arguments.tree);
+  io::NamedTree tree = io::read_tree(arguments.tree, arguments.color_by);
+  io::check_tree_colours(tree);
   tree.notes.insert(tree.notes.end(), notes.begin(), notes.end());
-  std::vector<std::int64_t> hue;
-  const Treemap map = lay_out(arguments, tree, outline, hue, progress);
+  Tints tints;
+  const Treemap map = lay_out(arguments, tree, outline, tints, progress);
   progress.begin(stage::writing);
   for (const std::string& path : arguments.outputs)
-    io::write_treemap(path, {tree, map, hue}, {arguments.size, !arguments.no_labels});
+    io::write_treemap(path, {tree, map, tints.hue, tints.shade},
+                      {arguments.size, !arguments.no_labels, !arguments.no_legend});
   progress.finish();
   if (arguments.json)
     print_json(tree, map, arguments.outputs, progress);
@@ -187,6 +211,13 @@ Command add_treemap(CLI::App& app) {
   command->add_option("--size", arguments->size, "Long side of the picture in pixels")
       ->check(between(64, 20000))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--color-by", arguments->color_by,
+          "Colour the leaves by a column of the table, or a member of the JSON objects: numbers on a scale, "
+          "colours such as #3a6b9c, or a colour for each text; leaves without one take that of their group")
+      ->type_name("COLUMN");
+  command->add_flag("--no-legend", arguments->no_legend, "No legend for --color-by");
   command->add_flag("--no-labels", arguments->no_labels, "No names in the picture");
   command->add_option("--device", arguments->device,
                       "For groups of thousands of nodes: part of a device's name, P:D, cpu or gpu");

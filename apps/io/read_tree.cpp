@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <powercell/error.hpp>
 
 #include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
@@ -62,16 +63,25 @@ void note_own_values(NamedTree& tree) {
 
 }  // namespace
 
-NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name) {
-  NamedTree tree = extension == ".json" ? parse_tree_json(bytes, name) : parse_tree_table(bytes, name);
+NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name,
+                     const std::string& colours) {
+  NamedTree tree =
+      extension == ".json" ? parse_tree_json(bytes, name, colours) : parse_tree_table(bytes, name, colours);
   note_own_values(tree);
+  tree.colour_column = colours;
+  if (colours.empty()) tree.colour.clear();
   return tree;
 }
 
-NamedTree read_tree(const std::string& path) {
+NamedTree read_tree(const std::string& path, const std::string& colours) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return scan_folder(path);
-  return parse_tree(read_file(path), lower_extension(path), path);
+  if (!std::filesystem::is_directory(path, ignored))
+    return parse_tree(read_file(path), lower_extension(path), path, colours);
+  if (!colours.empty())
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("--color-by {}: {} is a folder, which has no columns; give a table or JSON",
+                            readable(colours), readable(path)));
+  return scan_folder(path);
 }
 
 }  // namespace powercell::io

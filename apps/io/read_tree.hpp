@@ -15,7 +15,10 @@ struct NamedTree {
   std::vector<std::string> name;     ///< n, for people
   std::vector<std::int64_t> parent;  ///< n: index of the parent, -1 for the root
   std::vector<double> value;         ///< n; 0 if the input has no value
-  std::vector<std::string> notes;    ///< omissions, e.g. folders that could not be read
+  /// n: fields of the colour column, empty where there is none; or nothing if no column was asked for.
+  std::vector<std::string> colour;
+  std::string colour_column;       ///< its name
+  std::vector<std::string> notes;  ///< omissions, e.g. folders that could not be read
 
   /// For inputs with numbered rows: the prefix of the number, "sales.csv:" or "list.json: element ", and n
   /// numbers, 0 for an implied row. Else empty; ids are paths then.
@@ -42,10 +45,13 @@ struct NamedTree {
 /// missing; a note tells where they differ from the sum of the leaves. \throw Error invalid_file for a cycle,
 /// an orphan, a repeated id, or a value that is not a number (which
 ///   row)
-NamedTree read_tree(const std::string& path);
+/// \param colours  a column of the table, or a member of the JSON objects, whose values are colours or stand
+/// for some; empty for none \throw Error invalid_argument if there is no such column
+NamedTree read_tree(const std::string& path, const std::string& colours = {});
 
 /// The same from memory. \param extension lower case with its dot  \param name  for messages
-NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name);
+NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name,
+                     const std::string& colours = {});
 
 /// Polygons and seeds of an earlier layout for the nodes of the present tree, matched by id.
 struct EarlierLayout {
@@ -53,8 +59,9 @@ struct EarlierLayout {
   std::vector<double> seeds;                 ///< n x 2; NaN if unknown
   std::vector<std::uint64_t> vertex_offset;  ///< n + 1; nodes missing in the layout have no vertices
   std::vector<double> vertices;
-  std::vector<std::int64_t> hue;  ///< n: of number_branches; -1 if unknown
-  std::size_t known = 0;          ///< number of nodes in the layout
+  std::vector<std::int64_t> hue;    ///< n: of number_branches; -1 if unknown
+  std::vector<std::int64_t> shade;  ///< n: of number_groups; -1 if unknown
+  std::size_t known = 0;            ///< number of nodes in the layout
 };
 /// \throw Error invalid_file if it is not a layout written by `write_treemap` (which element)
 EarlierLayout read_earlier_layout(const std::string& path, const NamedTree& tree);

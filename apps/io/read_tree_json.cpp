@@ -1,10 +1,13 @@
 // Nested objects {name, children, value}, and lists of rows {id, parent, name, value}.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <powercell/error.hpp>
 #include <unordered_map>
 
+#include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_tree_rows.hpp"
 
@@ -52,7 +55,16 @@ double as_value(const json& object, const std::string& file, const Place& place)
   return number;
 }
 
-NamedTree read_list(const json& list, const std::string& name) {
+// The member that colours come from, as text; empty if the object has none.
+template <class Place>
+std::string colour_of(const json& object, const std::string& colours, const std::string& file,
+                      const Place& place) {
+  const json* value = colours.empty() ? nullptr : member(object, {colours.c_str()});
+  if (value && value->is_boolean()) return value->dump();
+  return as_text(value, "colour", file, place);
+}
+
+NamedTree read_list(const json& list, const std::string& name, const std::string& colours) {
   std::vector<TreeRow> rows;
   rows.reserve(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -66,6 +78,7 @@ NamedTree read_list(const json& list, const std::string& name) {
     row.parent = as_text(member(object, {"parent", "parentId"}), "parent", name, place);
     row.name = as_text(member(object, {"name", "label"}), "name", name, place);
     row.value = as_value(object, name, place);
+    row.colour = colour_of(object, colours, name, place);
     rows.push_back(std::move(row));
   }
   return link_rows(std::move(rows), name, false);
@@ -77,7 +90,7 @@ constexpr std::size_t most_id_bytes = std::size_t{1} << 28;
 
 class Nested {
  public:
-  explicit Nested(const std::string& file) : file_(file) {}
+  Nested(const std::string& file, const std::string& colours) : file_(file), colours_(colours) {}
 
   NamedTree read(const json& root) {
     std::vector<std::pair<const json*, std::int64_t>> open = {{&root, -1}};
@@ -115,8 +128,9 @@ class Nested {
           "name, value}");
     tree_.name.push_back(std::move(name));
     tree_.parent.push_back(parent);
-    tree_.value.push_back(
-        as_value(object, file_, [&] { return "'" + tree_.id[static_cast<std::size_t>(node)] + "'"; }));
+    const auto place = [&] { return "'" + tree_.id[static_cast<std::size_t>(node)] + "'"; };
+    tree_.value.push_back(as_value(object, file_, place));
+    tree_.colour.push_back(colour_of(object, colours_, file_, place));
     return node;
   }
 
@@ -131,6 +145,7 @@ class Nested {
   }
 
   const std::string& file_;
+  const std::string& colours_;
   NamedTree tree_;
   std::unordered_map<std::string, int> used_;  // ids, and the number of nodes with that path
   std::size_t id_bytes_ = 0;
@@ -153,10 +168,10 @@ void add_polygon(const json& element, EarlierLayout& layout, std::size_t place, 
   }
 }
 
-/// -1 if missing, as in files of earlier versions.
-std::int64_t hue_of(const json& element) {
+/// -1 if missing, as in files of earlier versions. \param key  "hue" or "shade"
+std::int64_t number_of(const json& element, const char* key) {
   constexpr std::int64_t most = 1'000'000'000;  // more branches have no colours of their own
-  const json* hue = member(element, {"hue"});
+  const json* hue = member(element, {key});
   if (!hue || !hue->is_number_integer()) return -1;
   const auto number = hue->get<std::int64_t>();
   return number >= 0 && number <= most ? number : -1;
@@ -164,12 +179,19 @@ std::int64_t hue_of(const json& element) {
 
 }  // namespace
 
-NamedTree parse_tree_json(std::string_view text, const std::string& name) {
+NamedTree parse_tree_json(std::string_view text, const std::string& name, const std::string& colours) {
   const json document = parse(text, name);
-  if (document.is_array()) return read_list(document, name);
-  if (document.is_object()) return Nested(name).read(document);
-  fail_file(name,
-            "is neither an object {name, children, value} nor a list of rows {id, parent, name, value}");
+  if (!document.is_array() && !document.is_object())
+    fail_file(name,
+              "is neither an object {name, children, value} nor a list of rows {id, parent, name, value}");
+  NamedTree tree =
+      document.is_array() ? read_list(document, name, colours) : Nested(name, colours).read(document);
+  const auto& given = tree.colour;
+  if (!colours.empty() && std::all_of(given.begin(), given.end(), [](const auto& c) { return c.empty(); }))
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("--color-by {}: no node of {} has a member of that name", readable(colours),
+                            readable(name)));
+  return tree;
 }
 
 EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree, const std::string& name) {
@@ -185,6 +207,7 @@ EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree
   layout.vertex_offset.assign(1, 0);
   layout.seeds.assign(2 * tree.size(), std::nan(""));
   layout.hue.assign(tree.size(), -1);
+  layout.shade.assign(tree.size(), -1);
   for (std::size_t i = 0; i < tree.size(); ++i) {
     std::int64_t parent = tree.parent[i];
     const auto found = at.find(tree.id[i]);
@@ -193,7 +216,8 @@ EarlierLayout parse_earlier_layout(std::string_view bytes, const NamedTree& tree
       add_polygon(element, layout, found->second + 1, name);
       ++layout.known;
       if (parent >= 0 && id_of(element, "parent") != tree.id[static_cast<std::size_t>(parent)]) parent = -1;
-      layout.hue[i] = hue_of(element);
+      layout.hue[i] = number_of(element, "hue");
+      layout.shade[i] = number_of(element, "shade");
       const json* seed = member(element, {"seed"});
       if (seed && seed->is_array() && seed->size() == 2 && (*seed)[0].is_number() && (*seed)[1].is_number()) {
         layout.seeds[2 * i] = (*seed)[0].get<double>();

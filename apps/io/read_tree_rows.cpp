@@ -57,7 +57,7 @@ class Linker {
       if (row.parent.empty()) row.parent = id;
     if (roots > 1) tree_.notes.push_back(fmt::format("{} rows have no parent; a root holds them", roots));
     const std::size_t slash = file_.find_last_of('/');
-    rows_.push_back({id, "", slash == std::string::npos ? file_ : file_.substr(slash + 1), 0, 0});
+    rows_.push_back({id, "", slash == std::string::npos ? file_ : file_.substr(slash + 1), "", 0, 0});
     at_.emplace(id, rows_.size() - 1);
   }
 
@@ -77,6 +77,7 @@ class Linker {
     tree_.rows = file_ + (lines_ ? ":" : ": element ");
     for (TreeRow& row : rows_) {
       tree_.row.push_back(row.place);
+      tree_.colour.push_back(std::move(row.colour));
       tree_.id.push_back(std::move(row.id));
       tree_.name.push_back(row.name.empty() ? tree_.id.back() : std::move(row.name));
     }

@@ -12,6 +12,7 @@ namespace powercell::io {
 
 struct TreeRow {
   std::string id, parent, name;  ///< the root has an empty parent
+  std::string colour;            ///< of NamedTree
   double value = 0;
   std::size_t place = 0;  ///< line of a table, or number of an element of a list from 1
 };
@@ -22,8 +23,8 @@ struct TreeRow {
 NamedTree link_rows(std::vector<TreeRow> rows, const std::string& file, bool lines);
 
 /// The formats of read_tree. \throw Error invalid_file
-NamedTree parse_tree_table(std::string_view text, const std::string& name);
-NamedTree parse_tree_json(std::string_view text, const std::string& name);
+NamedTree parse_tree_table(std::string_view text, const std::string& name, const std::string& colours);
+NamedTree parse_tree_json(std::string_view text, const std::string& name, const std::string& colours);
 NamedTree scan_folder(const std::string& path);
 
 }  // namespace powercell::io

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <powercell/error.hpp>
 #include <unordered_set>
 
 #include "apps/io/printable.hpp"
@@ -15,7 +16,7 @@
 namespace powercell::io {
 namespace {
 
-enum FileColumn { id_column, parent_column, name_column, value_column, columns };
+enum TreeColumn { id_column, parent_column, name_column, value_column, columns };
 
 constexpr std::array<std::array<std::string_view, 4>, columns> headings = {
     {{"id", "nodeid", "node", "key"},
@@ -43,6 +44,18 @@ char find_separator(std::string_view text) {
 }
 
 using Places = std::array<std::optional<std::size_t>, columns>;
+
+// The place of the colour column in a header. \throw Error invalid_argument
+std::size_t colour_place(const Fields& header, const std::string& colours) {
+  std::string known;
+  for (std::size_t f = 0; f < header.size(); ++f) {
+    if (column_name(header[f]) == column_name(colours)) return f;
+    known += (known.empty() ? "" : ", ") + std::string(trimmed(header[f]));
+  }
+  throw Error(ErrorCode::invalid_argument,
+              fmt::format("--color-by {}: there is no such column; the table has {}", readable(colours),
+                          readable(known)));
+}
 
 // The places of the columns, if this is a header.
 std::optional<Places> read_header(const Fields& fields) {
@@ -115,7 +128,7 @@ class Paths {
       if (rows[k].name.empty()) rows[k].name = unescaped(rows[k].id.substr(end + 1));
       rows[k].parent = above;
       if (known.insert(above).second)
-        rows.push_back({above, "", above.find(split) == std::string::npos ? unescaped(above) : "", 0, 0});
+        rows.push_back({above, "", above.find(split) == std::string::npos ? unescaped(above) : "", "", 0, 0});
     }
     return levels_.size() > 1 ? "" : fmt::format("ids are taken as paths separated by '{}'", split);
   }
@@ -159,7 +172,7 @@ std::string described(const Fields& header, const std::vector<std::size_t>& leve
 
 }  // namespace
 
-NamedTree parse_tree_table(std::string_view text, const std::string& name) {
+NamedTree parse_tree_table(std::string_view text, const std::string& name, const std::string& colours) {
   const std::optional<char> announced = announced_separator(text);
   Records records(text, name, announced ? *announced : find_separator(text));
   Places places = {0, 1, 2, 3};
@@ -167,6 +180,7 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name) {
   Fields fields;
   std::vector<TreeRow> rows;
   std::optional<Paths> paths;
+  std::optional<std::size_t> colour;
   std::vector<std::string> notes;
   if (announced) records.next(fields);
   for (bool first = true; records.next(fields); first = false) {
@@ -174,13 +188,15 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name) {
       if (const auto header = read_header(fields)) {
         places = *header;
         width = fields.size();
+        if (!colours.empty()) colour = colour_place(fields, colours);
         if (!places[value_column])
           fail_line(name, records.line(), "the header has no column value, weight or size");
         if (places[parent_column]) continue;
         std::vector<std::size_t> levels;
         if (places[id_column]) levels = {*places[id_column]};
         for (std::size_t f = 0; f < width && !places[id_column]; ++f)
-          if (f != *places[value_column]) levels.push_back(f);
+          if (f != *places[value_column] && f != colour) levels.push_back(f);
+        if (levels.empty()) levels.push_back(*colour);  // names may choose their colours
         if (levels.size() > 1) notes.push_back(described(fields, levels));
         paths.emplace(std::move(levels), places[id_column].has_value());
         continue;
@@ -193,9 +209,14 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name) {
                     fields.size(), width));
     rows.push_back(paths ? paths->read(fields, places, name, records.line())
                          : read_row(fields, places, name, records.line()));
+    rows.back().colour = field_of(fields, colour);
   }
   if (paths)
     if (std::string note = paths->link(rows); !note.empty()) notes.push_back(std::move(note));
+  if (!colours.empty() && !colour)
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("--color-by {}: {} has no header; name its columns in a first line",
+                            readable(colours), readable(name)));
   NamedTree tree = link_rows(std::move(rows), name, true);
   tree.notes.insert(tree.notes.begin(), notes.begin(), notes.end());
   return tree;

@@ -16,21 +16,16 @@ void add_outline(cairo_t* to, const TreemapScene& scene, const TreemapScene::Cel
 
 void draw_label(cairo_t* to, const TreemapScene::Label& label) {
   select_font(to, label.bold, label.size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(to, label.text.c_str(), &extents);
-  cairo_font_extents_t lines;
-  cairo_font_extents(to, &lines);
-  cairo_move_to(to, label.x - extents.x_advance / 2, label.y + (lines.ascent - lines.descent) / 2);
   if (label.bold) {
-    cairo_text_path(to, label.text.c_str());
+    add_text_path(to, label.text, label.x, label.y, 0.5);
     set_colour(to, paper, 0.6);
-    cairo_set_line_width(to, 0.16 * label.size);
+    cairo_set_line_width(to, label_halo * label.size);
     cairo_stroke_preserve(to);
     set_colour(to, ink, label.opacity);
     cairo_fill(to);
   } else {
-    set_colour(to, ink, label.opacity);
-    cairo_show_text(to, label.text.c_str());
+    set_colour(to, label.light ? paper : ink, label.opacity);
+    show_text(to, label.text, label.x, label.y, 0.5);
   }
 }
 
@@ -57,12 +52,17 @@ void draw(cairo_t* to, const TreemapScene& scene) {
       continue;
     }
     add_outline(to, scene, cell);
-    set_colour(to, cell.fill);
-    cairo_fill(to);
+    if (cell.striped) {
+      fill_striped(to, scene.stripes);
+    } else {
+      set_colour(to, cell.fill);
+      cairo_fill(to);
+    }
     wall(cell);
   }
   close_up_to(scene.cells.size() + 1);
   for (const TreemapScene::Label& label : scene.labels) draw_label(to, label);
+  draw_legend(to, scene.legend);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
-// Labels of treemaps: the largest upright box of a text's proportions inside a convex cell.
+// Labels of treemaps: the largest upright box of a text's proportions inside a convex cell, clear of its
+// walls.
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <limits>
 
+#include "apps/io/colour_spaces.hpp"
 #include "apps/io/picture_text.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/treemap_scene.hpp"
@@ -10,28 +12,36 @@
 namespace powercell::io {
 namespace {
 
-using Polygon = std::vector<std::array<double, 2>>;
-
-constexpr double line_height = 1.15;  // of an em
-constexpr double filled = 0.86;       // of the largest box that fits
+constexpr double label_height = 1.17;  // of an em, with accents and descenders
+constexpr double filled = 0.86;        // of the largest box that fits
+constexpr double coincident = 1e-3;    // pixels between edges of a cell and of its group that are one
 
 struct Box {
   double x = 0, y = 0, half_width = 0, half_height = 0;
+  bool empty() const { return !(half_width > 0); }
 };
 
-// The size s for which the box (x, y, s half_width, s half_height) touches the polygon; negative outside. It
-// is the minimum of affine functions of x and y and therefore concave.
-double size_at(const Polygon& polygon, double orientation, double x, double y, double half_width,
-               double half_height) {
-  double size = 1e300;
-  for (std::size_t v = 0; v < polygon.size(); ++v) {
-    const auto &a = polygon[v], &b = polygon[v + 1 == polygon.size() ? 0 : v + 1];
-    const double nx = -orientation * (b[1] - a[1]), ny = orientation * (b[0] - a[0]);  // inwards
-    const double reach = std::fabs(nx) * half_width + std::fabs(ny) * half_height;
-    if (reach > 0) size = std::min(size, (nx * (x - a[0]) + ny * (y - a[1])) / reach);
+// Where nx x + ny y >= offset; (nx, ny) is a unit vector.
+struct HalfPlane {
+  double nx, ny, offset;
+};
+
+// A convex part of the picture.
+struct FreePart {
+  std::vector<HalfPlane> sides;
+  double low[2], high[2];  // contains it
+
+  // The size s for which the box (x, y, s half_width, s half_height) touches a side; negative outside. It is
+  // the minimum of affine functions of x and y and therefore concave.
+  double size_at(double x, double y, double half_width, double half_height) const {
+    double size = std::numeric_limits<double>::infinity();
+    for (const HalfPlane& side : sides) {
+      const double reach = std::fabs(side.nx) * half_width + std::fabs(side.ny) * half_height;
+      size = std::min(size, (side.nx * x + side.ny * y - side.offset) / reach);
+    }
+    return size;
   }
-  return size;
-}
+};
 
 template <class Function>
 double argmax(double low, double high, const Function& function) {
@@ -56,54 +66,43 @@ double argmax(double low, double high, const Function& function) {
   return 0.5 * (low + high);
 }
 
-double signed_area(const Polygon& p) {
-  double twice = 0;
-  for (std::size_t v = 0; v < p.size(); ++v) {
-    const auto &a = p[v], &b = p[v + 1 == p.size() ? 0 : v + 1];
-    twice += a[0] * b[1] - a[1] * b[0];
-  }
-  return twice / 2;
-}
-
 // The largest box of these proportions, at most `most` times as large, by a golden section search in y over
 // golden section searches in x.
-Box largest_box(const Polygon& polygon, double half_width, double half_height, double most) {
-  if (polygon.size() < 3) return {};
-  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
-  for (const auto& p : polygon)
-    for (int k = 0; k < 2; ++k) {
-      low[k] = std::min(low[k], p[static_cast<std::size_t>(k)]);
-      high[k] = std::max(high[k], p[static_cast<std::size_t>(k)]);
-    }
-  const double orientation = signed_area(polygon) < 0 ? -1 : 1;
-  const auto size = [&](double x, double y) {
-    return size_at(polygon, orientation, x, y, half_width, half_height);
+Box largest_box(const FreePart& part, double half_width, double half_height, double most) {
+  const auto size = [&](double x, double y) { return part.size_at(x, y, half_width, half_height); };
+  const auto best_x = [&](double y) {
+    return argmax(part.low[0], part.high[0], [&](double x) { return size(x, y); });
   };
-  const auto best_x = [&](double y) { return argmax(low[0], high[0], [&](double x) { return size(x, y); }); };
-  const double y = argmax(low[1], high[1], [&](double at) { return size(best_x(at), at); });
-  const double x = best_x(y), s = std::min(std::max(size(x, y), 0.0), most);
+  const double y = argmax(part.low[1], part.high[1], [&](double at) { return size(best_x(at), at); });
+  const double x = best_x(y), s = std::clamp(size(x, y), 0.0, most);
   return {x, y, s * half_width, s * half_height};
-}
-
-// The part with y <= limit, or with y >= limit.
-Polygon cut(const Polygon& polygon, double limit, bool above) {
-  Polygon kept;
-  const double sign = above ? 1 : -1;
-  for (std::size_t v = 0; v < polygon.size(); ++v) {
-    const auto &a = polygon[v], &b = polygon[v + 1 == polygon.size() ? 0 : v + 1];
-    const double at_a = sign * (a[1] - limit), at_b = sign * (b[1] - limit);
-    if (at_a <= 0) kept.push_back(a);
-    if (at_a * at_b < 0) {
-      const double t = at_a / (at_a - at_b);
-      kept.push_back({a[0] + t * (b[0] - a[0]), limit});
-    }
-  }
-  return kept;
 }
 
 bool overlap(const Box& a, const Box& b) {
   return std::fabs(a.x - b.x) < a.half_width + b.half_width &&
-         std::fabs(a.y - b.y) < 0.999 * (a.half_height + b.half_height);
+         std::fabs(a.y - b.y) < a.half_height + b.half_height;
+}
+
+// Moves the box above or below the boxes that it overlaps, whichever leaves more room; false if it keeps
+// overlapping.
+bool avoid(const std::vector<Box>& others, FreePart part, double half_width, double half_height, double most,
+           Box& box) {
+  const auto touched = [&] {
+    return std::find_if(others.begin(), others.end(), [&](const Box& other) { return overlap(box, other); });
+  };
+  std::size_t moves = 0;
+  for (auto other = touched(); other != others.end(); other = touched()) {
+    if (++moves > others.size() || box.empty()) return false;
+    FreePart upper = part, lower = std::move(part);
+    upper.sides.push_back({0, -1, -(other->y - other->half_height)});
+    lower.sides.push_back({0, 1, other->y + other->half_height});
+    const Box a = largest_box(upper, half_width, half_height, most),
+              b = largest_box(lower, half_width, half_height, most);
+    const bool up = a.half_height > b.half_height;
+    box = up ? a : b;
+    part = up ? std::move(upper) : std::move(lower);
+  }
+  return true;
 }
 
 struct Limits {
@@ -118,27 +117,28 @@ Limits limits(std::uint32_t depth, bool leaf, double scale) {
 
 class Labels {
  public:
-  Labels(TreemapScene& scene, const TreemapOutput& output) : scene_(scene), output_(output) {}
+  Labels(TreemapScene& scene, const TreemapOutput& output, double scale)
+      : scene_(scene), output_(output), scale_(scale) {}
 
   // Places the labels of groups from the top down, then those of leaves. A label that overlaps an earlier one
   // moves above or below it.
   void run() {
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < scene_.cells.size(); ++k)
-      if (output_.map.depth[scene_.cells[k].node] > 0) order.push_back(k);
+      if (depth(k) > 0) order.push_back(k);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
-    blockers_.resize(scene_.cells.size());
+    placed_.resize(scene_.cells.size());
     find_parents();
+    find_parts();
     for (const std::uint32_t k : order) place(k);
     // The last label drawn is on top: groups over leaves.
     std::reverse(scene_.labels.begin(), scene_.labels.end());
   }
 
  private:
-  std::uint32_t rank(std::uint32_t k) const {
-    return scene_.cells[k].leaf ? 1000000u : output_.map.depth[scene_.cells[k].node];
-  }
+  std::uint32_t depth(std::uint32_t k) const { return output_.map.depth[scene_.cells[k].node]; }
+  std::uint32_t rank(std::uint32_t k) const { return scene_.cells[k].leaf ? 1000000u : depth(k); }
 
   void find_parents() {
     parent_.assign(scene_.cells.size(), 0);
@@ -150,78 +150,97 @@ class Labels {
     }
   }
 
+  // The inside of each cell without the walls over it, each as wide as the widest of its level.
+  void find_parts() {
+    part_.resize(scene_.cells.size());
+    for (std::uint32_t k = 0; k < scene_.cells.size(); ++k) add_sides(k);
+  }
+
+  void add_sides(std::uint32_t k) {
+    const TreemapScene::Cell& cell = scene_.cells[k];
+    FreePart& part = part_[k];
+    double twice_area = 0;
+    std::fill(std::begin(part.low), std::end(part.low), std::numeric_limits<double>::infinity());
+    std::fill(std::begin(part.high), std::end(part.high), -std::numeric_limits<double>::infinity());
+    for (std::uint64_t v = cell.first; v < cell.end; ++v) {
+      const double *a = point(v), *b = point(v + 1 == cell.end ? cell.first : v + 1);
+      twice_area += a[0] * b[1] - a[1] * b[0];
+      for (int axis = 0; axis < 2; ++axis) {
+        part.low[axis] = std::min(part.low[axis], a[axis]);
+        part.high[axis] = std::max(part.high[axis], a[axis]);
+      }
+    }
+    const double orientation = twice_area < 0 ? -1 : 1;
+    for (std::uint64_t v = cell.first; v < cell.end; ++v) {
+      const double *a = point(v), *b = point(v + 1 == cell.end ? cell.first : v + 1);
+      const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+      if (!(length > 0)) continue;
+      const double nx = -orientation * (b[1] - a[1]) / length, ny = orientation * (b[0] - a[0]) / length;
+      const double offset = nx * a[0] + ny * a[1];
+      part.sides.push_back({nx, ny, offset + widest_wall(depth(k), scale_) / 2});
+    }
+    const std::uint32_t above = parent_[k];
+    if (above == k) return;
+    // Walls of the groups around it, which may reach into the cell from a corner only.
+    for (const HalfPlane& side : part_[above].sides) {
+      bool reaches_in = false;
+      for (std::uint64_t v = cell.first; v < cell.end; ++v)
+        reaches_in = reaches_in || side.nx * point(v)[0] + side.ny * point(v)[1] < side.offset;
+      if (reaches_in) part.sides.push_back(side);
+    }
+  }
+
+  const double* point(std::uint64_t v) const { return &scene_.points[2 * v]; }
+
   // Only labels of ancestors can lie over a cell.
   std::vector<Box> over(std::uint32_t k) const {
     std::vector<Box> boxes;
     for (std::uint32_t at = k; parent_[at] != at;) {
       at = parent_[at];
-      if (blockers_[at].half_width > 0) boxes.push_back(blockers_[at]);
+      if (!placed_[at].empty()) boxes.push_back(placed_[at]);
     }
     return boxes;
   }
 
-  // Moves the box above or below the boxes that it overlaps, whichever leaves more room; false if it keeps
-  // overlapping.
-  static bool avoid(const std::vector<Box>& others, Polygon polygon, double half_width, double half_height,
-                    double most, Box& box) {
-    const auto touched = [&] {
-      return std::find_if(others.begin(), others.end(),
-                          [&](const Box& other) { return overlap(box, other); });
-    };
-    std::size_t moves = 0;
-    for (auto other = touched(); other != others.end(); other = touched()) {
-      if (++moves > others.size()) return false;
-      Polygon upper = cut(polygon, other->y - other->half_height, true);
-      Polygon lower = cut(polygon, other->y + other->half_height, false);
-      const Box a = largest_box(upper, half_width, half_height, most),
-                b = largest_box(lower, half_width, half_height, most);
-      const bool up = a.half_height > b.half_height;
-      box = up ? a : b;
-      polygon = up ? std::move(upper) : std::move(lower);
-    }
-    return true;
-  }
-
   void place(std::uint32_t k) {
     const TreemapScene::Cell& cell = scene_.cells[k];
-    const std::uint32_t depth = output_.map.depth[cell.node];
-    if (parent_[k] != k && scene_.below[parent_[k]] == scene_.below[k] + 1 && depth > 1 &&
-        blockers_[parent_[k]].half_width > 0) {
-      blockers_[k] = blockers_[parent_[k]];  // the parent's label also stands for an only child
+    const std::uint32_t above = parent_[k];
+    if (above != k && scene_.below[above] == scene_.below[k] + 1 && depth(k) > 1 && !placed_[above].empty()) {
+      placed_[k] = placed_[above];  // the parent's label also stands for an only child
       return;
     }
-    const Limits allowed = limits(depth, cell.leaf, std::max(scene_.width, scene_.height) / 1600);
+    const Limits allowed = limits(depth(k), cell.leaf, scale_);
     const std::string text = printable(output_.tree.name[cell.node]);
     const bool bold = !cell.leaf;
-    const double half_width = 0.5 * text_width(text, bold), half_height = 0.5 * line_height;
-    Polygon polygon;
-    double low = 1e300, high = -1e300;
-    for (std::uint64_t v = cell.first; v < cell.end; ++v) {
-      polygon.push_back({scene_.points[2 * v], scene_.points[2 * v + 1]});
-      low = std::min(low, polygon.back()[0]);
-      high = std::max(high, polygon.back()[0]);
-    }
-    if (half_width <= 0 || (high - low) * filled < 2 * allowed.least * half_width) return;
+    const double width = text_width(text, bold), halo = bold ? label_halo : 0;
+    const double half_width = 0.5 * (width + halo), half_height = 0.5 * (label_height + halo);  // of an em
+    const FreePart& part = part_[k];
+    if (width <= 0 || part.sides.size() < 3 ||
+        (part.high[0] - part.low[0]) * filled < 2 * allowed.least * half_width)
+      return;
     const double most = allowed.most / filled;
-    Box best = largest_box(polygon, half_width, half_height, most);
-    if (!avoid(over(k), polygon, half_width, half_height, most, best)) return;
+    Box best = largest_box(part, half_width, half_height, most);
+    if (!avoid(over(k), part, half_width, half_height, most, best)) return;
     const double size = filled * best.half_height / half_height;
     if (size < allowed.least) return;
-    scene_.labels.push_back(
-        {best.x, best.y, size, 2 * half_width * size, bold, depth == 1 && bold ? 0.9 : 0.85, text});
-    blockers_[k] = {best.x, best.y, half_width * size, half_height * size};
+    const bool dark = cell.leaf && to_lab(cell.fill).lightness < 0.58;
+    scene_.labels.push_back({best.x, best.y, size, width * size, bold, dark,
+                             depth(k) == 1 && bold ? 0.9 : (dark ? 1.0 : 0.85), text});
+    placed_[k] = {best.x, best.y, half_width * size, half_height * size};
   }
 
   TreemapScene& scene_;
   const TreemapOutput& output_;
-  std::vector<Box> blockers_;  // per cell: its label
+  double scale_;
+  std::vector<Box> placed_;  // per cell: its label
   std::vector<std::uint32_t> parent_;
+  std::vector<FreePart> part_;
 };
 
 }  // namespace
 
-void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output) {
-  Labels(scene, output).run();
+void add_treemap_labels(TreemapScene& scene, const TreemapOutput& output, double scale) {
+  Labels(scene, output, scale).run();
 }
 
 }  // namespace powercell::io

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/io/picture_frame.hpp"
+#include "apps/io/picture_periodic.hpp"
 #include "apps/io/printable.hpp"
 
 namespace powercell::io {
@@ -12,11 +14,11 @@ namespace {
 
 constexpr double margin = 8;  // pixels
 
-// Walls are wider at higher levels, and at most a fixed share of a small cell.
+// Walls are at most a fixed share of a small cell.
 double wall_width(std::uint32_t depth, double area, double scale) {
-  constexpr double widths[] = {5, 5, 2.6, 1.5, 0.9, 0.6, 0.45};
-  const double width = widths[std::min<std::size_t>(depth, std::size(widths) - 1)];
-  return std::min(width * scale, (depth <= 1 ? 0.09 : 0.045) * std::sqrt(area));
+  constexpr double shares[] = {0.09, 0.09, 0.055, 0.03, 0.025};
+  const double share = shares[std::min<std::size_t>(depth, std::size(shares) - 1)];
+  return std::min(widest_wall(depth, scale), share * std::sqrt(area));
 }
 
 double area_of(const std::vector<double>& p, std::uint64_t first, std::uint64_t end) {
@@ -54,36 +56,46 @@ std::vector<std::uint32_t> preorder(const TreemapOutput& output, std::vector<std
 
 }  // namespace
 
+double widest_wall(std::uint32_t depth, double scale) {
+  constexpr double widths[] = {5.5, 5.5, 3, 1.2, 0.8, 0.6, 0.45};
+  return scale * widths[std::min<std::size_t>(depth, std::size(widths) - 1)];
+}
+
 TreemapScene make_treemap_scene(const TreemapOutput& output, const TreemapStyle& style) {
   const Treemap& map = output.map;
   TreemapScene scene;
   const std::vector<std::uint32_t> order = preorder(output, scene.below);
   const std::uint32_t root = order.front();
-  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+  FlatBox box;
   for (std::uint64_t v = map.vertex_offset[root]; v < map.vertex_offset[root + 1]; ++v)
-    for (int k = 0; k < 2; ++k) {
-      const double at = map.vertices[2 * v + static_cast<std::uint64_t>(k)];
-      low[k] = std::min(low[k], at);
-      high[k] = std::max(high[k], at);
-    }
-  const double scale = (style.long_side - 2 * margin) / std::max(high[0] - low[0], high[1] - low[1]);
-  scene.width = std::ceil(scale * (high[0] - low[0]) + 2 * margin);
-  scene.height = std::ceil(scale * (high[1] - low[1]) + 2 * margin);
+    box.add(&map.vertices[2 * v]);
+  const double wide = box.high[0] - box.low[0], tall = box.high[1] - box.low[1];
+  const Colouring colouring = treemap_colouring(output, style.legend);
+  PictureFrame frame({static_cast<int>(style.long_side), 0, false}, colouring.legend);
+  const double scale =
+      std::min((frame.room().width - 2 * margin) / wide, (frame.room().height - 2 * margin) / tall);
+  frame.place(std::ceil(scale * wide + 2 * margin), std::ceil(scale * tall + 2 * margin));
+  scene.width = frame.width();
+  scene.height = frame.height();
+  scene.legend = frame.legend();
+  scene.stripes = stripe_distance(style.long_side);
   scene.title = printable(output.tree.name[root]);
   scene.description = fmt::format("{} leaves in {} nodes; worst area off by {:.2g} %", map.leaves,
                                   order.size(), 100 * map.worst_error);
-  const std::vector<Colour> colours = treemap_colours(output);
+  const double enlargement = frame.enlargement();
   for (const std::uint32_t i : order) {
-    TreemapScene::Cell cell{i, colours[i], 0, map.kind[i] == TreeNode::leaf, scene.points.size() / 2, 0};
+    TreemapScene::Cell cell{i, colouring.colour[i],           colouring.is_striped(i),
+                            0, map.kind[i] == TreeNode::leaf, scene.points.size() / 2,
+                            0};
     for (std::uint64_t v = map.vertex_offset[i]; v < map.vertex_offset[i + 1]; ++v) {
-      scene.points.push_back(margin + scale * (map.vertices[2 * v] - low[0]));
-      scene.points.push_back(margin + scale * (high[1] - map.vertices[2 * v + 1]));
+      scene.points.push_back(frame.left() + margin + scale * (map.vertices[2 * v] - box.low[0]));
+      scene.points.push_back(frame.top() + margin + scale * (box.high[1] - map.vertices[2 * v + 1]));
     }
     cell.end = scene.points.size() / 2;
-    cell.wall = wall_width(map.depth[i], area_of(scene.points, cell.first, cell.end), style.long_side / 1600);
+    cell.wall = wall_width(map.depth[i], area_of(scene.points, cell.first, cell.end), enlargement);
     scene.cells.push_back(cell);
   }
-  if (style.labels) add_treemap_labels(scene, output);
+  if (style.labels) add_treemap_labels(scene, output, enlargement);
   return scene;
 }
 

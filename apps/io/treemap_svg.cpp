@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/io/atomic_file.hpp"
@@ -33,10 +34,13 @@ class Drawing {
         "height=\"{1:.6g}\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
         "<style>path{{stroke-linejoin:round;stroke:{4}}}.g{{fill:none}}"
         "text{{font-family:'DejaVu Sans',Verdana,sans-serif;text-anchor:middle;dominant-baseline:central;"
-        "fill:{5};pointer-events:none}}.b{{font-weight:bold;paint-order:stroke;stroke:{4};stroke-opacity:.6}}"
+        "fill:{5};pointer-events:none}}.l{{fill:{4}}}.b{{font-weight:bold;paint-order:stroke;stroke:{4};"
+        "stroke-opacity:.6}}"
         "path:hover{{fill-opacity:.75}}</style>\n",
         scene_.width, scene_.height, xml_text(scene_.title), xml_text(scene_.description), hex(paper),
         hex(ink)));
+    if (std::any_of(scene_.cells.begin(), scene_.cells.end(), [](const auto& cell) { return cell.striped; }))
+      file_.write(stripes_svg(scene_.stripes));
     for (std::size_t k = 0; k < scene_.cells.size(); ++k) {
       close_up_to(k);
       const TreemapScene::Cell& cell = scene_.cells[k];
@@ -50,6 +54,7 @@ class Drawing {
     }
     close_up_to(scene_.cells.size() + 1);
     labels();
+    file_.write(legend_svg(scene_.legend));
     file_.write("</svg>\n");
     file_.commit();
   }
@@ -73,7 +78,7 @@ class Drawing {
     text_ = "<path ";
     if (cell.leaf)
       text_ += fmt::format("data-id=\"{}\" fill=\"{}\"", xml_text(printable(output_.tree.id[cell.node])),
-                           hex(cell.fill));
+                           cell.striped ? "url(#no-value)" : hex(cell.fill));
     else
       text_ += fmt::format("class=\"g\" data-id=\"{}\"", xml_text(printable(output_.tree.id[cell.node])));
     text_ += fmt::format(" stroke-width=\"{:.3g}\" d=\"", cell.wall);
@@ -90,8 +95,8 @@ class Drawing {
   // textLength keeps a text in its cell with any font.
   void labels() {
     for (const TreemapScene::Label& label : scene_.labels) {
-      text_ =
-          label.bold ? fmt::format("<text class=\"b\" stroke-width=\"{:.3g}\"", 0.16 * label.size) : "<text";
+      text_ = label.bold ? fmt::format("<text class=\"b\" stroke-width=\"{:.3g}\"", label_halo * label.size)
+                         : (label.light ? "<text class=\"l\"" : "<text");
       file_.write(fmt::format(
           "{} x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.3g}\" textLength=\"{:.2f}\" opacity=\"{:.2g}\">{}"
           "</text>\n",

@@ -39,6 +39,7 @@ void write_json(const std::string& path, const TreemapOutput& output) {
                            quoted(output.tree.name[i])));
     file.number(map.value[i]);
     if (output.hue[i] >= 0) file.write(fmt::format(",\"hue\":{}", output.hue[i]));
+    if (output.shade[i] >= 0) file.write(fmt::format(",\"shade\":{}", output.shade[i]));
     file.write(",\"seed\":");
     write_point(file, &map.seeds[2 * i]);
     file.write(",\"polygon\":[");

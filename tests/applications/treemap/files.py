@@ -189,6 +189,86 @@ class Treemap(unittest.TestCase):
         self.assertGreater(len(both), 50)
         self.assertEqual({i: second[i] for i in both}, {i: first[i] for i in both})
 
+    def fills(self, name):
+        text = (self.folder / name).read_text(encoding="utf-8")
+        return dict(re.findall(r'<path[^>]*data-id="([^"]+)"[^>]*fill="([^"]+)"', text))
+
+    def legend(self, name):
+        text = (self.folder / name).read_text(encoding="utf-8")
+        found = re.search(r'<g class="legend".*?</g>', text, re.S)
+        return re.findall(r"<text[^>]*>([^<]*)</text>", found[0]) if found else []
+
+    def test_a_colour_column(self):
+        rows = "id,parent,name,value,growth,kind,paint\nr,,root,,,,#112233\ng,r,g,,7,old,\n"
+        rows += "a,g,a,1,1,new,#abc\nb,g,b,2,,,\nc,r,c,3,-5,new,\nd,r,d,3,,,#00ff00\n"
+        self.write("t.csv", rows)
+        self.good("t.csv", "--color-by", "growth", "-o", "n.svg", "-o", "n.png", "-o", "n.pdf")
+        fills = self.fills("n.svg")
+        light = {i: sum(int(f[k:k + 2], 16) for k in (1, 3, 5)) for i, f in fills.items() if f[0] == "#"}
+        self.assertTrue(light["c"] < light["a"] < light["b"])  # b has the 7 of its group
+        self.assertEqual(fills["d"], "url(#no-value)")
+        self.assertEqual(self.legend("n.svg")[0], "growth")
+        self.assertIn("no value (1)", self.legend("n.svg"))
+        self.good("t.csv", "--color-by", "Kind", "-o", "k.svg")
+        fills = self.fills("k.svg")
+        self.assertEqual(fills["a"], fills["c"])
+        self.assertNotEqual(fills["a"], fills["b"])
+        self.assertEqual(self.legend("k.svg"), ["Kind", "new", "old", "no value (1)"])
+        self.good("t.csv", "--color-by", "paint", "-o", "p.svg")
+        self.assertEqual(self.fills("p.svg"), {"a": "#aabbcc", "b": "#112233", "c": "#112233", "d": "#00ff00"})
+        self.good("t.csv", "--color-by", "kind", "--no-legend", "-o", "q.svg")
+        self.assertEqual(self.legend("q.svg"), [])
+        self.measured_again("t.csv", "q.svg")
+        # The same from JSON, nested and listed, with numbers, booleans and texts.
+        leaves = [{"name": "a", "value": 1, "hot": True}, {"name": "b", "value": 2, "hot": "x"}, {"name": "c", "value": 1}]
+        self.write("n.json", json.dumps({"name": "r", "children": leaves}))
+        self.good("n.json", "--color-by", "hot", "-o", "j.svg")
+        self.assertEqual(self.legend("j.svg"), ["hot", "true", "x", "no value (1)"])
+        listed = [{"id": "r"}] + [{"id": x, "parent": "r", "value": 1, "t": k} for k, x in enumerate("abcdefg")]
+        self.write("l.json", json.dumps(listed))
+        self.good("l.json", "--color-by", "t", "-o", "l.svg")
+        self.assertEqual(self.legend("l.svg"), ["t", "6", "5", "4", "3", "2", "1", "0"][:1] +
+                         sorted(self.legend("l.svg")[1:]))
+        self.assertEqual(len(set(self.fills("l.svg").values())), 7)
+        # In tables of levels, the colour is no level.
+        self.write("v.csv", "land,town,value,sea\nI,Roma,1,yes\nI,Milano,1,no\nF,Paris,2,no\n")
+        self.assertIn("from the columns land, town\n", self.good("v.csv", "--color-by", "sea", "-o", "v.svg"))
+        fills = self.fills("v.svg")
+        self.assertEqual(fills["F/Paris"], fills["I/Milano"])
+        self.assertNotEqual(fills["F/Paris"], fills["I/Roma"])
+
+    def test_colour_columns_that_are_refused(self):
+        self.write("t.csv", "id,parent,name,value\nr,,root,\na,r,a,1\n")
+        svg = ("-o", "t.svg")
+        self.refused("there is no such column; the table has id, parent, name, value", 1, "t.csv", "--color-by", "x", *svg)
+        self.write("h.csv", "r,,root,\na,r,a,1\n")
+        self.refused("h.csv has no header", 1, "h.csv", "--color-by", "x", *svg)
+        self.write("n.json", json.dumps({"name": "r", "value": 1}))
+        self.refused("no node of n.json has a member of that name", 1, "n.json", "--color-by", "x", *svg)
+        self.write("m.json", json.dumps({"name": "r", "value": 1, "x": [1]}))
+        self.refused("'r': its colour is neither a string nor a number", 1, "m.json", "--color-by", "x", *svg)
+        self.refused("is a folder, which has no columns", 1, ".", "--color-by", "x", *svg)
+        rows = "".join(f"{k},r,{k},1,text {k}\n" for k in range(50))
+        self.write("w.csv", "id,parent,name,value,c\nr,,root,,\n" + rows)
+        self.refused("the column has 50 different texts, of which 40", 1, "w.csv", "--color-by", "c", *svg)
+        self.refused("--color-by is for pictures", 2, "t.csv", "--color-by", "name", "-o", "t.json")
+        self.refused("--no-legend leaves out", 2, "t.csv", "--no-legend", *svg)
+        self.refused("below 200 there is no room", 2, "t.csv", "--color-by", "name", "--size", "150", *svg)
+
+    def test_groups_of_the_second_level_keep_their_shades(self):
+        rows = [("r", "", "r", "")] + [(f"b{k}", "r", f"b{k}", "") for k in range(3)]
+        rows += [(f"g{k}", f"b{k % 3}", f"g{k}", "") for k in range(21)]
+        rows += [(f"n{k}", f"g{k % 21}", f"n{k}", str(1 + k % 13)) for k in range(120)]
+        self.table("t.csv", rows)
+        self.good("t.csv", "-o", "first.json", "-o", "first.svg")
+        shades = {r["id"]: r["shade"] for r in json.loads((self.folder / "first.json").read_text()) if "shade" in r}
+        self.assertEqual(set(shades), {f"g{k}" for k in range(21)})
+        self.table("t.csv", rows[:4] + rows[:3:-1])
+        self.good("t.csv", "--previous", "first.json", "-o", "second.json", "-o", "second.svg")
+        self.assertEqual({r["id"]: r["shade"] for r in json.loads((self.folder / "second.json").read_text())
+                          if "shade" in r}, shades)
+        self.assertEqual(self.fills("second.svg"), self.fills("first.svg"))
+
     def test_own_values_of_groups_that_are_not_used_are_reported(self):
         group = {"name": "g", "value": 10, "children": [{"name": "a", "value": 1}, {"name": "b", "value": 5}]}
         tree = {"name": "r", "children": [group, {"name": "c", "value": 3}]}
