@@ -35,14 +35,14 @@ void check(const DensityArguments& arguments) {
   if (arguments.bright && arguments.image.empty()) throw WrongUsage("--bright needs an --image");
 }
 
-Ink read_ink(const DensityArguments& arguments) {
-  io::GrayImage image = io::read_image(arguments.image);
+Ink read_ink(const DensityArguments& arguments, bool colours) {
+  io::GrayImage image = io::read_image(arguments.image, colours);
   if (!arguments.bright)
     for (double& value : image.values) value = 1 - value;
   if (std::all_of(image.values.begin(), image.values.end(), [](double v) { return v == 0; }))
     throw Error(ErrorCode::invalid_file, fmt::format("{}: the image is blank, it has no {} pixels",
                                                      arguments.image, arguments.bright ? "bright" : "dark"));
-  return {image.width, image.height, std::move(image.values)};
+  return {image.width, image.height, std::move(image.values), std::move(image.channels)};
 }
 
 Density image_density(const Domain& domain, const Ink& ink, std::span<const double> values) {

@@ -2,6 +2,7 @@
 /// The options --density and --image.
 #pragma once
 
+#include <array>
 #include <powercell/powercell.hpp>
 #include <span>
 #include <string>
@@ -27,10 +28,12 @@ void check(const DensityArguments& arguments);
 struct Ink {
   std::size_t width = 0, height = 0;
   std::vector<double> share;
+  /// Linear red, green and blue of the pixels; empty unless they were asked for.
+  std::array<std::vector<float>, 3> channels;
 };
 
 /// \throw Error invalid_file as read_image, and for an image without dark (or bright) pixels
-Ink read_ink(const DensityArguments& arguments);
+Ink read_ink(const DensityArguments& arguments, bool colours = false);
 
 /// An image that fills the box of a domain. \param values  of the pixels of `ink`, same shape
 /// \throw Error invalid_argument unless the domain is a polygon

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/output.hpp"
+#include "apps/io/picture.hpp"
+#include "apps/io/read_file.hpp"
 #include "apps/io/write_points.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/outputs.hpp"
@@ -59,6 +62,12 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
 io::PictureStyle style_of(const SampleArguments& arguments, const Domain& domain) {
   if (!arguments.picture.color_by.empty() && arguments.cells.empty())
     throw WrongUsage("--color-by colours cells; name a picture of them, such as --cells cells.svg");
+  const auto shows_dots = [](const std::string& path) {
+    return io::is_picture(path) || io::lower_extension(path) == ".csv";
+  };
+  if (arguments.source.color && std::none_of(arguments.outputs.begin(), arguments.outputs.end(), shows_dots))
+    throw WrongUsage(
+        "--color is for pictures and tables of points; name one, such as -o dots.svg or -o dots.csv");
   std::vector<std::string> files = arguments.cells;
   files.insert(files.end(), arguments.outputs.begin(), arguments.outputs.end());
   const SeedsView none{domain.dimension(), {}, {}};
@@ -82,8 +91,11 @@ std::vector<std::string> write_files(const SampleArguments& arguments, const Dev
   const SamplingResult& points = study.runs.front().points;
   std::vector<double> radii;
   if (source.domain.dimension() == 2 && !arguments.outputs.empty()) radii = dot_radii(device, source, points);
+  std::vector<io::Colour> colours;
+  if (arguments.source.color) colours = dot_colours(device, source, points);
   for (const std::string& path : arguments.outputs) {
-    io::write_points(path, {source.domain, points.positions, points.weights, points.mass, radii, style.size});
+    io::write_points(path, {source.domain, points.positions, points.weights, points.mass, radii, style.size,
+                            colours, arguments.source.color && arguments.source.bright});
     written.push_back(path);
   }
   write_cells(arguments, device, source, style, points);
@@ -197,6 +209,7 @@ constexpr const char* sample_examples =
     "Examples:\n"
     "  powercell sample -n 1024 --periodic -o points.svg --runs 10 --analysis spectra.json\n"
     "  powercell sample -n 8000 --image photo.png -o stipples.svg -o stipples.png\n"
+    "  powercell sample -n 8000 --image photo.jpg --color -o dots.svg -o dots.csv\n"
     "  powercell sample -n 2000 --domain disk --density 'exp(-4*(x^2+y^2))' -o dots.png --cells cells.svg\n"
     "  powercell sample -n 500 --domain part.mesh --mode quantise --iterations 50 --movement 0 -o "
     "points.csv\n"
@@ -214,6 +227,10 @@ void add_source(CLI::App& command, SourceArguments& source) {
       .add_option("--dot-contrast", source.dot_contrast,
                   "Image: from 0 for equal dots to 0.9 for the largest differences; the ink is the same")
       ->check(between(0, 0.9))
+      ->needs("--image");
+  command
+      .add_flag("--color", source.color,
+                "Image: dots in its colours, with --bright on black paper; and r, g, b in -o FILE.csv")
       ->needs("--image");
   command
       .add_option("--paper", source.paper,

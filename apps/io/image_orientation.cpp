@@ -43,20 +43,37 @@ int exif_orientation(std::string_view tiff) {
   return 1;
 }
 
-GrayImage upright(GrayImage stored, int orientation) {
-  if (orientation == 1) return stored;
-  const std::size_t w = stored.width, h = stored.height;
+namespace {
+
+/// The pixels of one channel, mirrored and turned.
+template <class Number>
+std::vector<Number> turned_pixels(const std::vector<Number>& stored, std::size_t w, std::size_t h,
+                                  int orientation) {
   const bool transposed = orientation >= 5;
   // Of the stored image, after the transposition.
   const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
   const bool from_bottom = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
-  GrayImage result{transposed ? h : w, transposed ? w : h, std::vector<double>(stored.values.size())};
-  for (std::size_t y = 0; y < result.height; ++y)
-    for (std::size_t x = 0; x < result.width; ++x) {
+  const std::size_t width = transposed ? h : w, height = transposed ? w : h;
+  std::vector<Number> result(stored.size());
+  for (std::size_t y = 0; !stored.empty() && y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
       const std::size_t column = transposed ? y : x, row = transposed ? x : y;
-      result.values[y * result.width + x] =
-          stored.values[(from_bottom ? h - 1 - row : row) * w + (from_right ? w - 1 - column : column)];
+      result[y * width + x] =
+          stored[(from_bottom ? h - 1 - row : row) * w + (from_right ? w - 1 - column : column)];
     }
+  return result;
+}
+
+}  // namespace
+
+GrayImage upright(GrayImage stored, int orientation) {
+  if (orientation == 1) return stored;
+  const std::size_t w = stored.width, h = stored.height;
+  const bool transposed = orientation >= 5;
+  GrayImage result{
+      transposed ? h : w, transposed ? w : h, turned_pixels(stored.values, w, h, orientation), {}};
+  for (std::size_t c = 0; c < 3; ++c)
+    result.channels[c] = turned_pixels(stored.channels[c], w, h, orientation);
   return result;
 }
 

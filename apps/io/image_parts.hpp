@@ -10,8 +10,8 @@
 
 namespace powercell::io {
 
-GrayImage parse_png(std::string_view bytes, const std::string& name);
-GrayImage parse_jpeg(std::string_view bytes, const std::string& name);
+GrayImage parse_png(std::string_view bytes, const std::string& name, bool colours);
+GrayImage parse_jpeg(std::string_view bytes, const std::string& name, bool colours);
 
 /// The size that an image's header announces, before memory is allocated for it.
 struct AnnouncedImage {

@@ -73,7 +73,7 @@ void draw_disc(cairo_t* to, const Scene& scene, const Scene::Disc& disc) {
   cairo_set_dash(to, &dash, disc.mark == Scene::Mark::negative ? 1 : 0, 0);
   switch (disc.mark) {
     case Scene::Mark::dot:
-      set_colour(to, ink);
+      set_colour(to, disc.colour);
       cairo_fill(to);
       return;
     case Scene::Mark::positive:
@@ -97,7 +97,7 @@ void draw_disc(cairo_t* to, const Scene& scene, const Scene::Disc& disc) {
 }
 
 void draw(cairo_t* to, const Scene& scene) {
-  set_colour(to, paper);
+  set_colour(to, scene.paper);
   cairo_paint(to);
   cairo_set_line_join(to, CAIRO_LINE_JOIN_ROUND);
   cairo_set_fill_rule(to, CAIRO_FILL_RULE_EVEN_ODD);

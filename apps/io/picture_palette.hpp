@@ -26,8 +26,9 @@ std::string hex(Colour colour);
 /// Moves each channel towards `other` by `share` in [0, 1].
 Colour mix(Colour colour, Colour other, double share);
 
-constexpr Colour ink{0x1d, 0x2b, 0x3a};    ///< outlines and seeds
-constexpr Colour paper{0xff, 0xff, 0xff};  ///< background and walls of 2D pictures
+constexpr Colour ink{0x1d, 0x2b, 0x3a};         ///< outlines and seeds
+constexpr Colour dark_paper{0x10, 0x10, 0x12};  ///< of dots that stand for light
+constexpr Colour paper{0xff, 0xff, 0xff};       ///< background and walls of 2D pictures
 
 /// One colour for each cell. Hues come from a small palette that remains distinct under the common colour
 /// vision deficiencies. They are chosen greedily so that cells with a common wall differ; a cell with

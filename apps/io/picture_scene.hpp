@@ -43,9 +43,11 @@ struct Scene {
     Mark mark;
     std::uint32_t seed;
     double x, y, radius;
+    Colour colour = ink;  ///< of a dot
   };
 
   double width = 0, height = 0;
+  Colour paper = io::paper;
   std::string title, description;
   Rings cell_rings;
   std::vector<Cell> cells;

@@ -15,15 +15,15 @@ void check_size(const AnnouncedImage& image, const std::string& name) {
                         " bytes cannot hold " + size);
 }
 
-GrayImage parse_image(std::string_view bytes, const std::string& name) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return parse_png(bytes, name);
-  if (bytes.starts_with("\xff\xd8\xff")) return parse_jpeg(bytes, name);
+GrayImage parse_image(std::string_view bytes, const std::string& name, bool colours) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return parse_png(bytes, name, colours);
+  if (bytes.starts_with("\xff\xd8\xff")) return parse_jpeg(bytes, name, colours);
   fail_file(name,
             "not a PNG or JPEG picture; convert it, for instance with 'convert drawing.tif drawing.png'");
 }
 
-GrayImage read_image(const std::string& path) {
-  return parse_image(read_file(path), path);
+GrayImage read_image(const std::string& path, bool colours) {
+  return parse_image(read_file(path), path, colours);
 }
 
 }  // namespace powercell::io

@@ -59,18 +59,25 @@ class JpegFile {
     }
   }
 
-  std::vector<double> luminances() {
+  /// \param image  output: its luminance, and its channels if they are wanted
+  void read_pixels(GrayImage& image, bool colours) {
     require(try_start());
-    std::vector<double> values;
-    values.reserve(width() * height());
-    const auto channels = static_cast<std::size_t>(jpeg_.output_components);
-    std::vector<JSAMPLE> row(width() * channels);
+    image.values.reserve(width() * height());
+    if (colours)
+      for (std::vector<float>& channel : image.channels) channel.reserve(width() * height());
+    const auto samples = static_cast<std::size_t>(jpeg_.output_components);
+    std::vector<JSAMPLE> row(width() * samples);
     for (std::size_t y = 0; y < height(); ++y) {
       require(try_row(row.data()));
-      for (std::size_t x = 0; x < width(); ++x) values.push_back(luminance_of(&row[x * channels]));
+      for (std::size_t x = 0; x < width(); ++x) {
+        const std::array<double, 3> light = light_of(&row[x * samples]);
+        const bool gray = jpeg_.out_color_space == JCS_GRAYSCALE;
+        image.values.push_back(gray ? light[0] : luminance(light[0], light[1], light[2]));
+        for (std::size_t c = 0; colours && c < 3; ++c)
+          image.channels[c].push_back(static_cast<float>(light[c]));
+      }
     }
     require(try_finish());
-    return values;
   }
 
   /// To be called before the pixels are read, after which libjpeg forgets it.
@@ -138,14 +145,14 @@ class JpegFile {
     return true;
   }
 
-  double luminance_of(const JSAMPLE* p) const {
-    if (jpeg_.out_color_space == JCS_GRAYSCALE) return to_linear(p[0]);
-    if (jpeg_.out_color_space == JCS_RGB) return luminance(to_linear(p[0]), to_linear(p[1]), to_linear(p[2]));
+  /// Linear red, green and blue.
+  std::array<double, 3> light_of(const JSAMPLE* p) const {
+    if (jpeg_.out_color_space == JCS_GRAYSCALE) return {to_linear(p[0]), to_linear(p[0]), to_linear(p[0])};
+    if (jpeg_.out_color_space == JCS_RGB) return {to_linear(p[0]), to_linear(p[1]), to_linear(p[2])};
     // Without a profile of the inks: the paper's share that each leaves free. Adobe's files hold those
     // shares.
     const auto free = [&](int k) { return (jpeg_.saw_Adobe_marker ? p[k] : 255 - p[k]) / 255.0; };
-    return luminance(to_linear(free(0) * free(3)), to_linear(free(1) * free(3)),
-                     to_linear(free(2) * free(3)));
+    return {to_linear(free(0) * free(3)), to_linear(free(1) * free(3)), to_linear(free(2) * free(3))};
   }
 
   const std::string& name_;
@@ -157,7 +164,7 @@ class JpegFile {
 
 }  // namespace
 
-GrayImage parse_jpeg(std::string_view bytes, const std::string& name) {
+GrayImage parse_jpeg(std::string_view bytes, const std::string& name, bool colours) {
   // A Huffman code has a bit at least, and a block of 8 x 8 pixels has one. Arithmetic coding has no such
   // bound.
   JpegFile file(bytes, name);
@@ -166,7 +173,8 @@ GrayImage parse_jpeg(std::string_view bytes, const std::string& name) {
   check_size({"JPEG", file.width(), file.height(), bytes.size(), most_pixels_a_byte}, name);
   file.choose_channels();
   const int orientation = file.orientation();
-  GrayImage image{file.width(), file.height(), file.luminances()};
+  GrayImage image{file.width(), file.height(), {}, {}};
+  file.read_pixels(image, colours);
   return upright(std::move(image), orientation);
 }
 

@@ -148,7 +148,7 @@ class PngFile {
 
 }  // namespace
 
-GrayImage parse_png(std::string_view bytes, const std::string& name) {
+GrayImage parse_png(std::string_view bytes, const std::string& name, bool colours) {
   // Deflate expands a byte to at most 1032 bytes, each with eight pixels of one bit.
   constexpr std::uint64_t most_pixels_a_byte = 8 * 1032;
   PngFile file(bytes, name);
@@ -158,10 +158,16 @@ GrayImage parse_png(std::string_view bytes, const std::string& name) {
   const std::vector<std::uint16_t> pixels = file.pixels();
   std::vector<double> light(1 << 16);
   for (std::size_t k = 0; k < light.size(); ++k) light[k] = file.light(static_cast<double>(k) / 65535);
-  GrayImage image{file.width(), file.height(), std::vector<double>(pixels.size() / 4)};
+  GrayImage image{file.width(), file.height(), std::vector<double>(pixels.size() / 4), {}};
   for (std::size_t k = 0; k < image.values.size(); ++k) {
     const std::uint16_t* const p = &pixels[4 * k];
     image.values[k] = 1 - p[3] / 65535.0 * (1 - luminance(light[p[0]], light[p[1]], light[p[2]]));
+  }
+  for (std::size_t c = 0; colours && c < 3; ++c) {
+    image.channels[c].resize(image.values.size());
+    for (std::size_t k = 0; k < image.values.size(); ++k)
+      image.channels[c][k] =
+          static_cast<float>(1 - pixels[4 * k + 3] / 65535.0 * (1 - light[pixels[4 * k + c]]));
   }
   return upright(std::move(image), file.orientation());
 }

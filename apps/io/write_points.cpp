@@ -19,7 +19,10 @@ bool is_table(const std::string& extension) {
 void write_rows(const std::string& path, const PointOutput& output, bool csv) {
   const auto d = static_cast<std::size_t>(output.domain.dimension());
   AtomicFile file(path);
-  if (csv) file.write(d == 3 ? "x,y,z,weight,mass\n" : "x,y,weight,mass\n");
+  if (csv) {
+    file.write(d == 3 ? "x,y,z,weight,mass" : "x,y,weight,mass");
+    file.write(output.colours.empty() ? "\n" : ",r,g,b\n");
+  }
   const char separator = csv ? ',' : ' ';
   for (std::size_t i = 0; i < output.weights.size(); ++i) {
     for (std::size_t k = 0; k < d; ++k) {
@@ -30,6 +33,10 @@ void write_rows(const std::string& path, const PointOutput& output, bool csv) {
     if (csv) {
       file.write(separator);
       file.number(output.mass[i]);
+      if (!output.colours.empty()) {
+        const Colour& colour = output.colours[i];
+        file.write(fmt::format(",{},{},{}", colour.red, colour.green, colour.blue));
+      }
     }
     file.write('\n');
   }
@@ -47,6 +54,7 @@ Scene scene_of(const PointOutput& output) {
   Scene scene;
   scene.width = frame.width();
   scene.height = frame.height();
+  if (output.dark_paper) scene.paper = dark_paper;
   scene.units_per_inch = output.size.points ? 72 : 96;
   scene.title = fmt::format("{} points", output.weights.size());
   scene.description = "dots made by powercell sample";
@@ -54,7 +62,7 @@ Scene scene_of(const PointOutput& output) {
     scene.discs.push_back({Scene::Mark::dot, static_cast<std::uint32_t>(i),
                            frame.left() + (output.positions[2 * i] - low[0]) * scale,
                            frame.top() + (high[1] - output.positions[2 * i + 1]) * scale,
-                           output.radii[i] * scale});
+                           output.radii[i] * scale, output.colours.empty() ? ink : output.colours[i]});
   return scene;
 }
 
@@ -65,10 +73,11 @@ void write_svg_dots(const std::string& path, const Scene& scene) {
       "width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\">\n"
       "<title>{2}</title>\n<desc>{3}</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"{4}\"/>\n"
       "<g fill=\"{5}\">\n",
-      scene.width, scene.height, scene.title, scene.description, hex(paper), hex(ink)));
+      scene.width, scene.height, scene.title, scene.description, hex(scene.paper), hex(ink)));
   for (const Scene::Disc& disc : scene.discs)
-    file.write(
-        fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", disc.x, disc.y, disc.radius));
+    file.write(fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"{}/>\n", disc.x, disc.y,
+                           disc.radius,
+                           disc.colour == ink ? "" : fmt::format(" fill=\"{}\"", hex(disc.colour))));
   file.write("</g>\n</svg>\n");
   file.commit();
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "apps/io/picture_palette.hpp"
 #include "apps/io/picture_style.hpp"
 
 namespace powercell::io {
@@ -19,6 +20,8 @@ struct PointOutput {
   std::span<const double> mass;       ///< n
   std::span<const double> radii;      ///< n, of the dots, length; only pictures need them
   PictureSize size = {};
+  std::span<const Colour> colours = {};  ///< n, of the dots; or none: ink
+  bool dark_paper = false;
 };
 
 inline constexpr std::string_view point_outputs = ".svg .png .pdf .csv .txt";
@@ -30,9 +33,10 @@ void check_points_format(const std::string& path);
 /// extension), unsupported (a picture of points in space)
 void check_points(const std::string& path, const Domain& domain);
 
-/// CSV `x,y[,z],weight,mass` (.csv), rows `x y [z] w` as `--seeds` takes them (.txt), or a picture of black
-/// dots on white paper (.svg .png .pdf), the domain's box, by default 1600 pixels on its long side. \throw
-/// Error as check_points; write_failed
+/// CSV `x,y[,z],weight,mass` (.csv), with `r,g,b` from 0 to 255 if the dots have colours, rows `x y [z] w` as
+/// `--seeds` takes them (.txt), or a picture of black or coloured dots on white or dark paper (.svg .png
+/// .pdf), the domain's box, by default 1600 pixels on its long side. \throw Error as check_points;
+/// write_failed
 void write_points(const std::string& path, const PointOutput& output);
 
 }  // namespace powercell::io

@@ -18,8 +18,11 @@ namespace {
 /// The density of Xiao et al. 2023, on the box from -1 to 1.
 Source paper_source(int dimension) {
   const std::vector<double> low(static_cast<std::size_t>(dimension), -1), high(low.size(), 1);
-  return {Domain::box(low, high), fmt::format("the box from -1 to 1 in {} dimensions", dimension),
-          Density::formula(dimension == 2 ? "1/(x^2+y^2+0.1)" : "1/(x^2+y^2+z^2+0.1)"), std::nullopt};
+  return {Domain::box(low, high),
+          fmt::format("the box from -1 to 1 in {} dimensions", dimension),
+          Density::formula(dimension == 2 ? "1/(x^2+y^2+0.1)" : "1/(x^2+y^2+z^2+0.1)"),
+          std::nullopt,
+          {}};
 }
 
 /// The description of a domain; of a map in degrees with a warning, since sampling does not project.
@@ -33,7 +36,7 @@ std::string description_of(const io::LoadedDomain& domain) {
 }
 
 Source image_source(const SourceArguments& arguments) {
-  const Ink ink = read_ink(arguments);
+  Ink ink = read_ink(arguments, arguments.color);
   std::string description = fmt::format("{}: {} x {} pixels", arguments.image, ink.width, ink.height);
   std::optional<Domain> domain;
   if (!arguments.domain.empty()) {
@@ -47,7 +50,10 @@ Source image_source(const SourceArguments& arguments) {
   std::vector<double> points(ink.share.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     points[k] = std::pow(ink.share[k], 1 - arguments.dot_contrast);
-  return {*domain, description, image_density(*domain, ink, points), image_density(*domain, ink, ink.share)};
+  Source source{
+      *domain, description, image_density(*domain, ink, points), image_density(*domain, ink, ink.share), {}};
+  if (arguments.color) source.image = std::move(ink);
+  return source;
 }
 
 }  // namespace
@@ -69,7 +75,7 @@ Source read_source(const SourceArguments& arguments) {
   }
   const std::string spec = arguments.domain.empty() ? "square" : arguments.domain;
   const io::LoadedDomain loaded = io::read_domain(spec, io::domain_kind(arguments.kind), arguments.periodic);
-  return {loaded.domain, description_of(loaded), read_density(arguments, loaded.domain), std::nullopt};
+  return {loaded.domain, description_of(loaded), read_density(arguments, loaded.domain), std::nullopt, {}};
 }
 
 std::vector<double> dot_radii(const Device& device, const Source& source, const SamplingResult& points) {
@@ -90,6 +96,27 @@ std::vector<double> dot_radii(const Device& device, const Source& source, const 
   const auto at = areas.begin() + static_cast<std::ptrdiff_t>(n / 20);
   std::nth_element(areas.begin(), at, areas.end());
   return std::vector<double>(n, 0.3 * std::sqrt(*at));
+}
+
+std::vector<io::Colour> dot_colours(const Device& device, const Source& source,
+                                    const SamplingResult& points) {
+  const std::size_t n = points.weights.size();
+  Diagram diagram(device, source.domain);
+  diagram.set_seeds({2, points.positions, points.weights});
+  const std::vector<double> ink = integrate(diagram, *source.ink, false).mass;
+  std::array<std::vector<double>, 3> light;
+  std::vector<double> values(source.image.share.size());
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = source.image.share[k] * static_cast<double>(source.image.channels[c][k]);
+    light[c] = integrate(diagram, image_density(source.domain, source.image, values), false).mass;
+  }
+  std::vector<io::Colour> colours(n);
+  for (std::size_t i = 0; i < n; ++i)
+    if (ink[i] > 0)
+      colours[i] = {io::to_srgb(light[0][i] / ink[i]), io::to_srgb(light[1][i] / ink[i]),
+                    io::to_srgb(light[2][i] / ink[i])};
+  return colours;
 }
 
 }  // namespace powercell::app

@@ -7,7 +7,9 @@ usage: test_sample.py PATH_OF_POWERCELL [unittest options]
 import json
 import math
 import re
+import struct
 import unittest
+import zlib
 
 from tool import ToolTest, png, run
 
@@ -66,6 +68,51 @@ class Sample(ToolTest):
         self.image("i.png", [[255] * 8 + [0] * 8] * 8)
         self.report("sample", "-n", "40", "--image", "i.png", "--bright", "-o", "i.csv")
         self.assertTrue(all(float(row["x"]) < 8 for row in self.rows("i.csv")))
+
+    def colour_image(self, name, rows):
+        """A picture of rows of (r, g, b)."""
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        data = b"".join(b"\0" + b"".join(bytes(pixel) for pixel in row) for row in rows)
+        size = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+        (self.folder / name).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", size) +
+                                         chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+
+    def test_dots_in_the_colours_of_the_image(self):
+        left, right, white = (180, 30, 30), (20, 60, 160), (255, 255, 255)
+        self.colour_image("i.png", [[left] * 10 + [white] * 4 + [right] * 10] * 20)
+        self.good("sample", "-n", "150", "--image", "i.png", "--color", "-o", "i.csv", "-o", "i.svg", "-o", "i.png.png",
+                  "-o", "i.txt")
+        rows = self.rows("i.csv")
+        svg = (self.folder / "i.svg").read_text()
+        fills = re.findall(r'<circle [^>]*fill="#(\w+)"/>', svg)
+        self.assertEqual(len(fills), 150)
+        # Cells have one colour each, since the paper between has no ink.
+        for row, fill in zip(rows, fills):
+            colour = tuple(int(row[c]) for c in "rgb")
+            meant = left if float(row["x"]) < 12 else right
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(colour, meant)), 1, row)
+            self.assertEqual(bytes(colour).hex(), fill)
+        self.assertEqual(len((self.folder / "i.txt").read_text().split("\n")[0].split()), 3)
+        # Bright parts on dark paper.
+        self.good("sample", "-n", "60", "--image", "i.png", "--color", "--bright", "-o", "b.svg")
+        self.assertRegex((self.folder / "b.svg").read_text(), '<rect [^>]*fill="#101012"')
+        # Where a cell has two colours, its dot has their mean in linear light by their ink.
+        self.colour_image("two.png", [[left, right]])
+        self.good("sample", "-n", "1", "--image", "two.png", "--color", "--dot-contrast", "0", "-o", "two.csv")
+        light = [lambda c: (c / 255 / 12.92 if c / 255 <= .04045 else ((c / 255 + .055) / 1.055) ** 2.4)][0]
+        ink = [1 - sum(w * light(c) for w, c in zip((.2126, .7152, .0722), colour)) for colour in (left, right)]
+        row = self.rows("two.csv")[0]
+        for k, c in enumerate("rgb"):
+            mean = (ink[0] * light(left[k]) + ink[1] * light(right[k])) / sum(ink)
+            self.assertAlmostEqual(light(int(row[c])), mean, delta=.004)
+
+    def test_colours_need_an_image_and_a_place(self):
+        self.image("ink.png", [[0] * 4] * 4)
+        self.bad(2, "--color requires --image", "sample", "-n", "9", "--color", "-o", "a.svg")
+        for files in ((), ("-o", "a.txt"), ("--cells", "a.svg")):
+            self.bad(2, "--color is for pictures and tables of points", "sample", "-n", "9", "--image", "ink.png",
+                     "--color", *files)
 
     def test_experiments_of_the_paper(self):
         report = self.report("sample", "--paper", "2", "-n", "100", "--iterations", "10")

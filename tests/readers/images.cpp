@@ -166,6 +166,29 @@ TEST_CASE("colours of 16 bits and their opacity") {
   CHECK(read({1, 1, 16, 4, {0, 0}}).values[0] == 1);  // nothing but paper
 }
 
+TEST_CASE("the channels of an image are its linear light on white paper, turned like its luminance") {
+  const auto is = [](double expected) { return doctest::Approx(expected).epsilon(1e-6); };
+  const GrayImage image =
+      parse_image(bytes_of(Png{2, 1, 8, 6, {51, 153, 255, 102, 0, 255, 102, 255}}), "f", true);
+  CHECK(image.channels[0][0] == is(1 - 0.4 * (1 - light(0.2))));
+  CHECK(image.channels[1][0] == is(1 - 0.4 * (1 - light(0.6))));
+  CHECK(image.channels[2][0] == is(1));
+  CHECK(image.channels[0][1] == is(0));
+  CHECK(image.channels[1][1] == is(1));
+  CHECK(image.channels[2][1] == is(light(0.4)));
+  CHECK(read({1, 1, 8, 0, {51}}).channels[0].empty());
+  for (const auto& [space, colour] : {std::pair{JCS_RGB, std::vector<unsigned char>{200, 90, 40}},
+                                      std::pair{JCS_GRAYSCALE, std::vector<unsigned char>{120}}}) {
+    const GrayImage jpeg = parse_image(bytes_of(plain(space, colour)), "f", true);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double expected = light(colour[colour.size() == 3 ? c : 0] / 255.0);
+      REQUIRE(jpeg.channels[c].size() == 256);
+      for (const float value : jpeg.channels[c])
+        CHECK(value == doctest::Approx(expected).scale(1).epsilon(0.02));
+    }
+  }
+}
+
 TEST_CASE("the chunks of a PNG that define its coding, in their order") {
   const double v = 20000 / 65535.0;
   const auto value = [&](const std::string& chunks) {
