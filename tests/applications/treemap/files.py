@@ -218,7 +218,6 @@ class Treemap(unittest.TestCase):
         self.assertEqual(self.fills("p.svg"), {"a": "#aabbcc", "b": "#112233", "c": "#112233", "d": "#00ff00"})
         self.good("t.csv", "--color-by", "kind", "--no-legend", "-o", "q.svg")
         self.assertEqual(self.legend("q.svg"), [])
-        self.measured_again("t.csv", "q.svg")
         # The same from JSON, nested and listed, with numbers, booleans and texts.
         leaves = [{"name": "a", "value": 1, "hot": True}, {"name": "b", "value": 2, "hot": "x"}, {"name": "c", "value": 1}]
         self.write("n.json", json.dumps({"name": "r", "children": leaves}))
