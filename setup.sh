@@ -22,6 +22,7 @@ build_packages="cmake ninja-build g++ pkg-config
 # Packages of the tests besides those: the libraries that results are compared with, and the programs that read written
 # files.
 test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev
+  bash zsh fish groff-base man-db mandoc
   clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-dev python3-venv python3-meshio python3-shapely python3-vtk9"
 
 # Packages of the benchmarks besides those: their driver, and the plots.

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "apps/interrupt.hpp"
+#include "apps/option_words.hpp"
 #include "apps/progress.hpp"
 
 namespace powercell::app {
@@ -20,30 +21,49 @@ const std::map<std::string, Neighbors> providers = {
 
 }  // namespace
 
+void add_device_option(CLI::App& command, CommonOptions& options, const std::string& preface) {
+  command
+      .add_option("--device", options.device,
+                  (preface.empty() ? "Part" : preface + "part") +
+                      " of a device's name, its number P:D, cpu or gpu (see 'powercell devices')")
+      ->type_name("DEVICE")
+      ->check(known_words({"cpu", "gpu"}))
+      ->default_str("POWERCELL_DEVICE, else the best GPU, else the CPU");
+}
+
+void add_threads_option(CLI::App& command, CommonOptions& options, const std::string& preface) {
+  command
+      .add_option("--threads", options.threads,
+                  (preface.empty() ? "Threads" : preface + "threads") + " on the host and in PoCL; 0 for all")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+}
+
 void add_output_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "One JSON object on stdout and nothing else there");
   command.add_flag("--quiet", options.quiet, "No report and no progress bar; errors are still reported");
 }
 
 void add_engine_options(CLI::App& command, CommonOptions& options) {
-  command
-      .add_option("--neighbors", options.neighbors, "How candidate neighbours are found: auto, tree or flann")
-      ->check(CLI::IsMember({"auto", "tree", "flann"}));
+  command.add_option("--neighbors", options.neighbors, "How candidate neighbours are found")
+      ->check(one_of({"auto", "tree", "flann"}))
+      ->capture_default_str();
   command
       .add_option("--decisions", options.decisions,
                   "exact, or fast: cells whose shape rounding may have decided are counted but not corrected")
-      ->check(CLI::IsMember({"exact", "fast"}));
+      ->check(one_of({"exact", "fast"}))
+      ->capture_default_str();
   command.add_flag("--certify", options.certify, "Check each result against laws that need no reference");
-  command.add_option("--threads", options.threads, "Threads on the host and in PoCL; 0 for all")
-      ->check(CLI::Range(0, 4096));
+  add_threads_option(command, options);
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--device", options.device,
-                     "Part of a device's name, its number P:D, cpu or gpu (see 'powercell devices'). "
-                     "Default: POWERCELL_DEVICE, else the best GPU, else the CPU");
-  command.add_option("--precision", options.precision, "auto, double or float")
-      ->check(CLI::IsMember({"auto", "double", "float"}));
+  add_device_option(command, options);
+  command
+      .add_option("--precision", options.precision,
+                  "Of the computation on the device; auto: double where the device has it, else float")
+      ->check(one_of({"auto", "double", "float"}))
+      ->capture_default_str();
   add_engine_options(command, options);
   add_output_options(command, options);
 }

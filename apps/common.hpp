@@ -41,6 +41,10 @@ struct CommonOptions {
   bool silent() const { return quiet || json; }
 };
 
+/// Adds --device. \param preface  of the help, e.g. "For transport: "
+void add_device_option(CLI::App& command, CommonOptions& options, const std::string& preface = {});
+/// Adds --threads, likewise.
+void add_threads_option(CLI::App& command, CommonOptions& options, const std::string& preface = {});
 /// Adds --json and --quiet.
 void add_output_options(CLI::App& command, CommonOptions& options);
 /// Adds --neighbors, --decisions, --certify and --threads.
@@ -72,6 +76,8 @@ Command add_transport(CLI::App& app);
 Command add_treemap(CLI::App& app);
 Command add_remesh(CLI::App& app);
 Command add_sample(CLI::App& app);
+/// A hidden command of the build: manual pages and completions.
+Command add_manuals(CLI::App& app);
 
 using io::with_commas;
 

@@ -19,13 +19,17 @@ namespace {
 }  // namespace
 
 void add_density_options(CLI::App& command, DensityArguments& arguments) {
-  command.add_option("--density", arguments.density,
-                     "Mass per unit of area or volume: a number, a formula in x, y and z, or a file "
-                     "(.txt) with one value for each vertex of the mesh");
+  command
+      .add_option("--density", arguments.density,
+                  "Mass per unit of area or volume: a number, a formula in x, y and z, or a file "
+                  "(.txt) with one value for each vertex of the mesh")
+      ->type_name("FORMULA|FILE")
+      ->default_str("1");
   command
       .add_option("--image", arguments.image,
                   "PNG or JPEG whose dark parts are dense; it fills the box of the domain")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->default_str("none");
   command.add_flag("--bright", arguments.bright, "The bright parts of the image are dense");
 }
 

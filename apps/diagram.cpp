@@ -143,13 +143,16 @@ Command add_diagram(CLI::App& app) {
   add_inputs(*command, *arguments, true);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   add_picture_options(*command, arguments->picture, "-o");
-  command->add_option("--table", arguments->table, "CSV with one row for each seed")->type_name("FILE.csv");
+  command->add_option("--table", arguments->table, "CSV with one row for each seed")
+      ->type_name("FILE.csv")
+      ->default_str("none");
   command
       ->add_option("--walls", arguments->walls,
                    "CSV with one row for each side of a wall: seed,neighbor,measure, and in a periodic "
                    "domain sx,sy[,sz]: "
                    "the periods by which the neighbour is moved")
-      ->type_name("FILE.csv");
+      ->type_name("FILE.csv")
+      ->default_str("none");
   command->add_flag(
       "--facets", arguments->facets,
       "In --walls, also the facets of the domain that cells have: rows with a facet instead of a "
@@ -164,13 +167,14 @@ Command add_diagram(CLI::App& app) {
           "Compute the cells of some seeds only, for --table and --walls: a file with an index from 0, "
           "or an id (--id-column), in each line")
       ->type_name("FILE")
-      ->check(CLI::ExistingFile);
+      ->default_str("all cells");
   command
       ->add_option(
           "--repeat", arguments->repeat,
           "Compute the diagram that often and report the time of each: the first one allocates memory, later "
           "ones are those of a loop")
-      ->check(CLI::Range(1, 1000000));
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   add_common_options(*command, *arguments);
   command->footer(diagram_examples);
   return [arguments] { return run(*arguments); };

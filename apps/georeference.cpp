@@ -247,17 +247,13 @@ class Placing {
 void add_map_options(CLI::App& command, MapArguments& arguments) {
   const auto group = "Maps";
   command
-      .add_option(
-          "--crs", arguments.crs,
-          "Coordinate system of a polygon's file, such as EPSG:4326 (degrees) or EPSG:32633. Default: what "
-          "the file says; degrees if the seeds' columns are named lon and lat")
+      .add_option("--crs", arguments.crs,
+                  "Coordinate system of a polygon's file, such as EPSG:4326 (degrees) or EPSG:32633")
+      ->default_str("what the file says; degrees if the seeds' columns are named lon and lat")
       ->type_name("CRS")
       ->group(group);
-  command
-      .add_option("--seeds-crs", arguments.seeds_crs,
-                  "That of the seeds. Default: what their file says; degrees if their columns are named lon "
-                  "and lat; else "
-                  "the domain's")
+  command.add_option("--seeds-crs", arguments.seeds_crs, "That of the seeds")
+      ->default_str("what their file says; degrees if their columns are named lon and lat; else the domain's")
       ->type_name("CRS")
       ->group(group);
   auto* project = command.add_flag("--project", arguments.project,

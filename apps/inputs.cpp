@@ -12,6 +12,7 @@
 #include "apps/io/names.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_text.hpp"
+#include "apps/option_words.hpp"
 #include "apps/seeds_outside.hpp"
 
 namespace powercell::app {
@@ -75,23 +76,29 @@ void note_small_weights(Inputs& inputs) {
 
 void add_columns(CLI::App& command, InputArguments& arguments) {
   io::ColumnChoice& columns = arguments.columns;
-  const auto add = [&](const char* option, std::string& column, const char* help) {
-    command.add_option(option, column, help)->type_name("COLUMN")->group("The table of seeds");
+  const auto add = [&](const char* option, std::string& column, const char* help, const char* otherwise) {
+    command.add_option(option, column, help)
+        ->type_name("COLUMN")
+        ->default_str(otherwise)
+        ->group("The table of seeds");
   };
   add("--x-column", columns.position[0],
-      "Column of the x coordinates, by its name in the header or its number from 1. Default: x, lon, easting "
-      "and the like, else the first");
-  add("--y-column", columns.position[1], "Likewise of y");
-  add("--z-column", columns.position[2], "Likewise of z");
-  add("--weight-column", columns.weight, "Likewise of the weights, lengths squared. Default: weight or w");
-  add("--radius-column", columns.radius, "Likewise of radii, whose squares are the weights");
-  add("--id-column", columns.id, "Likewise of ids, for GeoJSON and --walls; needs a header");
+      "Column of the x coordinates, by its name in the header or its number from 1",
+      "x, lon, easting and the like, else the first");
+  add("--y-column", columns.position[1], "Likewise of y", "y, lat, northing and the like, else the second");
+  add("--z-column", columns.position[2], "Likewise of z", "z, else the third");
+  add("--weight-column", columns.weight, "Likewise of the weights, lengths squared",
+      "weight or w, else the next");
+  add("--radius-column", columns.radius, "Likewise of radii, whose squares are the weights", "none");
+  add("--id-column", columns.id, "Likewise of ids, for GeoJSON and --walls; needs a header", "none");
   command
       .add_option(
           "--scale-weights", arguments.scale_weights,
           "Multiply the weights by a number, or 'auto': such that their range is the square of half the mean "
           "distance of the seeds")
       ->check(wrong_scale)
+      ->check(known_words({"auto"}))
+      ->default_str("1")
       ->type_name("FACTOR")
       ->group("The table of seeds");
   command
@@ -167,6 +174,9 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
           "square, cube, disk, ball, sphere, torus (with :N for resolution), box:LX,LY[,LZ]:HX,HY[,HZ], or "
           "the "
           "periodic lattice:ax,ay/bx,by or lattice:ax,ay,az/bx,by,bz/cx,cy,cz")
+      ->type_name("FILE|SHAPE")
+      ->check(known_words(io::builtin_domain_names()))
+      ->default_str(required ? "" : "none")
       ->required(required);
   command
       .add_option(
@@ -176,12 +186,14 @@ void add_inputs(CLI::App& command, InputArguments& arguments, bool required) {
           "(FILE.gpkg:LAYER), or in a "
           "column of well-known text; an .npy file; or random:N[:LO:HI[:SEED]] with "
           "weights from LO to HI")
+      ->type_name("FILE|random:N")
       ->check(wrong_seeds)
+      ->check(known_words({"random:"}))
+      ->default_str(required ? "" : "none")
       ->required(required);
-  command
-      .add_option("--kind", arguments.kind,
-                  "polygon, surface or volume, for files that can be read as more than one")
-      ->check(CLI::IsMember({"polygon", "surface", "volume"}));
+  command.add_option("--kind", arguments.kind, "For files that can be read as more than one kind of domain")
+      ->check(one_of({"polygon", "surface", "volume"}))
+      ->default_str("the highest dimension that the file has");
   add_periodic(command, arguments.periodic);
   command.add_flag(
       "--solid", arguments.solid,

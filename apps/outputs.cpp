@@ -37,6 +37,7 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
   command.add_option("-o,--output", files, "File to write; may be repeated: " + kinds)
       ->check(refusal)
       ->type_name("FILE")
+      ->default_str("none")
       ->expected(1)
       ->take_all();
 }

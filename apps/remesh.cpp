@@ -17,6 +17,7 @@
 #include "apps/io/read_file.hpp"
 #include "apps/io/write_triangles.hpp"
 #include "apps/number_checks.hpp"
+#include "apps/option_words.hpp"
 #include "apps/outputs.hpp"
 #include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
@@ -321,12 +322,14 @@ Command add_remesh(CLI::App& app) {
       ->add_option(
           "input", arguments->input,
           "A surface: .off .obj .ply .stl .vtk .vtu .msh .mesh, or sphere, torus (with :N for resolution)")
+      ->type_name("FILE|SHAPE")
+      ->check(known_words({"sphere", "torus"}))
       ->required();
   command->add_option("--count", arguments->remesh.count, "Vertices of the new mesh")->required();
   command
       ->add_option("--method", arguments->method,
                    "fpo: farthest-point optimisation; transport: cells of equal mass, faster")
-      ->check(CLI::IsMember({"fpo", "transport"}))
+      ->check(one_of({"fpo", "transport"}))
       ->capture_default_str();
   add_shape_options(*command, arguments->remesh);
   add_output_files(*command, arguments->outputs,
@@ -335,16 +338,14 @@ Command add_remesh(CLI::App& app) {
   add_camera_options(*command, arguments->picture, usual_width);
   command->add_flag("--no-repair", arguments->no_repair,
                     "Take edges as one where vertices have the same number, and refuse what is no manifold");
-  command
-      ->add_option(
-          "--weld", arguments->weld,
-          "Largest distance over which boundary edges are joined; default: 10^-6 of the diagonal, or "
-          "the rounding of single precision")
+  command->add_option("--weld", arguments->weld, "Largest distance over which boundary edges are joined")
+      ->default_str("10^-6 of the diagonal, or the rounding of single precision")
       ->check(not_below_zero());
-  command->add_option("--report", arguments->report, "Write the figures as JSON")->type_name("FILE.json");
-  command->add_option("--device", arguments->device, "For transport: as in 'powercell diagram'");
-  command->add_option("--threads", arguments->threads, "For transport: on the host and in PoCL; 0 for all")
-      ->check(not_below_zero());
+  command->add_option("--report", arguments->report, "Write the figures as JSON")
+      ->type_name("FILE.json")
+      ->default_str("none");
+  add_device_option(*command, *arguments, "For transport: ");
+  add_threads_option(*command, *arguments, "For transport: ");
   add_output_options(*command, *arguments);
   command->footer(remesh_examples);
   return [arguments] { return run(*arguments); };

@@ -13,9 +13,10 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/picture.hpp"
-#include "apps/io/read_file.hpp"
+#include "apps/io/read_domain.hpp"
 #include "apps/io/write_points.hpp"
 #include "apps/number_checks.hpp"
+#include "apps/option_words.hpp"
 #include "apps/outputs.hpp"
 #include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
@@ -216,17 +217,19 @@ constexpr const char* sample_examples =
     "  powercell sample --paper 2        the 2D experiment of Xiao et al. 2023; --paper 3 for 3D";
 
 void add_source(CLI::App& command, SourceArguments& source) {
-  command.add_option("--domain", source.domain,
-                     "As in 'powercell diagram'. Default: the unit square, or the box of the image");
-  command
-      .add_option("--kind", source.kind,
-                  "polygon, surface or volume, for files that can be read as more than one")
-      ->check(CLI::IsMember({"polygon", "surface", "volume"}));
+  command.add_option("--domain", source.domain, "As in 'powercell diagram'")
+      ->type_name("FILE|SHAPE")
+      ->check(known_words(io::builtin_domain_names()))
+      ->default_str("the unit square, or the box of the image");
+  command.add_option("--kind", source.kind, "For files that can be read as more than one kind of domain")
+      ->check(one_of({"polygon", "surface", "volume"}))
+      ->default_str("the highest dimension that the file has");
   add_density_options(command, source);
   command
       .add_option("--dot-contrast", source.dot_contrast,
                   "Image: from 0 for equal dots to 0.9 for the largest differences; the ink is the same")
       ->check(between(0, 0.9))
+      ->capture_default_str()
       ->needs("--image");
   command
       .add_flag("--color", source.color,
@@ -236,7 +239,8 @@ void add_source(CLI::App& command, SourceArguments& source) {
       .add_option("--paper", source.paper,
                   "The experiment of Xiao et al. 2023 in 2 or 3 dimensions: 1,000 points, "
                   "100 iterations, density 1/(|x|^2+0.1)")
-      ->check(CLI::IsMember({2, 3}));
+      ->check(one_of({"2", "3"}))
+      ->default_str("none");
 }
 
 }  // namespace
@@ -246,46 +250,57 @@ Command add_sample(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("sample", "Blue noise: points whose cells have equal masses of a density");
   command->add_option("-n,--points", arguments->count, "Number of points")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}));
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}))
+      ->capture_default_str();
   add_source(*command, arguments->source);
   command->add_option("--mode", arguments->mode, "blue: even and irregular; quantise: least energy")
-      ->check(CLI::IsMember({"blue", "quantise"}));
+      ->check(one_of({"blue", "quantise"}))
+      ->capture_default_str();
   command
       ->add_option("--descent", arguments->descent,
                    "lloyd moves points to the centroids of their cells, lbfgs rests after fewer moves; auto: "
                    "lloyd for blue, lbfgs for quantise")
-      ->check(CLI::IsMember({"auto", "lloyd", "lbfgs"}));
+      ->check(one_of({"auto", "lloyd", "lbfgs"}))
+      ->capture_default_str();
   add_periodic(*command, arguments->source.periodic);
   command
       ->add_option("--iterations", arguments->iterations, "Largest number of moves; 0 for the mode's default")
-      ->check(not_below_zero());
+      ->check(not_below_zero())
+      ->capture_default_str();
   command->add_option("--hexatic", arguments->hexatic, "blue: hexatic order to stop at, 0.4 to 0.99")
-      ->check(between(0.4, 0.99));
+      ->check(between(0.4, 0.99))
+      ->capture_default_str();
   command
       ->add_option(
           "--movement", arguments->movement,
           "quantise: stop when points move less than this part of the spacing; 0: after --iterations")
-      ->check(not_below_zero());
+      ->check(not_below_zero())
+      ->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "Relative tolerance of the masses, 1e-12 to 0.1")
-      ->check(between(1e-12, 0.1));
-  command->add_option("--random", arguments->random_seed, "Random seed of the initial points");
+      ->check(between(1e-12, 0.1))
+      ->capture_default_str();
+  command->add_option("--random", arguments->random_seed, "Random seed of the initial points")
+      ->capture_default_str();
   command
       ->add_option("--runs", arguments->runs,
                    "Number of samplings, with consecutive random seeds; figures are averaged")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   add_output_files(*command, arguments->outputs,
                    std::string(io::point_outputs) + ", of the points of the first run",
                    io::check_points_format);
   command
       ->add_option("--cells", arguments->cells, "Cells of the first run, as 'powercell diagram' writes them")
       ->type_name("FILE")
+      ->default_str("none")
       ->expected(1)
       ->take_all();
   add_picture_options(*command, arguments->picture, "--cells");
   command
       ->add_option("--analysis", arguments->analysis,
                    "All figures and spectra as JSON; spectra of n points take n^2 time")
-      ->type_name("FILE.json");
+      ->type_name("FILE.json")
+      ->default_str("none");
   add_common_options(*command, *arguments);
   command->footer(sample_examples);
   return [arguments] { return run(*arguments); };

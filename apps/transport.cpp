@@ -16,6 +16,7 @@
 #include "apps/io/write_table.hpp"
 #include "apps/io/write_transport.hpp"
 #include "apps/number_checks.hpp"
+#include "apps/option_words.hpp"
 #include "apps/outputs.hpp"
 #include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
@@ -243,21 +244,26 @@ constexpr const char* transport_examples =
 void add_solver_options(CLI::App& command, TransportArguments& arguments) {
   command
       .add_option("--masses", arguments.masses,
-                  "Table with one mass for each seed, in their order: one column, or one named 'mass'. "
-                  "Default: equal masses")
-      ->type_name("FILE.csv");
-  command.add_option("--mass-column", arguments.mass_column,
-                     "Name of that column; without --masses, of a column of the seeds' table");
+                  "Table with one mass for each seed, in their order: one column, or one named 'mass'")
+      ->type_name("FILE.csv")
+      ->default_str("equal masses");
+  command
+      .add_option("--mass-column", arguments.mass_column,
+                  "Name of that column; without --masses, of a column of the seeds' table")
+      ->type_name("COLUMN")
+      ->default_str("mass, of the table of --masses");
   command.add_flag("--rescale", arguments.rescale,
                    "Masses are ratios: scale them to sum to the domain's mass");
   add_density_options(command, arguments.density);
-  command
-      .add_option("--tolerance", arguments.tolerance,
-                  "Largest relative error of a mass. Default: 1e-6 (single precision: 1e-3)")
-      ->check(between(1e-16, 0.999));
-  command.add_option("--max-steps", arguments.most_steps, "Largest number of steps")->check(not_below_zero());
-  command.add_option("--linear", arguments.linear, "Linear solver: auto, dense, direct or multilevel")
-      ->check(CLI::IsMember({"auto", "dense", "direct", "multilevel"}));
+  command.add_option("--tolerance", arguments.tolerance, "Largest relative error of a mass")
+      ->check(between(1e-16, 0.999))
+      ->default_str("1e-6, in single precision 1e-3");
+  command.add_option("--max-steps", arguments.most_steps, "Largest number of steps")
+      ->check(not_below_zero())
+      ->capture_default_str();
+  command.add_option("--linear", arguments.linear, "Linear solver")
+      ->check(one_of({"auto", "dense", "direct", "multilevel"}))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -271,15 +277,18 @@ Command add_transport(CLI::App& app) {
   add_picture_options(*command, arguments->picture, "-o");
   command
       ->add_option("--table", arguments->table, "CSV with one row for each seed: weight, mass, centroid, ...")
-      ->type_name("FILE.csv");
+      ->type_name("FILE.csv")
+      ->default_str("none");
   command
       ->add_option("--walls", arguments->walls,
                    "CSV with one row for each side of a wall: seed,neighbor,measure, and in a periodic "
                    "domain sx,sy[,sz]: "
                    "the periods by which the neighbour is moved")
-      ->type_name("FILE.csv");
+      ->type_name("FILE.csv")
+      ->default_str("none");
   command->add_option("--log", arguments->log, "JSON Lines: one object for each step of the solver")
-      ->type_name("FILE.jsonl");
+      ->type_name("FILE.jsonl")
+      ->default_str("none");
   add_common_options(*command, *arguments);
   command->footer(transport_examples);
   return [arguments] { return run(*arguments); };

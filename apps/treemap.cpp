@@ -12,6 +12,7 @@
 #include "apps/io/read_tree.hpp"
 #include "apps/io/write_treemap.hpp"
 #include "apps/number_checks.hpp"
+#include "apps/option_words.hpp"
 #include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
@@ -188,16 +189,19 @@ Command add_treemap(CLI::App& app) {
   CLI::App* command = app.add_subcommand("treemap", "Draw hierarchical data as nested cells of exact areas");
   command->add_option("tree", arguments->tree, "A table (.csv .txt .tsv), .json, or a folder")
       ->required()
-      ->type_name("TREE");
+      ->type_name("FILE|FOLDER");
   add_output_files(*command, arguments->outputs, std::string(io::treemap_outputs), io::check_treemap_output);
   command
       ->add_option("--shape", arguments->shape,
                    "W:H, circle, circle:N (N corners), hexagon, or a file with one convex polygon")
+      ->type_name("FILE|SHAPE")
+      ->check(known_words({"circle", "hexagon", "16:10"}))
       ->capture_default_str();
   command
       ->add_option("--previous", arguments->previous,
                    "An earlier layout (.json) whose positions and colours are kept as far as possible, by id")
-      ->type_name("FILE.json");
+      ->type_name("FILE.json")
+      ->default_str("none");
   command
       ->add_option("--rounds", arguments->rounds,
                    "Largest number of rounds of moving cells; more give rounder cells")
@@ -219,10 +223,8 @@ Command add_treemap(CLI::App& app) {
       ->type_name("COLUMN");
   command->add_flag("--no-legend", arguments->no_legend, "No legend for --color-by");
   command->add_flag("--no-labels", arguments->no_labels, "No names in the picture");
-  command->add_option("--device", arguments->device,
-                      "For groups of thousands of nodes: part of a device's name, P:D, cpu or gpu");
-  command->add_option("--threads", arguments->threads, "Threads on the host; 0 for all")
-      ->check(not_below_zero());
+  add_device_option(*command, *arguments, "For groups of thousands of nodes: ");
+  add_threads_option(*command, *arguments);
   add_output_options(*command, *arguments);
   command->footer(treemap_examples);
   return [arguments] { return run(*arguments); };

@@ -199,8 +199,11 @@ Command add_verify(CLI::App& app) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command =
       app.add_subcommand("verify", "Check a device or a saved diagram against the laws of power diagrams");
-  command->add_option("FILE", arguments->file,
-                      "A diagram saved by 'diagram -o FILE.json'; --precision is that of its computation");
+  command
+      ->add_option("FILE", arguments->file,
+                   "A diagram saved by 'diagram -o FILE.json'; --precision is that of its computation")
+      ->type_name("FILE")
+      ->default_str("none; the device is checked");
   add_inputs(*command, *arguments, false);
   command
       ->add_option("--count", arguments->count, "Number of random seeds in each diagram that checks a device")

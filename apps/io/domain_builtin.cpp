@@ -51,6 +51,13 @@ bool is_builtin_domain(const std::string& spec) {
   return find(spec) != nullptr || is_box_spec(spec);
 }
 
+std::vector<std::string> builtin_domain_names() {
+  std::vector<std::string> names;
+  for (const Builtin& builtin : builtins) names.emplace_back(builtin.name);
+  names.insert(names.end(), {"box:", "lattice:"});
+  return names;
+}
+
 DomainArrays builtin_domain(const std::string& spec) {
   if (is_box_spec(spec)) return parse_box(spec);
   const Builtin* builtin = find(spec);

@@ -102,7 +102,8 @@ DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKin
     std::vector<PolygonPart> parts = read_geopackage_polygons(spec, &crs);
     return polygon_arrays(std::move(parts), std::move(crs), kind, spec);
   }
-  if (!is_builtin_domain(spec)) return parse_domain(read_file(spec), lower_extension(spec), kind, spec);
+  if (!is_builtin_domain(spec))
+    return parse_domain(read_file(spec, builtin_domain_names()), lower_extension(spec), kind, spec);
   DomainArrays arrays = builtin_domain(spec);
   if (kind.value_or(arrays.kind) != arrays.kind)
     throw Error(ErrorCode::invalid_argument,

@@ -44,6 +44,8 @@ DomainArrays parse_domain(std::string_view bytes, const std::string& extension,
 
 /// The arrays of a built-in shape, and whether `spec` names one.
 bool is_builtin_domain(const std::string& spec);
+/// "square" and so on; the last ones, "box:" and "lattice:", need numbers behind them.
+std::vector<std::string> builtin_domain_names();
 DomainArrays builtin_domain(const std::string& spec);
 
 }  // namespace powercell::io

@@ -9,11 +9,37 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <system_error>
+#include <vector>
 
+#include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 
 namespace powercell::io {
+namespace {
+
+[[noreturn]] void fail_missing(const std::string& path, std::span<const std::string> words) {
+  // "shpere:40" stands for "sphere:40": what follows the colon is a number.
+  const std::size_t colon = path.find(':');
+  std::string meant = closest(path.substr(0, colon == std::string::npos ? colon : colon + 1), words);
+  if (meant.empty()) {
+    const std::filesystem::path file(path);
+    meant = closest(file.filename().string(), names_beside(path));
+    if (!meant.empty()) meant = file.parent_path() / meant;
+  }
+  fail_file(path, "no such file" + (meant.empty() ? "; check the path" : did_you_mean(meant)));
+}
+
+/// The words of a list that blanks separate.
+std::vector<std::string> words_of(std::string_view list) {
+  std::vector<std::string> words;
+  std::istringstream stream{std::string(list)};
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+}  // namespace
 
 void fail_file(const std::string& name, const std::string& what) {
   throw Error(ErrorCode::invalid_file, fmt::format("{}: {}", name, readable(what)));
@@ -38,15 +64,14 @@ void check_extension(const std::string& path, std::string_view known) {
   const std::string wanted = lower_extension(path) + " ";
   if (wanted.size() > 1 && (std::string(known) + " ").find(wanted) != std::string::npos) return;
   throw Error(ErrorCode::invalid_file,
-              fmt::format("{}: unknown extension of an output file; known are {}", path, known));
+              fmt::format("{}: unknown extension of an output file; known are {}{}", path, known,
+                          did_you_mean(closest(lower_extension(path), words_of(known)))));
 }
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, std::span<const std::string> words) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    fail_file(path, "no such file; check the path");
-  }
+  if (status.type() == std::filesystem::file_type::not_found) fail_missing(path, words);
   if (std::filesystem::is_directory(status)) fail_file(path, "is a directory; name a file in it");
 
   const auto close = [](std::FILE* file) { std::fclose(file); };

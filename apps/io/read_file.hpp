@@ -4,13 +4,16 @@
 
 #include <cstddef>
 #include <powercell/error.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace powercell::io {
 
-/// The bytes of a regular file. \throw Error invalid_file (missing, a directory, unreadable, empty)
-std::string read_file(const std::string& path);
+/// The bytes of a regular file. \param words  names that could stand in place of the file, for the message
+/// where there is none: the closest of them and of the files beside is proposed
+/// \throw Error invalid_file (missing, a directory, unreadable, empty)
+std::string read_file(const std::string& path, std::span<const std::string> words = {});
 
 /// ".off" for "a/b/Mesh.OFF"; empty if the name has none.
 std::string lower_extension(const std::string& path);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
@@ -46,8 +47,10 @@ class MassesText {
     }
     if (found > 1) records_.fail(fmt::format("the header has {} columns '{}'; rename one", found, wanted));
     if (found == 0 && (!column_.empty() || columns_ != 1))
-      records_.fail(fmt::format("the header has no column '{}'; name another with --mass-column{}", wanted,
-                                separated_by(records_.separator())));
+      records_.fail(
+          fmt::format("the header has no column '{}'; name another with --mass-column{}{}", wanted,
+                      separated_by(records_.separator()),
+                      did_you_mean(closest(wanted, std::vector<std::string>(fields.begin(), fields.end())))));
     return true;
   }
 
@@ -100,8 +103,8 @@ std::vector<double> masses_of_table(const SeedTable& seeds, const std::string& c
   });
   if (found == names.end())
     fail_file(name, fmt::format("the table of the seeds has no column '{}'; name one of its header, or give "
-                                "--masses with another table",
-                                column));
+                                "--masses with another table{}",
+                                column, did_you_mean(closest(column, names))));
   std::vector<double> masses;
   for (std::size_t i = 0; i < seeds.count(); ++i) {
     const std::string_view field = seeds.text.field(i, static_cast<std::size_t>(found - names.begin()));

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 
@@ -145,8 +146,9 @@ class Chooser {
                              readable(wanted), columns_.count));
     std::string all;
     for (std::size_t k = 0; k < names_.size() && k < 12; ++k) all += (k > 0 ? ", " : "") + shown(k);
-    rows_.fail(fmt::format("no column '{}'; the header has {}{}", readable(wanted), all,
-                           names_.size() > 12 ? fmt::format(" and {} more", names_.size() - 12) : ""));
+    rows_.fail(fmt::format("no column '{}'; the header has {}{}{}", readable(wanted), all,
+                           names_.size() > 12 ? fmt::format(" and {} more", names_.size() - 12) : "",
+                           did_you_mean(closest(wanted, columns_.names))));
   }
 
   /// The column with one of these names, if any.

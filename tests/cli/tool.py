@@ -4,6 +4,7 @@ A script that imports this has the path of the tool as its first argument.
 """
 
 import csv
+import dataclasses
 import json
 import os
 import pathlib
@@ -50,6 +51,23 @@ def png(rows, bits=8):
             chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
 
 
+@dataclasses.dataclass
+class Option:
+    """An option as --help shows it: "-o, --output FILE" and its text."""
+    title: str
+    text: str
+
+    @property
+    def names(self):
+        return re.findall(r"(?<!\S)--?[a-z][a-z-]*", self.title)
+
+    @property
+    def value(self):
+        """The placeholder of its value; empty for a flag."""
+        last = self.title.split(", ")[-1]
+        return last.split(" ", 1)[1] if " " in last else ""
+
+
 class ToolTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -76,6 +94,22 @@ class ToolTest(unittest.TestCase):
         self.assertEqual(done.stdout, "")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
         return done
+
+    def commands(self):
+        listed = self.good("--help").stdout.split("\nCommands:\n")[1].split("\n\n")[0]
+        return re.findall(r"^  ([a-z]\S*)", listed, re.M)
+
+    def options(self, command):
+        """The options of a command, as its help lists them."""
+        found = []
+        shown = self.good(command, "--help").stdout
+        for line in shown.split("\nExamples:\n")[0].splitlines():
+            if line.startswith("  -"):
+                title, _, text = line[2:].partition("  ")
+                found.append(Option(title, text.strip()))
+            elif found and line.startswith(" " * 28):
+                found[-1].text = (found[-1].text + " " + line.strip()).strip()
+        return found
 
     def rows(self, name):
         with (self.folder / name).open() as file:

@@ -19,6 +19,10 @@ kinds=
 for name in powercell.pc powercell-core.pc libpowercell_core libpowercell_applications LICENSE; do
   [ -n "$(find "$prefix" -name "$name*")" ] || fail "$name was not installed"
 done
+for file in man/man1/powercell.1 man/man1/powercell-diagram.1 bash-completion/completions/powercell \
+  zsh/site-functions/_powercell fish/vendor_completions.d/powercell.fish; do
+  [ -s "$prefix/share/$file" ] || { echo "share/$file was not installed" >&2; exit 1; }
+done
 
 step "hidden symbols"
 # Only powercell:: and pc_ may be exported, and the typeinfo and vtables of powercell's types. (Weak symbols, such as
