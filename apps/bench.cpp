@@ -9,10 +9,12 @@
 #include <optional>
 #include <powercell/seeds.hpp>
 
+#include "apps/bench/comparison.hpp"
 #include "apps/bench/run.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/io/atomic_file.hpp"
 #include "apps/number_checks.hpp"
+#include "apps/option_words.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -24,28 +26,46 @@ int fail(const std::string& message) {
 }
 
 // Prints the comparison. Exit code.
-int conclude_comparison(const BenchArguments& arguments, const BenchRecord& record,
-                        const EarlierRecord& earlier) {
-  const std::vector<BenchRatio> ratios = compare(record, earlier);
-  if (ratios.empty())
-    return fail(
-        fmt::format("{} has no row of the same device, domain, precision and number of seeds", earlier.path));
-  if (arguments.talk()) fmt::print("\n{}", comparison(record, earlier, ratios));
+int conclude_comparison(const BenchArguments& arguments, const SavedRecord& now, const SavedRecord& then,
+                        const std::vector<BenchRatio>& ratios) {
+  if (arguments.talk()) fmt::print("{}", comparison(now, then, ratios));
   const auto worst = std::min_element(ratios.begin(), ratios.end(),
                                       [](const auto& a, const auto& b) { return a.least() < b.least(); });
   if (worst->least() >= arguments.fail_below) return 0;
-  return fail(fmt::format("{}: {:.3f} of the rate in {}, below --fail-below {}", worst->row->title(),
-                          worst->least(), earlier.path, arguments.fail_below));
+  return fail(fmt::format("{}: {:.3f} of the rate in {}, below --fail-below {}", worst->now->title(),
+                          worst->least(), then.path, arguments.fail_below));
+}
+
+int compare_with_earlier(const BenchArguments& arguments, const BenchRecord& record,
+                         const SavedRecord& then) {
+  const SavedRecord now = saved(record, "");
+  const std::vector<BenchRatio> ratios = same_rows(now, then);
+  if (ratios.empty())
+    return fail(
+        fmt::format("{} has no row of the same device, domain, precision and number of seeds", then.path));
+  if (arguments.talk()) fmt::print("\n");
+  return conclude_comparison(arguments, now, then, ratios);
+}
+
+int compare_files(const BenchArguments& arguments) {
+  const SavedRecord then = read_record(arguments.compare_files[0]),
+                    now = read_record(arguments.compare_files[1]);
+  const std::vector<BenchRatio> ratios = alike_rows(now, then);
+  if (ratios.empty())
+    return fail(fmt::format("{} and {} have no row of the same domain and precision", then.path, now.path));
+  return conclude_comparison(arguments, now, then, ratios);
 }
 
 int conclude(const BenchArguments& arguments, const BenchRecord& record,
-             const std::optional<EarlierRecord>& earlier) {
-  if (arguments.talk())
+             const std::optional<SavedRecord>& earlier) {
+  if (arguments.talk()) {
     fmt::print("{} row{} in {:.0f} s; {}\n", record.rows.size(), record.rows.size() == 1 ? "" : "s",
                record.seconds,
                record.failures() ? fmt::format("{} FAILED", record.failures())
                                  : "the measures of every run sum to the domain's");
-  const int compared = earlier ? conclude_comparison(arguments, record, *earlier) : 0;
+    fmt::print("{}{}", scatter_notes(record), headline(record));
+  }
+  const int compared = earlier ? compare_with_earlier(arguments, record, *earlier) : 0;
   if (const std::string failure = record.failure(); !failure.empty()) return fail(failure);
   return compared;
 }
@@ -57,11 +77,23 @@ void disable_caches() {
   setenv("CUDA_CACHE_DISABLE", "1", 1);
 }
 
-int run(const BenchArguments& arguments) {
+/// \throw WrongUsage for options that choose what to measure, where nothing is measured
+void refuse_to_measure(const CLI::App& command) {
+  for (const char* option : {"--device", "--domain", "--precision", "--n", "--repeat", "--quick", "--cold",
+                             "--json", "--describe", "--neighbors", "--decisions", "--certify", "--threads"})
+    if (command.count(option) > 0)
+      throw WrongUsage(fmt::format("--compare with two files measures nothing; leave {} out", option));
+}
+
+int run(const BenchArguments& arguments, const CLI::App& command) {
+  if (arguments.compare_files.size() == 2) {
+    refuse_to_measure(command);
+    return compare_files(arguments);
+  }
   if (arguments.cold) disable_caches();
   // Unreadable and unwritable files are refused before the benchmark, which takes a minute.
-  std::optional<EarlierRecord> earlier;
-  if (!arguments.compare_file.empty()) earlier = read_record(arguments.compare_file);
+  std::optional<SavedRecord> earlier;
+  if (!arguments.compare_files.empty()) earlier = read_record(arguments.compare_files.front());
   std::optional<io::AtomicFile> file;
   if (!arguments.json_file.empty() && arguments.json_file != "-") file.emplace(arguments.json_file);
 
@@ -83,30 +115,42 @@ above the table). The work is a model (clipping by the seeds near enough to cut,
 each number moved once), not a count of executed operations: the time also includes searching and
 transfers between host and device. See docs/performance.md. Then seconds to build the kernels (little if
 they were cached: see --cold), and from opening the device to the measures of the first 1,000 cells.
-Every run is checked: measures that do not sum to the domain's are a failure.
+Every run is checked: measures that do not sum to the domain's are a failure. The figure at the end is that
+of 1,000,000 seeds in the cube (100,000 with --quick), measures alone, in the first precision.
 Examples:
   powercell bench                                      every device and precision, in under two minutes
   powercell bench --device gpu --json gpu.json
   powercell bench --quick --domain cube --domain part.mesh --precision float
-  powercell bench --json new.json --compare old.json --fail-below 0.9)";
+  powercell bench --json new.json --compare old.json --fail-below 0.9
+  powercell bench --json mine.json --describe 'workstation, nothing else running'
+  powercell bench --compare old.json new.json          two saved files; measures nothing)";
 
 void add_options(CLI::App& command, BenchArguments& arguments) {
-  const auto repeated = [&](const char* name, std::vector<std::string>& to, const char* help) {
-    command.add_option(name, to, help)->expected(1)->take_all();
-  };
-  repeated("--device", arguments.devices,
-           "Part of a device's name, its number P:D, cpu or gpu; may be repeated. Default: POWERCELL_DEVICE, "
-           "else every device");
-  repeated("--domain", arguments.domains,
-           "square, cube, surface (5,120 triangles), volume (13,824 tetrahedra), or a domain as for 'diagram "
-           "--domain'; may be repeated. Default: the first four");
+  command
+      .add_option("--device", arguments.devices,
+                  "Part of a device's name, its number P:D, cpu or gpu; may be repeated")
+      ->type_name("DEVICE")
+      ->check(known_words({"cpu", "gpu"}))
+      ->default_str("POWERCELL_DEVICE, else every device")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option("--domain", arguments.domains,
+                  "square, cube, surface (5,120 triangles), volume (13,824 tetrahedra), or a domain as for "
+                  "'diagram --domain'; may be repeated")
+      ->type_name("FILE|SHAPE")
+      ->check(known_words(bench_domain_names()))
+      ->default_str("the first four")
+      ->expected(1)
+      ->take_all();
   command
       .add_option("--precision", arguments.precision, "double, float, or auto: each that the device supports")
-      ->check(CLI::IsMember({"auto", "double", "float"}));
-  command
-      .add_option("--n", arguments.n,
-                  "Seeds. Default: those of --compare, else as many as a run of one second takes")
-      ->check(CLI::Range(std::size_t{1}, most_seeds_of_diagram));
+      ->check(one_of({"auto", "double", "float"}))
+      ->capture_default_str();
+  command.add_option("--n", arguments.n, "Seeds")
+      ->check(CLI::Range(std::size_t{1}, most_seeds_of_diagram))
+      ->default_str(
+          "those of --compare, else 1,000,000 in the cube and as many as a run of one second takes");
   command.add_option("--repeat", arguments.repeat, "Runs of each kind; the best counts")
       ->check(above_zero())
       ->capture_default_str();
@@ -117,14 +161,27 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
       "are not used");
   command
       .add_option("--json", arguments.json_file, "Write all figures as JSON; - for stdout without a table")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->default_str("none");
+  command
+      .add_option("--describe", arguments.description,
+                  "Words to keep in the file of --json, about the machine and so on")
+      ->type_name("TEXT")
+      ->default_str("none");
   CLI::Option* compare =
-      command.add_option("--compare", arguments.compare_file, "Print ratios to an earlier --json FILE")
-          ->type_name("FILE");
+      command
+          .add_option(
+              "--compare", arguments.compare_files,
+              "Print ratios to an earlier file of --json; with a second file those of the second to the "
+              "first, and measure nothing")
+          ->type_name("FILE")
+          ->default_str("none")
+          ->expected(1, 2);
   command
       .add_option("--fail-below", arguments.fail_below,
                   "With --compare: exit with 1 if a rate is below this share of the earlier one")
       ->type_name("RATIO")
+      ->default_str("none")
       ->check(above_zero())
       ->needs(compare);
   add_engine_options(command, arguments);
@@ -138,7 +195,7 @@ Command add_bench(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bench", "Measure how fast devices compute");
   add_options(*command, *arguments);
   command->footer(bench_examples);
-  return [arguments] { return run(*arguments); };
+  return [arguments, command] { return run(*arguments, *command); };
 }
 
 }  // namespace powercell::app

@@ -3,19 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/bench/saved_record.hpp"
 #include "apps/common.hpp"
-#include "apps/io/read_file.hpp"
 
 namespace powercell::app {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* format_name = "powercell bench";
-constexpr int format_version = 1;
 
 std::size_t real_bytes(const std::string& precision) {
   return precision == "float" ? 4 : 8;
@@ -25,6 +21,7 @@ json runs_json(const TimedRuns& runs, double rate) {
   const Timings& t = runs.phases;
   return {{"cells_per_second", rate},
           {"seconds", runs.seconds},
+          {"scatter", runs.scatter()},
           {"phases",
            {{"total", t.total},
             {"prepare", t.prepare},
@@ -70,6 +67,14 @@ json row_json(const BenchRow& row) {
   return out;
 }
 
+json host_json(const HostInfo& host) {
+  return {{"cpu", host.cpu},
+          {"processors", host.processors},
+          {"memory_bytes", host.memory_bytes},
+          {"system", host.system},
+          {"opencl_loader", host.opencl_loader}};
+}
+
 json device_json(const DeviceInfo& device) {
   return {{"device", device.selector()},
           {"name", device.name},
@@ -83,35 +88,17 @@ json device_json(const DeviceInfo& device) {
           {"fp64", device.fp64}};
 }
 
-double rate_of(const json& row, const char* results) {
-  const double rate = row.at(results).at("cells_per_second").get<double>();
-  if (!(rate > 0) || !std::isfinite(rate))
-    throw std::invalid_argument(fmt::format("'cells_per_second' of '{}' is not above 0", results));
-  return rate;
-}
-
-std::size_t seeds_of(const json& row) {
-  const json& n = row.at("n");
-  if (!n.is_number_unsigned() || n.get<std::uint64_t>() == 0)
-    throw std::invalid_argument("'n' is not a whole number above 0");
-  return n.get<std::size_t>();
-}
-
-[[noreturn]] void refuse(const std::string& path, const std::string& fault) {
-  io::fail_file(path, fault + "; --compare takes a file that 'powercell bench --json FILE' writes");
-}
-
-// The library's message without its prefix of name and number.
-std::string reason(const json::exception& error) {
-  const std::string text = error.what();
-  const std::size_t end = text.find("] ");
-  return end == std::string::npos ? text : text.substr(end + 2);
-}
-
 }  // namespace
 
 double TimedRuns::best() const {
   return seconds.empty() ? 0 : *std::min_element(seconds.begin(), seconds.end());
+}
+
+double TimedRuns::scatter() const {
+  if (seconds.size() < 2) return 0;
+  std::vector<double> sorted = seconds;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[sorted.size() / 2] / sorted.front() - 1;
 }
 
 std::string BenchRow::title() const {
@@ -142,64 +129,40 @@ std::string BenchRecord::failure() const {
   return {};
 }
 
-json as_json(const BenchRecord& record) {
-  json devices = json::array(), rows = json::array();
-  for (const DeviceInfo& device : record.devices) devices.push_back(device_json(device));
-  for (const BenchRow& row : record.rows) rows.push_back(row_json(row));
-  return {{"format", format_name},     {"format_version", format_version},
-          {"version", version()},      {"revision", record.revision.empty() ? json() : json(record.revision)},
-          {"date", record.date},       {"threads", record.threads},
-          {"cold", record.cold},       {"repeat", record.repeat},
-          {"seconds", record.seconds}, {"passed", record.failures() == 0},
-          {"devices", devices},        {"rows", rows}};
-}
-
-const EarlierRow* EarlierRecord::find(const std::string& device, const std::string& selector,
-                                      const std::string& domain, const std::string& precision,
-                                      std::size_t n) const {
-  const EarlierRow* found = nullptr;
-  for (const EarlierRow& row : rows) {
-    if (row.device != device || row.domain != domain || row.precision != precision) continue;
-    if (n != 0 && row.n != n) continue;
-    if (!found || (found->selector != selector && row.selector == selector)) found = &row;
+std::vector<const BenchRow*> BenchRecord::headlines() const {
+  std::vector<const BenchRow*> found;
+  for (const BenchRow& row : rows) {
+    if (row.domain != headline_domain || !row.failure.empty()) continue;
+    const auto same = [&](const BenchRow* other) { return other->selector == row.selector; };
+    if (std::none_of(found.begin(), found.end(), same)) found.push_back(&row);
   }
   return found;
 }
 
-EarlierRecord parse_record(std::string_view bytes, const std::string& name) {
-  EarlierRecord record;
-  record.path = name;
-  std::string reading = "the file";
-  try {
-    const json whole = json::parse(bytes);
-    if (!whole.is_object() || whole.value("format", json()) != format_name)
-      refuse(name, fmt::format("is JSON, but its 'format' is not '{}'", format_name));
-    if (const json& found = whole.at("format_version"); found != format_version)
-      refuse(name,
-             fmt::format("is of format version {}, this powercell reads {}", found.dump(), format_version));
-    record.version = whole.at("version").get<std::string>();
-    if (!whole.at("revision").is_null()) record.revision = whole.at("revision").get<std::string>();
-    record.date = whole.at("date").get<std::string>();
-    std::size_t number = 0;
-    for (const json& row : whole.at("rows")) {
-      reading = fmt::format("row {}", number++);
-      if (!row.at("passed").get<bool>()) continue;
-      record.rows.push_back({row.at("device").get<std::string>(), row.at("selector").get<std::string>(),
-                             row.at("domain").get<std::string>(), row.at("precision").get<std::string>(),
-                             seeds_of(row), rate_of(row, "measures"), rate_of(row, "adjacency")});
-    }
-  } catch (const json::parse_error& error) {
-    refuse(name, fmt::format("is not JSON at byte {}", error.byte));
-  } catch (const json::exception& error) {
-    refuse(name, fmt::format("{}: {}", reading, reason(error)));
-  } catch (const std::invalid_argument& error) {
-    refuse(name, fmt::format("{}: {}", reading, error.what()));
-  }
-  return record;
-}
-
-EarlierRecord read_record(const std::string& path) {
-  return parse_record(io::read_file(path), path);
+json as_json(const BenchRecord& record) {
+  json devices = json::array(), rows = json::array(), headlines = json::array();
+  for (const BenchRow* row : record.headlines())
+    headlines.push_back({{"device", row->device},
+                         {"precision", row->precision},
+                         {"n", row->n},
+                         {"million_cells_per_second", 1e-6 * row->rate()}});
+  for (const DeviceInfo& device : record.devices) devices.push_back(device_json(device));
+  for (const BenchRow& row : record.rows) rows.push_back(row_json(row));
+  return {{"format", bench_format},
+          {"format_version", bench_format_version},
+          {"version", version()},
+          {"revision", record.revision.empty() ? json() : json(record.revision)},
+          {"date", record.date},
+          {"threads", record.threads},
+          {"cold", record.cold},
+          {"repeat", record.repeat},
+          {"seconds", record.seconds},
+          {"passed", record.failures() == 0},
+          {"description", record.description},
+          {"host", host_json(record.host)},
+          {"headlines", headlines},
+          {"devices", devices},
+          {"rows", rows}};
 }
 
 }  // namespace powercell::app

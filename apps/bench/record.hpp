@@ -2,14 +2,13 @@
 /// Results of a benchmark, and their JSON.
 #pragma once
 
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <powercell/device_rates.hpp>
 #include <powercell/powercell.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "apps/bench/host.hpp"
 #include "apps/bench/work.hpp"
 
 namespace powercell::app {
@@ -20,6 +19,8 @@ struct TimedRuns {
   Timings phases;               ///< of the fastest
 
   double best() const;  ///< least seconds; 0 without a run
+  /// How much longer than the best the median run took, relative to the best; 0 if there is one run.
+  double scatter() const;
 };
 
 /// A device, a domain, a precision and a number of seeds.
@@ -45,9 +46,20 @@ struct BenchRow {
   double bandwidth_fraction() const;   ///< counted bytes per second over the device's copying rate
 };
 
+/// Runs that scatter by more say too little: half of them are off by more than the tenth that a comparison
+/// with `--fail-below 0.9` is to find. On an idle machine rows scatter by a few hundredths.
+inline constexpr double much_scatter = 0.1;
+
+/// The row that stands for a device: white seeds in the cube, as many as `headline_seeds` where there is
+/// memory.
+inline constexpr std::size_t headline_seeds = 1'000'000, quick_headline_seeds = 100'000;
+inline constexpr const char* headline_domain = "cube";
+
 struct BenchRecord {
-  std::string revision;  ///< of the source, as known to git when the build was configured; may be empty
-  std::string date;      ///< ISO 8601, UTC
+  std::string revision;     ///< of the source, as known to git when the build was configured; may be empty
+  std::string date;         ///< ISO 8601, UTC
+  std::string description;  ///< the user's words
+  HostInfo host;
   int threads = 0;
   bool cold = false;  ///< kernels compiled, not found in a cache
   std::size_t repeat = 0;
@@ -58,30 +70,10 @@ struct BenchRecord {
   std::size_t failures() const;
   /// The number of failed rows and the first of them; empty if none failed.
   std::string failure() const;
+  /// The rows that stand for the devices: of each the first in the cube that did not fail.
+  std::vector<const BenchRow*> headlines() const;
 };
 
 nlohmann::json as_json(const BenchRecord& record);
-
-/// The part of a row of an earlier record that a comparison needs.
-struct EarlierRow {
-  std::string device, selector, domain, precision;
-  std::size_t n = 0;
-  double rate = 0, adjacency_rate = 0;  ///< cells a second
-};
-
-struct EarlierRecord {
-  std::string path, version, revision, date;
-  std::vector<EarlierRow> rows;  ///< those that did not fail
-
-  /// The row of this device, domain, precision and number of seeds (0 for any), or null. Of several devices
-  /// with the same name the one with the same selector is preferred.
-  const EarlierRow* find(const std::string& device, const std::string& selector, const std::string& domain,
-                         const std::string& precision, std::size_t n) const;
-};
-
-/// Reads a file written from `as_json`. \throw Error invalid_file
-EarlierRecord read_record(const std::string& path);
-/// The same from memory. \param name  for messages
-EarlierRecord parse_record(std::string_view bytes, const std::string& name);
 
 }  // namespace powercell::app

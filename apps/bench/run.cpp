@@ -11,6 +11,7 @@
 #include "apps/bench/table.hpp"
 #include "apps/bench/timing.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/closest.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 
@@ -41,8 +42,8 @@ NamedDomain load(const std::string& name) {
         ErrorCode::invalid_argument,
         fmt::format(
             "unknown domain '{}'; --domain takes square, cube, surface, volume, or a file or shape as for "
-            "'powercell diagram --domain'",
-            name));
+            "'powercell diagram --domain'{}",
+            name, io::did_you_mean(io::closest(name, bench_domain_names()))));
   return {name, io::read_domain(name)};
 }
 
@@ -88,13 +89,15 @@ std::string now() {
 // One benchmark of all devices, precisions and domains.
 class Bench {
  public:
-  Bench(const BenchArguments& arguments, const EarlierRecord* earlier)
+  Bench(const BenchArguments& arguments, const SavedRecord* earlier)
       : arguments_(arguments),
         earlier_(earlier),
         progress_({{"measuring", 1}}, !arguments.talk()),
         domains_(load_domains(arguments)) {
     record_.revision = POWERCELL_REVISION;
     record_.date = now();
+    record_.description = arguments.description;
+    record_.host = host_info();
     record_.threads = arguments.threads;
     record_.cold = arguments.cold;
     record_.repeat = arguments.repeat;
@@ -149,6 +152,8 @@ class Bench {
                    library_options(options)};
     task.options.precision = precision;
     task.n = seeds_of(device, domain.name, precision);
+    if (domain.name == headline_domain)
+      task.wanted = arguments_.quick ? quick_headline_seeds : headline_seeds;
     task.repeat = arguments_.repeat;
     task.seconds = std::max(1.0, (seconds_in_all() - spent()) / static_cast<double>(rows_left_--));
     task.longest = arguments_.quick ? quick_run : usual_run;
@@ -182,7 +187,7 @@ class Bench {
   // From the arguments, else from the earlier record, else 0 to choose by time.
   std::size_t seeds_of(const DeviceInfo& device, const std::string& domain, Precision precision) const {
     if (arguments_.n || !earlier_) return arguments_.n;
-    const EarlierRow* row =
+    const SavedRow* row =
         earlier_->find(device.name, device.selector(), domain, precision_name(precision), 0);
     return row ? row->n : 0;
   }
@@ -203,7 +208,7 @@ class Bench {
   }
 
   const BenchArguments& arguments_;
-  const EarlierRecord* earlier_;
+  const SavedRecord* earlier_;
   Progress progress_;
   std::vector<NamedDomain> domains_;
   WorkCounts counts_;
@@ -215,7 +220,14 @@ class Bench {
 
 }  // namespace
 
-BenchRecord run_bench(const BenchArguments& arguments, const EarlierRecord* earlier) {
+std::vector<std::string> bench_domain_names() {
+  std::vector<std::string> names = io::builtin_domain_names();
+  for (const Shape& shape : shapes)
+    if (std::find(names.begin(), names.end(), shape.name) == names.end()) names.emplace_back(shape.name);
+  return names;
+}
+
+BenchRecord run_bench(const BenchArguments& arguments, const SavedRecord* earlier) {
   return Bench(arguments, earlier).run();
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/common.hpp"
 
 namespace powercell::app {
@@ -35,27 +37,31 @@ std::string table_line(const BenchRow& row) {
                              percent(row.bandwidth_fraction()), row.build, row.first_result);
 }
 
-std::vector<BenchRatio> compare(const BenchRecord& record, const EarlierRecord& earlier) {
-  std::vector<BenchRatio> ratios;
+std::string scatter_notes(const BenchRecord& record) {
+  std::string text;
   for (const BenchRow& row : record.rows) {
-    if (!row.failure.empty()) continue;
-    const EarlierRow* then = earlier.find(row.device, row.selector, row.domain, row.precision, row.n);
-    if (then) ratios.push_back({&row, row.rate() / then->rate, row.adjacency_rate() / then->adjacency_rate});
+    const double scatter = std::max(row.measures.scatter(), row.adjacency.scatter());
+    if (row.failure.empty() && scatter > much_scatter)
+      text += fmt::format("note: {}: the median of {} runs took {:.0f} % longer than the best\n", row.title(),
+                          row.measures.seconds.size(), 100 * scatter);
   }
-  return ratios;
+  if (text.empty()) return text;
+  return text +
+         "      Something else keeps this machine busy, or its clock changes: stop that, or raise "
+         "--repeat.\n";
 }
 
-std::string comparison(const BenchRecord& record, const EarlierRecord& earlier,
-                       const std::vector<BenchRatio>& ratios) {
-  std::string text = fmt::format("Rates over those in {} ({}{}{}, {}):\n", earlier.path, earlier.version,
-                                 earlier.revision.empty() ? "" : " ", earlier.revision, earlier.date);
-  text += line("domain", "precision", "seeds") + fmt::format("{:>13}{:>13}\n", "cells/s", "+adjacency");
-  for (const BenchRatio& ratio : ratios)
-    text += line(ratio.row->domain, ratio.row->precision, with_commas(ratio.row->n)) +
-            fmt::format("{:>13.2f}{:>13.2f}  {}\n", ratio.measures, ratio.adjacency, ratio.row->device);
-  const std::size_t without = record.rows.size() - record.failures() - ratios.size();
-  if (without > 0)
-    text += fmt::format("{} row{} not in that file\n", without, without == 1 ? " is" : "s are");
+std::string headline(const BenchRecord& record) {
+  std::string text;
+  for (const BenchRow* row : record.headlines()) {
+    text += fmt::format("{:.3g} million cells a second: {}, white, {} seeds, {}, {}", 1e-6 * row->rate(),
+                        row->domain, with_commas(row->n), row->precision, row->device);
+    if (row->n != headline_seeds)
+      text +=
+          fmt::format(" (to compare devices, the figure for {} seeds is used{})", with_commas(headline_seeds),
+                      row->n == quick_headline_seeds ? ": leave --quick out" : "");
+    text += "\n";
+  }
   return text;
 }
 

@@ -1,10 +1,8 @@
 /// \file
-/// The benchmark as text, alone and compared to an earlier one.
+/// The benchmark as text.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "apps/bench/record.hpp"
 
@@ -13,18 +11,10 @@ namespace powercell::app {
 std::string table_head();
 std::string table_line(const BenchRow& row);
 
-/// Rates of a row over the earlier rates.
-struct BenchRatio {
-  const BenchRow* row;  ///< the caller's
-  double measures = 0, adjacency = 0;
-  double least() const { return measures < adjacency ? measures : adjacency; }
-};
+/// Lines about rows whose runs scatter by more than `much_scatter`; empty if none does.
+std::string scatter_notes(const BenchRecord& record);
 
-/// The rows that did not fail and have an earlier one of the same device, domain, precision and n.
-std::vector<BenchRatio> compare(const BenchRecord& record, const EarlierRecord& earlier);
-
-/// A table of the ratios, and the number of rows without a counterpart.
-std::string comparison(const BenchRecord& record, const EarlierRecord& earlier,
-                       const std::vector<BenchRatio>& ratios);
+/// The figure that stands for each device: million cells a second in the cube; empty without the cube.
+std::string headline(const BenchRecord& record);
 
 }  // namespace powercell::app

@@ -28,7 +28,7 @@ class RowTimer {
 
   void run(WorkCounts& counts) {
     first_result();
-    row_.n = task_.n ? task_.n : choose_seeds();
+    row_.n = task_.n ? task_.n : task_.wanted ? std::min(task_.wanted, most_that_fit()) : choose_seeds();
     const io::SeedTable seeds = white_seeds(task_.domain->domain, row_.n);
     time_once(seeds, true);  // makes room for the results; not counted
     row_.measures = time(seeds, false);
@@ -55,8 +55,7 @@ class RowTimer {
 
   // Multiplies the number until runs are long enough to time, then scales it to the time left.
   std::size_t choose_seeds() {
-    const auto memory = static_cast<double>(diagram_->device().info().memory_bytes);
-    const std::size_t most = round_seeds(memory / bytes_a_seed);
+    const std::size_t most = most_that_fit();
     // A run to warm up, `repeat` of either kind, the second kind a little longer, and the count.
     const double target =
         std::min(task_.longest, (task_.seconds - spent()) / (2.5 + 2.3 * static_cast<double>(task_.repeat)));
@@ -67,6 +66,11 @@ class RowTimer {
       seconds = time_once(white_seeds(task_.domain->domain, static_cast<std::size_t>(n)), false);
     }
     return std::min(most, round_seeds(n * target / std::max(seconds, 1e-6)));
+  }
+
+  std::size_t most_that_fit() const {
+    const auto memory = static_cast<double>(diagram_->device().info().memory_bytes);
+    return round_seeds(memory / bytes_a_seed);
   }
 
   TimedRuns time(const io::SeedTable& seeds, bool adjacency) {

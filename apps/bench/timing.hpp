@@ -21,6 +21,7 @@ struct BenchTask {
   std::function<Device()> open;    ///< opens the device anew
   Options options;                 ///< precision and so on
   std::size_t n = 0;               ///< seeds; 0: as many as take about `seconds` in all
+  std::size_t wanted = 0;          ///< seeds where n is 0, if there is memory for them; 0: by time
   std::size_t repeat = 3;          ///< runs of measures, and of measures and adjacency
   double seconds = 10;             ///< time for this row
   double longest = 1;              ///< seconds of one run that suffice

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
+#include "apps/bench/comparison.hpp"
 #include "apps/bench/table.hpp"
 #include "tests/writers/temporary_folder.hpp"
 
@@ -37,7 +39,7 @@ BenchRecord made_record() {
   return record;
 }
 
-EarlierRecord read_text(const std::string& text) {
+SavedRecord read_text(const std::string& text) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path() / "old.json";
   std::ofstream(path) << text;
@@ -63,7 +65,7 @@ bool says(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("a written record is read back") {
-  const EarlierRecord read = read_text(as_json(made_record()).dump());
+  const SavedRecord read = read_text(as_json(made_record()).dump());
   CHECK(read.revision == "0a1b2c3");
   CHECK(read.date == "2026-01-02T03:04:05Z");
   CHECK(read.version == version());
@@ -77,13 +79,13 @@ TEST_CASE("a record without a revision, and rows that failed") {
   BenchRecord record = made_record();
   record.revision = "";
   record.rows[0].failure = "out of memory";
-  const EarlierRecord read = read_text(as_json(record).dump());
+  const SavedRecord read = read_text(as_json(record).dump());
   CHECK(read.revision == "");
   CHECK(read.rows.size() == 3);
 }
 
 TEST_CASE("rows are found by device, domain, precision and seeds") {
-  const EarlierRecord read = read_text(as_json(made_record()).dump());
+  const SavedRecord read = read_text(as_json(made_record()).dump());
   const std::string name = "device of two units";
   REQUIRE(read.find(name, "0:0", "cube", "float", 2000) != nullptr);
   CHECK(read.find(name, "0:0", "cube", "float", 2000)->rate == 20000);
@@ -97,21 +99,119 @@ TEST_CASE("rows are found by device, domain, precision and seeds") {
 }
 
 TEST_CASE("ratios are new rates over earlier rates") {
-  const EarlierRecord read = read_text(as_json(made_record()).dump());
+  const SavedRecord read = read_text(as_json(made_record()).dump());
   BenchRecord later = made_record();
   later.rows[0].measures.seconds = {0.05};  // twice as fast
   later.rows[0].adjacency.seconds = {0.4};  // half as fast
   later.rows[1].failure = "out of memory";  // no ratio
   later.rows[2].n = 5000;                   // no counterpart
-  const auto ratios = compare(later, read);
+  const SavedRecord now = saved(later, "");
+  const auto ratios = same_rows(now, read);
   REQUIRE(ratios.size() == 2);
   CHECK(ratios[0].measures == doctest::Approx(2));
   CHECK(ratios[0].adjacency == doctest::Approx(0.5));
   CHECK(ratios[0].least() == doctest::Approx(0.5));
   CHECK(ratios[1].least() == doctest::Approx(1));
-  const std::string text = comparison(later, read, ratios);
+  const std::string text = comparison(now, read, ratios);
   CHECK(text.find("2.00") != std::string::npos);
   CHECK(text.find("1 row is not in that file") != std::string::npos);
+}
+
+TEST_CASE("what is saved is what is read back") {
+  const BenchRecord record = made_record();
+  const SavedRecord direct = saved(record, "a name"), read = read_text(as_json(record).dump());
+  REQUIRE(direct.rows.size() == read.rows.size());
+  CHECK(direct.path == "a name");
+  CHECK(std::tie(direct.version, direct.revision, direct.date, direct.description) ==
+        std::tie(read.version, read.revision, read.date, read.description));
+  const auto all = [](const SavedRow& row) {
+    return std::tie(row.device, row.selector, row.domain, row.precision, row.n, row.rate, row.adjacency_rate);
+  };
+  for (std::size_t k = 0; k < read.rows.size(); ++k) CHECK(all(direct.rows[k]) == all(read.rows[k]));
+}
+
+TEST_CASE("a description is kept, and older files have none") {
+  BenchRecord record = made_record();
+  record.description = "nothing else runs; \"quoted\"";
+  CHECK(read_text(as_json(record).dump()).description == record.description);
+  json older = as_json(record);
+  for (const char* key : {"description", "host", "headlines"}) older.erase(key);
+  CHECK(read_text(older.dump()).description == "");
+}
+
+TEST_CASE("two saved records: other numbers of seeds are compared, and said to be rough") {
+  const SavedRecord then = saved(made_record(), "then.json");
+  BenchRecord changed = made_record();
+  changed.rows = {made_row("0:0", "double", 4000, 0.1)};
+  const SavedRecord now = saved(changed, "now.json");
+  CHECK(same_rows(now, then).empty());
+  const auto ratios = alike_rows(now, then);
+  REQUIRE(ratios.size() == 1);
+  CHECK(ratios[0].then->n == 1000);
+  CHECK(ratios[0].measures == doctest::Approx(4));
+  const std::string text = comparison(now, then, ratios);
+  CHECK(text.find("(with 1,000 seeds)") != std::string::npos);
+  CHECK(text.find("rough") != std::string::npos);
+  CHECK(text.find("Rates in now.json") == 0);
+  CHECK(comparison(then, then, alike_rows(then, then)).find("rough") == std::string::npos);
+}
+
+TEST_CASE("two saved records of different devices: each row with every other device") {
+  const SavedRecord then = saved(made_record(), "then.json");
+  BenchRecord other = made_record();
+  other.rows = {made_row("0:0", "double", 1000, 0.01), made_row("0:0", "float", 2000, 0.01)};
+  other.rows[0].device = other.rows[1].device = "a faster device";
+  const SavedRecord now = saved(other, "now.json");
+  const auto ratios = alike_rows(now, then);
+  REQUIRE(ratios.size() == 2);
+  CHECK(ratios[0].measures == doctest::Approx(10));
+  CHECK(ratios[1].then->n == 2000);  // the same number of seeds comes first
+  CHECK(comparison(now, then, ratios).find("a faster device over device of two units") != std::string::npos);
+  other.rows.push_back(made_row("0:0", "double", 1000, 0.1));  // a device that both have
+  CHECK(alike_rows(saved(other, ""), then).size() == 1);
+}
+
+TEST_CASE("runs scatter by how much longer the median takes than the best") {
+  CHECK(TimedRuns{{2}, {}}.scatter() == 0);
+  CHECK(TimedRuns{{}, {}}.scatter() == 0);
+  CHECK(TimedRuns{{3, 2}, {}}.scatter() == doctest::Approx(0.5));
+  CHECK(TimedRuns{{9, 2, 2.2}, {}}.scatter() == doctest::Approx(0.1));  // one slow run does not count
+  BenchRecord record = made_record();
+  for (BenchRow& row : record.rows) row.measures.seconds = {0.1, 0.104, 0.3};
+  CHECK(scatter_notes(record) == "");
+  record.rows[2].adjacency.seconds = {0.1, 0.13, 0.13};
+  const std::string text = scatter_notes(record);
+  CHECK(text.find("cube in float with 2,000 seeds on device of two units") != std::string::npos);
+  CHECK(text.find("30 %") != std::string::npos);
+  record.rows[2].failure = "out of memory";
+  CHECK(scatter_notes(record) == "");
+}
+
+TEST_CASE("the figure of a device is that of its first row in the cube") {
+  BenchRecord record = made_record();
+  record.rows[0].failure = "out of memory";
+  auto found = record.headlines();
+  REQUIRE(found.size() == 2);
+  CHECK(found[0] == &record.rows[1]);
+  CHECK(found[1] == &record.rows[3]);
+  for (BenchRow& row : record.rows) row.n = headline_seeds;
+  record.rows[1].measures.seconds = {0.5};
+  const std::string text = headline(record);
+  CHECK(text.find("2 million cells a second: cube, white, 1,000,000 seeds, float") == 0);
+  CHECK(text.find("to compare") == std::string::npos);
+  record.rows[1].n = quick_headline_seeds;
+  CHECK(headline(record).find("--quick") != std::string::npos);
+  for (BenchRow& row : record.rows) row.domain = "square";
+  CHECK(headline(record) == "");
+}
+
+TEST_CASE("the machine is described as far as it is known") {
+  const HostInfo host = host_info();
+  CHECK(host.processors > 0);
+  CHECK(host.memory_bytes > 1 << 20);
+  CHECK(host.system.find("Linux") != std::string::npos);
+  CHECK(host.opencl_loader.find("OpenCL") != std::string::npos);
+  CHECK(host.cpu != "");
 }
 
 TEST_CASE("files that are not records are refused with the fault") {

@@ -5,7 +5,12 @@ usage: test_bench.py PATH_OF_POWERCELL [unittest options]
 """
 
 import json
+import os
+import pathlib
+import platform
+import re
 import subprocess
+import sys
 import unittest
 
 from tool import DATA, TOOL, ToolTest, interrupt, run
@@ -67,7 +72,18 @@ class Bench(ToolTest):
         self.assertIn(device["name"], out)
         self.assertRegex(out, r"GB/s copied, [\d.]+ Gflop/s")
         self.assertRegex(out, r"square +float +1,000 +[\d,]+ +[\d,]+ +[\d.e-]+ % +[\d.e-]+ % ")
-        self.assertRegex(out.splitlines()[-1], r"^1 row in \d+ s; the measures of every run sum to the domain's$")
+        lines = [line for line in out.splitlines() if not line.startswith(("note:", "      "))]  # a busy machine
+        self.assertRegex(lines[-1], r"^1 row in \d+ s; the measures of every run sum to the domain's$")
+
+    def test_the_figure_of_a_device(self):
+        arguments = ("bench", "--quick", "--domain", "cube", "--precision", "float", "--device", "0:0", "--repeat", 1)
+        out = self.good(*arguments, "--json", "a.json").stdout
+        record = json.loads((self.folder / "a.json").read_text())
+        figure, row = record["headlines"][0], record["rows"][0]
+        self.assertEqual((figure["n"], row["n"]), (100000, 100000))
+        self.assertAlmostEqual(figure["million_cells_per_second"] * 1e6 / row["measures"]["cells_per_second"], 1, places=12)
+        self.assertRegex(out, r"\n[\d.]+ million cells a second: cube, white, 100,000 seeds, float, .*leave --quick out")
+        self.assertEqual(self.measured()["headlines"], [])  # without the cube
 
     def test_a_file_as_domain_and_quiet(self):
         done = self.good("bench", "--quick", "--domain", DATA / "bracket.mesh", "--precision", "float", "--repeat", 1,
@@ -92,6 +108,45 @@ class Bench(ToolTest):
         self.assertRegex(out, r"square +float +500 +[\d.]+ +0\.00 ")
         self.good(*arguments, "--fail-below", 1e-9, "--json", old)
         self.good(*arguments, "--fail-below", 0.001)
+
+    def test_the_machine_and_the_words_of_the_user_are_kept(self):
+        record = self.measured("--describe", "a desk, \u00e4 \"quoted\" word")
+        self.assertEqual(record["description"], "a desk, \u00e4 \"quoted\" word")
+        host = record["host"]
+        self.assertEqual(host["processors"], len(os.sched_getaffinity(0)))
+        self.assertAlmostEqual(host["memory_bytes"] / (os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")), 1,
+                               delta=0.01)
+        self.assertIn(platform.release(), host["system"])
+        self.assertRegex(host["opencl_loader"], r"/libOpenCL\.so")
+        found = re.search(r"^model name\s*: (.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+        if found:
+            self.assertEqual(host["cpu"], found[1].strip())
+
+    def test_two_saved_files_are_compared_without_measuring(self):
+        record = self.measured(name="old.json")
+        record["rows"][0]["measures"]["cells_per_second"] *= 2
+        record["rows"][0]["adjacency"]["cells_per_second"] *= 3
+        record["description"] = "twice as fast"
+        self.write("new.json", json.dumps(record))
+        compare = ("bench", "--compare", "old.json", "new.json")
+        # No device is needed, so none is opened.
+        out = self.good(*compare, env={"POWERCELL_DEVICE": "no such device"}).stdout
+        self.assertRegex(out, r"square +float +1,000 +2\.00 +3\.00 ")
+        self.assertIn("twice as fast", out)
+        self.good(*compare, "--fail-below", 1.9)
+        back = ("bench", "--compare", "new.json", "old.json")
+        self.assertRegex(self.good(*back).stdout, r"square +float +1,000 +0\.50 +0\.33 ")
+        done = run(*back, "--fail-below", 0.9, cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("0.333 of the rate in new.json, below --fail-below 0.9", done.stderr)
+        self.assertEqual(self.good(*compare, "--quiet").stdout, "")
+        for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--describe", "x"], ["--domain", "cube"]):
+            self.bad(2, f"measures nothing; leave {option[0]} out", *compare, *option)
+        for row in record["rows"]:
+            row["domain"] = "elsewhere"
+        self.write("other.json", json.dumps(record))
+        self.bad(1, "old.json and other.json have no row of the same domain", "bench", "--compare", "old.json", "other.json")
+        self.bad(1, r"newer\.json: no such file; did you mean new\.json\?", "bench", "--compare", "old.json", "newer.json")
 
     def test_a_rate_below_the_limit_is_a_failure(self):
         old = self.changed(lambda record: record["rows"][0]["measures"].update(cells_per_second=1e12))
@@ -121,6 +176,21 @@ class Bench(ToolTest):
         self.bad(1, "unknown domain 'blob'; --domain takes square", "bench", "--domain", "blob")
         self.bad(1, "resolution", "bench", "--domain", "sphere:0")
         self.bad(1, "no such device", "bench", "--device", "no such device")
+
+    def test_the_table_of_devices_is_that_of_the_saved_records(self):
+        root = DATA.parents[1]
+        script, saved = root / "bench" / "devices_table.py", sorted(map(str, (root / "bench" / "results").glob("*.json")))
+        table = subprocess.run([sys.executable, "-B", script, *saved], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(table, (root / "docs" / "records" / "devices.md").read_text())
+        for path in saved:  # each is a record of today's format, and was measured in full
+            self.good("bench", "--compare", path, path)
+            self.assertEqual([f["n"] for f in json.loads(pathlib.Path(path).read_text())["headlines"]], [1000000])
+        # Of a new record too.
+        self.measured("--describe", "a | b")
+        shown = subprocess.run([sys.executable, "-B", script, self.folder / "new.json"], capture_output=True, text=True,
+                               check=True).stdout
+        self.assertIn("a \\| b", shown)
+        self.assertRegex(shown, r"(?m)^\| square \| float \| 1,000 \| [\d.e-]+ \| [\d.e-]+ \|")
 
     def test_interrupt_leaves_the_older_file(self):
         self.write("a.json", "older")

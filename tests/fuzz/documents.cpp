@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/bench/record.hpp"
+#include "apps/bench/saved_record.hpp"
 #include "apps/io/read_image.hpp"
 #include "apps/io/read_masses.hpp"
 #include "apps/io/read_tree.hpp"
@@ -124,7 +124,7 @@ void documents(Bytes input) {
     } else if (choice <= 3) {
       check_saved_diagram(bytes);
     } else if (choice == 4) {
-      for (const app::EarlierRow& row : app::parse_record(bytes, kName).rows)
+      for (const app::SavedRow& row : app::parse_record(bytes, kName).rows)
         require(row.n > 0 && row.rate >= 0 && row.adjacency_rate >= 0,
                 "a row of no seeds or a negative rate");
     } else {
