@@ -1,22 +1,24 @@
-// powercell demo: pictures of three real shapes.
+// powercell demo: six pictures of what the tool does, and a page that shows them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
 #include <filesystem>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
-#include <random>
+#include <optional>
+#include <tuple>
 
 #include "apps/common.hpp"
-#include "apps/demo_data.hpp"
+#include "apps/demo/compiling.hpp"
+#include "apps/demo/data.hpp"
+#include "apps/demo/page.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/read_domain.hpp"
-#include "apps/io/read_seeds.hpp"
-#include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 
@@ -29,126 +31,24 @@ struct DemoArguments : CommonOptions {
   std::string folder = "powercell-demo";
 };
 
+constexpr const char* drawing = "drawing";
+
+/// The pictures in the order of the page. Those of a track are drawn by one thread, one after the other. Two
+/// tracks have a device each, since PoCL compiles one kernel at a time for a device that is opened once;
+/// their kernels differ.
 struct Plan {
-  std::size_t seeds;
-  std::vector<std::string> extensions;  ///< of the files written beside each other
+  DrawPart draw;
+  std::size_t track;
 };
-
-// Pictures first; geometry for other programs beside them.
-Plan plan_for(DomainKind kind) {
-  switch (kind) {
-    case DomainKind::polygon:
-      return {700, {".png", ".svg"}};
-    case DomainKind::surface:
-      return {900, {".png", ".vtu"}};
-    case DomainKind::volume:
-      break;
-  }
-  return {500, {".png", ".vtu"}};
-}
-
-// Moves the seeds to the centroids of their cells a few times, which gives cells of even size, as in a foam.
-void relax(Diagram& diagram, std::vector<double>& positions, int rounds) {
-  for (int round = 0; round < rounds; ++round) {
-    diagram.set_seeds({diagram.domain().dimension(), positions, {}});
-    compute([&] { diagram.measures(); });
-    const Measures& measures = diagram.measures();
-    for (std::size_t k = 0; k < positions.size(); ++k)
-      if (!std::isnan(measures.centroid[k])) positions[k] = measures.centroid[k];
-  }
-}
-
-// Discs of different radii, one in 60 large enough to hide neighbours.
-std::vector<double> weights_of_discs(const Domain& domain, std::size_t count) {
-  const double spacing =
-      std::pow(domain.measure() / static_cast<double>(count), 1.0 / domain.cell_dimension());
-  std::mt19937_64 random(3);
-  // From the generator's bits: the standard library's distributions differ between machines.
-  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  std::vector<double> weights(count);
-  for (double& weight : weights) {
-    const double radius = spacing * (unit() < 1.0 / 60 ? 1.5 : 0.1 + 0.5 * unit());
-    weight = radius * radius;
-  }
-  return weights;
-}
+constexpr Plan plans[] = {{draw_map, 0},     {draw_surface, 1},  {draw_volume, 1},
+                          {draw_treemap, 2}, {draw_stipples, 0}, {draw_mesh, 2}};
+constexpr std::size_t tracks = 3, tracks_with_device = 2;
+constexpr std::size_t programs_of_all = 14;  // to compile, with empty caches
 
 void write_text(const fs::path& path, std::string_view text) {
   io::AtomicFile file(path.string());
   file.write(text);
   file.commit();
-}
-
-void write_seeds(const fs::path& path, const SeedsView& seeds) {
-  io::AtomicFile file(path.string());
-  file.write(seeds.dimension == 2 ? "x,y,weight\n" : "x,y,z,weight\n");
-  const auto d = static_cast<std::size_t>(seeds.dimension);
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    for (std::size_t k = 0; k < d; ++k) {
-      file.number(seeds.positions[d * i + k]);
-      file.write(',');
-    }
-    file.number(seeds.weights[i]);
-    file.write('\n');
-  }
-  file.commit();
-}
-
-constexpr const char* drawing = "drawing";
-
-// In the part of the stage that begins at `from`. Each of the diagrams and then the files take a share of it.
-RunReport draw(const DemoArguments& arguments, const Device& device, const DemoShape& shape, double from,
-               double part, Progress& progress) {
-  constexpr double read_done = 0.05, relaxed = 0.5, computed = 0.6;
-  const auto part_of = [&](double begin, double end) {
-    progress.part(from + begin * part, from + end * part);
-  };
-  const double start = progress.seconds(drawing), run_start = progress.run();
-  const fs::path shape_path = fs::path(arguments.folder) / shape.file;
-  const fs::path stem = fs::path(shape_path).replace_extension();
-  write_text(shape_path, shape.text);
-  const io::LoadedDomain domain = io::read_domain(shape_path.string());
-  const double read = progress.seconds(drawing) - start;
-  const Plan plan = plan_for(domain.domain.kind());
-
-  Diagram diagram(device, domain.domain, library_options(arguments, progress));
-  std::vector<double> positions = io::random_seeds({plan.seeds, 0, 0, 1}, domain.domain).positions;
-  part_of(read_done, relaxed);
-  relax(diagram, positions, 8);
-  part_of(relaxed, computed);
-  const std::vector<double> weights = weights_of_discs(domain.domain, plan.seeds);
-  const SeedsView seeds{domain.domain.dimension(), positions, weights};
-  diagram.set_seeds(seeds);
-  compute([&] { diagram.measures(); });
-  RunReport report = report_of(diagram);
-  report.read = read;
-  require_partition(report);
-  compute([&] {
-    diagram.adjacency();
-    diagram.cells();
-  });
-
-  const double before = progress.seconds(drawing);
-  const std::string seeds_path = stem.string() + "-seeds.csv";
-  write_seeds(seeds_path, seeds);
-  for (const std::string& extension : plan.extensions) report.files.push_back(stem.string() + extension);
-  write_diagram(report.files, diagram, seeds);
-  report.write = progress.seconds(drawing) - before;
-  report.run = progress.run() - run_start;
-  return report;
-}
-
-void write_page(const fs::path& path) {
-  std::string page =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>powercell demo</title>\n"
-      "<style>body{font-family:sans-serif;max-width:70em;margin:2em auto;color:#222}"
-      "img{max-width:100%;border:1px solid #ddd}</style></head>\n<body><h1>powercell demo</h1>\n";
-  for (const DemoShape& shape : demo_shapes()) {
-    const std::string stem = fs::path(shape.file).stem().string();
-    page += fmt::format("<h2>{}: {}</h2>\n<p><img src=\"{}.png\" alt=\"{}\"></p>\n", stem, shape.description,
-                        stem, stem);
-  }
-  write_text(path, page + "</body></html>\n");
 }
 
 void make_folder(const std::string& folder) {
@@ -160,47 +60,137 @@ void make_folder(const std::string& folder) {
                             problem ? problem.message() : "a file of that name exists"));
 }
 
-void print(const DemoShape& shape, const RunReport& report) {
-  fmt::print("{}: {}\n  {}\n  wrote", shape.file, shape.description, self_check_line(report));
-  for (const std::string& path : report.files) fmt::print(" {}", path);
-  fmt::print("\n");
-  std::fflush(stdout);
+/// The width and height that a PNG file says.
+std::pair<int, int> png_size(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  unsigned char head[24] = {};
+  const bool read = file && std::fread(head, 1, sizeof head, file) == sizeof head;
+  if (file) std::fclose(file);
+  if (!read) throw Error(ErrorCode::write_failed, path + " was written and cannot be read; try again");
+  const auto number = [&](std::size_t at) {
+    return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
+  };
+  return {number(16), number(20)};
+}
+
+/// Draws all pictures.
+class Demo {
+ public:
+  Demo(const DemoArguments& arguments, Progress& progress)
+      : arguments_(arguments), progress_(progress), parts_(std::size(plans)) {}
+
+  std::vector<DemoPart> draw(const Device& device) {
+    std::vector<std::future<void>> running;
+    for (std::size_t track = 0; track < tracks; ++track)
+      running.push_back(std::async(std::launch::async, [this, track, &device] {
+        try {
+          run(track, device);
+        } catch (...) {
+          failed_ = true;  // the others end with the picture that they draw
+          throw;
+        }
+      }));
+    for (std::future<void>& one : running) one.wait();
+    for (std::future<void>& one : running) one.get();
+    return std::move(parts_);
+  }
+
+ private:
+  void run(std::size_t track, const Device& device) {
+    std::optional<Device> own;
+    if (track > 0 && track < tracks_with_device) own = open_device(arguments_);
+    const Device* used = own ? &*own : track == 0 ? &device : nullptr;
+    for (std::size_t k = 0; k < std::size(plans); ++k) {
+      if (plans[k].track != track || failed_) continue;
+      stop_if_interrupted();
+      Stopwatch watch;
+      const double compiled = used ? used->build_seconds() : 0;
+      DemoPart part = plans[k].draw({arguments_.folder, arguments_}, used);
+      part.seconds = std::max(0.0, watch.lap() - (used ? used->build_seconds() - compiled : 0));
+      std::tie(part.width, part.height) = png_size(part.files.front());
+      finish(k, std::move(part));
+    }
+  }
+
+  void finish(std::size_t k, DemoPart part) {
+    const std::scoped_lock lock(mutex_);
+    ++done_;
+    progress_.at(static_cast<double>(done_) / static_cast<double>(parts_.size()));
+    progress_.count(static_cast<double>(parts_.size()), "pictures");
+    if (!arguments_.silent())
+      progress_.aside([&] {
+        fmt::print("{:<8}  {}: {}; {:.1f} s\n", part.name, part.title, part.line, part.seconds);
+        std::fflush(stdout);
+      });
+    parts_[k] = std::move(part);
+  }
+
+  const DemoArguments& arguments_;
+  Progress& progress_;
+  std::mutex mutex_;
+  std::vector<DemoPart> parts_;
+  std::size_t done_ = 0;
+  std::atomic<bool> failed_{false};
+};
+
+/// Where this repository's documents are, seen from the folder, if it is in a clone.
+void find_documents(const fs::path& folder, DemoRun& run) {
+  std::error_code ignored;
+  for (const char* up : {"../", "../../"})
+    if (fs::exists(folder / up / "docs" / "guide.md", ignored) &&
+        fs::exists(folder / up / "docs" / "applications.md", ignored)) {
+      run.repository = up;
+      run.has_documents = true;
+      return;
+    }
+}
+
+nlohmann::json as_json(const std::vector<DemoPart>& parts) {
+  nlohmann::json pictures = nlohmann::json::array();
+  for (const DemoPart& part : parts)
+    pictures.push_back({{"name", part.name},
+                        {"picture", part.files.front()},
+                        {"files", part.files},
+                        {"command", part.command},
+                        {"seconds", part.seconds},
+                        {"report", part.report}});
+  return pictures;
 }
 
 int run(const DemoArguments& arguments) {
   Progress progress({{stage::opening, 3}, {drawing, 97}}, arguments.silent());
   make_folder(arguments.folder);
+  const fs::path folder = arguments.folder, page = folder / "index.html";
+  for (const DemoFile& file : demo_files()) write_text(folder / file.name, file.text);
   const Device device = open_device(arguments);
-  const bool talk = !arguments.silent();
-  if (talk)
-    progress.aside([&] { fmt::print("device {} ({})\n", device.info().name, device.info().platform_name); });
+  const DeviceInfo& info = device.info();
+  if (!arguments.silent())
+    progress.aside([&] { fmt::print("device {} ({})\n", info.name, info.platform_name); });
   progress.begin(drawing);
-  const double part = 1 / static_cast<double>(demo_shapes().size());
-  nlohmann::json shapes = nlohmann::json::array();
-  for (const DemoShape& shape : demo_shapes()) {
-    const RunReport report =
-        draw(arguments, device, shape, part * static_cast<double>(shapes.size()), part, progress);
-    if (talk) progress.aside([&] { print(shape, report); });
-    shapes.push_back(as_json(report));
-    shapes.back()["shape"] = shape.file;
+  std::vector<DemoPart> parts;
+  std::size_t programs = 0;
+  {
+    const Compiling compiling(progress, info.name, programs_of_all, arguments.silent());
+    parts = Demo(arguments, progress).draw(device);
+    programs = compiling.programs();
   }
-  const fs::path page = fs::path(arguments.folder) / "index.html";
-  write_page(page);
+  DemoRun run{info.name, info.platform_name, progress.run(), progress.build(), {}, false};
+  find_documents(folder, run);
+  write_text(page, demo_page(parts, run));
   progress.finish();
-  const double seconds = progress.run();
   if (arguments.json)
-    fmt::print("{}\n", json_text({{"shapes", shapes},
+    fmt::print("{}\n", json_text({{"pictures", as_json(parts)},
                                   {"open", page.string()},
+                                  {"device", info.name},
+                                  {"programs", programs},
                                   {"build", progress.build()},
-                                  {"seconds", seconds},
+                                  {"seconds", progress.run()},
                                   {"version", version()}}));
-  if (talk)
+  else if (!arguments.quiet)
     fmt::print(
-        "{:.1f} s in all, {:.1f} s of them building kernels (kept for the next run)\n"
-        "Open {}\n"
-        "The same by hand: powercell diagram --domain {}/italy.geojson --seeds {}/italy-seeds.csv -o "
-        "map.png\n",
-        seconds, progress.build(), page.string(), arguments.folder, arguments.folder);
+        "{:.1f} s in all{}\nOpen {}\n", progress.run(),
+        progress.build() > noticeable_build ? ", kernels were compiled meanwhile, once for this device" : "",
+        page.string());
   return 0;
 }
 
@@ -208,7 +198,8 @@ int run(const DemoArguments& arguments) {
 
 Command add_demo(CLI::App& app) {
   auto arguments = std::make_shared<DemoArguments>();
-  CLI::App* command = app.add_subcommand("demo", "Draw power diagrams of three real shapes");
+  CLI::App* command =
+      app.add_subcommand("demo", "Draw six pictures of what the tool does, and a page of them");
   command->add_option("-o,--output", arguments->folder, "Folder to write into")
       ->type_name("FOLDER")
       ->capture_default_str();

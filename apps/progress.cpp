@@ -101,6 +101,11 @@ void Progress::note(std::string text) {
   note_ = std::move(text);
 }
 
+void Progress::building(std::string text) {
+  const std::scoped_lock lock(mutex_);
+  building_ = std::move(text);
+}
+
 void Progress::part(double from, double to) {
   const std::scoped_lock lock(mutex_);
   from_ = from;
@@ -165,8 +170,7 @@ double Progress::done() const {
 
 std::string Progress::status() const {
   if (building_since_)
-    return "compiling kernels, first run only, " +
-           rounded(std::chrono::duration<double>(Clock::now() - *building_since_).count());
+    return building_ + ", " + rounded(std::chrono::duration<double>(Clock::now() - *building_since_).count());
   std::string text = stages_[stage_].name;
   if (ended_) return text;
   constexpr double least = 0.02;  // fraction of a stage that says something about the rest

@@ -42,6 +42,8 @@ class Progress {
   void count(double items, std::string unit);
   /// What the stage has come to, shown instead of the rate: "step 12".
   void note(std::string text);
+  /// What is shown while kernels are compiled.
+  void building(std::string text);
   /// From here on reported fractions refer to this part of the stage.
   void part(double from, double to);
   /// Reports a fraction of the part. \return false if the user asks to stop (interrupt.hpp)
@@ -80,7 +82,7 @@ class Progress {
   std::vector<double> start_;    // fraction of the run at the beginning of each stage, and 1
   std::size_t stage_ = 0;
   double items_ = 0;
-  std::string unit_, note_;
+  std::string unit_, note_, building_ = "compiling kernels, first run only";
   double from_ = 0, to_ = 1;  // the part of the stage
   double reached_ = 0;        // fraction of the stage
   Clock::time_point run_start_ = Clock::now();

@@ -16,7 +16,7 @@ from tool import DATA, SHAPES, TOOL, ToolTest, interrupt
 
 class Usage(ToolTest):
     def test_help_has_examples(self):
-        for command in ([], ["devices"], ["diagram"], ["verify"], ["demo"], ["bench"], ["treemap"]):
+        for command in [[]] + [[name] for name in self.commands()]:
             self.assertIn("Examples:", self.good(*command, "--help").stdout)
 
     def test_version(self):
@@ -206,7 +206,6 @@ class Names(ToolTest):
                          ["\ufffd.svg"])
         self.assertEqual(self.report("sample", "-n", 300, "-o", name)["files"], ["\ufffd.svg"])
         self.assertEqual(self.report("remesh", "torus:12", "--count", 200, "-o", name[0] + ".off")["files"], ["\ufffd.off"])
-        self.assertTrue(self.report("demo", "-o", name[0])["open"].startswith("\ufffd"))
 
 
     def test_line_ends_in_names_leave_messages_on_one_line(self):
@@ -404,33 +403,6 @@ class DiagramErrors(ToolTest):
             self.assertEqual(error.count("powercell: error"), 1, error)
             self.assertEqual(out, "")
             self.assertEqual(list(self.folder.iterdir()), [])
-
-
-class Demo(ToolTest):
-    def test_pictures_of_all_three(self):
-        start = time.monotonic()
-        out = self.good("demo").stdout
-        self.assertLess(time.monotonic() - start, 120)
-        folder = self.folder / "powercell-demo"
-        for shape in SHAPES:
-            stem = shape.split(".")[0]
-            self.assertEqual((folder / shape).read_bytes(), (DATA / shape).read_bytes())
-            self.assertGreater((folder / f"{stem}.png").stat().st_size, 20000)
-            self.assertIn(f"{stem}.png", (folder / "index.html").read_text())
-        self.assertIn("index.html", out)
-        self.assertEqual(out.count("sum of measures / domain = 1"), 3)
-        # The printed command works.
-        command = re.search(r"powercell (diagram .*)", out).group(1).split()
-        self.good(*command)
-
-    def test_folder_and_json(self):
-        report = self.report("demo", "-o", "here/there")
-        self.assertEqual(len(report["shapes"]), 3)
-        self.assertTrue((self.folder / report["open"]).exists())
-
-    def test_a_folder_that_cannot_be_created(self):
-        self.write("taken", "")
-        self.bad(1, "taken", "demo", "-o", "taken")
 
 
 if __name__ == "__main__":

@@ -4,54 +4,16 @@
 usage: test_progress.py POWERCELL [unittest arguments]
 """
 import os
-import pty
-import re
-import subprocess
 import tempfile
-import time
 import unittest
 
-from tool import DATA, TOOL, ToolTest
+from tool import DATA, TerminalTest
 
 COMPUTING = {"diagram": "total", "transport": "solve", "sample": "sample", "remesh": "remesh", "treemap": "layout",
              "verify": "check"}
 
 
-class ProgressTest(ToolTest):
-    def on_terminal(self, *arguments, env=None, code=0):
-        """What a run with that exit code shows on a terminal as its standard error."""
-        ours, theirs = pty.openpty()
-        start = time.monotonic()
-        process = subprocess.Popen([TOOL, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=theirs, env={**os.environ, **(env or {})})
-        os.close(theirs)
-        shown = b""
-        while True:
-            try:
-                more = os.read(ours, 1 << 16)
-            except OSError:  # how a pseudo terminal ends
-                break
-            shown += more
-        os.close(ours)
-        self.assertEqual(process.wait(), code, shown.decode())
-        self.seconds = time.monotonic() - start
-        return shown.decode()
-
-    def check_bar(self, shown):
-        lines = [line for line in shown.split("\r") if line.strip()]
-        if not lines:
-            self.assertLess(self.seconds, 1.5)  # a fast machine
-            return []
-        percents = []
-        for line in lines:
-            self.assertRegex(line, r"^\[[= ]{24}\] [ \d]{3} %  \w")
-            self.assertLess(len(line), 80)
-            percents.append(int(re.search(r"(\d+) %", line)[1]))
-        self.assertEqual(percents, sorted(percents))
-        self.assertEqual(percents[-1], 100)
-        self.assertRegex(shown, r"\r *\r$")  # erased
-        return lines
-
+class ProgressTest(TerminalTest):
     def tree(self, leaves):
         return self.write("tree.csv", "id,parent,name,value\nr,,R,\n" +
                           "".join(f"{i},r,L{i},{1 + i % 7}\n" for i in range(leaves)))
@@ -64,7 +26,6 @@ class ProgressTest(ToolTest):
             "remesh": [DATA / "pretzel.off", "--count", "2000", "-o", "m.off"],
             "treemap": [self.tree(12000), "-o", "m.svg"],
             "verify": ["--count", "10000"],
-            "demo": ["-o", "pictures"],
             "bench": ["--quick", "--n", "200000", "--domain", "cube", "--precision", "double", "--device", "cpu"],
         }
         for command, arguments in runs.items():

@@ -8,6 +8,7 @@ import dataclasses
 import json
 import os
 import pathlib
+import pty
 import re
 import signal
 import struct
@@ -122,3 +123,43 @@ class ToolTest(unittest.TestCase):
     def image(self, name, rows, bits=8):
         (self.folder / name).write_bytes(png(rows, bits))
         return name
+
+
+class TerminalTest(ToolTest):
+    """Runs whose standard error is a terminal."""
+
+    def on_terminal(self, *arguments, env=None, code=0, stdout=None):
+        """What a run with that exit code shows on a terminal as its standard error."""
+        ours, theirs = pty.openpty()
+        start = time.monotonic()
+        process = subprocess.Popen([TOOL, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                   stdout=stdout or subprocess.DEVNULL, stderr=theirs, env={**os.environ, **(env or {})})
+        os.close(theirs)
+        shown = b""
+        while True:
+            try:
+                more = os.read(ours, 1 << 16)
+            except OSError:  # how a pseudo terminal ends
+                break
+            shown += more
+        os.close(ours)
+        self.assertEqual(process.wait(), code, shown.decode())
+        self.seconds = time.monotonic() - start
+        return shown.decode()
+
+    def check_bar(self, shown):
+        # PoCL's compiler prints how many warnings it has kept to itself.
+        shown = re.sub(r"\d+ warnings? generated\.\r?\n", "", shown)
+        lines = [line for line in shown.split("\r") if line.strip()]
+        if not lines:
+            self.assertLess(self.seconds, 1.5)  # a fast machine
+            return []
+        percents = []
+        for line in lines:
+            self.assertRegex(line, r"^\[[= ]{24}\] [ \d]{3} %  \w")
+            self.assertLess(len(line), 80)
+            percents.append(int(re.search(r"(\d+) %", line)[1]))
+        self.assertEqual(percents, sorted(percents))
+        self.assertEqual(percents[-1], 100)
+        self.assertRegex(shown, r"\r *\r$")  # erased
+        return lines

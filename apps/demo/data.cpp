@@ -1,5 +1,7 @@
 // The assembler includes the files as they are, which builds much faster than arrays of numbers in C++.
-#include "apps/demo_data.hpp"
+#include "apps/demo/data.hpp"
+
+#include <array>
 
 #define POWERCELL_EMBED(symbol, file)                                                                    \
   asm(".section .rodata\n"                                                                               \
@@ -13,6 +15,8 @@
 POWERCELL_EMBED(powercell_demo_italy, "italy.geojson");
 POWERCELL_EMBED(powercell_demo_pretzel, "pretzel.off");
 POWERCELL_EMBED(powercell_demo_bracket, "bracket.mesh");
+POWERCELL_EMBED(powercell_demo_regions, "italy_regions.csv");
+POWERCELL_EMBED(powercell_demo_photo, "photo.png");
 
 namespace powercell::app {
 namespace {
@@ -23,15 +27,15 @@ std::string_view between(const char* begin, const char* end) {
 
 }  // namespace
 
-std::array<DemoShape, 3> demo_shapes() {
-  return {{
-      {"italy.geojson", between(powercell_demo_italy, powercell_demo_italy_end),
-       "a polygon with a hole and islands"},
-      {"pretzel.off", between(powercell_demo_pretzel, powercell_demo_pretzel_end),
-       "a closed surface of genus 3"},
-      {"bracket.mesh", between(powercell_demo_bracket, powercell_demo_bracket_end),
-       "a machine part in tetrahedra"},
+std::span<const DemoFile> demo_files() {
+  static const std::array<DemoFile, 5> files = {{
+      {"italy.geojson", between(powercell_demo_italy, powercell_demo_italy_end)},
+      {"pretzel.off", between(powercell_demo_pretzel, powercell_demo_pretzel_end)},
+      {"bracket.mesh", between(powercell_demo_bracket, powercell_demo_bracket_end)},
+      {"italy_regions.csv", between(powercell_demo_regions, powercell_demo_regions_end)},
+      {"photo.png", between(powercell_demo_photo, powercell_demo_photo_end)},
   }};
+  return files;
 }
 
 }  // namespace powercell::app
