@@ -2,11 +2,11 @@
 
 #include <zlib.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <powercell/error.hpp>
 #include <vector>
+
+#include "apps/io/base64.hpp"
 
 namespace powercell::io {
 namespace {
@@ -58,25 +58,10 @@ void VtkFile::array_bytes(std::string_view name, std::string_view type, int comp
     header.push_back(size);
     packed.append(reinterpret_cast<const char*>(block.data()), size);
   }
-  base64({reinterpret_cast<const char*>(header.data()), header.size() * sizeof(std::uint64_t)});
-  base64(packed);
+  write_base64(file_,
+               {reinterpret_cast<const char*>(header.data()), header.size() * sizeof(std::uint64_t)});
+  write_base64(file_, packed);
   file_.write("\n</DataArray>\n");
-}
-
-void VtkFile::base64(std::string_view bytes) {
-  static constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    }
-    const std::array<char, 4> text = {digits[group >> 18], digits[group >> 12 & 63],
-                                      count > 1 ? digits[group >> 6 & 63] : '=',
-                                      count > 2 ? digits[group & 63] : '='};
-    file_.write(std::string_view(text.data(), text.size()));
-  }
 }
 
 void VtkFile::finish() {

@@ -45,7 +45,6 @@ class VtkFile {
     }
   }
   void array_bytes(std::string_view name, std::string_view type, int components, std::string_view bytes);
-  void base64(std::string_view bytes);
 
   AtomicFile file_;
   std::string type_;
