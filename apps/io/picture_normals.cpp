@@ -50,4 +50,23 @@ std::vector<Vec3> corner_normals(const RegionsView& mesh, const Normalization& n
   return normals;
 }
 
+TriangleNormals::TriangleNormals(const RegionsView& mesh, const std::vector<Vec3>& normals,
+                                 const Normalization& normalize, std::uint32_t triangle) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t c = 3 * std::size_t{triangle} + k;
+    corner_[k] = normalize(&mesh.vertices[3 * std::size_t{mesh.region_vertex[c]}]);
+    normal_[k] = normals[c];
+  }
+}
+
+Vec3 TriangleNormals::operator()(Vec3 point) const {
+  const auto& [a, b, c] = corner_;
+  const Vec3 n = cross(b - a, c - a);
+  const float squared = dot(n, n);
+  if (!(squared > 0)) return normal_[0];
+  const float u = dot(cross(c - b, point - b), n) / squared;
+  const float v = dot(cross(a - c, point - c), n) / squared;
+  return normalized(normal_[0] * u + normal_[1] * v + normal_[2] * (1 - u - v));
+}
+
 }  // namespace powercell::io

@@ -2,6 +2,7 @@
 /// Normals of a triangle mesh for smooth shading.
 #pragma once
 
+#include <array>
 #include <powercell/regions.hpp>
 #include <vector>
 
@@ -25,5 +26,18 @@ Normalization normalization(const Domain& domain);
 /// so that creases stay sharp. Corners at the same position count as one, and neighbours may have either
 /// orientation.
 std::vector<Vec3> corner_normals(const RegionsView& mesh, const Normalization& normalize);
+
+/// The unit normals within one triangle, between those of its corners.
+class TriangleNormals {
+ public:
+  /// \param normals  corner_normals of the mesh
+  TriangleNormals(const RegionsView& mesh, const std::vector<Vec3>& normals, const Normalization& normalize,
+                  std::uint32_t triangle);
+  /// At a point in the triangle's plane, as normalized.
+  Vec3 operator()(Vec3 point) const;
+
+ private:
+  std::array<Vec3, 3> corner_, normal_;
+};
 
 }  // namespace powercell::io

@@ -10,16 +10,6 @@ namespace {
 
 constexpr Colour clay{0xe8, 0xc9, 0xa0};
 
-// Shares of a triangle's corners at a point in its plane.
-std::array<float, 3> barycentric(Vec3 p, const std::array<Vec3, 3>& corner) {
-  const Vec3 n = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  const float squared = dot(n, n);
-  if (!(squared > 0)) return {1, 0, 0};
-  const float u = dot(cross(corner[2] - corner[1], p - corner[1]), n) / squared;
-  const float v = dot(cross(corner[0] - corner[2], p - corner[2]), n) / squared;
-  return {u, v, 1 - u - v};
-}
-
 // Lines are thinner for smaller parts, and absent if they would hide the parts. \param width  pixels for one
 // part
 float line_width(double width, std::size_t parts, double least, double most) {
@@ -39,20 +29,14 @@ Model surface_model(const DiagramOutput& output) {
   model.line_width = line_width(80, output.measures.count(SeedStatus::ok), 0.6, 3.2);
   for (std::uint32_t i = 0; i < cells.cell_count(); ++i)
     for (std::uint64_t p = cells.cell_offset[i]; p < cells.cell_offset[i + 1]; ++p) {
-      const std::size_t first_corner = 3 * std::size_t{cells.region[p]};
-      std::array<Vec3, 3> corner;
-      for (std::size_t k = 0; k < 3; ++k)
-        corner[k] = normalize(&mesh.vertices[3 * std::size_t{mesh.region_vertex[first_corner + k]}]);
+      const TriangleNormals normal_at(mesh, normals, normalize, cells.region[p]);
       const std::uint64_t first = cells.vertex_offset[p];
       for (std::uint64_t v = first + 1; v + 1 < cells.vertex_offset[p + 1]; ++v) {
         Model::Triangle triangle{{}, {}, colours[i], i};
         const std::uint64_t at[3] = {first, v, v + 1};
         for (std::size_t k = 0; k < 3; ++k) {
           triangle.corner[k] = normalize(&cells.vertices[3 * at[k]]);
-          const auto share = barycentric(triangle.corner[k], corner);
-          triangle.normal[k] =
-              normalized(normals[first_corner] * share[0] + normals[first_corner + 1] * share[1] +
-                         normals[first_corner + 2] * share[2]);
+          triangle.normal[k] = normal_at(triangle.corner[k]);
         }
         model.triangles.push_back(triangle);
       }
