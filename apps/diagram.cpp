@@ -99,7 +99,7 @@ int run(const DiagramArguments& arguments) {
   const Inputs inputs = read_inputs(arguments);
   print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain);
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain, inputs.seeds.count());
   if (arguments.whole_cells && domain.kind() != DomainKind::volume)
     throw WrongUsage("--whole-cells is for volumes: a polygon of VTK has no holes, and lies in one plane");
   const SeedsView seeds = inputs.seeds.view();

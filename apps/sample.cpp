@@ -183,7 +183,7 @@ int run(const SampleArguments& arguments) {
   const Source source = read_source(arguments.source);
   print_notes(source.domain.notes(), arguments.source.domain, arguments, progress);
   for (const std::string& path : arguments.outputs) io::check_points(path, source.domain);
-  for (const std::string& path : arguments.cells) io::check_output(path, source.domain);
+  for (const std::string& path : arguments.cells) io::check_output(path, source.domain, arguments.count);
   const io::PictureStyle style = style_of(arguments, source.domain);
   progress.begin(stage::opening);
   const Device device = open_device(arguments);

@@ -186,7 +186,7 @@ int run(const TransportArguments& arguments) {
   print_notes(inputs.domain.domain.notes(), arguments.domain, arguments, progress);
   const Domain& domain = inputs.domain.domain;
   const io::SeedTable& table = inputs.seeds;
-  for (const std::string& path : arguments.outputs) io::check_output(path, domain);
+  for (const std::string& path : arguments.outputs) io::check_output(path, domain, table.count());
   // The weights that will be found are not those of the table.
   const SeedsView positions{table.dimension, table.positions, {}};
   const io::PictureStyle style =

@@ -34,12 +34,13 @@ struct DiagramOutput {
 std::string_view known_outputs();
 /// \throw Error invalid_file for another extension
 void check_output_format(const std::string& path);
-/// Checks before a long computation that `write_output` accepts the file for this domain.
-/// \throw Error invalid_file (unknown extension), unsupported (a format that cannot hold such cells)
-void check_output(const std::string& path, const Domain& domain);
+/// Checks before a long computation that `write_output` accepts the file for this domain and number of seeds.
+/// \throw Error invalid_file (unknown extension), unsupported (a format that cannot hold such cells, a page
+/// of too many)
+void check_output(const std::string& path, const Domain& domain, std::size_t seeds);
 
-/// Writes a picture (.svg .png .pdf), geometry (.vtu .vtp .obj .ply .off .stl .msh .tess .geojson) or
-/// everything (.json), by the extension of `path`.
+/// Writes a picture (.svg .png .pdf), geometry (.vtu .vtp .obj .ply .off .stl .msh .tess .geojson),
+/// everything (.json) or a page for a browser (.html), by the extension of `path`.
 /// \throw Error as check_output; write_failed
 void write_output(const std::string& path, const DiagramOutput& output);
 

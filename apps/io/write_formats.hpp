@@ -52,6 +52,12 @@ void write_tess(const std::string& path, const DiagramOutput& output);
 /// null and cells have none.
 void write_json(const std::string& path, const DiagramOutput& output);
 
+/// One page for a browser, which needs nothing else: it turns, slices and colours the cells, and shows the
+/// row of a cell that is chosen. view/data.hpp describes what it holds. Of volumes up to most_seeds_in_view,
+/// elsewhere four times as many. \throw Error unsupported for more, or too many triangles
+void write_html(const std::string& path, const DiagramOutput& output);
+constexpr std::size_t most_seeds_in_view = 250'000;
+
 /// A FeatureCollection with a Feature for each seed in input order: a Polygon, a MultiPolygon if the cell has
 /// several parts, or null if it is empty; properties `seed`, `weight`, `status`, `measure`, after those of
 /// the seeds' table (kept_columns.hpp); `id` is the seed's number, or its id if a column of ids was chosen.

@@ -3,6 +3,7 @@
 
 #include "apps/io/output.hpp"
 #include "apps/io/picture.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/write_formats.hpp"
 
@@ -23,7 +24,7 @@ struct Format {
   void (*write)(const std::string& path, const DiagramOutput& output);
 };
 
-constexpr std::array<Format, 13> formats = {{
+constexpr std::array<Format, 14> formats = {{
     {".svg", For::polygons, write_svg},
     {".png", For::all, write_png},
     {".pdf", For::polygons, write_pdf},
@@ -37,6 +38,7 @@ constexpr std::array<Format, 13> formats = {{
     {".tess", For::flat_or_solid, write_tess},
     {".json", For::all, write_json},
     {".geojson", For::polygons, write_geojson},
+    {".html", For::all, write_html},
 }};
 
 /// Why a format is not for a domain; empty if it is.
@@ -59,6 +61,15 @@ const Format& format_of(const std::string& path) {
   return *std::ranges::find(formats, lower_extension(path), &Format::extension);
 }
 
+void check_seeds_in_view(const std::string& path, DomainKind kind, std::size_t seeds) {
+  const std::size_t most = most_seeds_in_view * (kind == DomainKind::volume ? 1 : 4);
+  if (seeds <= most) return;
+  throw Error(ErrorCode::unsupported,
+              path + ": " + with_commas(seeds) + " seeds are too many for a page, which holds up to " +
+                  with_commas(most) + (kind == DomainKind::volume ? " in a volume" : "") +
+                  "; write .vtu or .vtp for other programs, or .png for a picture");
+}
+
 }  // namespace
 
 std::string_view known_outputs() {
@@ -74,15 +85,16 @@ void check_output_format(const std::string& path) {
   check_extension(path, known_outputs());
 }
 
-void check_output(const std::string& path, const Domain& domain) {
+void check_output(const std::string& path, const Domain& domain, std::size_t seeds) {
   const Format& format = format_of(path);
+  if (format.write == write_html) check_seeds_in_view(path, domain.kind(), seeds);
   const std::string why = refusal(format.domains, domain);
   if (!why.empty())
     throw Error(ErrorCode::unsupported, path + ": " + std::string(format.extension) + " " + why);
 }
 
 void write_output(const std::string& path, const DiagramOutput& output) {
-  check_output(path, output.domain);
+  check_output(path, output.domain, output.seeds.size());
   format_of(path).write(path, output);
 }
 

@@ -58,8 +58,7 @@ void VtkFile::array_bytes(std::string_view name, std::string_view type, int comp
     header.push_back(size);
     packed.append(reinterpret_cast<const char*>(block.data()), size);
   }
-  write_base64(file_,
-               {reinterpret_cast<const char*>(header.data()), header.size() * sizeof(std::uint64_t)});
+  write_base64(file_, {reinterpret_cast<const char*>(header.data()), header.size() * sizeof(std::uint64_t)});
   write_base64(file_, packed);
   file_.write("\n</DataArray>\n");
 }

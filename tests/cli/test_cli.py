@@ -147,7 +147,7 @@ class Diagram(ToolTest):
         self.assertEqual(*tables)
 
     def test_every_output_format(self):
-        common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".msh", ".json"]
+        common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".msh", ".json", ".html"]
         for shape, dimension in SHAPES.items():
             bodies = [".stl", ".tess"] if shape == "bracket.mesh" else []
             for extension in common + bodies + ([".svg", ".pdf", ".geojson"] if dimension == 2 else []):

@@ -322,10 +322,10 @@ TEST_CASE("neper: what its cells cannot be is refused") {
   CHECK_THROWS_WITH_AS(io::write_output(folder.file("d.tess"), hole.output()),
                        doctest::Contains("the cell of seed 0 has a hole"), Error);
   const double low[] = {0, 0}, high[] = {1, 1};
-  CHECK_THROWS_WITH_AS(io::check_output("d.tess", Domain::periodic_box(low, high)),
+  CHECK_THROWS_WITH_AS(io::check_output("d.tess", Domain::periodic_box(low, high), 5),
                        doctest::Contains("bounded"), Error);
-  CHECK_THROWS_WITH_AS(io::check_output("d.tess", io::read_domain("sphere:4").domain),
+  CHECK_THROWS_WITH_AS(io::check_output("d.tess", io::read_domain("sphere:4").domain, 5),
                        doctest::Contains(".msh"), Error);
-  CHECK_THROWS_WITH_AS(io::check_output("d.stl", hole.diagram->domain()), doctest::Contains(".obj"), Error);
+  CHECK_THROWS_WITH_AS(io::check_output("d.stl", hole.diagram->domain(), 5), doctest::Contains(".obj"), Error);
   CHECK(folder.count() == 0);
 }
