@@ -1,0 +1,449 @@
+#!/usr/bin/env python3
+"""Pages of `-o view.html` in a browser: what they show, and that they show the row of the cell that is pointed at.
+
+usage: test_view.py PATH_OF_POWERCELL [unittest options]
+exit:  77 where no Chromium is installed. POWERCELL_VIEW_PICTURES=FOLDER keeps the screenshots.
+"""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import browser as chromium
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
+DESKTOP = (900, 600)
+PHONE = (390, 844)
+NASTY = '</script><script>document.title="broken"</script><img src=x onerror=alert(1)> "\' &amp;'
+
+
+def power(point, seed):
+    return sum((a - b) ** 2 for a, b in zip(point, seed["position"])) - seed["weight"]
+
+
+def owner(point, seeds):
+    """The definition of a cell: the seed of least power distance, or None where two are nearly equal."""
+    ranked = sorted(seeds, key=lambda seed: power(point, seed))
+    if len(ranked) > 1 and power(point, ranked[1]) - power(point, ranked[0]) < 1e-3:
+        return None
+    return ranked[0]["seed"]
+
+
+class Page:
+    """A diagram, written as a page, as JSON and as a table, and opened."""
+
+    def __init__(self, test, *arguments, name="view.html", size=DESKTOP, phone=False):
+        self.test = test
+        folder = test.folder
+        done = subprocess.run([TOOL, "diagram", *map(str, arguments), "-o", name, "-o", "d.json", "--table", "t.csv"],
+                              cwd=folder, text=True, capture_output=True)
+        test.assertEqual(done.returncode, 0, done.stderr)
+        self.cells = json.loads((folder / "d.json").read_text())["cells"]
+        with (folder / "t.csv").open() as table:
+            self.rows = list(csv.DictReader(table))
+        self.tab = chromium.Tab(test.browser, *size, scale=3 if phone else 1, phone=phone)
+        test.addCleanup(self.tab.close)
+        self.tab.open(folder / name)
+        test.assertEqual(self.tab.evaluate("document.documentElement.dataset.state"), "ready",
+                         self.tab.evaluate("document.getElementById('message').textContent"))
+        self.frame = self.tab.evaluate("JSON.parse(document.getElementById('diagram').textContent).frame")
+        self.settle()
+        left, top, width, height = self.box = self.tab.evaluate(
+            "(({left, top, width, height}) => [left, top, width, height])(canvas.getBoundingClientRect())")
+        self.part = [left / size[0], top / size[1], width / size[0], height / size[1]]
+
+    def settle(self):
+        """Waits for the fine picture of what was asked for before."""
+        self.tab.wait("document.getElementById('canvas').dataset.drawn === 'fine'")
+
+    def place(self, point):
+        """Where a point of the domain is in the window."""
+        at = [(x - o) / self.frame["scale"] for x, o in zip(point, self.frame["offset"])] + [0] * (3 - len(point)) + [1]
+        m = [float(x) for x in self.tab.evaluate("canvas.dataset.matrix").split()]
+        x, y, _, w = (sum(m[4 * k + row] * at[k] for k in range(4)) for row in range(4))
+        left, top, width, height = self.box
+        return left + (1 + x / w) / 2 * width, top + (1 - y / w) / 2 * height
+
+    def choose(self, point):
+        """Presses at a point of the domain, and returns the row that the page shows."""
+        self.tab.press(*self.place(point))
+        return self.row()
+
+    def row(self):
+        return dict(self.tab.evaluate("[...document.querySelectorAll('#row tr')].map((r) => [...r.cells].map((c) => c.textContent))"))
+
+    def set(self, control, value, event="change"):
+        self.tab.evaluate(f"""(() => {{ const node = document.getElementById({json.dumps(control)});
+            if (node.type === 'checkbox') node.checked = {json.dumps(value)}; else node.value = {json.dumps(value)};
+            node.dispatchEvent(new Event({json.dumps(event)})); }})()""")
+        self.settle()
+
+    def slice(self, axis):
+        self.tab.evaluate(f"document.querySelector('[data-axis={axis}]').click()")
+        self.settle()
+
+    def picture(self, name):
+        picture = self.tab.screenshot()
+        if "POWERCELL_VIEW_PICTURES" in os.environ:
+            (pathlib.Path(os.environ["POWERCELL_VIEW_PICTURES"]) / (name + ".png")).write_bytes(picture)
+        return picture
+
+    def check_row(self, seed, row):
+        """The row in the page has the numbers of the table."""
+        expected = self.rows[seed]
+        self.test.assertEqual(row["seed"], str(seed))
+        for name in ("weight", "measure", "second_moment", "neighbors"):
+            self.test.assertEqual(float(row[name]), float(expected[name]), name)
+        self.test.assertEqual(row["status"], expected["status"])
+        self.test.assertEqual([float(x) for x in row["position"].split(",")], self.cells[seed]["position"])
+        if row["status"] == "ok":
+            self.test.assertEqual([float(x) for x in row["centroid"].split(",")],
+                                  [float(expected[name]) for name in ("cx", "cy", "cz") if name in expected])
+
+    def check_clean(self):
+        self.test.assertEqual(self.tab.complaints(), [])
+
+
+class ViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = chromium.Browser(chromium.find())
+        cls.addClassCleanup(cls.browser.close)
+        cls.eyes = chromium.Eyes(cls.browser)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.random = random.Random(1)
+
+    def write(self, name, rows):
+        with (self.folder / name).open("w", newline="") as file:
+            csv.writer(file).writerows(rows)
+        return name
+
+    def seeds(self, count, low, high, weight, columns=lambda k: []):
+        rows = [[*(self.random.uniform(a, b) for a, b in zip(low, high)), self.random.uniform(0, weight), *columns(k)]
+                for k in range(count)]
+        return rows
+
+    def check_picks(self, page, points):
+        """Presses at points, where the page must show the cell that owns them. Most must be decided."""
+        decided = 0
+        for point in points:
+            seed = owner(point, page.cells)
+            if seed is not None:
+                page.check_row(seed, page.choose(point))
+                decided += 1
+        self.assertGreater(decided, len(points) / 2)
+
+    def check_seen(self, picture, page, least, most=None):
+        """The picture has at least so many colours that fill a part of it, and is not one of noise."""
+        colours = self.eyes.colours(picture, page.part)
+        large = [colour for colour, share in colours if share > 2e-4]
+        self.assertGreaterEqual(len(large), least)
+        self.assertLess(max(share for _, share in colours), 0.9, "the picture is blank")
+        if most:
+            self.assertLessEqual(len(large), most)
+        return large
+
+
+class Flat(ViewTest):
+    def page(self, **options):
+        # Some seeds are hidden by a heavy one, and two are at the same place.
+        rows = self.seeds(40, (0, 0), (2, 1), 0.01, lambda k: [k * k if k != 7 else "", ("river", NASTY, "lake")[k % 3]])
+        rows[0][:3] = [1, 0.5, 0.06]
+        rows[1][:3] = [1.01, 0.5, -0.5]
+        rows[2][:2] = rows[3][:2]
+        name = self.write("seeds.csv", [["x", "y", "weight", "people", NASTY], *rows])
+        return Page(self, "--domain", "box:0,0:2,1", "--seeds", name, **options)
+
+    def test_cells_and_rows(self):
+        page = self.page()
+        picture = page.picture("flat")
+        self.check_seen(picture, page, 30)
+        self.check_picks(page, [(self.random.uniform(0.02, 1.98), self.random.uniform(0.02, 0.98)) for _ in range(15)])
+        row = page.choose((1, 0.52))
+        self.assertEqual(row["seed"], "0")
+        self.assertEqual((row["people"], row[NASTY]), ("0", "river"))
+        self.assertGreater(self.eyes.change(picture, page.picture("flat-chosen"), page.part), 0.002)
+        self.assertEqual(page.tab.evaluate("document.title"), "view: power diagram of 40 seeds")
+        counts = [sum(row["status"] == status for row in page.rows) for status in ("ok", "hidden", "duplicate")]
+        self.assertRegex(page.tab.evaluate("check.textContent"), "^{} cells, {} hidden, {} duplicate; sum of measures / domain "
+                         r"= 1( [+−] \d\.\de-1\d)?$".format(*counts))
+        page.check_clean()
+
+    def test_seeds_without_a_cell_are_listed(self):
+        page = self.page()
+        listed = page.tab.evaluate("[...document.querySelectorAll('#without-list button')].map((b) => b.textContent)")
+        expected = [f"seed {k}, {row['status']}" for k, row in enumerate(page.rows) if row["status"] != "ok"]
+        self.assertEqual(listed, expected)
+        self.assertEqual({text.split(", ")[1] for text in listed}, {"hidden", "duplicate"})
+        page.tab.evaluate("document.querySelector('#without-list button').click()")
+        page.check_row(1, page.row())
+        self.assertEqual(page.row()["centroid"], "–")
+
+    def test_colours(self):
+        page = self.page()
+        before = page.picture("flat")
+        names = page.tab.evaluate("[...colour.options].map((o) => o.textContent)")
+        self.assertEqual(names, ["cells apart", "measure", "weight", "neighbors", "people", NASTY])
+        page.set("dots", False)
+        for k, name in enumerate(names[1:]):
+            page.set("colour", str(k))
+            after = page.picture(f"flat-colour-{k}")
+            self.assertGreater(self.eyes.change(before, after, page.part), 0.2, name)
+        # Three classes, lines, background, and what lies between at edges.
+        seen = self.check_seen(after, page, 4, most=60)
+        legend = page.tab.evaluate("""[...document.querySelectorAll('.classes li')].map((li) =>
+            [li.children[1].textContent, getComputedStyle(li.firstChild).backgroundColor.match(/\\d+/g).map(Number)])""")
+        self.assertEqual(sorted(name for name, _ in legend), sorted(["river", NASTY, "lake"]))
+        for name, colour in legend:
+            self.assertTrue(any(max(abs(a - b) for a, b in zip(colour, other)) <= 1 for other in seen), name)
+        page.set("colour", "3")
+        self.assertIn("no value (1)", page.tab.evaluate("legend.textContent"))
+        ranks = page.picture("people")
+        page.set("scale", "rank")
+        self.assertGreater(self.eyes.change(ranks, page.picture("people-rank"), page.part), 0.05)
+        page.check_clean()
+
+    def test_only_the_cells_of_a_range(self):
+        page = self.page()
+        page.set("colour", "0")
+        areas = sorted(float(row["measure"]) for row in page.rows)
+        page.set("from", str(areas[-3]))
+        page.set("dots", False)
+        page.picture("flat-largest")
+        for k, row in enumerate(page.rows):
+            if row["status"] == "ok":
+                seen = page.choose(page.cells[k]["centroid"])
+                self.assertEqual(seen.get("seed"), str(k) if float(row["measure"]) >= areas[-3] else None)
+        page.set("from", "many")
+        self.assertIn("is not a number", page.tab.evaluate("hint.textContent"))
+        self.check_picks(page, [(0.5, 0.5), (1.5, 0.5), (1, 0.9)])
+
+    def test_the_scale_is_even_to_the_eye(self):
+        page = self.page()
+        page.set("colour", "0")
+        stops = [tuple(map(int, c.split(", "))) for c in page.tab.evaluate(
+            "getComputedStyle(document.querySelector('.bar')).backgroundImage.match(/\\d+, \\d+, \\d+/g)")]
+        lab = [oklab(stop) for stop in stops]
+        self.assertGreater(len(lab), 10)
+        steps = [math.dist(a, b) for a, b in zip(lab, lab[1:])]
+        self.assertLess(max(steps), 1.35 * min(steps))
+        lightness = [colour[0] for colour in lab]
+        self.assertTrue(all(b - a > 0.02 for a, b in zip(lightness, lightness[1:])), lightness)
+        # Values and colours agree: the largest cell has the last colour, the smallest the first.
+        areas = [float(row["measure"]) or math.nan for row in page.rows]
+        page.set("dots", False)
+        picture = page.picture("measure")
+        for value, stop in ((max(a for a in areas if a == a), stops[-1]), (min(a for a in areas if a == a), stops[0])):
+            cell = page.cells[areas.index(value)]
+            x, y = page.place(cell["centroid"])
+            box = [x / DESKTOP[0], y / DESKTOP[1], 1.01 / DESKTOP[0], 1.01 / DESKTOP[1]]
+            colour = self.eyes.colours(picture, box)[0][0]
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(colour, stop)), 2)
+
+    def test_moving_and_keys(self):
+        page = self.page()
+        before = page.picture("flat")
+        left, top, width, height = page.box
+        page.tab.drag(left + width / 2, top + height / 2, 90, 40)
+        page.settle()
+        self.assertEqual(page.row(), {})  # a drag chooses nothing
+        self.assertGreater(self.eyes.change(before, page.picture("flat-moved"), page.part), 0.1)
+        self.check_picks(page, [(0.6, 0.5), (1.3, 0.42), (1.1, 0.7)])
+        page.tab.key("0")
+        page.tab.key("+")
+        page.tab.key("+")
+        page.settle()
+        page.tab.key("Enter")  # the cell in the middle, which is still that of the box
+        page.check_row(owner((1, 0.5), page.cells), page.row())
+        page.tab.key("n")
+        page.check_row(1, page.row())
+        page.tab.key("Escape")
+        self.assertEqual(page.row(), {})
+        page.tab.call("Input.dispatchMouseEvent", type="mouseWheel", x=left + 40, y=top + 200, deltaX=0, deltaY=-300)
+        page.settle()
+        self.check_picks(page, [(0.95, 0.5), (1.02, 0.52), (1.0, 0.45)])
+        page.check_clean()
+
+    def test_a_number_finds_its_seed(self):
+        page = self.page()
+        for text, found in (("17", "17"), ("40", "17"), ("x", "17"), ("", "17")):
+            page.tab.evaluate(f"seed.value = {json.dumps(text)}; document.getElementById('find').requestSubmit()")
+            self.assertEqual(page.row()["seed"], found)
+        self.assertIn("0 to 39", page.tab.evaluate("hint.textContent"))
+
+    def test_on_a_phone(self):
+        page = self.page(size=PHONE, phone=True)
+        page.picture("phone-flat")
+        self.check_picks(page, [(self.random.uniform(0.1, 1.9), self.random.uniform(0.1, 0.9)) for _ in range(6)])
+        self.assertLessEqual(page.tab.evaluate("document.scrollingElement.scrollWidth"), PHONE[0])
+        before = page.tab.evaluate("canvas.dataset.matrix")
+        x, y = page.place((1, 0.5))
+        page.tab.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x - 20, "y": y}, {"x": x + 20, "y": y}])
+        page.tab.call("Input.dispatchTouchEvent", type="touchMove", touchPoints=[{"x": x - 60, "y": y}, {"x": x + 60, "y": y}])
+        page.tab.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        page.settle()
+        after = page.tab.evaluate("canvas.dataset.matrix")
+        self.assertAlmostEqual(float(after.split()[0]) / float(before.split()[0]), 3, delta=0.2)
+        small = page.tab.evaluate("""[...document.querySelectorAll('button, select, input:not([type=range], [type=checkbox])')]
+            .filter((node) => node.offsetParent && node.offsetHeight < 32 && !node.closest('#without-list')).map((node) => node.outerHTML)""")
+        self.assertEqual(small, [])
+        page.picture("phone-flat-pinched")
+        page.check_clean()
+
+    def test_dark_and_light(self):
+        page = self.page()
+        light = page.picture("light")
+        page.tab.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        page.settle()
+        dark = page.picture("dark")
+        corner = [page.part[0] + 0.002, page.part[1] + 0.01, 0.01, 0.01]
+        self.assertGreater(min(self.eyes.colours(light, corner)[0][0]), 240)
+        self.assertLess(max(self.eyes.colours(dark, corner)[0][0]), 60)
+        page.tab.evaluate("theme.click()")
+        page.settle()
+        self.assertGreater(min(self.eyes.colours(page.picture("light-again"), corner)[0][0]), 240)
+
+
+def oklab(colour):
+    """OKLab of a colour in sRGB, by the matrices of its definition."""
+    def linear(channel):
+        c = channel / 255
+        return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+    r, g, b = map(linear, colour)
+    l, m, s = (value ** (1 / 3) for value in (
+        0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b,
+        0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b,
+        0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b))
+    return (0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s)
+
+
+class Space(ViewTest):
+    def cube(self, count=60):
+        rows = self.seeds(count, (10, 20, 30), (11, 21, 31), 0.01)
+        return Page(self, "--domain", "box:10,20,30:11,21,31", "--seeds",
+                    self.write("seeds.csv", [["x", "y", "z", "weight"], *rows]))
+
+    def spread(self, point, axis, value):
+        """Random points on a side of the cube that is in sight."""
+        points = [[low + self.random.uniform(0.05, 0.95) for low in point] for _ in range(5)]
+        for at in points:
+            at[axis] = value
+        return points
+
+    def test_faces_of_a_cube(self):
+        page = self.cube()
+        self.check_seen(page.picture("cube"), page, 25)
+        for axis, value in ((0, 11), (1, 20), (2, 31)):  # the sides towards the camera
+            self.check_picks(page, self.spread((10, 20, 30), axis, value))
+        page.check_clean()
+
+    def test_a_slice_shows_the_cells_in_its_plane(self):
+        page = self.cube()
+        before = page.picture("cube")
+        for axis, name, value in ((2, "z", 30.5), (0, "x", 10.5), (1, "y", 20.5)):
+            page.slice(name)
+            self.assertGreater(self.eyes.change(before, page.picture("cube-" + name), page.part), 0.15)
+            self.assertIn(f"{name} = {value}", page.tab.evaluate("document.getElementById('depth-value').textContent"))
+            self.check_picks(page, self.spread((10, 20, 30), axis, value))
+        page.set("depth", "250", "input")
+        self.check_picks(page, self.spread((10, 20, 30), 1, 20.25))
+        page.slice("view")
+        self.assertGreater(self.eyes.change(before, page.picture("cube-view"), page.part), 0.15)
+        page.slice("none")
+        page.tab.evaluate("canvas.focus()")
+        page.tab.key("Escape")
+        page.settle()
+        self.assertLess(self.eyes.change(before, page.picture("cube-whole"), page.part), 0.02)
+        page.check_clean()
+
+    def test_turned_about_a_slice_still_shows_its_cells(self):
+        page = self.cube()
+        page.slice("x")
+        left, top, width, height = page.box
+        page.tab.drag(left + width / 2, top + height / 2, -120, 60)
+        page.settle()
+        page.picture("cube-turned")
+        self.check_picks(page, self.spread((10, 20, 30), 0, 10.5))
+
+    def test_whole_cells_and_cells_apart(self):
+        page = self.cube()
+        page.slice("z")
+        cut = page.picture("cube-z")
+        page.set("whole", True)
+        whole = page.picture("cube-z-whole")
+        self.assertGreater(self.eyes.change(cut, whole, page.part), 0.05)
+        page.slice("none")
+        together = page.picture("cube")
+        page.set("apart", "0.6", "input")
+        apart = page.picture("cube-apart")
+        self.assertGreater(self.eyes.change(together, apart, page.part), 0.2)
+        self.check_seen(apart, page, 25)
+        page.check_clean()
+
+    def test_surface(self):
+        page = Page(self, "--domain", "sphere:24", "--seeds", "random:50:0:0.02:3")
+        self.check_seen(page.picture("sphere"), page, 25)
+        # Corners of triangles that face the camera.
+        back = page.tab.evaluate("canvas.dataset.matrix")
+        m = [float(x) for x in back.split()]
+        towards = [-m[4 * k + 3] for k in range(3)]
+        norm = math.sqrt(sum(t * t for t in towards))
+        seen = [v for cell in page.cells for v in cell["vertices"][::3]
+                if sum(a * b for a, b in zip(v, towards)) > 0.6 * norm]
+        self.check_picks(page, [tuple(v) for v in self.random.sample(seen, 12)])
+        closed = page.picture("sphere")
+        page.slice("view")
+        self.assertGreater(self.eyes.change(closed, page.picture("sphere-view"), page.part), 0.1)
+        page.check_clean()
+
+    def test_parts_with_holes(self):
+        for name, more in (("bracket.mesh", []), ("pretzel.off", ["--solid"]), ("pretzel.off", [])):
+            page = Page(self, "--domain", DATA / name, *more, "--seeds", "random:200")
+            picture = page.picture(name.split(".")[0] + "".join(more))
+            self.check_seen(picture, page, 40)
+            page.slice("view")
+            self.assertGreater(self.eyes.change(picture, page.picture(name.split(".")[0] + "".join(more) + "-view"), page.part), 0.05)
+            page.check_clean()
+
+    def test_on_a_phone(self):
+        rows = self.seeds(60, (0, 0, 0), (1, 1, 1), 0.01)
+        page = Page(self, "--domain", "cube", "--seeds", self.write("seeds.csv", [["x", "y", "z", "weight"], *rows]),
+                    size=PHONE, phone=True)
+        page.slice("z")
+        page.picture("phone-cube")
+        self.check_picks(page, self.spread((0, 0, 0), 2, 0.5))
+        self.assertLessEqual(page.tab.evaluate("document.scrollingElement.scrollWidth"), PHONE[0])
+        page.check_clean()
+
+
+class Periodic(ViewTest):
+    def test_cells_are_whole(self):
+        for domain, name in (("square", "periodic"), ("cube", "periodic-cube")):
+            page = Page(self, "--domain", domain, "--periodic", "--seeds", "random:14:0:0.01:2")
+            self.check_seen(page.picture(name), page, 10)
+            if domain == "square":
+                for cell in page.cells:  # convex: it contains its centroid, and no other cell is there
+                    if cell["status"] == "ok":
+                        page.check_row(cell["seed"], page.choose(cell["centroid"]))
+            page.check_clean()
+
+
+if __name__ == "__main__":
+    if chromium.find() is None:
+        print("skipped: Chromium is not installed (Debian's package chromium)")
+        sys.exit(77)
+    unittest.main()
