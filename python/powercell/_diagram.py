@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -355,6 +357,30 @@ class Diagram:
         """A meshio mesh of the pieces of the cells with the arrays ``seed`` and ``mass``."""
         self._require_all("to_meshio()")
         return _looks.to_meshio(self)
+
+    def to_html(self, path: Union[str, os.PathLike[str]], columns: Optional[Mapping[str, Sequence[Any]]] = None) -> None:
+        """Writes a page for a browser that turns, slices and colours the cells, and shows the row of the one chosen.
+
+        Parameters
+        ----------
+        path : str or path
+            Ends in .html.
+        columns : mapping of str to (n,) sequences, optional
+            Numbers or texts of the seeds, to colour by and to show, as of ``Seeds.columns`` or a data frame. Default:
+            the columns that came in with the seeds.
+
+        Raises
+        ------
+        Error
+            ``unsupported`` above 250,000 seeds in a volume, a million elsewhere.
+        """
+        self._require_all("to_html()")
+        _looks.to_html(self, os.fspath(path), columns)
+
+    def view(self, columns: Optional[Mapping[str, Sequence[Any]]] = None, height: int = 560) -> Any:
+        """The page of :meth:`to_html` within a notebook, ``height`` pixels high."""
+        self._require_all("view()")
+        return _looks.Embedded(self, columns, height)
 
     def _summary(self) -> list[tuple[str, str]]:
         status = self.status

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import html
 import importlib
+import math
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
+
+from ._progress import fraction_bar
 
 if TYPE_CHECKING:
     from ._diagram import Diagram
@@ -189,3 +196,42 @@ def _faces_of(cells: Any, first: np.ndarray, piece: int) -> list[np.ndarray]:
         cells.loop[loops[f] : loops[f + 1]].astype(np.int64) + first[piece]
         for f in range(int(faces[piece]), int(faces[piece + 1]))
     ]
+
+
+def _field(value: Any) -> str:
+    """As the fields of tables are: empty where there is no number."""
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value)) if math.isfinite(value) else ""
+    return "" if value is None else str(value)
+
+
+def to_html(diagram: Diagram, path: str, columns: Optional[Mapping[str, Sequence[Any]]]) -> None:
+    if columns is None:
+        given: Any = diagram._columns
+        known = getattr(given, "columns", [])  # a GeoSeries has none
+        columns = {str(key): given[key] for key in known if key != given.geometry.name}
+    texts = [[_field(value) for value in np.asarray(columns[key], dtype=object)] for key in columns]
+    for key, fields in zip(columns, texts):
+        if len(fields) != len(diagram):
+            raise ValueError(f"the column {key} has {len(fields)} values, for {len(diagram)} seeds")
+    if not path.lower().endswith(".html"):
+        raise ValueError(f"{path} does not end in .html")
+    rows = [field for row in zip(*texts) for field in row]
+    with fraction_bar(diagram._progress, "page") as report:
+        diagram._core.write_html(path, diagram._positions, diagram._weights, [str(key) for key in columns], rows, report)
+
+
+class Embedded:
+    """A page within a notebook."""
+
+    def __init__(self, diagram: Diagram, columns: Optional[Mapping[str, Sequence[Any]]], height: int) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "view.html")
+            to_html(diagram, path, columns)
+            with open(path, encoding="utf-8") as file:
+                self._page = file.read()
+        self._height = height
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self._page)
+        return f'<iframe sandbox="allow-scripts" style="width:100%;height:{self._height}px;border:0" srcdoc="{page}"></iframe>'

@@ -4,6 +4,7 @@
 #include <powercell/triangulation.hpp>
 #include <powercell/verify.hpp>
 
+#include "apps/io/write_formats.hpp"
 #include "python/src/call.hpp"
 #include "python/src/density.hpp"
 #include "python/src/options.hpp"
@@ -65,6 +66,30 @@ class PyDiagram {
     const Density of = density_of(density, slot_, diagram_.domain().dimension());
     const IntegrationOptions options = integration_options(given, slot_);
     return slot_.run(progress, [&] { return powercell::integrate(diagram_, of, options); });
+  }
+
+  /// \param fields  of the columns `names`, row by row
+  void write_html(const std::string& path, const Matrix<double>& positions, const Weights& weights,
+                  std::vector<std::string> names, const std::vector<std::string>& fields,
+                  const nb::object& progress) {
+    const SeedsView seeds = seeds_of(positions, weights);
+    io::SeedTable table;
+    table.text.columns = names.size();
+    for (const std::string& field : fields) table.text.add(field);
+    table.columns.names = std::move(names);
+    slot_.run(progress, [&] {
+      io::check_output(path, diagram_.domain().kind(), seeds.size());
+      diagram_.compute(true, true);
+      const bool solid = diagram_.domain().is_solid();  // its page is made of the joined cells
+      io::write_html(path, {diagram_.domain(),
+                            seeds,
+                            diagram_.measures(),
+                            solid ? Cells{} : diagram_.cells(),
+                            diagram_.joined(),
+                            diagram_.adjacency(),
+                            true,
+                            {.table = &table, .map = nullptr}});
+    });
   }
 
   const Diagram& diagram() const { return diagram_; }
@@ -149,6 +174,8 @@ void bind_diagrams(nb::module_& m) {
       .def("joined", &PyDiagram::joined)
       .def("dual", &PyDiagram::dual)
       .def("verify", &PyDiagram::verify, "positions"_a, "weights"_a.none(), "given"_a, "progress"_a.none())
+      .def("write_html", &PyDiagram::write_html, "path"_a, "positions"_a, "weights"_a.none(), "names"_a,
+           "fields"_a, "progress"_a.none())
       .def("integrate", &PyDiagram::integrate, "density"_a, "given"_a, "progress"_a.none())
       .def_prop_ro("has_selection", [](const PyDiagram& d) { return d.diagram().has_selection(); })
       .def_prop_ro(

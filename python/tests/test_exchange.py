@@ -1,5 +1,11 @@
 """Exchange with Shapely, GeoPandas, matplotlib, PyVista, meshio and trimesh, where they are installed."""
 
+import base64
+import html
+import json
+import math
+import zlib
+
 import numpy as np
 import pytest
 
@@ -77,3 +83,25 @@ def test_meshes_of_other_packages(rng):
 def test_html(square):
     text = pc.Diagram(square, [[0.5, 0.5]])._repr_html_()
     assert "<table>" in text and "polygon of area 1" in text
+
+
+def test_pages(square, cube, rng, tmp_path):
+    for domain, d in ((square, 2), (cube, 3), (pc.Domain.surface(*pc.sphere(4)), 3), (pc.Domain.solid(*pc.sphere(4)), 3)):
+        diagram = pc.Diagram(domain, rng.random((20, d)), rng.random(20) / 100)
+        path = tmp_path / "view.html"
+        diagram.to_html(path, {"size": [*range(19), math.nan], "<town>": ["Ulm", "Bern"] * 10})
+        text = path.read_text(encoding="utf-8")
+        data = json.loads(text.split('id="diagram">')[1].split("</script>")[0])
+        assert data["seeds"] == 20 and data["check"]["domain_measure"] == diagram.domain_measure
+        assert [column["name"] for column in data["columns"]] == ["size", "<town>"]
+        assert [column["type"] for column in data["columns"]] == ["number", "text"]
+        packed = text.split('id="array-measure">')[1].split("</script>")[0]
+        assert np.array_equal(np.frombuffer(zlib.decompress(base64.b64decode(packed))), diagram.mass)
+    shown = diagram.view(height=300)._repr_html_()
+    assert shown.startswith("<iframe") and "height:300px" in shown and html.escape(text[:200]) in shown
+    with pytest.raises(ValueError, match="3 values, for 20 seeds"):
+        diagram.to_html(path, {"size": [1, 2, 3]})
+    with pytest.raises(ValueError, match="end in .html"):
+        diagram.to_html(tmp_path / "view.txt")
+    with pytest.raises(pc.Error, match="cannot create|No such file"):
+        diagram.to_html(tmp_path / "nowhere" / "view.html")
