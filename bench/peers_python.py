@@ -171,7 +171,7 @@ def tables(peers, arguments):
         for n in arguments.n:
             case = Case(name, n, d, periodic, weighted)
             entries = measure(peers, case, before.setdefault(name, {}), arguments)
-            yield f"\n### {name}, {n:,} seeds\n"
+            yield f"\n## {name}, {n:,} seeds\n"
             yield "| | volumes | with neighbours | sum / domain − 1 | worst cell, of the mean | neighbours |"
             yield "|---|---:|---:|---:|---:|---:|"
             for peer in peers:
@@ -189,7 +189,7 @@ def transport(peers, arguments):
             for peer in peers:
                 if hasattr(peer, "transport"):
                     entries.setdefault(peer.name, Entry()).run(peer, case, "transport")
-        yield f"\n### transport to equal areas, square, {n:,} seeds\n"
+        yield f"\n## transport to equal areas, square, {n:,} seeds\n"
         yield "| | time | worst area, relative |\n|---|---:|---:|"
         for name, entry in entries.items():
             worst = "–" if entry.volumes is None else f"{np.abs(np.asarray(entry.volumes) * n - 1).max():.0e}"
@@ -197,7 +197,7 @@ def transport(peers, arguments):
 
 
 def abilities(peers):
-    yield "\n### What each can do\n"
+    yield "\n## What each can do\n"
     yield "| | version | weights | domains | periodic | walls | geometry | transport | note |"
     yield "|---|---|---|---|---|---|---|---|---|"
     for peer in peers:

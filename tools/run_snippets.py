@@ -33,16 +33,17 @@ ELSEWHERE = {"docs/coming_from.md": "bench/coming_from.py"}
 INSTALLERS = re.compile(r"(\./setup\.sh|pip3? install|(sudo )?apt(-get)? |git clone|cd )")
 COMMANDS = re.compile(r"    (powercell|\./setup|bench/|cmake|build/|ctest|tools/|bundle/|python3?|pip3?|apt-get|sudo|export) ?\S")
 OUTPUTS = {"-o", "--output", "--table", "--walls", "--log", "--analysis", "--report", "--cells", "--json-file"}
-LIMIT = 120  # seconds for one block
+LIMIT = 300  # seconds for one block
 
-CPP_PART = """#include <algorithm>
+# Compiled once, before all blocks of C++.
+CPP_HEADER = """#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <powercell/powercell.hpp>
 #include <vector>
-
-int main() {
+"""
+CPP_PART = """int main() {
   [[maybe_unused]] const powercell::Device device = powercell::Device::choose();
 #line %d "%s"
 %s
@@ -77,7 +78,7 @@ def blocks_of(page, faults):
     fence, found = None, []
     for number, line in enumerate(lines):
         if fence is None:
-            start = re.fullmatch(r"```(\w*)", line)
+            start = re.fullmatch(r"```(\w*|\{.*)", line)
             if start:
                 fence = (number, start[1])
             elif COMMANDS.match(line):
@@ -85,7 +86,7 @@ def blocks_of(page, faults):
         elif line == "```":
             begin, language = fence
             fence = None
-            if language not in RUN | TEXT:
+            if language not in RUN | TEXT and not language.startswith("{"):  # a directive of the site
                 faults.append(f"{page.relative_to(ROOT)}:{begin + 1}: a block in '{language}', which nobody runs")
             if language not in RUN:
                 continue
@@ -117,7 +118,7 @@ class Page:
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
         for entry in ROOT.iterdir():
-            if entry.name != ".git":
+            if entry.is_dir() and entry.name != ".git":
                 (self.folder / entry.name).symlink_to(entry)
 
     def call(self, block, command, **more):
@@ -140,11 +141,11 @@ class Page:
             code = CPP_PART % (block.line, self.path, block.code)
         else:
             code = f'#line {block.line} "{self.path}"\n{block.code}'
+            if "#include <powercell" not in code:
+                self.faults.append(f"{block.place}: a program that does not include powercell")
         source = self.program(block).with_suffix("." + block.language)
         source.write_text(code)
-        standard = ["-std=c++20"] if block.language == "cpp" else ["-std=c99", "-pedantic"]
-        compiler = os.environ.get("CXX", "c++") if block.language == "cpp" else os.environ.get("CC", "cc")
-        self.call(block, [compiler, *standard, "-O0", "-Wall", "-Wextra", "-Werror", str(source), "-o", str(self.program(block)), *flags, "-lm"])
+        self.call(block, [*compiler(block.language), str(source), "-o", str(self.program(block)), *flags[block.language]])
 
     def run(self):
         for block in self.blocks:
@@ -200,8 +201,15 @@ class Page:
                     self.check_file(f"{self.path.relative_to(ROOT)}:{number + 1}", name)
 
 
+def compiler(language):
+    common = ["-O0", "-Wall", "-Wextra", "-Werror"]
+    if language == "c":
+        return [os.environ.get("CC", "cc"), "-std=c99", "-pedantic", *common]
+    return [os.environ.get("CXX", "c++"), "-std=c++20", *common]
+
+
 def install(build, work):
-    """Installs the build, as users find it, and returns what programs need to find it."""
+    """Installs the build, as users find it, and returns the environment and the flags that programs need to find it."""
     prefix = work / "prefix"
     shutil.rmtree(prefix, ignore_errors=True)
     subprocess.run(["cmake", "--install", build, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
@@ -212,7 +220,27 @@ def install(build, work):
                        PKG_CONFIG_PATH=str(packages), LD_LIBRARY_PATH=str(libraries), CMAKE_PREFIX_PATH=str(prefix), PYVISTA_OFF_SCREEN="true")
     flags = subprocess.run(["pkg-config", "--cflags", "--libs", "powercell"], env=environment, check=True, stdout=subprocess.PIPE,
                            text=True).stdout.split()
-    return environment, flags
+    header = work / "blocks.hpp"
+    header.write_text(CPP_HEADER)
+    subprocess.run([*compiler("cpp"), "-x", "c++-header", header, "-o", f"{header}.gch", f"-I{prefix / 'include'}"], check=True)
+    return environment, {"c": [*flags, "-lm"], "cpp": ["-include", str(header), *flags]}
+
+
+def leave_out_repeated(pages):
+    """Of blocks of shell that are the same on several pages the first is run."""
+    first = {}
+    for page in pages:
+        for block in page.blocks:
+            if block.language == "sh" and not block.reason:
+                earlier = first.setdefault(block.code, block)
+                if earlier is not block:
+                    block.reason = f"the same as {earlier.place}"
+
+
+def state_of_repository():
+    """The files that git sees changed, to find blocks that write into the repository."""
+    done = subprocess.run(["git", "-C", ROOT, "status", "--porcelain"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    return set(done.stdout.split("\n"))
 
 
 def pages_of(arguments):
@@ -231,7 +259,7 @@ def main():
     begin = time.monotonic()
     work = arguments.work.resolve()
     work.mkdir(parents=True, exist_ok=True)
-    faults, pages = [], []
+    faults, pages, before = [], [], state_of_repository()
     environment, flags = install(arguments.build, work)
     for path in pages_of(arguments.pages):
         if str(path.relative_to(ROOT)) in ELSEWHERE:
@@ -239,12 +267,14 @@ def main():
         blocks = blocks_of(path, faults)
         pages.append(Page(path, blocks, work, environment))
         pages[-1].prepare()
+    leave_out_repeated(pages)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         programs = [(page, block) for page in pages for block in page.blocks if block.language in ("c", "cpp") and not block.reason]
         list(pool.map(lambda program: program[0].compile(program[1], flags), programs))
         list(pool.map(Page.run, pages))
     for page in pages:
         faults += page.faults
+    faults += [f"changed in the repository while the blocks ran: {change[3:]}" for change in sorted(state_of_repository() - before)]
     blocks = [block for page in pages for block in page.blocks]
     for block in blocks:
         if block.reason:

@@ -1,21 +1,33 @@
 #!/bin/sh
-# Makes the small pictures of docs/guide.md anew, with the tool that POWERCELL names or the one that was built here.
+# Makes the pictures of docs/guide.md, docs/gallery.md and docs/applications.md anew, with the tool that POWERCELL names or the
+# one that was built here. Needs python3 with numpy. (docs/performance.md names the scripts of its plots.)
+#
+#   docs/images/make.sh [FOLDER]     FOLDER: where to; default: docs/images
 set -eu
-cd "$(dirname "$0")"
-tool=${POWERCELL:-../../build/release/apps/powercell}
-seeds=$(mktemp --suffix=.csv)
-trap 'rm -f "$seeds"' EXIT
+root=$(cd "$(dirname "$0")/../.." && pwd)
+tool=$(realpath "${POWERCELL:-$root/build/release/apps/powercell}")
+folder=$(mkdir -p "${1:-$root/docs/images}" && cd "${1:-$root/docs/images}" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$root" # treemaps of folders begin with the folder's name as given
 
-printf '%s\n' x,y,w 0.36,0.5,0.09 0.68,0.5,0.04 >"$seeds"
-"$tool" diagram --quiet --domain square --seeds "$seeds" -o two-discs.svg
-
-# The weight of the first seed grows.
+# The guide: two discs, the weight of one seed that grows, a polygon with holes.
+printf '%s\n' x,y,w 0.36,0.5,0.09 0.68,0.5,0.04 >"$work/seeds.csv"
+"$tool" diagram --quiet --domain square --seeds "$work/seeds.csv" -o "$folder/two-discs.svg"
 number=0
 for weight in -0.02 0.01 0.05 0.105; do
   number=$((number + 1))
   printf '%s\n' x,y,w 0.42,0.48,$weight 0.16,0.22,0.004 0.52,0.14,0.004 0.84,0.26,0.004 0.86,0.62,0.004 \
-    0.6,0.5,0.004 0.64,0.86,0.004 0.26,0.84,0.004 0.12,0.56,0.004 >"$seeds"
-  "$tool" diagram --quiet --domain square --seeds "$seeds" -o weight-$number.svg
+    0.6,0.5,0.004 0.64,0.86,0.004 0.26,0.84,0.004 0.12,0.56,0.004 >"$work/seeds.csv"
+  "$tool" diagram --quiet --domain square --seeds "$work/seeds.csv" -o "$folder/weight-$number.svg"
 done
+"$tool" diagram --quiet --domain docs/images/holes.geojson --seeds random:60:0:0.05:3 -o "$folder/holes.svg"
 
-"$tool" diagram --quiet --domain holes.geojson --seeds random:60:0:0.05:3 -o holes.svg
+# The gallery: three shapes of the demo, then the applications.
+"$tool" demo --quiet -o "$work/demo"
+for name in italy pretzel bracket; do cp "$work/demo/$name.png" "$folder/"; done
+"$tool" transport --quiet --domain examples/data/italy.geojson --seeds random:300 -o "$folder/transport.png"
+"$tool" remesh --quiet examples/data/pretzel.off --count 3000 -o "$folder/remesh.png"
+python3 examples/data/make_photo.py "$work/photo.png" 640
+"$tool" sample --quiet -n 6000 --image "$work/photo.png" -o "$folder/stipples.svg"
+"$tool" treemap --quiet lib --shape 16:9 --size 1200 -o "$folder/treemap.png"
