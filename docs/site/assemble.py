@@ -194,7 +194,8 @@ class Assembly:
         (self.sources / "extra").mkdir(parents=True)
         (self.sources / "_static").mkdir()
         here = pathlib.Path(__file__).resolve().parent
-        shutil.copyfile(here / "conf.py", self.sources / "conf.py")
+        for name in ("conf.py", "search.js"):
+            shutil.copyfile(here / name, self.sources / name)
         shutil.copyfile(here / "style.css", self.sources / "_static" / "style.css")
         for origin, place in self.places.items():
             if origin.endswith(".md"):

@@ -43,6 +43,7 @@ napoleon_use_ivar = True  # attributes of the docstring, and not again as member
 
 html_theme = "furo"
 html_title = f"powercell {release}"
+html_search_scorer = "search.js"
 html_static_path = ["_static"]
 html_css_files = ["style.css"]
 html_extra_path = ["extra"]  # pictures of raw HTML, at the paths that it names
