@@ -1,6 +1,7 @@
 """Configuration of the documentation site. docs/site/build.sh sets the variables and calls Sphinx."""
 
 import os
+import pathlib
 
 import powercell
 
@@ -43,7 +44,7 @@ napoleon_use_ivar = True  # attributes of the docstring, and not again as member
 
 html_theme = "furo"
 html_title = f"powercell {release}"
-html_search_scorer = "search.js"
+html_search_scorer = str(pathlib.Path(__file__).with_name("search.js"))
 html_static_path = ["_static"]
 html_css_files = ["style.css"]
 html_extra_path = ["extra"]  # pictures of raw HTML, at the paths that it names
