@@ -11,7 +11,11 @@ cd "$(dirname "$0")/../.."
 fail() { printf 'build.sh: error: %s\n' "$*" >&2; exit 1; }
 say() { printf '== %s\n' "$*"; }
 install=yes
-[ "${1:-}" != --no-install ] || install=no
+case ${1:-} in
+  '') ;;
+  --no-install) install=no ;;
+  *) sed -n '2,8s/^# \{0,1\}//p' docs/site/build.sh >&2; fail "unknown option '$1'" ;;
+esac
 work=build/site-work
 mkdir -p "$work"
 [ -x build/release/apps/powercell ] || fail "there is no build/release/apps/powercell; run ./setup.sh build"
