@@ -32,7 +32,8 @@ struct DiagramArguments : CommonOptions, InputArguments {
 void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inputs& inputs,
                  const io::PictureStyle& style, std::span<const std::uint32_t> only, RunReport& report) {
   const SeedsView seeds = inputs.seeds.view();
-  write_diagram(arguments.outputs, diagram, seeds, inputs.view(), true, arguments.whole_cells, style);
+  write_diagram(arguments.outputs, diagram, seeds,
+                {.inputs = inputs.view(), .whole_cells = arguments.whole_cells, .style = style});
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
     io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view(), only);

@@ -69,8 +69,7 @@ void check_writable(std::vector<std::string> files, std::initializer_list<std::s
 }
 
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   const io::InputView& inputs, bool weights_as_discs, bool whole_cells,
-                   const io::PictureStyle& style) {
+                   const OutputChoice& choice) {
   if (files.empty()) return;
   const bool solid = diagram.domain().is_solid();
   diagram.compute(true, true);
@@ -78,7 +77,8 @@ void write_diagram(const std::vector<std::string>& files, Diagram& diagram, cons
   const JoinedCells& joined = diagram.joined();
   for (const std::string& path : files)
     io::write_output(path, {diagram.domain(), seeds, diagram.measures(), solid ? none : diagram.cells(),
-                            joined, diagram.adjacency(), weights_as_discs, inputs, whole_cells, style});
+                            joined, diagram.adjacency(), choice.weights_as_discs, choice.inputs,
+                            choice.whole_cells, choice.style});
 }
 
 }  // namespace powercell::app

@@ -27,10 +27,15 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
 /// report in JSON needs the standard output \throw Error write_failed; WrongUsage
 void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more, bool json);
 
+/// What files of a diagram show beside it; see io::DiagramOutput.
+struct OutputChoice {
+  io::InputView inputs = {};
+  bool weights_as_discs = true, whole_cells = false;
+  io::PictureStyle style = {};
+};
+
 /// Writes the cells to each of the files, by its extension; computes what the diagram has not yet.
-/// \param weights_as_discs, whole_cells  see io::DiagramOutput
 void write_diagram(const std::vector<std::string>& files, Diagram& diagram, const SeedsView& seeds,
-                   const io::InputView& inputs = {}, bool weights_as_discs = true, bool whole_cells = false,
-                   const io::PictureStyle& style = {});
+                   const OutputChoice& choice = {});
 
 }  // namespace powercell::app

@@ -82,7 +82,7 @@ void write_cells(const SampleArguments& arguments, const Device& device, const S
   const SeedsView seeds{source.domain.dimension(), points.positions, points.weights};
   diagram.set_seeds(seeds);
   diagram.compute(true, true);
-  write_diagram(arguments.cells, diagram, seeds, {}, false, false, style);
+  write_diagram(arguments.cells, diagram, seeds, {.weights_as_discs = false, .style = style});
 }
 
 std::vector<std::string> write_files(const SampleArguments& arguments, const Device& device,

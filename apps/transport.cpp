@@ -72,7 +72,8 @@ void write_files(const TransportArguments& arguments, TransportSolver& solver, c
                  const io::PictureStyle& style, RunReport& report) {
   const SeedsView seeds{inputs.seeds.dimension, inputs.seeds.positions, solver.result().weights};
   const auto written = [&report](const std::string& path) { report.files.push_back(path); };
-  write_diagram(arguments.outputs, solver.diagram(), seeds, inputs.view(), false, false, style);
+  write_diagram(arguments.outputs, solver.diagram(), seeds,
+                {.inputs = inputs.view(), .weights_as_discs = false, .style = style});
   report.files = arguments.outputs;
   if (!arguments.table.empty()) {
     io::write_transport_table(arguments.table, seeds, solver.result(), inputs.view());

@@ -125,7 +125,7 @@ DemoPart draw_mesh(const DemoSetting& setting, const Device*) {
                 "the topology of the demo's new mesh differs from that of the old one: please report");
   DemoPart part;
   part.files = {in_folder(setting, "remesh.png"), in_folder(setting, "remesh.off")};
-  io::write_before_and_after(part.files[0], input, result.mesh);
+  io::write_before_and_after(part.files[0], input, result.mesh, {});
   io::write_triangles(part.files[1], result.mesh);
 
   part.name = "remesh";

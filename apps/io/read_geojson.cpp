@@ -15,7 +15,7 @@
 namespace powercell::io {
 namespace {
 
-using json = nlohmann::ordered_json;  // attributes in the order of the file
+using OrderedJson = nlohmann::ordered_json;  // attributes in the order of the file
 
 constexpr int deepest_collections = 32;  // of GeometryCollections in one another
 
@@ -25,7 +25,8 @@ class GeoJson {
   explicit GeoJson(const std::string& name) : name_(name) {}
   virtual ~GeoJson() = default;
 
-  void object(const json& value, const std::string& path, int depth, const json* feature = nullptr) {
+  void object(const OrderedJson& value, const std::string& path, int depth,
+              const OrderedJson* feature = nullptr) {
     if (depth > deepest_collections) fail(path, "is nested too deeply");
     if (!value.is_object() || !value.contains("type") || !value["type"].is_string())
       fail(path, "is not a GeoJSON object (an object with a type)");
@@ -46,25 +47,25 @@ class GeoJson {
   }
 
  protected:
-  virtual void geometry(const json& value, const std::string& type, const std::string& path,
-                        const json* feature) = 0;
+  virtual void geometry(const OrderedJson& value, const std::string& type, const std::string& path,
+                        const OrderedJson* feature) = 0;
   virtual void no_geometry(const std::string&) {}
 
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
     fail_file(name_, fmt::format("{} {}", path, what));
   }
 
-  const json& coordinates(const json& value, const std::string& path) const {
+  const OrderedJson& coordinates(const OrderedJson& value, const std::string& path) const {
     if (!value.contains("coordinates") || !value["coordinates"].is_array())
       fail(path, "has no array coordinates");
     return value["coordinates"];
   }
 
   /// The numbers of a point: 2, or 3 and more.
-  std::vector<double> point(const json& p, const std::string& path) const {
+  std::vector<double> point(const OrderedJson& p, const std::string& path) const {
     if (!p.is_array() || p.size() < 2) fail(path, "is not a point (an array of at least 2 numbers)");
     std::vector<double> numbers;
-    for (const json& number : p) {
+    for (const OrderedJson& number : p) {
       if (!number.is_number()) fail(path, "is not a point (an array of at least 2 numbers)");
       numbers.push_back(number.get<double>());
     }
@@ -72,7 +73,8 @@ class GeoJson {
   }
 
  private:
-  void members(const json& value, const char* key, const std::string& path, int depth, const json* feature) {
+  void members(const OrderedJson& value, const char* key, const std::string& path, int depth,
+               const OrderedJson* feature) {
     if (!value.contains(key) || !value[key].is_array()) fail(path, fmt::format("has no array {}", key));
     for (std::size_t k = 0; k < value[key].size(); ++k)
       object(value[key][k], fmt::format("{}.{}[{}]", path, key, k), depth + 1, feature);
@@ -87,12 +89,13 @@ class GeoJsonPolygons : public GeoJson {
   std::vector<std::vector<PolygonPart>> groups;  // one a geometry
 
  private:
-  void geometry(const json& value, const std::string& type, const std::string& path, const json*) override {
+  void geometry(const OrderedJson& value, const std::string& type, const std::string& path,
+                const OrderedJson*) override {
     if (type == "Polygon") {
-      const json& rings = coordinates(value, path);  // an empty array means null (RFC 7946, 3.1)
+      const OrderedJson& rings = coordinates(value, path);  // an empty array means null (RFC 7946, 3.1)
       if (!rings.empty()) groups.push_back({part(rings, path + ".coordinates")});
     } else if (type == "MultiPolygon") {
-      const json& all = coordinates(value, path);
+      const OrderedJson& all = coordinates(value, path);
       std::vector<PolygonPart> group;
       for (std::size_t k = 0; k < all.size(); ++k)
         group.push_back(part(all[k], fmt::format("{}.coordinates[{}]", path, k)));
@@ -103,7 +106,7 @@ class GeoJsonPolygons : public GeoJson {
     }
   }
 
-  PolygonPart part(const json& rings, const std::string& path) const {
+  PolygonPart part(const OrderedJson& rings, const std::string& path) const {
     if (!rings.is_array() || rings.empty()) fail(path, "is not a polygon (an array of rings)");
     PolygonPart result;
     for (std::size_t k = 0; k < rings.size(); ++k) {
@@ -113,7 +116,7 @@ class GeoJsonPolygons : public GeoJson {
     return result;
   }
 
-  Ring ring(const json& points, const std::string& path) const {
+  Ring ring(const OrderedJson& points, const std::string& path) const {
     if (!points.is_array() || points.size() < 4)
       fail(path, "is not a ring (an array of at least 4 points, the last equal to the first)");
     Ring result;
@@ -140,9 +143,9 @@ class GeoJsonPoints : public GeoJson {
   std::vector<std::string> attributes;  // their names, in the order in which they appear
 
  private:
-  void geometry(const json& value, const std::string& type, const std::string& path,
-                const json* feature) override {
-    const json* numbers = &coordinates(value, path);
+  void geometry(const OrderedJson& value, const std::string& type, const std::string& path,
+                const OrderedJson* feature) override {
+    const OrderedJson* numbers = &coordinates(value, path);
     if (type == "MultiPoint" && numbers->size() == 1)
       numbers = &(*numbers)[0];
     else if (type == "MultiPoint")
@@ -160,12 +163,12 @@ class GeoJsonPoints : public GeoJson {
     fail(path, "has no point; remove it, or give it one");
   }
 
-  void add(const std::string& key, const json& value) {
+  void add(const std::string& key, const OrderedJson& value) {
     if (known_.insert(key).second) attributes.push_back(key);
     features.back().attributes[key] = value.is_null() ? ""
                                       : value.is_string()
                                           ? value.get<std::string>()
-                                          : value.dump(-1, ' ', false, json::error_handler_t::replace);
+                                          : value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   }
 
   std::set<std::string> known_;
@@ -173,21 +176,21 @@ class GeoJsonPoints : public GeoJson {
 
 /// GeoJSON of 2008 names its system in a member; RFC 7946 did away with it, but programs write it where the
 /// coordinates are not longitude and latitude.
-NamedCrs crs_of(const json& document) {
+NamedCrs crs_of(const OrderedJson& document) {
   NamedCrs crs;
   if (!document.is_object() || !document.contains("crs")) return crs;
-  const json& member = document["crs"];
-  crs.member = member.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (!member.is_object() || member.value("type", json()) != "name") return crs;
-  const json name = member.value("properties", json::object()).value("name", json());
+  const OrderedJson& member = document["crs"];
+  crs.member = member.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  if (!member.is_object() || member.value("type", OrderedJson()) != "name") return crs;
+  const OrderedJson name = member.value("properties", OrderedJson::object()).value("name", OrderedJson());
   if (name.is_string()) crs.name = name.get<std::string>();
   return crs;
 }
 
-json parse_json(std::string_view text, const std::string& name) {
+OrderedJson parse_json(std::string_view text, const std::string& name) {
   try {
-    return json::parse(text);
-  } catch (const json::exception& error) {
+    return OrderedJson::parse(text);
+  } catch (const OrderedJson::exception& error) {
     std::string what = error.what();
     const std::size_t line = what.find("at line ");
     what = what.substr(what.find(']') == std::string::npos ? 0 : what.find(']') + 2);
@@ -200,7 +203,7 @@ json parse_json(std::string_view text, const std::string& name) {
 }  // namespace
 
 FeatureRows parse_geojson_points(std::string_view text, std::size_t dimension, const std::string& name) {
-  const json document = parse_json(text, name);
+  const OrderedJson document = parse_json(text, name);
   GeoJsonPoints reader(name);
   reader.object(document, "$", 0);
   FeatureRows rows(name, dimension, reader.attributes);
@@ -217,7 +220,7 @@ FeatureRows parse_geojson_points(std::string_view text, std::size_t dimension, c
 }
 
 std::vector<PolygonPart> parse_geojson(std::string_view text, const std::string& name, NamedCrs* crs) {
-  const json document = parse_json(text, name);
+  const OrderedJson document = parse_json(text, name);
   GeoJsonPolygons reader(name);
   reader.object(document, "$", 0);
   if (reader.groups.empty()) fail_file(name, "holds no polygon");

@@ -172,13 +172,13 @@ MeshFile mesh_of(std::vector<double> coordinates, const Rows& rows, bool tetrahe
   return mesh;
 }
 
-struct Counts {
+struct PlainCounts {
   std::uint64_t vertices, elements;
 };
 
 // `nv nf`, with or without words after the numbers ("10 vertices" and "4 tets" on separate lines).
-Counts read_counts(TextScanner& scanner) {
-  Counts counts{};
+PlainCounts read_plain_counts(TextScanner& scanner) {
+  PlainCounts counts{};
   counts.vertices = scanner.count({"number of points", 0});
   if (scanner.peek() == "vertices") scanner.word({"header", 0});
   counts.elements = scanner.count({"number of elements", 0});
@@ -195,7 +195,7 @@ Counts read_counts(TextScanner& scanner) {
 
 DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, const std::string& name) {
   TextScanner scanner(text, name);
-  const Counts counts = read_counts(scanner);
+  const PlainCounts counts = read_plain_counts(scanner);
   std::vector<double> coordinates;
   const std::size_t dimension = read_points(scanner, counts.vertices, coordinates);
   Rows rows = read_rows(scanner, counts.elements);
@@ -220,7 +220,7 @@ DomainArrays parse_plain(std::string_view text, std::optional<DomainKind> kind, 
 
 MeshFile parse_tet(std::string_view text, const std::string& name) {
   TextScanner scanner(text, name);
-  const Counts counts = read_counts(scanner);
+  const PlainCounts counts = read_plain_counts(scanner);
   std::vector<double> coordinates;
   if (read_points(scanner, counts.vertices, coordinates) != 3)
     fail_file(name, "has points of 2 coordinates; tetrahedra need 3");

@@ -31,8 +31,8 @@ struct VertexLabels {
 };
 
 /// Four seeds and the four corners of a box's facet are the most that a vertex in general position has.
-constexpr std::size_t most_labels = 8;
-using PointName = std::array<Label, most_labels>;
+constexpr std::size_t labels_of_point = 8;
+using PointName = std::array<Label, labels_of_point>;
 
 struct PointNameHash {
   std::size_t operator()(const PointName& name) const {
@@ -51,7 +51,7 @@ class NamedPoints {
   /// \param owner  a polytope; its vertices are different points even if rounding gave them one name
   std::uint32_t add(const VertexLabels& labels, std::uint64_t owner, const double* at,
                     std::size_t dimension) {
-    if (labels.list.size() > most_labels) return add_point(owner, at, dimension);
+    if (labels.list.size() > labels_of_point) return add_point(owner, at, dimension);
     PointName name{};
     std::copy(labels.list.begin(), labels.list.end(), name.begin());
     std::sort(name.begin(), name.end());

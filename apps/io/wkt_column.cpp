@@ -13,7 +13,7 @@
 namespace powercell::io {
 namespace {
 
-constexpr const char* coordinate_columns[] = {"x", "y", "z"};
+constexpr const char* wkt_coordinates[] = {"x", "y", "z"};
 
 /// The number of `SRID=n;` in front of a geometry, which is removed; empty without one.
 std::string_view take_srid(std::string_view& text) {
@@ -109,7 +109,7 @@ std::string WktColumn::place() const {
 
 void WktColumn::add_coordinates(Fields& fields) {
   if (passed_ == 1) {
-    fields.insert(fields.begin(), coordinate_columns, coordinate_columns + dimension_);
+    fields.insert(fields.begin(), wkt_coordinates, wkt_coordinates + dimension_);
     return;
   }
   if (column_ >= fields.size()) fail("the row is too short: it has no " + geometry_);

@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "apps/io/view/page.hpp"
 #include "tests/writers/clip_pieces.hpp"
