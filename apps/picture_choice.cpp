@@ -36,19 +36,9 @@ constexpr std::array<NamedView, 7> named_views = {{{"front", {0, -1, 0}},
                                                    {"bottom", {0, 0, -1}},
                                                    {"iso", {1, -1, 1}}}};
 
-std::vector<std::string_view> split_at(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t end = 0; end != std::string_view::npos;) {
-    end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end != std::string_view::npos) text.remove_prefix(end + 1);
-  }
-  return parts;
-}
-
 /// Three numbers, not all 0, as a vector of length 1. \param fault  output, if it is none
 std::optional<UnitVector> read_direction(const std::string& text, std::string& fault) {
-  const std::vector<std::string_view> parts = split_at(text, ',');
+  const std::vector<std::string_view> parts = io::split(text, ',');
   UnitVector axes{};
   bool good = parts.size() == 3;
   for (std::size_t k = 0; k < 3 && good; ++k) good = io::parse_number(parts[k], axes[k]) == io::Parsed::ok;
@@ -82,7 +72,7 @@ std::optional<UnitVector> read_camera(const std::string& text, std::string& faul
 }
 
 std::optional<io::PictureSize> read_size(const std::string& text, std::string& fault) {
-  const std::vector<std::string_view> parts = split_at(text, ':');
+  const std::vector<std::string_view> parts = io::split(text, ':');
   std::array<int, 2> sides{0, 0};
   bool good = parts.size() <= 2;
   for (std::size_t k = 0; k < parts.size() && good; ++k) {
@@ -149,10 +139,8 @@ void check_effects(const PictureArguments& arguments, const DrawnInputs& drawn) 
 
 void add_size_option(CLI::App& command, SizeArguments& arguments, int usual) {
   command
-      .add_option(
-          "--size", arguments.size,
-          fmt::format("Longer side of pictures, or W:H, in pixels; in points for PDF. Default: {} pixels",
-                      usual))
+      .add_option("--size", arguments.size, "Longer side of pictures, or W:H, in pixels; in points for PDF")
+      ->default_str(std::to_string(usual))
       ->check(fault_of(read_size))
       ->type_name("W[:H]")
       ->group(picture_group);
@@ -163,13 +151,13 @@ void add_camera_options(CLI::App& command, CameraArguments& arguments, int usual
   command
       .add_option("--camera", arguments.camera,
                   "Direction from which surfaces and volumes are seen: X,Y,Z, or front, back, left, right, "
-                  "top, bottom or iso. Default: 0.6,-0.8,0.52")
+                  "top, bottom or iso")
+      ->default_str("0.6,-0.8,0.52")
       ->check(fault_of(read_camera))
       ->type_name("X,Y,Z")
       ->group(picture_group);
-  command
-      .add_option("--up", arguments.up,
-                  "Direction that is shown upwards. Default: 0,0,1, or 0,1,0 along that")
+  command.add_option("--up", arguments.up, "Direction that is shown upwards")
+      ->default_str("0,0,1; if the camera looks along it, 0,1,0")
       ->check(fault_of(read_direction))
       ->type_name("X,Y,Z")
       ->group(picture_group);
@@ -184,6 +172,7 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, const s
                       "with a legend",
                       files))
       ->type_name("COLUMN")
+      ->default_str("a colour for each cell, apart from its neighbours")
       ->group(picture_group);
   command.add_flag("--no-legend", arguments.no_legend, "No legend for --color-by")->group(picture_group);
   add_camera_options(command, arguments);

@@ -190,8 +190,6 @@ void print_remarks(const RemeshArguments& arguments, const RemeshResult& result,
   print_notes(remarks, arguments.input, arguments, progress);
 }
 
-constexpr int usual_width = 2200;  // of a picture of both meshes
-
 /// \throw WrongUsage for options on pictures without one
 io::PictureStyle picture_style_of(const RemeshArguments& arguments) {
   const CameraArguments& given = arguments.picture;
@@ -199,7 +197,7 @@ io::PictureStyle picture_style_of(const RemeshArguments& arguments) {
   if (any && std::none_of(arguments.outputs.begin(), arguments.outputs.end(), io::is_picture))
     throw WrongUsage("--size, --camera and --up are for pictures; name one, such as -o view.png");
   io::PictureStyle style;
-  style.size = picture_size(given, {.width = usual_width});
+  style.size = picture_size(given, {.width = io::usual_width_of_two});
   set_camera(given, style.towards, style.up);
   return style;
 }
@@ -335,7 +333,7 @@ Command add_remesh(CLI::App& app) {
   add_output_files(*command, arguments->outputs,
                    std::string(io::triangle_files) + " for the mesh, .png for both meshes side by side",
                    io::check_triangle_output);
-  add_camera_options(*command, arguments->picture, usual_width);
+  add_camera_options(*command, arguments->picture, io::usual_width_of_two);
   command->add_flag("--no-repair", arguments->no_repair,
                     "Take edges as one where vertices have the same number, and refuse what is no manifold");
   command->add_option("--weld", arguments->weld, "Largest distance over which boundary edges are joined")

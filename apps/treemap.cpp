@@ -220,7 +220,8 @@ Command add_treemap(CLI::App& app) {
           "--color-by", arguments->color_by,
           "Colour the leaves by a column of the table, or a member of the JSON objects: numbers on a scale, "
           "colours such as #3a6b9c, or a colour for each text; leaves without one take that of their group")
-      ->type_name("COLUMN");
+      ->type_name("COLUMN")
+      ->default_str("a colour for each group");
   command->add_flag("--no-legend", arguments->no_legend, "No legend for --color-by");
   command->add_flag("--no-labels", arguments->no_labels, "No names in the picture");
   add_device_option(*command, *arguments, "For groups of thousands of nodes: ");

@@ -42,10 +42,11 @@ DemoPart draw_treemap(const DemoSetting& setting, const Device*) {
   if (!map.not_converged.empty())
     throw Error(ErrorCode::not_converged,
                 "the areas of the demo's treemap are not as they should be: please report");
-  const std::vector<std::int64_t> hue = io::number_branches(map, {});
+  const std::vector<std::int64_t> hue = io::number_branches(map, {}),
+                                  shade = io::number_groups(map, tree.parent, {});
   DemoPart part;
   part.files = {in_folder(setting, "treemap.png"), in_folder(setting, "treemap.svg")};
-  for (const std::string& path : part.files) io::write_treemap(path, {tree, map, hue});
+  for (const std::string& path : part.files) io::write_treemap(path, {tree, map, hue, shade});
 
   part.name = "treemap";
   part.title = "Cells of given sizes";
@@ -125,7 +126,7 @@ DemoPart draw_mesh(const DemoSetting& setting, const Device*) {
                 "the topology of the demo's new mesh differs from that of the old one: please report");
   DemoPart part;
   part.files = {in_folder(setting, "remesh.png"), in_folder(setting, "remesh.off")};
-  io::write_before_and_after(part.files[0], input, result.mesh, {});
+  io::write_before_and_after(part.files[0], input, result.mesh, {.size = {.width = io::usual_width_of_two}});
   io::write_triangles(part.files[1], result.mesh);
 
   part.name = "remesh";

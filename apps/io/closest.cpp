@@ -1,19 +1,13 @@
 #include "apps/io/closest.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "apps/io/printable.hpp"
+#include "apps/io/read_text.hpp"
 
 namespace powercell::io {
 namespace {
-
-std::string in_lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
 
 /// Changes, additions, omissions and swaps of neighbours that turn one into the other, each letter used once.
 std::size_t typing_errors(const std::string& a, const std::string& b) {
@@ -37,14 +31,14 @@ std::size_t typing_errors(const std::string& a, const std::string& b) {
 
 std::string closest(std::string_view word, std::span<const std::string> candidates) {
   constexpr std::size_t longest = 200;  // beyond it is no word
-  const std::string wanted = in_lower_case(word);
+  const std::string wanted = lower_case(word);
   if (wanted.empty() || wanted.size() > longest) return {};
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(1, wanted.size() / 3) + 1;
   least = std::min(least, wanted.size());  // at least one letter is right
   for (const std::string& candidate : candidates) {
     if (candidate.size() > wanted.size() + least || wanted.size() > candidate.size() + least) continue;
-    const std::size_t errors = typing_errors(wanted, in_lower_case(candidate));
+    const std::size_t errors = typing_errors(wanted, lower_case(candidate));
     if (errors >= least) continue;
     least = errors;
     best = &candidate;
@@ -53,7 +47,7 @@ std::string closest(std::string_view word, std::span<const std::string> candidat
   if (wanted.size() < 2) return {};
   std::size_t beginning = 0;
   for (const std::string& candidate : candidates)
-    if (in_lower_case(candidate).starts_with(wanted)) {
+    if (lower_case(candidate).starts_with(wanted)) {
       ++beginning;
       best = &candidate;
     }

@@ -17,27 +17,17 @@ constexpr std::string_view box_prefix = "box:", lattice_prefix = "lattice:";
   throw Error(ErrorCode::invalid_argument, fmt::format("domain {}: {}", readable(spec), why));
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  for (;;) {
-    const std::size_t at = text.find(separator);
-    parts.emplace_back(text.substr(0, at));
-    if (at == std::string_view::npos) return parts;
-    text.remove_prefix(at + 1);
-  }
-}
-
 /// Rows of equally many numbers, 2 or 3.
 std::vector<std::vector<double>> parse_rows(const std::string& spec, std::string_view text, char separator) {
   std::vector<std::vector<double>> rows;
-  for (const std::string& part : split(text, separator)) {
+  for (const std::string_view part : split(text, separator)) {
     std::vector<double>& row = rows.emplace_back();
-    for (const std::string& word : split(part, ','))
+    for (const std::string_view word : split(part, ','))
       if (parse_number(word, row.emplace_back()) != Parsed::ok)
-        refuse(spec, fmt::format("'{}' is not a number", readable(word)));
+        refuse(spec, fmt::format("'{}' is not a number", readable(std::string(word))));
     if (row.size() != rows.front().size() || row.size() < 2 || row.size() > 3)
       refuse(spec, fmt::format("'{}' has {} coordinates; all points and vectors need 2, or all 3",
-                               readable(part), row.size()));
+                               readable(std::string(part)), row.size()));
   }
   return rows;
 }

@@ -21,6 +21,8 @@ void write_pdf(const std::string& path, const DiagramOutput& output);
 /// drawn a little apart. \throw Error write_failed
 void write_png(const std::string& path, const DiagramOutput& output);
 
+constexpr int usual_width_of_two = 2200;  ///< of a picture of two meshes, in pixels
+
 /// PNG of two meshes of one surface beside each other, with their edges. \param style  size and camera; each
 /// mesh has half of the width \throw Error write_failed
 void write_before_and_after(const std::string& path, const TriangleMesh& before, const TriangleMesh& after,

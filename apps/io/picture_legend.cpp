@@ -25,8 +25,14 @@ class LegendLayout {
   }
 
   LegendScene run() {
+    const double bar = bar_height();
+    if (legend_.scale) {
+      constexpr double between_ticks = 1.3;
+      const int most = std::clamp(static_cast<int>(bar / between_ticks), 3, 7);
+      ticks_ = round_ticks(legend_.low, legend_.high, legend_.whole, most);
+    }
     if (!legend_.title.empty()) add_title();
-    if (legend_.scale) add_bar();
+    if (legend_.scale) add_bar(bar);
     add_entries();
     scene_.width = (right_ + legend_padding) * em_;
     scene_.height = (bottom_ + legend_padding) * em_;
@@ -35,6 +41,12 @@ class LegendLayout {
 
  private:
   double title_height() const { return legend_.title.empty() ? 0 : 2.0; }
+
+  /// What the entries leave, within limits.
+  double bar_height() const {
+    const double rows = static_cast<double>(rows_) - static_cast<double>(legend_.entries.size());
+    return std::clamp(rows * row_height - 0.8, 4.0, 14.0);
+  }
 
   double add_text(double x, double y, const std::string& text, bool bold, double size = 1) {
     const double width = size * text_width(text, bold);
@@ -47,7 +59,6 @@ class LegendLayout {
     std::string title = legend_.title;
     std::string unit = legend_.unit;
     if (legend_.scale) {
-      ticks_ = round_ticks(legend_.low, legend_.high, legend_.whole, 7);
       const std::string factor = power_of_ten(ticks_.exponent);
       unit = factor.empty() || unit.empty() ? factor + unit : factor + " " + unit;
     }
@@ -56,12 +67,9 @@ class LegendLayout {
     top_ = bottom_ = legend_padding + title_height();
   }
 
-  void add_bar() {
-    constexpr double bar_width = 1.2, bar_height = 14, tick = 0.35, gap = 0.35;
+  void add_bar(double height) {
+    constexpr double bar_width = 1.2, tick = 0.35, gap = 0.35;
     const double from_top = top_ + 0.4;
-    const double height = std::clamp(
-        (static_cast<double>(rows_) - static_cast<double>(legend_.entries.size())) * row_height - 0.8, 4.0,
-        bar_height);
     scene_.bar = {0, from_top * em_, bar_width * em_, height * em_, {}};
     for (std::size_t k = 0; k < gradient_stops; ++k)
       scene_.bar.stops.push_back(scale_colour(static_cast<double>(k) / (gradient_stops - 1)));

@@ -21,6 +21,12 @@ void select_font(cairo_t* to, bool bold, double size) {
   cairo_select_font_face(to, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(to, size);
+  // Letters as wide and high as text_width and label heights have them: hinting rounds both to whole pixels.
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_set_font_options(to, options);
+  cairo_font_options_destroy(options);
 }
 
 double text_width(const std::string& text, bool bold) {
@@ -30,7 +36,7 @@ double text_width(const std::string& text, bool bold) {
     std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context{cairo_create(surface.get()), cairo_destroy};
   };
   static const Measure measure;
-  constexpr double em = 100;  // large, so that hinting does not round
+  constexpr double em = 100;
   select_font(measure.context.get(), bold, em);
   cairo_text_extents_t extents;
   cairo_text_extents(measure.context.get(), text.c_str(), &extents);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -15,6 +14,7 @@
 
 #include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
+#include "apps/io/read_text.hpp"
 
 namespace powercell::io {
 namespace {
@@ -55,9 +55,7 @@ std::size_t line_of(std::string_view text, std::size_t offset) {
 }
 
 std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 void check_extension(const std::string& path, std::string_view known) {

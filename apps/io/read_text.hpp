@@ -72,6 +72,9 @@ class TextScanner {
 /// Without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// The parts between separators, in `text`; one more than there are separators.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
 /// With the letters A to Z in lower case, independent of the locale.
 std::string lower_case(std::string_view text);
 

@@ -118,7 +118,7 @@ std::vector<Colour> treemap_colours(const TreemapOutput& output) {
     const std::uint32_t hash = hash_of(output.tree.id[i]);
     if (const std::int64_t shade = output.shade[i]; shade >= 0) {
       const double step = static_cast<double>(shade % group_shades) - (group_shades - 1) / 2.0;
-      lch[i] = {above.lightness + 0.036 * step, above.chroma + 0.02 * jitter(hash, 2),
+      lch[i] = {above.lightness + 0.042 * step, above.chroma + 0.02 * jitter(hash, 2),
                 above.hue + (shade % 2 == 0 ? -0.018 : 0.018)};
       continue;
     }

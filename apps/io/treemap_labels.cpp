@@ -14,7 +14,6 @@ namespace {
 
 constexpr double label_height = 1.17;  // of an em, with accents and descenders
 constexpr double filled = 0.86;        // of the largest box that fits
-constexpr double coincident = 1e-3;    // pixels between edges of a cell and of its group that are one
 
 struct Box {
   double x = 0, y = 0, half_width = 0, half_height = 0;

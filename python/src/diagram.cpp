@@ -78,13 +78,14 @@ class PyDiagram {
     for (const std::string& field : fields) table.text.add(field);
     table.columns.names = std::move(names);
     slot_.run(progress, [&] {
-      io::check_output(path, diagram_.domain().kind(), seeds.size());
+      io::check_output(path, diagram_.domain(), seeds.size());
       diagram_.compute(true, true);
+      const Cells none;
       const bool solid = diagram_.domain().is_solid();  // its page is made of the joined cells
       io::write_html(path, {diagram_.domain(),
                             seeds,
                             diagram_.measures(),
-                            solid ? Cells{} : diagram_.cells(),
+                            solid ? none : diagram_.cells(),
                             diagram_.joined(),
                             diagram_.adjacency(),
                             true,

@@ -13,7 +13,8 @@ using namespace powercell::app;
 namespace {
 
 BenchTask small_task(const io::LoadedDomain& domain) {
-  BenchTask task{"square", &domain, [] { return Device::choose(); }, {}, 1000, 2};
+  BenchTask task{"square", &domain, [] { return Device::choose(); }, {}, 1000};
+  task.repeat = 2;
   task.options.precision = Precision::float32;
   task.rates = {1e10, 1e10};
   return task;

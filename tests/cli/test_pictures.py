@@ -97,7 +97,7 @@ class Pictures(ToolTest):
         self.bad(2, "below 200 there is no room for the legend", *FLAT, *png, "--size", "199", "--color-by", "measure")
         self.good(*FLAT, *png, "--size", "199", "--color-by", "measure", "--no-legend")
         self.bad(2, "--color-by colours cells", "sample", "-n", "9", *png, "--color-by", "measure")
-        self.bad(2, "are for pictures; name one", "remesh", DATA / "pretzel.off", "-o", "a.off", "--camera", "top")
+        self.bad(2, "are for pictures; name one", "remesh", DATA / "pretzel.off", "--count", "900", "-o", "a.off", "--camera", "top")
 
     def test_unknown_columns_list_the_known_ones(self):
         self.table()
@@ -159,7 +159,8 @@ class Pictures(ToolTest):
     def test_maps_have_square_metres(self):
         ring = [[11, 44], [13, 44], [13, 46], [11, 46], [11, 44]]
         self.write("map.geojson", json.dumps({"type": "Polygon", "coordinates": [ring]}))
-        self.good("diagram", "--domain", "map.geojson", "--seeds", "random:20", "-o", "m.svg", "--color-by", "measure")
+        self.good("diagram", "--domain", "map.geojson", "--seeds", "random:20", "-o", "m.svg", "--color-by", "measure",
+                  "--crs", "EPSG:4326")
         self.assertEqual(self.legend("m.svg")[0], "area (×10⁹ m²)")
 
 

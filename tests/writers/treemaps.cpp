@@ -10,6 +10,7 @@
 #include <set>
 
 #include "apps/io/colour_spaces.hpp"
+#include "apps/io/picture_text.hpp"
 #include "apps/io/treemap_scene.hpp"
 
 using namespace powercell;
@@ -109,15 +110,8 @@ struct Box {
 Box ink_of(const io::TreemapScene::Label& label) {
   cairo_surface_t* surface = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
   cairo_t* to = cairo_create(surface);
-  cairo_select_font_face(to, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         label.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(to, label.size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(to, label.text.c_str(), &extents);
-  cairo_font_extents_t lines;
-  cairo_font_extents(to, &lines);
-  cairo_move_to(to, label.x - extents.x_advance / 2, label.y + (lines.ascent - lines.descent) / 2);
-  cairo_text_path(to, label.text.c_str());
+  io::select_font(to, label.bold, label.size);
+  io::add_text_path(to, label.text, label.x, label.y, 0.5);
   Box box{};
   if (label.bold) {
     cairo_set_line_width(to, 0.16 * label.size);
