@@ -326,6 +326,7 @@ TEST_CASE("neper: what its cells cannot be is refused") {
                        doctest::Contains("bounded"), Error);
   CHECK_THROWS_WITH_AS(io::check_output("d.tess", io::read_domain("sphere:4").domain, 5),
                        doctest::Contains(".msh"), Error);
-  CHECK_THROWS_WITH_AS(io::check_output("d.stl", hole.diagram->domain(), 5), doctest::Contains(".obj"), Error);
+  CHECK_THROWS_WITH_AS(io::check_output("d.stl", hole.diagram->domain(), 5), doctest::Contains(".obj"),
+                       Error);
   CHECK(folder.count() == 0);
 }

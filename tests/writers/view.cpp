@@ -309,8 +309,8 @@ TEST_CASE("a page without seeds or cells is whole") {
 }
 
 TEST_CASE("more seeds than browsers turn are refused before anything is computed") {
-  for (const auto& [name, most] : {std::pair("square", 1'000'000u), std::pair("sphere:4", 1'000'000u),
-                                   std::pair("cube", 250'000u)}) {
+  for (const auto& [name, most] :
+       {std::pair("square", 1'000'000u), std::pair("sphere:4", 1'000'000u), std::pair("cube", 250'000u)}) {
     const Domain domain = io::read_domain(name).domain;
     CHECK_NOTHROW(io::check_output("a.html", domain, most));
     CHECK_NOTHROW(io::check_output("a.vtu", domain, most + 1));
