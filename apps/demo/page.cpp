@@ -33,11 +33,11 @@ article { display: flex; flex-direction: column; min-width: 0; overflow: hidden;
 dl { display: flex; flex-wrap: wrap; gap: .25rem 1.4rem; margin: 0 0 .75rem; }
 dt { color: var(--soft); font-size: .85rem; }
 dd { margin: 0; font-weight: 600; font-variant-numeric: tabular-nums; }
-pre { margin: 0 0 .75rem; padding: .6rem .75rem; overflow-x: auto; background: var(--paper); border: 1px solid var(--line);
+pre { margin: 0 0 .75rem; padding: .6rem .75rem; white-space: pre-wrap; background: var(--paper); border: 1px solid var(--line);
   border-radius: .4rem; font: .85rem/1.5 ui-monospace, monospace; }
 .more { margin: 0; font-size: .92rem; color: var(--soft); }
 code { font-family: ui-monospace, monospace; font-size: .92em; overflow-wrap: anywhere; }
-pre code { font-size: 1em; overflow-wrap: normal; }
+pre code { font-size: 1em; }
 </style>
 </head>
 <body>
