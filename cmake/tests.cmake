@@ -5,17 +5,26 @@
 find_path(DOCTEST_INCLUDE_DIR doctest/doctest.h REQUIRED)
 include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
 
+# -O3 compiles tests half as long again as -O1, and most of a test's time is in the libraries and helpers, which keep theirs.
+set(test_options -Wall -Wextra $<$<CONFIG:Release>:-O1>)
+
+# doctest's main function and the headers that most tests begin with, both compiled once for all.
+add_library(powercell_test_main OBJECT ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
+target_include_directories(powercell_test_main SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
+target_compile_options(powercell_test_main PRIVATE ${test_options} -fPIE)  # as programs: the headers must fit them
+target_precompile_headers(powercell_test_main PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional>
+  <map> <memory> <random> <span> <string> <vector> <doctest/doctest.h>)
+
 function(powercell_add_test_folders)
   file(GLOB folders CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/* ${CMAKE_CURRENT_SOURCE_DIR}/applications/*)
   foreach(folder IN LISTS folders)
     get_filename_component(name ${folder} NAME)
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
     if(IS_DIRECTORY ${folder} AND sources AND NOT name STREQUAL "support")
-      add_executable(test_${name} ${sources} ${CMAKE_CURRENT_SOURCE_DIR}/support/main.cpp)
+      add_executable(test_${name} ${sources} $<TARGET_OBJECTS:powercell_test_main>)
       target_include_directories(test_${name} SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
-      # -O3 compiles these files half as long again as -O1, and most of a test's time is in the libraries and helpers, which
-      # keep theirs.
-      target_compile_options(test_${name} PRIVATE -Wall -Wextra $<$<CONFIG:Release>:-O1>)
+      target_compile_options(test_${name} PRIVATE ${test_options})
+      target_precompile_headers(test_${name} REUSE_FROM powercell_test_main)
       set(library powercell_support)
       if(EXISTS ${folder}/folder.cmake)
         include(${folder}/folder.cmake)  # sets `library` for this folder
