@@ -22,7 +22,7 @@ namespace powercell::app {
 namespace {
 
 struct TreemapArguments : CommonOptions {
-  std::string tree, shape = "16:10", previous, color_by;
+  std::string tree, shape = "16:10", previous, color_by, value_column;
   std::vector<std::string> outputs;
   int rounds = TreemapOptions{}.rounds;
   std::uint64_t random_seed = 1;
@@ -145,7 +145,7 @@ int run(const TreemapArguments& arguments) {
                     arguments.silent());
   std::vector<std::string> notes;
   const Ring outline = treemap_shape(arguments.shape, notes);
-  io::NamedTree tree = io::read_tree(arguments.tree, arguments.color_by);
+  io::NamedTree tree = io::read_tree(arguments.tree, {arguments.color_by, arguments.value_column});
   io::check_tree_colours(tree);
   tree.notes.insert(tree.notes.end(), notes.begin(), notes.end());
   Tints tints;
@@ -215,6 +215,11 @@ Command add_treemap(CLI::App& app) {
   command->add_option("--size", arguments->size, "Long side of the picture in pixels")
       ->check(between(64, 20000))
       ->capture_default_str();
+  command
+      ->add_option("--value-column", arguments->value_column,
+                   "The column of the values in a table, or the member of JSON objects")
+      ->type_name("COLUMN")
+      ->default_str("value, weight, size or area");
   command
       ->add_option(
           "--color-by", arguments->color_by,

@@ -64,23 +64,25 @@ void note_own_values(NamedTree& tree) {
 }  // namespace
 
 NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name,
-                     const std::string& colours) {
+                     const TreeColumnNames& named) {
   NamedTree tree =
-      extension == ".json" ? parse_tree_json(bytes, name, colours) : parse_tree_table(bytes, name, colours);
+      extension == ".json" ? parse_tree_json(bytes, name, named) : parse_tree_table(bytes, name, named);
   note_own_values(tree);
-  tree.colour_column = colours;
-  if (colours.empty()) tree.colour.clear();
+  tree.colour_column = named.colours;
+  if (named.colours.empty()) tree.colour.clear();
   return tree;
 }
 
-NamedTree read_tree(const std::string& path, const std::string& colours) {
+NamedTree read_tree(const std::string& path, const TreeColumnNames& named) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored))
-    return parse_tree(read_file(path), lower_extension(path), path, colours);
-  if (!colours.empty())
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("--color-by {}: {} is a folder, which has no columns; give a table or JSON",
-                            readable(colours), readable(path)));
+    return parse_tree(read_file(path), lower_extension(path), path, named);
+  for (const auto& [option, column] :
+       {std::pair("--color-by", named.colours), {"--value-column", named.value}})
+    if (!column.empty())
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("{} {}: {} is a folder, which has no columns; give a table or JSON", option,
+                              readable(column), readable(path)));
   return scan_folder(path);
 }
 

@@ -30,6 +30,12 @@ struct NamedTree {
   std::string called(std::size_t node) const;
 };
 
+/// Columns of a table, or members of the objects of JSON, by name.
+struct TreeColumnNames {
+  std::string colours;  ///< whose values are colours or stand for some; empty for none
+  std::string value;    ///< empty for value, weight or size (in tables also area)
+};
+
 /// Reads one of
 /// - a folder: its regular files with their sizes in bytes, below their folders; links are not followed;
 /// - a .json file: nested objects {name, children, value}, or a list of rows {id, parent, name, value}, such
@@ -40,18 +46,17 @@ struct NamedTree {
 ///   a header that names the columns in any order. The root has no parent; a parent 0 without a row is the
 ///   root too.
 /// A header without a parent column may name other shapes: `name,value`; `id,value` with paths (a/b/c, or
-/// a.b.c if all groups have rows); or the levels from the top down and `value`. A first line "sep=;" is
-/// skipped. Several roots get a root above them. Values of nodes with children are not used and may be
-/// missing; a note tells where they differ from the sum of the leaves. \throw Error invalid_file for a cycle,
-/// an orphan, a repeated id, or a value that is not a number (which
+/// a.b.c if all groups have rows); or the levels from the top down, in the columns before `value`. A first
+/// line "sep=;" is skipped. Several roots get a root above them. Values of nodes with children are not used
+/// and may be missing; a note tells where they differ from the sum of the leaves. \throw Error invalid_file
+/// for a cycle, an orphan, a repeated id, or a value that is not a number (which
 ///   row)
-/// \param colours  a column of the table, or a member of the JSON objects, whose values are colours or stand
-/// for some; empty for none \throw Error invalid_argument if there is no such column
-NamedTree read_tree(const std::string& path, const std::string& colours = {});
+/// \throw Error invalid_argument if there is no column of a name
+NamedTree read_tree(const std::string& path, const TreeColumnNames& named = {});
 
 /// The same from memory. \param extension lower case with its dot  \param name  for messages
 NamedTree parse_tree(std::string_view bytes, const std::string& extension, const std::string& name,
-                     const std::string& colours = {});
+                     const TreeColumnNames& named = {});
 
 /// Polygons and seeds of an earlier layout for the nodes of the present tree, matched by id.
 struct EarlierLayout {

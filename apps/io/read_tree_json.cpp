@@ -7,6 +7,7 @@
 #include <powercell/error.hpp>
 #include <unordered_map>
 
+#include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
 #include "apps/io/read_tree_rows.hpp"
@@ -45,8 +46,10 @@ std::string as_text(const json* value, const char* what, const std::string& file
 }
 
 template <class Place>
-double as_value(const json& object, const std::string& file, const Place& place) {
-  const json* value = member(object, {"value", "size", "weight"});
+double as_value(const json& object, const TreeColumnNames& named, const std::string& file,
+                const Place& place) {
+  const json* value = named.value.empty() ? member(object, {"value", "size", "weight"})
+                                          : member(object, {named.value.c_str()});
   if (!value) return 0;
   if (!value->is_number())
     fail_file(file, fmt::format("{}: its value {} is not a number", place(), value->dump().substr(0, 40)));
@@ -64,7 +67,7 @@ std::string colour_of(const json& object, const std::string& colours, const std:
   return as_text(value, "colour", file, place);
 }
 
-NamedTree read_list(const json& list, const std::string& name, const std::string& colours) {
+NamedTree read_list(const json& list, const std::string& name, const TreeColumnNames& named) {
   std::vector<TreeRow> rows;
   rows.reserve(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -77,8 +80,8 @@ NamedTree read_list(const json& list, const std::string& name, const std::string
     if (row.id.empty()) fail_file(name, place() + ": has no id");
     row.parent = as_text(member(object, {"parent", "parentId"}), "parent", name, place);
     row.name = as_text(member(object, {"name", "label"}), "name", name, place);
-    row.value = as_value(object, name, place);
-    row.colour = colour_of(object, colours, name, place);
+    row.value = as_value(object, named, name, place);
+    row.colour = colour_of(object, named.colours, name, place);
     rows.push_back(std::move(row));
   }
   return link_rows(std::move(rows), name, false);
@@ -90,7 +93,7 @@ constexpr std::size_t most_id_bytes = std::size_t{1} << 28;
 
 class Nested {
  public:
-  Nested(const std::string& file, const std::string& colours) : file_(file), colours_(colours) {}
+  Nested(const std::string& file, const TreeColumnNames& named) : file_(file), named_(named) {}
 
   NamedTree read(const json& root) {
     std::vector<std::pair<const json*, std::int64_t>> open = {{&root, -1}};
@@ -129,8 +132,8 @@ class Nested {
     tree_.name.push_back(std::move(name));
     tree_.parent.push_back(parent);
     const auto place = [&] { return "'" + tree_.id[static_cast<std::size_t>(node)] + "'"; };
-    tree_.value.push_back(as_value(object, file_, place));
-    tree_.colour.push_back(colour_of(object, colours_, file_, place));
+    tree_.value.push_back(as_value(object, named_, file_, place));
+    tree_.colour.push_back(colour_of(object, named_.colours, file_, place));
     return node;
   }
 
@@ -145,7 +148,7 @@ class Nested {
   }
 
   const std::string& file_;
-  const std::string& colours_;
+  const TreeColumnNames& named_;
   NamedTree tree_;
   std::unordered_map<std::string, int> used_;  // ids, and the number of nodes with that path
   std::size_t id_bytes_ = 0;
@@ -177,20 +180,39 @@ std::int64_t number_of(const json& element, const char* key) {
   return number >= 0 && number <= most ? number : -1;
 }
 
+// The members of the first object, and of the first child in that.
+std::vector<std::string> members_of(const json& document) {
+  std::vector<std::string> names;
+  const json* object = document.is_array() && !document.empty() ? &document.front() : &document;
+  while (object->is_object()) {
+    for (const auto& [name, value] : object->items()) names.push_back(name);
+    const json* children = member(*object, {"children"});
+    if (!children || !children->is_array() || children->empty()) break;
+    object = &children->front();
+  }
+  return names;
+}
+
 }  // namespace
 
-NamedTree parse_tree_json(std::string_view text, const std::string& name, const std::string& colours) {
+NamedTree parse_tree_json(std::string_view text, const std::string& name, const TreeColumnNames& named) {
   const json document = parse(text, name);
   if (!document.is_array() && !document.is_object())
     fail_file(name,
               "is neither an object {name, children, value} nor a list of rows {id, parent, name, value}");
   NamedTree tree =
-      document.is_array() ? read_list(document, name, colours) : Nested(name, colours).read(document);
-  const auto& given = tree.colour;
-  if (!colours.empty() && std::all_of(given.begin(), given.end(), [](const auto& c) { return c.empty(); }))
+      document.is_array() ? read_list(document, name, named) : Nested(name, named).read(document);
+  const auto refuse = [&](const char* option, const std::string& wanted) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("--color-by {}: no node of {} has a member of that name", readable(colours),
-                            readable(name)));
+                fmt::format("{} {}: no node of {} has a member of that name{}", option, readable(wanted),
+                            readable(name), did_you_mean(closest(wanted, members_of(document)))));
+  };
+  const auto& given = tree.colour;
+  if (!named.colours.empty() &&
+      std::all_of(given.begin(), given.end(), [](const auto& c) { return c.empty(); }))
+    refuse("--color-by", named.colours);
+  if (!named.value.empty() && std::ranges::all_of(tree.value, [](double value) { return value == 0; }))
+    refuse("--value-column", named.value);
   return tree;
 }
 

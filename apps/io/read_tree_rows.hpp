@@ -23,8 +23,8 @@ struct TreeRow {
 NamedTree link_rows(std::vector<TreeRow> rows, const std::string& file, bool lines);
 
 /// The formats of read_tree. \throw Error invalid_file
-NamedTree parse_tree_table(std::string_view text, const std::string& name, const std::string& colours);
-NamedTree parse_tree_json(std::string_view text, const std::string& name, const std::string& colours);
+NamedTree parse_tree_table(std::string_view text, const std::string& name, const TreeColumnNames& named);
+NamedTree parse_tree_json(std::string_view text, const std::string& name, const TreeColumnNames& named);
 NamedTree scan_folder(const std::string& path);
 
 }  // namespace powercell::io

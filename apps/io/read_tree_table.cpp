@@ -7,6 +7,7 @@
 #include <powercell/error.hpp>
 #include <unordered_set>
 
+#include "apps/io/closest.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
 #include "apps/io/read_file.hpp"
@@ -45,20 +46,26 @@ char find_separator(std::string_view text) {
 
 using Places = std::array<std::optional<std::size_t>, columns>;
 
-// The place of the colour column in a header. \throw Error invalid_argument
-std::size_t colour_place(const Fields& header, const std::string& colours) {
-  std::string known;
-  for (std::size_t f = 0; f < header.size(); ++f) {
-    if (column_name(header[f]) == column_name(colours)) return f;
-    known += (known.empty() ? "" : ", ") + std::string(trimmed(header[f]));
-  }
-  throw Error(ErrorCode::invalid_argument,
-              fmt::format("--color-by {}: there is no such column; the table has {}", readable(colours),
-                          readable(known)));
+std::string listed(const Fields& header) {
+  std::string all;
+  for (const auto& field : header) all += (all.empty() ? "" : ", ") + std::string(trimmed(field));
+  return readable(all);
 }
 
-// The places of the columns, if this is a header.
-std::optional<Places> read_header(const Fields& fields) {
+// The place of a column in a header. \throw Error invalid_argument
+std::size_t place_of(const Fields& header, const char* option, const std::string& column) {
+  std::vector<std::string> known;
+  for (std::size_t f = 0; f < header.size(); ++f) {
+    if (column_name(header[f]) == column_name(column)) return f;
+    known.emplace_back(trimmed(header[f]));
+  }
+  throw Error(ErrorCode::invalid_argument,
+              fmt::format("{} {}: there is no such column{}; the table has {}", option, readable(column),
+                          did_you_mean(closest(column, known)), listed(header)));
+}
+
+// The places of the columns, if this is a header. \param value  the name of the column of values, if given
+std::optional<Places> read_header(const Fields& fields, const std::string& value) {
   Places places;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const std::string heading = column_name(fields[f]);
@@ -66,6 +73,7 @@ std::optional<Places> read_header(const Fields& fields) {
       if (!heading.empty() && std::find(headings[c].begin(), headings[c].end(), heading) != headings[c].end())
         places[c] = f;
   }
+  if (!value.empty()) places[value_column] = place_of(fields, "--value-column", value);
   const bool linked = places[id_column] && places[parent_column];
   if (!linked && !(places[value_column] && fields.size() > 1 && !places[parent_column])) return std::nullopt;
   return places;
@@ -163,6 +171,19 @@ class Paths {
   bool may_split_;
 };
 
+// The columns before that of the values; all others if it is the first.
+std::vector<std::size_t> level_columns(std::size_t width, std::size_t value,
+                                       std::optional<std::size_t> colour) {
+  std::vector<std::size_t> levels;
+  for (std::size_t f = 0; f < value; ++f)
+    if (f != colour) levels.push_back(f);
+  const bool first = levels.empty();
+  for (std::size_t f = value + 1; f < width && first; ++f)
+    if (f != colour) levels.push_back(f);
+  if (levels.empty()) levels.push_back(*colour);  // names may choose their colours
+  return levels;
+}
+
 std::string described(const Fields& header, const std::vector<std::size_t>& levels) {
   std::string all;
   for (const std::size_t level : levels)
@@ -172,7 +193,7 @@ std::string described(const Fields& header, const std::vector<std::size_t>& leve
 
 }  // namespace
 
-NamedTree parse_tree_table(std::string_view text, const std::string& name, const std::string& colours) {
+NamedTree parse_tree_table(std::string_view text, const std::string& name, const TreeColumnNames& named) {
   const std::optional<char> announced = announced_separator(text);
   Records records(text, name, announced ? *announced : find_separator(text));
   Places places = {0, 1, 2, 3};
@@ -185,38 +206,44 @@ NamedTree parse_tree_table(std::string_view text, const std::string& name, const
   if (announced) records.next(fields);
   for (bool first = true; records.next(fields); first = false) {
     if (first) {
-      if (const auto header = read_header(fields)) {
+      if (const auto header = read_header(fields, named.value)) {
         places = *header;
         width = fields.size();
-        if (!colours.empty()) colour = colour_place(fields, colours);
+        if (!named.colours.empty()) colour = place_of(fields, "--color-by", named.colours);
         if (!places[value_column])
-          fail_line(name, records.line(), "the header has no column value, weight or size");
+          fail_line(name, records.line(),
+                    fmt::format("the header has no column value, weight, size or area; choose one of {} with "
+                                "--value-column",
+                                listed(fields)));
         if (places[parent_column]) continue;
         std::vector<std::size_t> levels;
         if (places[id_column]) levels = {*places[id_column]};
-        for (std::size_t f = 0; f < width && !places[id_column]; ++f)
-          if (f != *places[value_column] && f != colour) levels.push_back(f);
-        if (levels.empty()) levels.push_back(*colour);  // names may choose their colours
+        if (levels.empty()) levels = level_columns(width, *places[value_column], colour);
         if (levels.size() > 1) notes.push_back(described(fields, levels));
         paths.emplace(std::move(levels), places[id_column].has_value());
         continue;
       }
     }
+    if (first && fields.size() != width)
+      fail_line(
+          name, records.line(),
+          fmt::format("{} fields where 4 are expected (id, parent, name, value); of a header, choose the "
+                      "column of the values with --value-column: {}",
+                      fields.size(), listed(fields)));
     if (fields.size() != width)
-      fail_line(name, records.line(),
-                fmt::format(
-                    "{} fields where {} are expected (id, parent, name, value; quote fields with separators)",
-                    fields.size(), width));
+      fail_line(
+          name, records.line(),
+          fmt::format("{} fields where {} are expected; quote fields with separators", fields.size(), width));
     rows.push_back(paths ? paths->read(fields, places, name, records.line())
                          : read_row(fields, places, name, records.line()));
     rows.back().colour = field_of(fields, colour);
   }
   if (paths)
     if (std::string note = paths->link(rows); !note.empty()) notes.push_back(std::move(note));
-  if (!colours.empty() && !colour)
+  if (!named.colours.empty() && !colour)
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("--color-by {}: {} has no header; name its columns in a first line",
-                            readable(colours), readable(name)));
+                            readable(named.colours), readable(name)));
   NamedTree tree = link_rows(std::move(rows), name, true);
   tree.notes.insert(tree.notes.begin(), notes.begin(), notes.end());
   return tree;

@@ -289,9 +289,9 @@ class Treemap(unittest.TestCase):
                          {"a": ("0", 1), "b": ("0", 2), "c": ("b", 2)})
         self.assertEqual((rows["0"]["name"], rows["0"]["value"]), ("t.csv", 3))
 
-    def areas(self, text, note):
+    def areas(self, text, note, *options):
         self.write("t.csv", text)
-        self.assertIn(note, self.good("t.csv", "-o", "out.json"))
+        self.assertIn(note, self.good("t.csv", *options, "-o", "out.json"))
         rows = json.loads((self.folder / "out.json").read_text())
         whole = shapely.geometry.Polygon(rows[[r.get("parent") or "" for r in rows].index("")]["polygon"]).area
         return {r["id"]: (r.get("parent") or "", r["name"],
@@ -318,6 +318,28 @@ class Treemap(unittest.TestCase):
         self.assertEqual(got["I%2FJ"], ("0", "I/J", .5))
         self.assertEqual(got["I%2FJ/Roma"], ("I%2FJ", "Roma", .25))
         self.assertEqual(got["F/Paris"], ("F", "Paris", .5))
+
+    def test_columns_of_other_names_hold_the_values(self):
+        table = "land,town,people,party,founded\nI,Roma,1,a,753\nI,Milano,1,b,600\nF,Paris,2,a,250\n"
+        got = self.areas(table, "from the columns land, town", "--value-column", "People")  # what follows is no level
+        self.assertEqual(got["I/Roma"], ("I", "Roma", .25))
+        self.assertEqual(got["F"], ("0", "F", .5))
+        got = self.areas("people,land,town\n1,I,Roma\n1,I,Milano\n2,F,Paris\n", "from the columns land, town", "--value-column",
+                         "people")
+        self.assertEqual(got["I/Roma"], ("I", "Roma", .25))
+        self.write("t.csv", table)
+        self.refused("t.csv:1: 5 fields where 4 are expected (id, parent, name, value); of a header, choose the column of the "
+                     "values with --value-column: land, town, people, party, founded", 1, "t.csv", "-o", "t.svg")
+        self.refused("--value-column peple: there is no such column; did you mean people?; the table has land,", 1, "t.csv",
+                     "--value-column", "peple", "-o", "t.svg")
+        self.write("h.csv", "id,parent,people\nr,,\na,r,1\n")
+        self.refused("the header has no column value, weight, size or area; choose one of id, parent, people with "
+                     "--value-column", 1, "h.csv", "-o", "t.svg")
+        self.write("n.json", json.dumps({"name": "r", "children": [{"name": "a", "people": 3}, {"name": "b", "people": 1}]}))
+        self.good("n.json", "--value-column", "people", "-o", "n.svg")
+        self.refused("no node of n.json has a member of that name; did you mean people?", 1, "n.json", "--value-column", "peple",
+                     "-o", "t.svg")
+        self.refused("--value-column x: . is a folder", 1, ".", "--value-column", "x", "-o", "t.svg")
 
     def test_a_line_that_announces_the_separator_is_no_row(self):
         for start in ("", "\ufeff"):
