@@ -116,6 +116,23 @@ class Placing {
     return polygons;
   }
 
+  std::string degree_columns() const {
+    return fmt::format("'{}' and '{}'", io::readable(columns_.names[columns_.position[0]]),
+                       io::readable(columns_.names[columns_.position[1]]));
+  }
+
+  [[noreturn]] void fail_without_degrees() const {
+    io::MapPoint point{};
+    for_each_point(domain_, [&](const io::MapPoint& p) {
+      if (p[0] < -180 || p[0] > 360 || std::abs(p[1]) > 90) point = p;
+    });
+    fail(
+        fmt::format("{}: has the point ({:.6g}, {:.6g}), which is not in degrees, but the seeds' columns {} "
+                    "are: name its coordinate system with --crs, or take all numbers as they are with "
+                    "--no-project",
+                    file_, point[0], point[1], degree_columns()));
+  }
+
   /// Name of the domain's system; empty if its coordinates are just a plane.
   std::string domain_crs() {
     if (!arguments_.crs.empty()) {
@@ -125,11 +142,10 @@ class Placing {
     }
     if (!domain_.crs.name.empty()) return file_crs();
     if (columns_.degrees && may_be_degrees(domain_)) {
-      source_ = fmt::format(", as the columns '{}' and '{}' say",
-                            io::readable(columns_.names[columns_.position[0]]),
-                            io::readable(columns_.names[columns_.position[1]]));
+      source_ = fmt::format(", as the columns {} say", degree_columns());
       return degrees_crs;
     }
+    if (columns_.degrees && !arguments_.no_project) fail_without_degrees();
     if (const auto crs = find_crs(columns_.crs); crs && (may_be_degrees(domain_) || !crs->geographic)) {
       source_ = ", as the file of the seeds says";
       return columns_.crs;
@@ -171,9 +187,7 @@ class Placing {
     }
     if (name.empty() && columns_.degrees && !crs.geographic) {
       name = degrees_crs;
-      source = fmt::format(", as the columns '{}' and '{}' say",
-                           io::readable(columns_.names[columns_.position[0]]),
-                           io::readable(columns_.names[columns_.position[1]]));
+      source = fmt::format(", as the columns {} say", degree_columns());
     }
     if (name.empty() || io::is_same_crs(name, crs.name)) return;
     result_.seeds = io::map_between(name, crs.name);

@@ -234,8 +234,11 @@ class Chooser {
     if (is_geometry()) columns_.taken = fmt::format("positions from {}, ", rows_.geometry());
     columns_.taken += columns_.weight ? "weight from " + shown(*columns_.weight) : "no weights";
     if (columns_.radius) columns_.taken += " squared";
-    columns_.degrees = !names_.empty() && is_one_of(names_[p[0]], longitude_names) &&
-                       is_one_of(names_[p[1]], latitude_names);
+    // In either order: --x-column lat takes a header whose names are swapped.
+    const auto are = [&](std::size_t longitude, std::size_t latitude) {
+      return is_one_of(names_[longitude], longitude_names) && is_one_of(names_[latitude], latitude_names);
+    };
+    columns_.degrees = !names_.empty() && (are(p[0], p[1]) || are(p[1], p[0]));
     columns_.note = note(named);
   }
 

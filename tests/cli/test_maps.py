@@ -181,6 +181,20 @@ class Maps(ToolTest):
         self.bad(1, "transformed to the domain's coordinate system: check", "diagram", "--domain", land, "--seeds",
                  "swapped.txt", "--seeds-crs", "EPSG:4326")
 
+    def test_seeds_in_degrees_in_an_unnamed_plane_are_refused(self):
+        land = self.domain(box(-40, -638, 960, 400))  # kilometres of some plane, where (12, 42) is a place too
+        self.write("d.csv", "name,lon,lat\na,14.5,46\nb,15.5,47\nc,15,45.5\n")
+        self.bad(1, r"land\.geojson: has the point \(\S+, 400\), which is not in degrees, but the seeds' columns 'lon' and 'lat' "
+                 "are: name its coordinate system with --crs, or .* --no-project", "diagram", "--domain", land, "--seeds", "d.csv")
+        self.assertAlmostEqual(self.report("diagram", "--domain", land, "--seeds", "d.csv", "--no-project")["measure"], 1038000,
+                               delta=1e-6)
+
+    def test_swapped_names_of_columns_are_degrees_too(self):
+        land = self.domain(box(6, 45, 16, 55))
+        self.write("d.csv", "name,lat,lon\na,14.5,46\nb,15.5,47\nc,15,45.5\n")
+        report = self.report("diagram", "--domain", land, "--seeds", "d.csv", "--x-column", "lat", "--y-column", "lon")
+        self.assertAlmostEqual(report["measure"] / box_area(6, 45, 16, 55), 1, delta=1e-2)
+
     def test_across_180_degrees(self):
         land = self.domain([box(177, -19, 180, -16), box(-180, -19, -178, -16)], "EPSG:4326", kind="MultiPolygon")
         self.write("s.csv", "lon,lat\n178,-17\n-179,-18\n179.9,-18.5\n")
