@@ -108,7 +108,7 @@ io::Vec3 vector_of(const UnitVector& axes) {
 
 bool has_colours(const std::string& path) {
   const std::string extension = io::lower_extension(path);
-  return io::is_picture(path) || extension == ".ply" || extension == ".off";
+  return io::is_picture(path) || extension == ".ply" || extension == ".off" || extension == ".html";
 }
 
 /// Options that would have no effect.

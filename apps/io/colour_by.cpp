@@ -5,6 +5,7 @@
 #include <limits>
 #include <powercell/error.hpp>
 
+#include "apps/io/closest.hpp"
 #include "apps/io/colouring.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/picture_colours.hpp"
@@ -22,6 +23,12 @@ std::vector<std::string_view> texts_of(const TableText& text, const KeptColumn& 
   values.reserve(text.rows());
   for (std::size_t row = 0; row < text.rows(); ++row) values.push_back(text.field(row, column.index));
   return values;
+}
+
+std::string meant_column(const KeptColumns& kept, const std::string& name) {
+  std::vector<std::string> names = {"measure", "weight", "neighbors"};
+  for (const KeptColumn& column : kept.columns()) names.push_back(readable(column.name));
+  return did_you_mean(closest(name, names));
 }
 
 std::string known_columns(const KeptColumns& kept) {
@@ -110,9 +117,11 @@ ColourBy colour_by(const std::string& name, const InputView& inputs, const Seeds
   auto found = find([&](const KeptColumn& column) { return column.name == name; });
   if (found == kept.columns().end())
     found = find([&](const KeptColumn& column) { return column_name(column.name) == column_name(name); });
+  if (found == kept.columns().end() && (name == "area" || name == "volume")) return {What::measure, {}};
   if (found == kept.columns().end())
-    throw Error(ErrorCode::invalid_argument, fmt::format("--color-by {}: there is no such column; {}",
-                                                         readable(name), known_columns(kept)));
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("--color-by {}: there is no such column{}; {}", readable(name),
+                            meant_column(kept, name), known_columns(kept)));
   if (found->type == KeptColumn::Type::text) check_classes(texts_of(inputs.table->text, *found), found->name);
   return {What::column, *found};
 }

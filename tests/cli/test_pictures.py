@@ -102,7 +102,7 @@ class Pictures(ToolTest):
     def test_unknown_columns_list_the_known_ones(self):
         self.table()
         towns = ("diagram", "--domain", "square", "--seeds", "towns.csv", "-o", "a.svg", "--color-by")
-        self.bad(1, "--color-by peple: there is no such column; the seeds' table has the columns x, y, weight, "
+        self.bad(1, "--color-by peple: there is no such column; did you mean people\\?; the seeds' table has the columns x, y, weight, "
                     "people, region, paint, empty; beside them there are measure, weight and neighbors",
                  *towns, "peple")
         self.bad(1, "the seeds have no table with a header; known are measure, weight and neighbors", *FLAT, "-o",

@@ -157,14 +157,14 @@ class ViewTest(unittest.TestCase):
 
 
 class Flat(ViewTest):
-    def page(self, **options):
+    def page(self, *arguments, **options):
         # Some seeds are hidden by a heavy one, and two are at the same place.
         rows = self.seeds(40, (0, 0), (2, 1), 0.01, lambda k: [k * k if k != 7 else "", ("river", NASTY, "lake")[k % 3]])
         rows[0][:3] = [1, 0.5, 0.06]
         rows[1][:3] = [1.01, 0.5, -0.5]
         rows[2][:2] = rows[3][:2]
         name = self.write("seeds.csv", [["x", "y", "weight", "people", NASTY], *rows])
-        return Page(self, "--domain", "box:0,0:2,1", "--seeds", name, **options)
+        return Page(self, "--domain", "box:0,0:2,1", "--seeds", name, *arguments, **options)
 
     def test_cells_and_rows(self):
         page = self.page()
@@ -214,6 +214,11 @@ class Flat(ViewTest):
         page.set("scale", "rank")
         self.assertGreater(self.eyes.change(ranks, page.picture("people-rank"), page.part), 0.05)
         page.check_clean()
+
+    def test_colours_chosen_by_the_tool(self):
+        for options, chosen in (((), "cells apart"), (("--color-by", "area"), "measure"), (("--color-by", "people"), "people")):
+            page = self.page(*options)
+            self.assertEqual(page.tab.evaluate("colour.selectedOptions[0].textContent"), chosen)
 
     def test_only_the_cells_of_a_range(self):
         page = self.page()

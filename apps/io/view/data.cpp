@@ -177,6 +177,23 @@ std::string embedded(const json& value) {
   return text;
 }
 
+/// What the page colours by at first; empty for colours that tell cells apart.
+std::string colour_name(const ColourBy& colours) {
+  switch (colours.what) {
+    case ColourBy::What::measure:
+      return "measure";
+    case ColourBy::What::weight:
+      return "weight";
+    case ColourBy::What::neighbors:
+      return "neighbors";
+    case ColourBy::What::column:
+      return colours.column.name;
+    case ColourBy::What::hues:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
 void write_view_data(AtomicFile& file, const DiagramOutput& output, const std::string& title,
@@ -201,6 +218,8 @@ void write_view_data(AtomicFile& file, const DiagramOutput& output, const std::s
                   {"frame", {{"offset", mesh.offset}, {"scale", mesh.scale}}}};
   if (const MapPlane* plane = output.inputs.plane()) diagram["map"] = plane->definition();
   diagram["columns"] = add_columns(arrays, output);
+  if (const std::string colour = colour_name(output.style.colours); !colour.empty())
+    diagram["colour"] = colour;
   diagram["arrays"] = arrays.described();
   file.write("<script type=\"application/json\" id=\"diagram\">" + embedded(diagram) + "</script>\n");
   arrays.write(file);

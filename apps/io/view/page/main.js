@@ -5,6 +5,7 @@ import { listen } from "./gestures.js";
 import { makeModel } from "./model.js";
 import { Panel, showFailure } from "./panel.js";
 import { Renderer } from "./renderer.js";
+import { measuresOf } from "./rows.js";
 import { colourClasses, colourNumbers } from "./scales.js";
 import { clamp, scaled } from "./vectors.js";
 
@@ -22,7 +23,7 @@ class View {
     this.camera = new Camera(this.model);
     this.chosen = -1;
     this.state = {
-      colour: -1,
+      colour: measuresOf(diagram).findIndex(({ name }) => name === diagram.colour),
       scale: "even",
       from: -Infinity,
       to: Infinity,

@@ -23,6 +23,7 @@ export function rowOf(diagram, cell) {
   const d = diagram.dimension;
   return [
     ["seed", String(cell)],
+    ...diagram.columns.map(({ name }, k) => [name, columnText(diagram, k, cell)]),
     ["position", pointText(components(position, d, cell))],
     ["weight", String(weight[cell])],
     ["status", STATUS[status[cell]]],
@@ -30,7 +31,6 @@ export function rowOf(diagram, cell) {
     ["centroid", pointText(components(centroid, d, cell))],
     ["second_moment", String(second_moment[cell])],
     ["neighbors", String(neighbors[cell])],
-    ...diagram.columns.map(({ name }, k) => [name, columnText(diagram, k, cell)]),
   ];
 }
 

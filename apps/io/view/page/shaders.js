@@ -164,6 +164,7 @@ vec4 shaded(ivec2 p) {
   uint other = drawn;
   if (right != drawn && right <= CELL) other = right;
   if (above != drawn && above <= CELL) other = above;
+  if (left == 0u || below == 0u) other = 0u;  // the outline on all sides
   if (u_fine > 1 && left != drawn && left <= CELL) other = left;
   if (u_fine > 1 && below != drawn && below <= CELL) other = below;
   if (other != drawn) line = 1.0;
