@@ -109,6 +109,8 @@ std::vector<io::Colour> dot_colours(const Device& device, const Source& source,
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k] = source.image.share[k] * static_cast<double>(source.image.channels[c][k]);
+    light[c].assign(n, 0);
+    if (std::ranges::all_of(values, [](double value) { return value == 0; })) continue;  // no density
     light[c] = integrate(diagram, image_density(source.domain, source.image, values), false).mass;
   }
   std::vector<io::Colour> colours(n);

@@ -108,6 +108,15 @@ class Sample(ToolTest):
             mean = (ink[0] * light(left[k]) + ink[1] * light(right[k])) / sum(ink)
             self.assertAlmostEqual(light(int(row[c])), mean, delta=.004)
 
+    def test_colours_without_one_of_the_channels(self):
+        black, red, white = (0, 0, 0), (255, 0, 0), (255, 255, 255)
+        for bright, seen in (((), {(0, 0, 0), (255, 0, 0)}), (("--bright",), {(255, 0, 0)})):
+            self.colour_image("i.png", [[black] * 10 + [red] * 10 + [black if bright else white] * 10] * 10)
+            self.good("sample", "-n", "40", "--image", "i.png", "--color", *bright, "-o", "i.csv")
+            colours = {tuple(int(row[c]) for c in "rgb") for row in self.rows("i.csv")}
+            self.assertLessEqual(seen, colours)
+            self.assertTrue(all(g == b == 0 for _, g, b in colours), colours)
+
     def test_colours_need_an_image_and_a_place(self):
         self.image("ink.png", [[0] * 4] * 4)
         self.bad(2, "--color requires --image", "sample", "-n", "9", "--color", "-o", "a.svg")
