@@ -48,8 +48,7 @@ Domain make_domain(const DomainArrays& arrays) {
 }  // namespace
 
 std::string describe(const DomainArrays& arrays, const std::string& spec) {
-  if (arrays.exact && (is_box_spec(spec) || arrays.exact->is_periodic()))
-    return describe_box(*arrays.exact, spec);
+  if (arrays.exact) return describe_box(*arrays.exact, spec);
   if (arrays.kind == DomainKind::polygon) {
     std::size_t holes = 0, points = 0;
     for (const PolygonPart& part : arrays.parts) {

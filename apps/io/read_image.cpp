@@ -1,6 +1,11 @@
 #include "apps/io/read_image.hpp"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "apps/io/image_parts.hpp"
+#include "apps/io/printable.hpp"
 #include "apps/io/read_file.hpp"
 
 namespace powercell::io {
@@ -18,8 +23,11 @@ void check_size(const AnnouncedImage& image, const std::string& name) {
 GrayImage parse_image(std::string_view bytes, const std::string& name, bool colours) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return parse_png(bytes, name, colours);
   if (bytes.starts_with("\xff\xd8\xff")) return parse_jpeg(bytes, name, colours);
-  fail_file(name,
-            "not a PNG or JPEG picture; convert it, for instance with 'convert drawing.tif drawing.png'");
+  const std::filesystem::path file(name);
+  fail_file(name, fmt::format(
+                      "not a PNG or JPEG picture; convert it, for instance with 'convert {} {}'",
+                      printable(file.filename().string()),
+                      printable(std::filesystem::path(file).replace_extension(".png").filename().string())));
 }
 
 GrayImage read_image(const std::string& path, bool colours) {

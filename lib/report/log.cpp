@@ -15,10 +15,10 @@ constexpr int no_level = -1;  // below every LogLevel: nothing is logged
 int level_of_environment() {
   const char* set = std::getenv("POWERCELL_LOG");
   const std::string_view level = set ? set : "";
-  if (level.empty()) return no_level;
+  if (level.empty() || level == "off" || level == "none" || level == "0") return no_level;
   if (level == "detail") return static_cast<int>(LogLevel::detail);
   if (level != "info")
-    std::fputs("powercell: POWERCELL_LOG is neither 'info' nor 'detail'; using 'info'\n", stderr);
+    std::fputs("powercell: POWERCELL_LOG is none of 'info', 'detail' and 'off'; using 'info'\n", stderr);
   return static_cast<int>(LogLevel::info);
 }
 

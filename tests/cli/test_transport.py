@@ -124,7 +124,7 @@ class Transport(ToolTest):
                               ("1 2\n3 4\n", r"2 columns and no header"), ("0;5\n1;5\n", r"2 columns.*separated by semicolons"),
                               ("name;mass\na;0,5\nb;0.5\n", r"m.csv:3: .*has a decimal point, but numbers before"),
                               ("mass,mass\n1,2\n3,4\n", r"m.csv:1: the header has 2 columns 'mass'"),
-                              ("2\n3\n", r"the masses sum to 5, the domain's mass is 1.*--rescale")):
+                              ("2\n3\n", r"the masses sum to 5, the domain's mass is 1.*option rescale")):
             with self.subTest(text=text):
                 self.write("m.csv", text)
                 self.bad(1, pattern, *self.square, seeds, "--masses", "m.csv", "--table", "t.csv")

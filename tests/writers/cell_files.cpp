@@ -37,7 +37,9 @@ struct Body {
 
 void check_bodies(const std::map<std::uint32_t, Body>& bodies, const Measures& measures) {
   CHECK(bodies.size() == measures.count(SeedStatus::ok));
-  for (const auto& [seed, body] : bodies) {
+  for (const auto& entry : bodies) {
+    const std::uint32_t seed = entry.first;
+    const Body& body = entry.second;
     CAPTURE(seed);
     CHECK(body.closed());
     CHECK(body.volume == doctest::Approx(measures.mass[seed]).epsilon(1e-7));  // positive: seen from outside

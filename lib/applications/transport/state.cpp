@@ -55,7 +55,7 @@ std::vector<double> TransportSolver::State::targets(double total) const {
     if (!options.rescale && !(std::abs(sum * largest - total) <= sum_tolerance * total))
       throw Error(ErrorCode::invalid_argument, "the masses sum to " + digits(sum * largest, 12) +
                                                    ", the domain's mass is " + digits(total, 12) +
-                                                   "; to use their ratios, let them be rescaled (--rescale)");
+                                                   "; to use their ratios, set the option rescale");
     for (double& m : result) m = m / largest * (total / sum);
   }
   for (std::size_t i = 0; i < size(); ++i)
