@@ -30,6 +30,7 @@ done
 "$tool" demo --quiet -o "$work/demo"
 for name in italy pretzel bracket; do cp "$work/demo/$name.png" "$folder/"; done
 "$tool" transport --quiet --domain examples/data/italy.geojson --seeds random:300 -o "$folder/transport.png"
+"$tool" diagram --quiet --domain examples/data/italy.geojson --seeds random:300 --color-by measure --size 640 -o "$folder/areas.png"
 "$tool" remesh --quiet examples/data/pretzel.off --count 3000 -o "$folder/remesh.png"
 "$python" examples/data/make_photo.py "$work/photo.png" 640
 "$tool" sample --quiet -n 6000 --image "$work/photo.png" -o "$folder/stipples.svg"
@@ -40,7 +41,7 @@ for name in italy pretzel bracket; do cp "$work/demo/$name.png" "$folder/"; done
 import pathlib, sys
 from PIL import Image
 
-for name, width in {"italy": 543, "pretzel": 700, "bracket": 625, "transport": 520, "remesh": 1650}.items():
+for name, width in {"italy": 543, "pretzel": 700, "bracket": 625, "transport": 520, "areas": 594, "remesh": 1650}.items():
     path = pathlib.Path(sys.argv[1]) / f"{name}.png"
     picture = Image.open(path).convert("RGB")
     picture = picture.resize((width, round(picture.height * width / picture.width)), Image.Resampling.LANCZOS)
