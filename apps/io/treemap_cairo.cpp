@@ -18,7 +18,7 @@ void draw_label(cairo_t* to, const TreemapScene::Label& label) {
   select_font(to, label.bold, label.size);
   if (label.bold) {
     add_text_path(to, label.text, label.x, label.y, 0.5);
-    set_colour(to, paper, 0.6);
+    set_colour(to, paper, halo_opacity);
     cairo_set_line_width(to, label_halo * label.size);
     cairo_stroke_preserve(to);
     set_colour(to, ink, label.opacity);

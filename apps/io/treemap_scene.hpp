@@ -43,6 +43,7 @@ struct TreemapScene {
 
 /// Width of the halo around labels of groups, of an em.
 constexpr double label_halo = 0.16;
+constexpr double halo_opacity = 0.85;  ///< ink on it is legible over dark cells too
 
 /// The widest wall of cells at that depth. \param scale  of the picture, 1 for 1600 pixels
 double widest_wall(std::uint32_t depth, double scale);

@@ -35,10 +35,10 @@ class Drawing {
         "<style>path{{stroke-linejoin:round;stroke:{4}}}.g{{fill:none}}"
         "text{{font-family:'DejaVu Sans',Verdana,sans-serif;text-anchor:middle;dominant-baseline:central;"
         "fill:{5};pointer-events:none}}.l{{fill:{4}}}.b{{font-weight:bold;paint-order:stroke;stroke:{4};"
-        "stroke-opacity:.6}}"
+        "stroke-opacity:{6:.3g}}}"
         "path:hover{{fill-opacity:.75}}</style>\n",
         scene_.width, scene_.height, xml_text(scene_.title), xml_text(scene_.description), hex(paper),
-        hex(ink)));
+        hex(ink), halo_opacity));
     if (std::any_of(scene_.cells.begin(), scene_.cells.end(), [](const auto& cell) { return cell.striped; }))
       file_.write(stripes_svg(scene_.stripes));
     for (std::size_t k = 0; k < scene_.cells.size(); ++k) {

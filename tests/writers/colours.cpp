@@ -206,7 +206,8 @@ TEST_CASE("more texts than colours are refused, more colours are not") {
 
 TEST_CASE("a legend fits into half of its picture, and nothing in it overlaps") {
   for (const std::size_t classes : {0u, 1u, 3u, 12u, 40u})
-    for (const auto& [width, height] : {std::pair{1600, 1600}, {200, 200}, {4000, 300}, {300, 2000}}) {
+    for (const auto& size : {std::pair{1600, 1600}, {200, 200}, {4000, 300}, {300, 2000}}) {
+      const int width = size.first, height = size.second;
       CAPTURE(classes);
       CAPTURE(width);
       CAPTURE(height);

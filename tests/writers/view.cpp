@@ -339,8 +339,8 @@ TEST_CASE("a page needs nothing from elsewhere, and its modules fit together") {
   CHECK(names.size() > 50);
   CHECK(std::regex_search(script, std::regex("(^|\n)(import|export) ")) == false);
   // Each imported name is exported by the module that it is imported from.
-  for (const auto& [file, text] : io::view_files()) {
-    const std::string module(text);
+  for (const auto& entry : io::view_files()) {
+    const std::string file(entry.first), module(entry.second);
     const std::regex imported("(^|\n)import \\{ ([^}]*) \\} from \"\\./([a-z]+\\.js)\";");
     std::size_t lines = 0;
     for (std::sregex_iterator at(module.begin(), module.end(), imported), end; at != end; ++at, ++lines)

@@ -118,26 +118,29 @@ class Joiner {
     }
   }
 
-  /// Decides which triangles to turn, so that all of a part are oriented as its first one.
+  /// Decides which triangles to turn, so that all of a part are oriented as most of it, or else as its first.
   void orient() {
     std::vector<bool> seen(mesh_.row.size(), false);
-    std::vector<std::uint32_t> stack;
     turned_.assign(mesh_.row.size(), false);
+    std::vector<std::uint32_t> part;
     for (std::uint32_t first = 0; first < mesh_.row.size(); ++first) {
       if (seen[first]) continue;
       seen[first] = true;
-      stack.push_back(first);
-      while (!stack.empty()) {
-        const std::uint32_t t = stack.back();
-        stack.pop_back();
+      part.assign(1, first);
+      std::size_t turned = 0;
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const std::uint32_t t = part[k];
+        turned += turned_[t];
         for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
           if (mate_[h] == nothing || seen[mate_[h] / 3]) continue;
           const std::uint32_t other = mate_[h] / 3;
           seen[other] = true;
           turned_[other] = turned_[t] == opposite_[h];
-          stack.push_back(other);
+          part.push_back(other);
         }
       }
+      if (2 * turned > part.size())
+        for (const std::uint32_t t : part) turned_[t] = !turned_[t];
     }
   }
 

@@ -185,12 +185,14 @@ TEST_CASE("triangles with repeated corners and repeated triangles are removed") 
   CHECK_THROWS_AS(repaired({{0, 0, 0, 1, 0, 0}, {0, 1, 1}}), Error);
 }
 
-TEST_CASE("triangles are turned as their neighbours") {
-  TriangleMesh mesh = cube_of_12();
-  std::swap(mesh.triangles[12], mesh.triangles[13]);
-  const RepairedMesh result = repaired(mesh);
-  CHECK(result.report.turned.count == 1);
-  check_closed(result, 1, 1);
+TEST_CASE("triangles are turned as most of their part") {
+  for (const std::vector<std::size_t>& wrong : {std::vector<std::size_t>{4}, {0}, {0, 1, 2, 3, 7}}) {
+    TriangleMesh mesh = cube_of_12();
+    for (const std::size_t t : wrong) std::swap(mesh.triangles[3 * t], mesh.triangles[3 * t + 1]);
+    const RepairedMesh result = repaired(mesh);
+    CHECK(result.report.turned.count == wrong.size());
+    check_closed(result, 1, 1);
+  }
 }
 
 TEST_CASE("flat triangles are removed by a flip or a collapse") {
