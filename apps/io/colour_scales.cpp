@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -96,7 +97,7 @@ void take(std::vector<Candidate>& from, Colour colour) {
 
 Colour scale_colour(double t) {
   static const std::vector<Colour> colours = even_steps();
-  return colours[static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * (scale_steps - 1) + 0.5)];
+  return colours[static_cast<std::size_t>(std::lround(std::clamp(t, 0.0, 1.0) * (scale_steps - 1)))];
 }
 
 // The farthest candidate each time (Gonzalez 1985).
