@@ -55,7 +55,7 @@ int write_all(const CLI::App& app, const ManualArguments& arguments) {
 
 std::string short_text(const std::string& description) {
   constexpr std::size_t most = 70;
-  const std::string first = description.substr(0, description.find(". "));
+  std::string first = description.substr(0, description.find(". "));
   if (first.size() <= most) return first;
   return first.substr(0, first.rfind(' ', most)) + " ...";
 }

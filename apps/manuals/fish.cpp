@@ -52,7 +52,7 @@ std::string fish_completion(const CLI::App& app) {
       OptionValue value = value_of(*option);
       if (command->get_name() == "help") value.words = command_names(app);
       if (const std::string what = fish_value(value); !what.empty())
-        text += "complete -c powercell -n " + given + what + "\n";
+        text.append("complete -c powercell -n ").append(given).append(what).append("\n");
     }
   }
   return text;
