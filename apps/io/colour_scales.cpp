@@ -47,15 +47,7 @@ std::vector<Colour> even_steps() {
 }
 
 // Of the palette of cells, without those near to white.
-constexpr std::array<Colour, 7> first_classes = {{
-    {0x3a, 0x6b, 0x9c},  // deep blue
-    {0xee, 0x9b, 0x52},  // amber
-    {0xa8, 0xd5, 0xc2},  // mint
-    {0xd3, 0x5f, 0x4b},  // brick
-    {0xf3, 0xd2, 0x7f},  // sand
-    {0x3c, 0x95, 0x94},  // teal
-    {0x7f, 0xb2, 0xd9},  // sky
-}};
+constexpr std::array<Colour, 7> first_classes = {deep_blue, amber, mint, brick, sand, teal, sky};
 
 using Seen = std::array<Lab, 4>;
 

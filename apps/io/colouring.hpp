@@ -30,7 +30,7 @@ struct Legend {
   double low = 0, high = 0;
   bool whole = false;  ///< all numbers are
   std::vector<Entry> entries;
-  bool empty() const { return title.empty() && !scale && entries.empty(); }
+  bool empty() const { return !scale && entries.empty(); }
 };
 
 struct Colouring {

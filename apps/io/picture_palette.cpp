@@ -7,17 +7,7 @@
 namespace powercell::io {
 namespace {
 
-// Muted hues that also differ in lightness, from deep blue through sand to brick.
-constexpr std::array<Colour, 8> palette = {{
-    {0x3a, 0x6b, 0x9c},  // deep blue
-    {0x7f, 0xb2, 0xd9},  // sky
-    {0x3c, 0x95, 0x94},  // teal
-    {0xf3, 0xd2, 0x7f},  // sand
-    {0xee, 0x9b, 0x52},  // amber
-    {0xd3, 0x5f, 0x4b},  // brick
-    {0xa8, 0xd5, 0xc2},  // mint
-    {0xf4, 0xe6, 0xd0},  // shell
-}};
+constexpr std::array<Colour, 8> palette = {deep_blue, sky, teal, sand, amber, brick, mint, shell};
 
 std::uint32_t hash(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;

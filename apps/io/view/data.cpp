@@ -14,6 +14,7 @@
 #include "apps/io/kept_columns.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/picture_palette.hpp"
+#include "apps/io/colour_scales.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/view/mesh.hpp"
 
@@ -177,6 +178,8 @@ std::string embedded(const json& value) {
   return text;
 }
 
+constexpr int steps_of_scale = 256;
+
 /// What the page colours by at first; empty for colours that tell cells apart.
 std::string colour_name(const ColourBy& colours) {
   switch (colours.what) {
@@ -218,6 +221,9 @@ void write_view_data(AtomicFile& file, const DiagramOutput& output, const std::s
                   {"frame", {{"offset", mesh.offset}, {"scale", mesh.scale}}}};
   if (const MapPlane* plane = output.inputs.plane()) diagram["map"] = plane->definition();
   diagram["columns"] = add_columns(arrays, output);
+  for (int k = 0; k < steps_of_scale; ++k)
+    diagram["scale"].push_back(hex(scale_colour(k / (steps_of_scale - 1.0))));
+  for (const Colour& colour : class_colours(most_classes)) diagram["palette"].push_back(hex(colour));
   if (const std::string colour = colour_name(output.style.colours); !colour.empty())
     diagram["colour"] = colour;
   diagram["arrays"] = arrays.described();

@@ -79,8 +79,8 @@ class View {
     const isCell = (cell) => status[cell] === 0;
     const by = this.panel.measures[this.state.colour];
     let result = { colours: own, legend: { kind: "cells" } };
-    if (by?.classes) result = colourClasses(by.classes, by.names, isCell);
-    else if (by) result = colourNumbers(by.numbers, this.state.scale, isCell);
+    if (by?.classes) result = colourClasses(by.classes, by.names, isCell, this.diagram.palette);
+    else if (by) result = colourNumbers(by.numbers, this.state.scale, isCell, this.diagram.scale);
     const { from, to } = this.state;
     const all = from === -Infinity && to === Infinity;
     const isWithin = (cell) => all || !by?.numbers || (by.numbers[cell] >= from && by.numbers[cell] <= to);
