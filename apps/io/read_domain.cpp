@@ -23,7 +23,7 @@ constexpr MeshFormat mesh_formats[] = {{".off", parse_off}, {".obj", parse_obj},
 DomainArrays polygon_arrays(std::vector<PolygonPart> parts, NamedCrs crs, std::optional<DomainKind> kind,
                             const std::string& name) {
   if (kind.value_or(DomainKind::polygon) != DomainKind::polygon) {
-    fail_file(name, fmt::format("holds a polygon, but --kind is {}; choose another domain or kind",
+    fail_file(name, fmt::format("holds a polygon, but a {} is wanted; choose another domain or kind",
                                 io::name(*kind)));
   }
   DomainArrays arrays;
@@ -106,7 +106,7 @@ DomainArrays read_domain_arrays(const std::string& spec, std::optional<DomainKin
   DomainArrays arrays = builtin_domain(spec);
   if (kind.value_or(arrays.kind) != arrays.kind)
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("domain {} is a {}, but --kind is {}; choose another domain or kind", spec,
+                fmt::format("domain {} is a {}, but a {} is wanted; choose another domain or kind", spec,
                             io::name(arrays.kind), io::name(*kind)));
   return arrays;
 }

@@ -17,7 +17,7 @@ std::size_t checked_vertex_count(std::uint64_t count, const std::string& name) {
 
 MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const std::string& name) {
   if (kind == DomainKind::polygon) {
-    fail_file(name, "holds a mesh in space, not a polygon; leave out --kind or use surface or volume");
+    fail_file(name, "holds a mesh in space, not a polygon; choose surface or volume as the kind");
   }
   MeshArrays arrays;
   const bool solids = !mesh.tetrahedra.empty() || !mesh.other_solid.empty();
@@ -28,11 +28,11 @@ MeshArrays choose_elements(MeshFile mesh, std::optional<DomainKind> kind, const 
                 fmt::format("has {}; only tetrahedra make a volume: split the other cells into tetrahedra",
                             mesh.other_solid));
     }
-    if (mesh.tetrahedra.empty()) fail_file(name, "has no tetrahedra; for its faces use --kind surface");
+    if (mesh.tetrahedra.empty()) fail_file(name, "has no tetrahedra; its faces are a surface");
     arrays.elements = std::move(mesh.tetrahedra);
   } else {
     if (mesh.face_count() == 0) {
-      fail_file(name, solids ? "has no faces besides those of its solids; use --kind volume"
+      fail_file(name, solids ? "has no faces besides those of its solids; it is a volume, not a surface"
                              : "has neither tetrahedra nor faces");
     }
     arrays.elements = triangulate(mesh, name);

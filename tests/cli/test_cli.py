@@ -235,7 +235,7 @@ class WrongUsage(ToolTest):
         self.bad(2, "either a saved diagram or", "verify", "a.json", "--seeds", "random:9")
 
     def test_wrong_kinds_of_domains(self):
-        self.bad(1, "domain square is a polygon, but --kind is surface", "remesh", "square",
+        self.bad(1, "domain square is a polygon, but a surface is wanted", "remesh", "square",
                  "--count", "9", "-o", "m.off")
 
 

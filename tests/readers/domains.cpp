@@ -38,7 +38,7 @@ TEST_CASE("built-in shapes") {
   CHECK(says(refusal([] { read_domain("disk:9x"); }), "the resolution is not a whole number"));
   CHECK(says(refusal([] { read_domain("square:4"); }), "square takes no resolution"));
   CHECK(says(refusal([] { read_domain("ball", DomainKind::surface); }),
-             "domain ball is a volume, but --kind is surface"));
+             "domain ball is a volume, but a surface is wanted"));
 }
 
 TEST_CASE("files become domains of the right kind and measure") {

@@ -161,7 +161,7 @@ TEST_CASE("volume formats: indices, NaN, counts") {
   CHECK(says(refused("x", ".foo"), "unknown extension '.foo'; a domain is .geojson"));
   CHECK(says(refused("OFF\n", ".off", DomainKind::polygon), "f.off"));
   CHECK(says(refused("POLYGON ((0 0, 1 0, 0 1, 0 0))", ".wkt", DomainKind::volume),
-             "f.wkt: holds a polygon, but --kind is volume"));
+             "f.wkt: holds a polygon, but a volume is wanted"));
 }
 
 TEST_CASE("plain text whose rows begin with their length or with a corner") {
