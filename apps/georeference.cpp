@@ -278,11 +278,6 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
   stay->group(group);
 }
 
-bool is_in_degrees(const std::string& crs) {
-  const std::optional<io::Crs> found = find_crs(crs);  // not known: a plane
-  return found && found->geographic;
-}
-
 Georeference georeference(const MapArguments& arguments, const std::string& file,
                           const io::DomainArrays& domain, const io::SeedColumns& columns) {
   return Placing(arguments, file, domain, columns).place();

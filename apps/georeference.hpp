@@ -30,9 +30,6 @@ struct Georeference {
   std::vector<std::string> notes;       ///< for the report
 };
 
-/// Whether a system is known and in degrees.
-bool is_in_degrees(const std::string& crs);
-
 /// Decides by the arguments, by what the files say, and by the names of the seeds' columns. Degrees are
 /// projected to an equal-area plane; other systems are planes already, unless --project is given. Numbers
 /// that only look like degrees stay in their plane, and a note says so. \param file  the argument of --domain

@@ -169,6 +169,15 @@ Crs describe_crs(const std::string& name) {
   return result;
 }
 
+bool is_in_degrees(const std::string& name) {
+  if (name.empty()) return false;
+  try {
+    return describe_crs(name).geographic;
+  } catch (const Error&) {
+    return name.ends_with(":4326") || name.ends_with("CRS84");
+  }
+}
+
 bool is_same_crs(const std::string& a, const std::string& b) {
   return a == b || proj_is_equivalent_to(create(a).get(), create(b).get(),
                                          PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;

@@ -38,6 +38,10 @@ struct Crs {
 /// \throw Error invalid_argument: PROJ does not know it, or it is not of a map in degrees or lengths
 Crs describe_crs(const std::string& name);
 
+/// Whether a system is in degrees; false for an empty name and for one that PROJ does not know. Where PROJ
+/// has no data at all, the usual names of WGS 84 are known nevertheless.
+bool is_in_degrees(const std::string& name);
+
 /// Whether two names mean the same coordinates.
 bool is_same_crs(const std::string& a, const std::string& b);
 

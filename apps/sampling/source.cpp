@@ -8,6 +8,7 @@
 
 #include "apps/common.hpp"
 #include "apps/georeference.hpp"
+#include "apps/io/map_crs.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/read_domain.hpp"
@@ -27,7 +28,7 @@ Source paper_source(int dimension) {
 
 /// The description of a domain; of a map in degrees with a warning, since sampling does not project.
 std::string description_of(const io::LoadedDomain& domain) {
-  if (!is_in_degrees(domain.crs.name)) return domain.description;
+  if (!io::is_in_degrees(domain.crs.name)) return domain.description;
   return domain.description +
          fmt::format(
              "\nmap: {} is sampled as a plane of degrees; project the file for points that are "

@@ -241,7 +241,7 @@ class Domain:
         return f"<powercell.Domain: {periodic}{self.kind} of {word} {self.measure:.6g}>"
 
 
-def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto") -> Domain:
+def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto", *, degrees: bool = False) -> Domain:
     """Reads a domain, or makes a built-in one, as the tool's ``--domain`` does.
 
     Parameters
@@ -251,6 +251,9 @@ def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto") -> Domai
         cube, disk, ball, sphere, torus (with ``:N`` for a resolution).
     kind : {"auto", "polygon", "surface", "volume"}
         For files that can be read as more than one.
+    degrees : bool
+        Accept a file that says that it is in longitude and latitude, and take them as a plane. Else it is an
+        error, as for `Domain.polygon`.
 
     Examples
     --------
@@ -259,4 +262,10 @@ def read_domain(path: Union[str, os.PathLike[str]], kind: str = "auto") -> Domai
     1.0
     """
     loaded = _core.read_domain(os.fspath(path), kind)
+    if loaded.is_in_degrees and not degrees:
+        raise ValueError(
+            f"{path} is in degrees ({loaded.crs}), whose areas and distances mean little: project it first, e.g. "
+            "frame = geopandas.read_file(path); frame.to_crs(frame.estimate_utm_crs()), or pass degrees=True to "
+            "compute with degrees"
+        )
     return Domain(loaded.domain, loaded.crs or None)

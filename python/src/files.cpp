@@ -1,3 +1,4 @@
+#include "apps/io/map_crs.hpp"
 #include "apps/io/read_domain.hpp"
 #include "apps/io/read_seeds.hpp"
 #include "python/src/call.hpp"
@@ -21,7 +22,8 @@ void bind_files(nb::module_& m) {
   nb::class_<io::LoadedDomain>(m, "LoadedDomain")
       .def_ro("domain", &io::LoadedDomain::domain)
       .def_ro("description", &io::LoadedDomain::description)
-      .def_prop_ro("crs", [](const io::LoadedDomain& d) { return d.crs.name; });
+      .def_prop_ro("crs", [](const io::LoadedDomain& d) { return d.crs.name; })
+      .def_prop_ro("is_in_degrees", [](const io::LoadedDomain& d) { return io::is_in_degrees(d.crs.name); });
   m.def("read_domain", [](const std::string& path, const std::string& kind) {
     const auto wanted = kind_of(kind);
     return without_lock([&] { return io::read_domain(path, wanted); });

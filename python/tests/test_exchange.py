@@ -41,6 +41,19 @@ def test_geopandas_keeps_columns_and_crs():
         pc.Diagram(pc.Domain.polygon(land), shops.to_crs("EPSG:4326"))
 
 
+def test_files_in_degrees_are_refused_as_shapes_are(tmp_path):
+    ring = [[11, 44], [13, 44], [13, 46], [11, 46], [11, 44]]
+    for name in ("EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4258"):
+        file = tmp_path / "land.geojson"
+        crs = {"type": "name", "properties": {"name": name}}
+        file.write_text(json.dumps({"type": "Polygon", "coordinates": [ring], "crs": crs}))
+        with pytest.raises(ValueError, match="in degrees .*project it first.*degrees=True"):
+            pc.read_domain(file)
+        assert pc.read_domain(file, degrees=True).measure == pytest.approx(4)
+    file.write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+    assert pc.read_domain(file).measure == pytest.approx(4)  # nothing says so
+
+
 def test_plot(rng, square):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
