@@ -106,15 +106,10 @@ io::Vec3 vector_of(const UnitVector& axes) {
   return {static_cast<float>(axes[0]), static_cast<float>(axes[1]), static_cast<float>(axes[2])};
 }
 
-bool has_colours(const std::string& path) {
-  const std::string extension = io::lower_extension(path);
-  return io::is_picture(path) || extension == ".ply" || extension == ".off" || extension == ".html";
-}
-
 /// Options that would have no effect.
 void check_effects(const PictureArguments& arguments, const DrawnInputs& drawn) {
   const bool picture = std::any_of(drawn.files.begin(), drawn.files.end(), io::is_picture);
-  const bool colours = std::any_of(drawn.files.begin(), drawn.files.end(), has_colours);
+  const bool colours = std::any_of(drawn.files.begin(), drawn.files.end(), io::is_coloured);
   const auto needs = [](const char* option, const char* what) {
     throw WrongUsage(fmt::format("{} is for pictures; name one, such as {}", option, what));
   };

@@ -61,7 +61,7 @@ SamplingOptions sampling_options(const SampleArguments& arguments, const Source&
 
 /// \throw WrongUsage as picture_style
 io::PictureStyle style_of(const SampleArguments& arguments, const Domain& domain) {
-  if (!arguments.picture.color_by.empty() && arguments.cells.empty())
+  if (!arguments.picture.color_by.empty() && std::ranges::none_of(arguments.cells, io::is_coloured))
     throw WrongUsage("--color-by colours cells; name a picture of them, such as --cells cells.svg");
   const auto shows_dots = [](const std::string& path) {
     return io::is_picture(path) || io::lower_extension(path) == ".csv";

@@ -70,7 +70,8 @@ Colouring colours_of_numbers(std::span<const double> values, const std::vector<c
     high = std::max(high, values[i]);
   }
   // Differences that rounding makes are none.
-  const bool differ = high / 2 - low / 2 > 1e-12 * std::max(std::abs(low), std::abs(high));
+  const bool differ =
+      high / 2 - low / 2 > 1e-300 && high / 2 - low / 2 > 1e-12 * std::max(std::abs(low), std::abs(high));
   for (std::size_t i = 0; i < n; ++i)
     if (colouring.has_value[i] != 0)
       colouring.colour[i] = scale_colour(differ ? share_of_range(values[i], low, high) : 0.5);
@@ -92,8 +93,8 @@ Colouring colours_of_texts(std::span<const std::string_view> values, const std::
   Colouring colouring{std::vector<Colour>(n, no_value), std::vector<char>(n, 0), {}};
   const bool themselves = are_colours(values);
   std::map<std::string_view, Colour> classes;
-  for (const std::string_view value : values)
-    if (!value.empty()) classes.emplace(value, Colour{});
+  for (std::size_t i = 0; i < n; ++i)
+    if (shown[i] != 0 && !values[i].empty()) classes.emplace(values[i], Colour{});
   const std::vector<Colour> distinct = themselves ? std::vector<Colour>() : class_colours(classes.size());
   std::size_t k = 0;
   for (auto& [text, colour] : classes) {
@@ -104,7 +105,8 @@ Colouring colours_of_texts(std::span<const std::string_view> values, const std::
   for (std::size_t i = 0; i < n; ++i) {
     if (values[i].empty()) continue;
     colouring.has_value[i] = 1;
-    colouring.colour[i] = classes.at(values[i]);
+    if (const auto found = classes.find(values[i]); found != classes.end())
+      colouring.colour[i] = found->second;
   }
   add_missing(colouring, shown);
   return colouring;

@@ -56,6 +56,11 @@ bool is_picture(const std::string& path) {
   return extension == ".svg" || extension == ".png" || extension == ".pdf";
 }
 
+bool is_coloured(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  return is_picture(path) || extension == ".ply" || extension == ".off" || extension == ".html";
+}
+
 void write_before_and_after(const std::string& path, const TriangleMesh& before, const TriangleMesh& after,
                             const PictureStyle& style) {
   const Normalization normalize = normalization(Domain::surface(before.vertices, before.triangles));

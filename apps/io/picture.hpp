@@ -11,6 +11,8 @@ namespace powercell::io {
 
 /// Whether the file's extension is that of a picture: .svg, .png or .pdf.
 bool is_picture(const std::string& path);
+/// Whether files of that extension show the colours of cells: pictures, .ply, .off and .html.
+bool is_coloured(const std::string& path);
 
 /// Polygon domains: coloured cells, a disc at each seed, the outline of the domain, and a legend if colours
 /// mean something; by default 1600 pixels on the long side (a page: 1200 points). In SVG each cell is a

@@ -156,6 +156,14 @@ class Pictures(ToolTest):
         self.good(*towns, "i.svg", "--color-by", "input_weight")
         self.assertEqual(len(set(self.fills("i.svg").values())), 5)
 
+    def test_colours_of_cells_in_files_without_any(self):
+        self.bad(2, "--color-by colours cells", "sample", "-n", "9", "--cells", "c.vtu", "-o", "dots.png", "--color-by", "measure")
+
+    def test_classes_of_hidden_seeds_take_no_colour(self):
+        self.write("h.csv", "x,y,w,kind\n.2,.5,0,a\n.8,.5,0,c\n.81,.5,-1,b\n")
+        self.good("diagram", "--domain", "square", "--seeds", "h.csv", "-o", "h.svg", "--color-by", "kind")
+        self.assertEqual(self.legend("h.svg"), ["kind", "a", "c", "hidden (1)"])
+
     def test_maps_have_square_metres(self):
         ring = [[11, 44], [13, 44], [13, 46], [11, 46], [11, 44]]
         self.write("map.geojson", json.dumps({"type": "Polygon", "coordinates": [ring]}))

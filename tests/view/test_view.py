@@ -83,6 +83,22 @@ class Flat(ViewTest):
             page = self.page(*options)
             self.assertEqual(page.tab.evaluate("colour.selectedOptions[0].textContent"), chosen)
 
+    def test_columns_of_any_name_can_be_chosen(self):
+        # One that the page has a name for already, one that holds the weights, and colours as they are.
+        table = [["x", "y", "heavy", "status", "paint"]] + [[x / 4, y / 4, 0.01 * x, f"s{x}", f"#{x}0{y}0f0"] for x in (1, 2, 3)
+                                                            for y in (1, 2, 3)]
+        name = self.write("s.csv", table)
+        for column, shown in (("status", "input_status"), ("heavy", "heavy"), ("paint", "paint")):
+            page = Page(self, "--domain", "square", "--seeds", name, "--weight-column", "heavy", "--color-by", column)
+            self.assertEqual(page.tab.evaluate("colour.selectedOptions[0].textContent"), shown)
+            page.set("dots", False)
+            seen = page.tab.evaluate("[...document.querySelectorAll('.classes li')].map((li) => li.children[1].textContent)")
+            self.assertEqual(seen, ["s1", "s2", "s3"] if column == "status" else [])
+            if column == "paint":
+                x, y = page.place((0.25, 0.75))
+                box = [x / DESKTOP[0], y / DESKTOP[1], 1.01 / DESKTOP[0], 1.01 / DESKTOP[1]]
+                self.assertEqual(self.eyes.colours(page.picture("paint"), box)[0][0], [0x10, 0x30, 0xf0])
+
     def test_only_the_cells_of_a_range(self):
         page = self.page()
         page.set("colour", "0")

@@ -11,10 +11,10 @@
 #include <span>
 
 #include "apps/io/base64.hpp"
+#include "apps/io/colour_scales.hpp"
 #include "apps/io/kept_columns.hpp"
 #include "apps/io/names.hpp"
 #include "apps/io/picture_palette.hpp"
-#include "apps/io/colour_scales.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/view/mesh.hpp"
 
@@ -41,7 +41,6 @@ class Arrays {
  public:
   template <class T>
   void add(const std::string& name, std::span<const T> values) {
-    static_assert(std::endian::native == std::endian::little);
     const char* type = std::is_same_v<T, float>    ? "float32"
                        : std::is_same_v<T, double> ? "float64"
                        : std::is_signed_v<T>       ? "int8"
@@ -139,10 +138,20 @@ std::vector<std::int32_t> classes_of(const KeptColumns& kept, const KeptColumn& 
   return indices;
 }
 
+/// The table's columns, with their names in the page.
+KeptColumns page_columns(const DiagramOutput& output) {
+  return {output.inputs,
+          output.seeds,
+          {"seed", "position", "weight", "status", "measure", "centroid", "second_moment", "neighbors"}};
+}
+
+/// Whether the page colours by this column at first.
+bool is_chosen(const KeptColumn& column, const ColourBy& colours) {
+  return colours.what == ColourBy::What::column && colours.column.index == column.index;
+}
+
 json add_columns(Arrays& arrays, const DiagramOutput& output) {
-  const KeptColumns kept(
-      output.inputs, output.seeds,
-      {"seed", "position", "weight", "status", "measure", "centroid", "second_moment", "neighbors"});
+  const KeptColumns kept = page_columns(output);
   json described = json::array();
   for (const KeptColumn& column : kept.columns()) {
     const SeedColumns& taken = output.inputs.table->columns;
@@ -150,7 +159,7 @@ json add_columns(Arrays& arrays, const DiagramOutput& output) {
     for (int k = 0; kept.has_positions() && output.inputs.plane() == nullptr && k < output.seeds.dimension;
          ++k)
       known = known || taken.position[static_cast<std::size_t>(k)] == column.index;
-    if (known) continue;
+    if (known && !is_chosen(column, output.style.colours)) continue;
     const std::string name = "column" + std::to_string(described.size());
     json entry = {{"name", column.name}};
     if (column.type == KeptColumn::Type::text) {
@@ -181,7 +190,8 @@ std::string embedded(const json& value) {
 constexpr int steps_of_scale = 256;
 
 /// What the page colours by at first; empty for colours that tell cells apart.
-std::string colour_name(const ColourBy& colours) {
+std::string colour_name(const DiagramOutput& output) {
+  const ColourBy& colours = output.style.colours;
   switch (colours.what) {
     case ColourBy::What::measure:
       return "measure";
@@ -190,7 +200,9 @@ std::string colour_name(const ColourBy& colours) {
     case ColourBy::What::neighbors:
       return "neighbors";
     case ColourBy::What::column:
-      return colours.column.name;
+      for (const KeptColumn& column : page_columns(output).columns())
+        if (is_chosen(column, colours)) return column.name;
+      break;
     case ColourBy::What::hues:
       break;
   }
@@ -201,6 +213,8 @@ std::string colour_name(const ColourBy& colours) {
 
 void write_view_data(AtomicFile& file, const DiagramOutput& output, const std::string& title,
                      const std::string& path) {
+  if (std::endian::native != std::endian::little)
+    throw Error(ErrorCode::unsupported, path + ": pages are written on little-endian machines; use .vtu");
   const ViewMesh mesh = view_mesh(output);
   require_drawable(mesh, path);
   const Measures& measures = output.measures;
@@ -224,8 +238,7 @@ void write_view_data(AtomicFile& file, const DiagramOutput& output, const std::s
   for (int k = 0; k < steps_of_scale; ++k)
     diagram["scale"].push_back(hex(scale_colour(k / (steps_of_scale - 1.0))));
   for (const Colour& colour : class_colours(most_classes)) diagram["palette"].push_back(hex(colour));
-  if (const std::string colour = colour_name(output.style.colours); !colour.empty())
-    diagram["colour"] = colour;
+  if (const std::string colour = colour_name(output); !colour.empty()) diagram["colour"] = colour;
   diagram["arrays"] = arrays.described();
   file.write("<script type=\"application/json\" id=\"diagram\">" + embedded(diagram) + "</script>\n");
   arrays.write(file);

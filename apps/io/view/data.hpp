@@ -20,6 +20,8 @@ constexpr std::size_t most_in_view = std::size_t{2048} * 4096;
 ///
 ///     <script type="application/json" id="diagram">{"powercell": version, "title", "kind", "dimension",
 ///       "seeds": n, "check": {"cells", "hidden", "duplicate", "measure", "domain_measure"},
+///       "colour": what cells are coloured by at first, if not to tell them apart, "scale": the colours of
+///       numbers, from the least on, "palette": those of classes, in the order of their texts, as "#rrggbb",
 ///       "frame": {"offset", "scale"}, "map": the plane's definition, if there is one,
 ///       "columns": [{"name", "type": "number" or "text", "values": the different texts}],
 ///       "arrays": {NAME: {"type", "count"}}}</script>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "apps/io/picture_normals.hpp"
 
@@ -130,24 +131,18 @@ bool is_in_place(const JoinedCells& joined, std::uint64_t face) {
   return joined.shift.empty() || joined.shift[face] == std::array<std::int32_t, 3>{};
 }
 
-bool has_wall_with(const JoinedCells& joined, std::size_t cell, std::size_t neighbor) {
-  for (std::uint64_t f = joined.face_offset[cell]; f < joined.face_offset[cell + 1]; ++f) {
-    const Border& border = joined.face_border[f];
-    if (border.kind == Border::Kind::wall && border.index == neighbor && is_in_place(joined, f)) return true;
-  }
-  return false;
-}
-
 ViewMesh mesh_of_volume(const DiagramOutput& output) {
   const JoinedCells& joined = output.joined;
   MeshMaker maker(output, joined.vertices.size());
   maker.with_outer();
+  std::unordered_set<std::uint64_t> drawn;  // pairs of cells, the lower number first
   for (std::size_t i = 0; i + 1 < joined.face_offset.size(); ++i)
     for (std::uint64_t f = joined.face_offset[i]; f < joined.face_offset[i + 1]; ++f) {
       const Border& border = joined.face_border[f];
       const bool shared = border.kind == Border::Kind::wall && is_in_place(joined, f);
       // The cell of lower number has the wall, unless rounding took it from there.
-      if (shared && border.index < i && has_wall_with(joined, border.index, i)) continue;
+      if (shared && border.index < i && drawn.contains(std::uint64_t{border.index} << 32 | i)) continue;
+      if (shared && border.index > i) drawn.insert(std::uint64_t{i} << 32 | border.index);
       for (std::uint64_t e = joined.loop_offset[f]; e < joined.loop_offset[f + 1]; ++e)
         maker.corner(&joined.vertices[3 * (joined.vertex_offset[i] + joined.loop[e])]);
       maker.end_face(i, shared ? static_cast<std::int32_t>(border.index) : -1);

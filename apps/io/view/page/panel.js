@@ -120,7 +120,9 @@ export class Panel {
     byId("scale").querySelector("[value=log]").disabled = !legend.positive;
     const box = byId("legend");
     box.replaceChildren();
-    if (legend.kind === "scale") {
+    if (legend.kind === "scale" && legend.ticks.length === 0) {
+      box.append(make("p", "no cell has a value"));
+    } else if (legend.kind === "scale") {
       const bar = make("div", "", { class: "bar", role: "img", "aria-label": `from ${legend.ticks[0]} to ${legend.ticks.at(-1)}` });
       bar.style.background = `linear-gradient(to right, ${legend.stops.join(", ")})`;
       const ticks = make("div", "", { class: "ticks" });

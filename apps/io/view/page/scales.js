@@ -66,23 +66,32 @@ export function colourNumbers(values, kind, isCell, scale) {
   return { colours, legend: { kind: "scale", stops, ticks: n > 0 ? ticks.map(shortNumber) : [], missing, positive } };
 }
 
-/** Colours cells by classes: indices of `names`. The most frequent have colours of their own. */
+const order = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
+const isColour = (text) => /^#([0-9a-f]{3}|[0-9a-f]{6})$/i.test(text);
+const inFull = (text) => (text.length === 4 ? `#${[1, 2, 3].map((k) => text[k] + text[k]).join("")}` : text);
+
+/**
+ * Colours cells by classes: indices of `names`, which may be colours themselves. Else the most frequent have colours of their
+ * own, in the order of their names.
+ */
 export function colourClasses(indices, names, isCell, palette) {
   const counts = new Array(names.length).fill(0);
   indices.forEach((index, cell) => isCell(cell) && ++counts[index]);
-  const order = names.map((_, k) => k).filter((k) => counts[k] > 0);
-  order.sort((a, b) => counts[b] - counts[a] || a - b);
-  const own = order.slice(0, palette.length);
-  const colourOf = new Map(own.map((index, k) => [index, fromHex(palette[k])]));
+  const frequent = names.map((_, k) => k).filter((k) => counts[k] > 0 && names[k] !== "");
+  frequent.sort((a, b) => counts[b] - counts[a] || a - b);
   const colours = new Uint8Array(3 * indices.length);
-  indices.forEach((index, cell) => colours.set(colourOf.get(index) ?? NEUTRAL, 3 * cell));
-  const entries = own.map((index, k) => ({ colour: palette[k], name: names[index] || "(empty)", count: counts[index] }));
-  const others = order.slice(own.length);
-  if (others.length > 0)
-    entries.push({
-      colour: hex(NEUTRAL),
-      name: others.length === 1 ? names[others[0]] || "(empty)" : `${others.length} others`,
-      count: others.reduce((sum, index) => sum + counts[index], 0),
-    });
+  const paint = (colourOf) => indices.forEach((index, cell) => colours.set(colourOf.get(index) ?? NEUTRAL, 3 * cell));
+  if (frequent.length > 0 && frequent.every((k) => isColour(names[k]))) {
+    paint(new Map(frequent.map((index) => [index, fromHex(inFull(names[index]))])));
+    return { colours, legend: { kind: "classes", entries: [] } };
+  }
+  const own = frequent.slice(0, palette.length).sort((a, b) => order(names[a], names[b]));
+  paint(new Map(own.map((index, k) => [index, fromHex(palette[k])])));
+  const entries = own.map((index, k) => ({ colour: palette[k], name: names[index], count: counts[index] }));
+  const others = frequent.slice(own.length);
+  const sum = (list) => list.reduce((total, index) => total + counts[index], 0);
+  if (others.length > 0) entries.push({ colour: hex(NEUTRAL), name: `${others.length} others`, count: sum(others) });
+  const empty = names.map((_, k) => k).filter((k) => counts[k] > 0 && names[k] === "");
+  if (empty.length > 0) entries.push({ colour: hex(NEUTRAL), name: "(empty)", count: sum(empty) });
   return { colours, legend: { kind: "classes", entries } };
 }
