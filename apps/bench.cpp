@@ -166,6 +166,7 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--describe", arguments.description,
                   "Words to keep in the file of --json, about the machine and so on")
+      ->needs("--json")
       ->type_name("TEXT")
       ->default_str("none");
   CLI::Option* compare =

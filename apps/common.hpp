@@ -49,7 +49,7 @@ void add_threads_option(CLI::App& command, CommonOptions& options, const std::st
 void add_output_options(CLI::App& command, CommonOptions& options);
 /// Adds --neighbors, --decisions, --certify and --threads.
 void add_engine_options(CLI::App& command, CommonOptions& options);
-/// Adds --device, --precision, --neighbors, --decisions, --threads, --json and --quiet.
+/// Adds --device, --precision, --neighbors, --decisions, --certify, --threads, --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// The library's options for these, with interruption (see interrupt.hpp).

@@ -16,7 +16,8 @@ namespace {
 
 bool log_is_wanted() {
   const char* wish = std::getenv("POWERCELL_LOG");
-  return wish && *wish;
+  const std::string_view level = wish ? wish : "";
+  return level == "info" || level == "detail";
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ Compiling::Compiling(Progress& progress, std::string device, std::size_t program
   if (!follows_) return;
   set_log([this](LogLevel, std::string_view line) {
     if (line.find(" built in ") == std::string_view::npos) return;
-    ++begun_;
+    ++built_;
     say();
   });
 }
@@ -42,8 +43,8 @@ Compiling::~Compiling() {
 // Called by one thread at a time, by that of the log.
 void Compiling::say() {
   // Larger variants for cells of many faces are built only where such cells occur.
-  progress_.building(fmt::format("compiling kernels, {} of {}, once for {}", begun_.load(),
-                                 std::max(all_, begun_.load()), device_));
+  progress_.building(fmt::format("compiling kernels, {} of {}, once for {}", built_.load(),
+                                 std::max(all_, built_.load()), device_));
   if (silent_ || said_ || isatty(STDERR_FILENO) != 0 || kernel_builds().seconds < noticeable_build) return;
   said_ = true;
   progress_.aside([&] {

@@ -20,7 +20,7 @@ class Compiling {
   Compiling(const Compiling&) = delete;
   Compiling& operator=(const Compiling&) = delete;
 
-  std::size_t programs() const { return begun_; }
+  std::size_t programs() const { return built_; }
 
  private:
   void say();
@@ -29,7 +29,7 @@ class Compiling {
   std::string device_;
   std::size_t all_;
   bool silent_, said_ = false, follows_;
-  std::atomic<std::size_t> begun_{0};
+  std::atomic<std::size_t> built_{0};
 };
 
 }  // namespace powercell::app

@@ -23,11 +23,9 @@ void check_size(const AnnouncedImage& image, const std::string& name) {
 GrayImage parse_image(std::string_view bytes, const std::string& name, bool colours) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return parse_png(bytes, name, colours);
   if (bytes.starts_with("\xff\xd8\xff")) return parse_jpeg(bytes, name, colours);
-  const std::filesystem::path file(name);
-  fail_file(name, fmt::format(
-                      "not a PNG or JPEG picture; convert it, for instance with 'convert {} {}'",
-                      printable(file.filename().string()),
-                      printable(std::filesystem::path(file).replace_extension(".png").filename().string())));
+  fail_file(name,
+            fmt::format("not a PNG or JPEG picture; convert it, for instance with 'convert {} converted.png'",
+                        printable(std::filesystem::path(name).filename().string())));
 }
 
 GrayImage read_image(const std::string& path, bool colours) {

@@ -203,9 +203,10 @@ NamedTree parse_tree_json(std::string_view text, const std::string& name, const 
   NamedTree tree =
       document.is_array() ? read_list(document, name, named) : Nested(name, named).read(document);
   const auto refuse = [&](const char* option, const std::string& wanted) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} {}: no node of {} has a member of that name{}", option, readable(wanted),
-                            readable(name), did_you_mean(closest(wanted, members_of(document)))));
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("{} {}: no node of {} has a value in a member of that name{}", option, readable(wanted),
+                    readable(name), did_you_mean(closest(wanted, members_of(document)))));
   };
   const auto& given = tree.colour;
   if (!named.colours.empty() &&

@@ -242,7 +242,6 @@ SharedCells separate_cells(const DiagramOutput& output, std::string fault) {
   separate.face_border = joined.face_border;
   separate.edge_border = joined.edge_border;
   separate.shift = joined.shift;
-  for (std::uint64_t f = 0; f < joined.face_border.size(); ++f) separate.twin.push_back(f);
   return separate;
 }
 

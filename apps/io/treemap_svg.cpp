@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/picture_text.hpp"
 #include "apps/io/printable.hpp"
 #include "apps/io/treemap_scene.hpp"
 
@@ -33,12 +34,12 @@ class Drawing {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.6g} {1:.6g}\" width=\"{0:.6g}\" "
         "height=\"{1:.6g}\">\n<title>{2}</title>\n<desc>{3}</desc>\n"
         "<style>path{{stroke-linejoin:round;stroke:{4}}}.g{{fill:none}}"
-        "text{{font-family:'DejaVu Sans',Verdana,sans-serif;text-anchor:middle;dominant-baseline:central;"
+        "text{{font-family:{7};text-anchor:middle;dominant-baseline:central;"
         "fill:{5};pointer-events:none}}.l{{fill:{4}}}.b{{font-weight:bold;paint-order:stroke;stroke:{4};"
         "stroke-opacity:{6:.3g}}}"
         "path:hover{{fill-opacity:.75}}</style>\n",
         scene_.width, scene_.height, xml_text(scene_.title), xml_text(scene_.description), hex(paper),
-        hex(ink), halo_opacity));
+        hex(ink), halo_opacity, font_families));
     if (std::any_of(scene_.cells.begin(), scene_.cells.end(), [](const auto& cell) { return cell.striped; }))
       file_.write(stripes_svg(scene_.stripes));
     for (std::size_t k = 0; k < scene_.cells.size(); ++k) {

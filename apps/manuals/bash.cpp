@@ -42,7 +42,7 @@ constexpr const char* bash_start =
 _powercell() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]}
   local command='' options='' words='' files='' value='' i
-  # Bash takes --option=value apart.
+  # Bash splits --option=value into three words.
   if [[ $cur == '=' ]]; then
     cur=''
   elif [[ $prev == '=' ]] && ((COMP_CWORD > 1)); then

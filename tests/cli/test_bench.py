@@ -140,7 +140,7 @@ class Bench(ToolTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("0.333 of the rate in new.json, below --fail-below 0.9", done.stderr)
         self.assertEqual(self.good(*compare, "--quiet").stdout, "")
-        for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--describe", "x"], ["--domain", "cube"]):
+        for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--json", "a.json", "--describe", "x"], ["--domain", "cube"]):
             self.bad(2, f"measures nothing; leave {option[0]} out", *compare, *option)
         for row in record["rows"]:
             row["domain"] = "elsewhere"

@@ -243,7 +243,7 @@ class Treemap(unittest.TestCase):
         self.write("h.csv", "r,,root,\na,r,a,1\n")
         self.refused("h.csv has no header", 1, "h.csv", "--color-by", "x", *svg)
         self.write("n.json", json.dumps({"name": "r", "value": 1}))
-        self.refused("no node of n.json has a member of that name", 1, "n.json", "--color-by", "x", *svg)
+        self.refused("no node of n.json has a value in a member of that name", 1, "n.json", "--color-by", "x", *svg)
         self.write("m.json", json.dumps({"name": "r", "value": 1, "x": [1]}))
         self.refused("'r': its colour is neither a string nor a number", 1, "m.json", "--color-by", "x", *svg)
         self.refused("is a folder, which has no columns", 1, ".", "--color-by", "x", *svg)
@@ -337,7 +337,7 @@ class Treemap(unittest.TestCase):
                      "--value-column", 1, "h.csv", "-o", "t.svg")
         self.write("n.json", json.dumps({"name": "r", "children": [{"name": "a", "people": 3}, {"name": "b", "people": 1}]}))
         self.good("n.json", "--value-column", "people", "-o", "n.svg")
-        self.refused("no node of n.json has a member of that name; did you mean people?", 1, "n.json", "--value-column", "peple",
+        self.refused("no node of n.json has a value in a member of that name; did you mean people?", 1, "n.json", "--value-column", "peple",
                      "-o", "t.svg")
         self.refused("--value-column x: . is a folder", 1, ".", "--value-column", "x", "-o", "t.svg")
 
