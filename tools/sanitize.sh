@@ -1,8 +1,9 @@
 #!/bin/sh
 # Runs tests under AddressSanitizer and UndefinedBehaviorSanitizer (preset asan, built in build/asan with clang).
 #
-#   tools/sanitize.sh            the host tests, as continuous integration does
+#   tools/sanitize.sh            the tests of files, memory and devices, as continuous integration does
 #   tools/sanitize.sh TEST...    folders of tests/, for example exact diagram
+#   tools/sanitize.sh host       every test in which most of the time is the host's; twice as long
 #   tools/sanitize.sh all        every test, the slow ones and the tool's too
 #
 # JOBS: the number of tests at a time (default: all cores).
@@ -10,10 +11,12 @@ set -eu
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
 
-# Folders in which most of the time is the host's, and those of the device layer. The others (diagram, device_diagram,
-# transport, sampling, determinism, faults) take twice as long together, most of it in kernels, which are not sanitized.
-host="exact pairs density remeshing treemap fuzz laws neighbors verify domain readers writers linear
-  clip collect hostile primitives seeds cl c_api base report"
+# Tests that read bytes of others, share memory with the caller or hand it to a device.
+memory="readers writers report treemap remeshing fuzz domain seeds linear density
+  clip collect hostile primitives cl c_api base"
+# Those of arithmetic besides; exact has CGAL to compile. The others (diagram, device_diagram, transport, sampling,
+# determinism, faults) take twice as long together, most of it in kernels, which are not sanitized.
+host="$memory exact pairs laws neighbors verify"
 
 cmake --preset asan --log-level=WARNING
 case ${1-} in
@@ -21,7 +24,8 @@ case ${1-} in
     cmake --build --preset asan --parallel "$jobs"
     # load measures memory, which the sanitizer keeps; oclgrind has a runtime of its own.
     exec ctest --preset asan --parallel "$jobs" -E '^(load|oclgrind)$' ;;
-  "") tests=$host ;;
+  "") tests=$memory ;;
+  host) tests=$host ;;
   *) tests=$* ;;
 esac
 # shellcheck disable=SC2046,SC2086 # the lists are meant to be split

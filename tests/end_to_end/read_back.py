@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs `powercell diagram` on the shipped inputs with 5,000 weighted seeds each and reads every file
+"""Runs `powercell diagram` on the shipped inputs with 1,500 weighted seeds each and reads every file
 it writes back with other programs: VTK, meshio, an XML parser, librsvg, GEOS through shapely, a PDF
 renderer. The sum of the measures found in each file must equal the domain's, which is measured here
 from the input file alone.
@@ -27,7 +27,7 @@ except ImportError as missing:
     print("skipped:", missing)
     sys.exit(77)
 
-SEEDS = 5000
+SEEDS = 1500
 TOLERANCE = {"double": 1e-12, "float": 1e-5}
 failures = []
 

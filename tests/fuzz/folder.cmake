@@ -1,6 +1,13 @@
 # The replay of the corpora is an ordinary test; the fuzzers themselves are built by the preset `fuzz` alone.
-set(library powercell_commands)  # files that commands read, and powercell_io
+set(library powercell_io)
 find_package(OpenCL REQUIRED)  # device_diagrams.cpp has a context of its own
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+# Readers of the commands' own files, compiled here so that the sanitizers' build is without the commands.
+set(command_readers saved bench/saved_record bench/record bench/work)
+list(TRANSFORM command_readers REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/\\1.cpp")
+target_sources(test_fuzz PRIVATE ${command_readers})
+target_link_libraries(test_fuzz PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
 target_link_libraries(test_fuzz PRIVATE OpenCL::OpenCL)
 target_compile_definitions(test_fuzz PRIVATE POWERCELL_FUZZ_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}/fuzz")
 # What tools/keep_reached.sh kept, unpacked beside the tests.
@@ -16,8 +23,8 @@ endforeach()
 if(POWERCELL_FUZZ)
   file(GLOB fuzz_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cpp)
   list(FILTER fuzz_sources EXCLUDE REGEX "/replay\\.cpp$")
-  add_library(powercell_fuzz_support STATIC EXCLUDE_FROM_ALL ${fuzz_sources})
-  target_link_libraries(powercell_fuzz_support PUBLIC powercell_commands OpenCL::OpenCL)
+  add_library(powercell_fuzz_support STATIC EXCLUDE_FROM_ALL ${fuzz_sources} ${command_readers})
+  target_link_libraries(powercell_fuzz_support PUBLIC powercell_io fmt::fmt nlohmann_json::nlohmann_json OpenCL::OpenCL)
   add_custom_target(powercell_fuzz_targets)
   # A target for each folder of inputs, of the function of that name in targets.hpp.
   file(GLOB targets RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus CONFIGURE_DEPENDS

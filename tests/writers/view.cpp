@@ -78,7 +78,7 @@ class PageData {
     std::vector<T> values(count);
     const std::string bytes = content(name, count * sizeof(T));
     REQUIRE(bytes.size() == count * sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
+    if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
 
