@@ -53,6 +53,11 @@ POWERCELL_API pc_status pc_device_diagram_device(const pc_device_diagram* diagra
  * waits for the queue once to read their number. It waits in no other case. */
 POWERCELL_API pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32_t pairs);
 
+/** The room for walls of pieces while rows are made of them; at most 2^31. Seeds whose walls exceed it are
+ * unfinished. With 0, the default, there is room for more than seeds have on average
+ * (powercell::DeviceDiagram). */
+POWERCELL_API pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* diagram, uint32_t walls);
+
 /** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context
  * of the device and must not change between the wait list and `done`.
  * \param positions  read: n x d reals, row-major
@@ -67,6 +72,20 @@ POWERCELL_API pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl
                                                   cl_mem weights, uint32_t n, cl_mem measures, cl_mem status,
                                                   cl_uint wait_count, const cl_event* wait_list,
                                                   cl_event* done);
+
+/** The pairs of cells that share a wall, as compressed sparse rows in the caller's buffers. */
+typedef struct pc_device_adjacency {
+  cl_mem offset;   /**< written: n + 1 cl_uint; right also where the next two are too small */
+  cl_mem neighbor; /**< written: cl_uint each, ascending within a row */
+  cl_mem wall; /**< written: a real each, the length or area. Rows that end beyond the entries that fit both
+                    buffers are not written, the others are whole */
+} pc_device_adjacency;
+
+/** The same with the adjacency, in the same pass. Which walls that rounding may have decided are kept is said
+ * at powercell::DeviceDiagram::enqueue. */
+POWERCELL_API pc_status pc_device_diagram_enqueue_adjacency(
+    pc_device_diagram* diagram, cl_mem positions, cl_mem weights, uint32_t n, cl_mem measures, cl_mem status,
+    const pc_device_adjacency* adjacency, cl_uint wait_count, const cl_event* wait_list, cl_event* done);
 
 #ifdef __cplusplus
 }

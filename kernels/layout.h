@@ -48,12 +48,19 @@
 #define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 #define OUTPUT_REACH 16   /* the distance of the farthest vertex from the seed */
 #define OUTPUT_FACETS 32  /* the facets of the region among the walls, as with geometry */
+#define OUTPUT_SIDES \
+  64 /* measures of walls, left in the cell for the caller (kernels/diagram/clip_pairs.cl) */
 
 /* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it
    is a plane of the boundary of the domain (kernels/clip/by_cell.cl). */
 #define BORDER_PLANE (1 << 30)
 /* Reals of such a plane: q (3), dw and error of 2 q.y = |q|^2 + dw. */
 #define PLANE_REALS 5
+
+/* Where decisions are left to rounding: a wall that only one of two cells has is no wall if it is at most
+   this part of the largest wall of either. */
+#define NEGLIGIBLE_WALL_DOUBLE 1e-9
+#define NEGLIGIBLE_WALL_FLOAT 1e-3f
 
 /* The polyhedron a volume region starts as: a 3-regular graph. Seen from outside, the neighbours
    next[0..2][v] of vertex v go counter-clockwise, and face[k][v] lies between next[k][v] and

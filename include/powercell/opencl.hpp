@@ -28,9 +28,20 @@ enum class DeviceSeedStatus : std::uint32_t {
   unfinished = 4,  ///< only the host can compute its cell (see DeviceDiagram); the others are right
 };
 
-/// Power diagrams from device memory to device memory: seeds and measures are cl_mem, and nothing is copied
-/// to the host in between. Calls enqueue on the queue of the device (device_from_queue) and return without
-/// waiting for it, with one exception (set_pair_capacity).
+/// The pairs of cells that share a wall inside the domain, as compressed sparse rows in buffers of the
+/// caller, of the context of the device. As Adjacency: j is in row i with the same measure as i in row j.
+struct DeviceAdjacency {
+  /// Written: n + 1 cl_uint; row i is [offset[i], offset[i+1]). Right also where the next two are too small.
+  cl_mem offset = nullptr;
+  cl_mem neighbor = nullptr;  ///< written: cl_uint each, ascending within a row
+  /// Written: a real each, the length (polygon, surface) or area (volume) of the wall. There is room for as
+  /// many entries as fit both buffers. Rows that end beyond it are not written, the others are whole.
+  cl_mem wall = nullptr;
+};
+
+/// Power diagrams from device memory to device memory: seeds, measures and walls are cl_mem, and nothing is
+/// copied to the host in between. Calls enqueue on the queue of the device (device_from_queue) and return
+/// without waiting for it, with one exception (set_pair_capacity).
 ///
 /// Scratch memory is kept from call to call and reused in the order of the queue. Not thread-safe; use one
 /// object per thread. Results do not depend on the sizes of work-groups and launches, bit for bit.
@@ -63,6 +74,12 @@ class POWERCELL_API DeviceDiagram {
   /// no other case.
   void set_pair_capacity(std::uint32_t pairs);
 
+  /// The room for walls of pieces while rows are made of them, 12 bytes and 2 reals each; at most 2^31. Seeds
+  /// whose walls exceed it are `unfinished`. With 0, the default, there is room for more than all that seeds
+  /// of which most have a cell need: in a domain of one region 8 (plane) or 20 (space) for each seed, else 6
+  /// or 16 for each pair.
+  void set_wall_capacity(std::uint32_t walls);
+
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the
   /// caller's, of the context of the device, and must not change between the wait list and `done`.
   /// \param positions  read: n x d reals, row-major
@@ -80,6 +97,12 @@ class POWERCELL_API DeviceDiagram {
   ///   out_of_device_memory, opencl
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                cl_uint wait_count = 0, const cl_event* wait_list = nullptr, cl_event* done = nullptr);
+  /// The same with the adjacency, in the same pass. The two sides of a wall are averaged; a wall that only
+  /// one cell has is left out as rounding if it is small beside the largest wall of both (10^-9 in double
+  /// precision, 10^-3 in single), else both cells have it. Only seeds whose status is ok have walls.
+  void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
+               const DeviceAdjacency& adjacency, cl_uint wait_count = 0, const cl_event* wait_list = nullptr,
+               cl_event* done = nullptr);
 
   struct State;  ///< library-internal
 

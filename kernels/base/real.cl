@@ -64,10 +64,12 @@ typedef real stored_real;
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
 #define LEAST_FILLING ((real)0.05)
 #define MOST_BLUR 1
+#define NEGLIGIBLE_WALL NEGLIGIBLE_WALL_FLOAT
 #else
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_DOUBLE))
 #define LEAST_FILLING 0
 #define MOST_BLUR (REAL_MAX / 4)
+#define NEGLIGIBLE_WALL NEGLIGIBLE_WALL_DOUBLE
 #endif
 
 /* The difference of two weights, and d = a - b by coordinates. Far from the origin too, both are exact to the

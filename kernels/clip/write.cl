@@ -50,7 +50,8 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
   real moments[2 + DIMENSION];
   const bool geometry = (out.wanted & OUTPUT_GEOMETRY) != 0,
              rows = geometry || (out.wanted & OUTPUT_WALLS) != 0,
-             all = geometry || (out.wanted & OUTPUT_FACETS) != 0;
+             all = geometry || (out.wanted & OUTPUT_FACETS) != 0,
+             sides = rows || (out.wanted & OUTPUT_SIDES) != 0;
   bool certain = cell->at.gap > 0;
   UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
   if (status == PIECE_DONE) {
@@ -59,7 +60,7 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     if (out.wanted & OUTPUT_REACH) out.reach[row] = (stored_real)cell->at.radius;
     cell_finish(cell, !certain);
     certain = certain || done_is_certain(cell);
-    cell_moments(cell, rows, moments);
+    cell_moments(cell, sides, moments);
     certain = certain && measure_is_good(cell, moments[0]);
     if (cell_is_flat(cell, moments[0])) {
       status = PIECE_FLAT;

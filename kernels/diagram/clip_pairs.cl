@@ -2,22 +2,50 @@
 #include "clip/arguments.cl"
 #include "neighbors/search.cl"
 
+/* The walls of pieces, in any order of the pieces: used[0] entries are taken. */
+typedef struct {
+  uint capacity; /* entries; 0 where no walls are wanted. Beyond it pieces count as those that do not fit */
+  volatile __global uint* used;
+  __global uint *first, *size; /* of each pair */
+  __global int* border;
+  __global stored_real* wall;
+} wall_store_t;
+
+/* Adds the walls of a clipped cell; returns whether there was room. Where they are does not change results:
+   rows are gathered by pair. */
+static inline bool store_walls(cell_t* cell, wall_store_t store, uint pair) {
+  const uint count = (uint)cell_write_walls(cell, false, 0, 0);
+  store.size[pair] = 0;
+  if (count == 0) return true;
+  /* Read first, so that the number of pieces without room cannot bring it beyond what it can count to. */
+  const uint first = *store.used <= store.capacity ? atomic_add(store.used, count) : store.capacity;
+  if (count > store.capacity || first > store.capacity - count) return false;
+  cell_write_walls(cell, false, store.border + first, store.wall + first);
+  store.first[pair] = first;
+  store.size[pair] = count;
+  return true;
+}
+
 /* Work-item t takes entry first + t of the pairs, or of `list` where `listed`, if it is below `end` and
    below their number: offset[seed_count] pairs, found[0] listed ones. Writes status and moments by
-   pair. */
+   pair, and walls where `wall_capacity` is not 0. */
 __kernel void clip_pairs(const uint first, const uint end, __global const ulong* offset, const int listed,
                          __global const uint* list, __global const uint* found,
                          __global const uint* pair_seed, __global const uint* pair_region,
                          __global const uint* state, __global const seed_t* corners,
                          __global const uint* region_offset, __global const uint* region_vertex,
                          __global const int* behind, __global const region_shape_t* shape,
-                         __global uint* status, __global stored_real* moments, TREE_ARGUMENTS) {
+                         __global uint* status, __global stored_real* moments, const uint wall_capacity,
+                         volatile __global uint* used, __global uint* piece_first, __global uint* piece_size,
+                         __global int* border, __global stored_real* wall, TREE_ARGUMENTS) {
   const uint entry = first + (uint)get_global_id(0);
   if (entry >= end || entry >= (listed ? (ulong)found[0] : offset[seed_count])) return;
   const uint pair = listed ? list[entry] : entry, i = pair_seed[pair];
   const tree_t tree = TREE_OF_ARGUMENTS;
   const blocks_t blocks = BLOCKS_OF_ARGUMENTS;
-  const output_t out = {OUTPUT_MOMENTS, moments, 0, 0, 0, 0, 0, 0, 0};
+  const wall_store_t store = {wall_capacity, used, piece_first, piece_size, border, wall};
+  const output_t out = {
+      OUTPUT_MOMENTS | (wall_capacity > 0 ? OUTPUT_SIDES : 0), moments, 0, 0, 0, 0, 0, 0, 0};
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   cell_t cell;
   int result = state[i] == SEED_OK ? PIECE_DONE : PIECE_EMPTY;
@@ -26,5 +54,13 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
   else
     cell.at.gap = 1; /* not even started, and certainly empty */
   if (result == PIECE_DONE) result = clip_by_tree(&cell, tree, blocks, i);
-  status[pair] = (uint)write_piece(&cell, out, result, pair, 0);
+  result = write_piece(&cell, out, result, pair, 0);
+  if (wall_capacity > 0) {
+    const int piece = result & ~PIECE_UNCERTAIN;
+    if (piece != PIECE_DONE && piece != PIECE_FLAT)
+      piece_size[pair] = 0;
+    else if (!store_walls(&cell, store, pair))
+      result = PIECE_FULL;
+  }
+  status[pair] = (uint)result;
 }

@@ -71,6 +71,23 @@ pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32
   return guarded([&] { diagram_in(diagram).set_pair_capacity(pairs); });
 }
 
+pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* diagram, uint32_t walls) {
+  return guarded([&] { diagram_in(diagram).set_wall_capacity(walls); });
+}
+
+pc_status pc_device_diagram_enqueue_adjacency(pc_device_diagram* diagram, cl_mem positions, cl_mem weights,
+                                              uint32_t n, cl_mem measures, cl_mem status,
+                                              const pc_device_adjacency* adjacency, cl_uint wait_count,
+                                              const cl_event* wait_list, cl_event* done) {
+  return guarded([&] {
+    DeviceDiagram& target = diagram_in(diagram);
+    const pc_device_adjacency& rows = checked(adjacency, "adjacency");
+    require(wait_count == 0 || wait_list != nullptr, "wait_list is NULL");
+    target.enqueue(positions, weights, n, measures, status, {rows.offset, rows.neighbor, rows.wall},
+                   wait_count, wait_list, done);
+  });
+}
+
 pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl_mem positions, cl_mem weights, uint32_t n,
                                     cl_mem measures, cl_mem status, cl_uint wait_count,
                                     const cl_event* wait_list, cl_event* done) {

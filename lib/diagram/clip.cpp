@@ -23,8 +23,6 @@ constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
 /// Of a margin that must be widened, against rounding.
 constexpr double more_than_needed = 1.001;
-/// With fast decisions, a one-sided wall below this fraction of its cell's largest wall is rounding.
-constexpr double negligible_double = 1e-9, negligible_float = 1e-3;
 
 int outputs_of(Wanted want, bool walls) {
   return OUTPUT_MOMENTS | (walls ? OUTPUT_WALLS : 0) | (want.cells ? OUTPUT_GEOMETRY : 0);
@@ -322,7 +320,7 @@ Clipped Pass::finish() {
   if (plan_.unrestricted) results.unclear = classify_unrestricted_cells(setup_, seeds, plan_.pairs, measures);
   if (!results.unclear.empty()) return results;
   const double unit = setup_.on_device.frame().unit(setup_.domain.cell_dimension() - 1);
-  const double negligible = exact_ ? 0 : setup_.float32() ? negligible_float : negligible_double;
+  const double negligible = exact_ ? 0 : setup_.float32() ? NEGLIGIBLE_WALL_FLOAT : NEGLIGIBLE_WALL_DOUBLE;
   if (selected_walls_)
     results.adjacency = selected_walls_->finish(seeds.input, measures.status, unit);
   else if (periodic_walls_)

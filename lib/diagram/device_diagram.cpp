@@ -25,6 +25,10 @@ static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished))
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
+std::size_t real_bytes(Precision precision) {
+  return precision == Precision::float32 ? sizeof(float) : sizeof(double);
+}
+
 Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity};
 }
@@ -53,7 +57,8 @@ void run_golden(DeviceDiagram::State& state, const Variant& variant) {
   cl::Buffer<std::uint32_t> status(state.device.context());
   measures.resize(n * columns);
   status.resize(n);
-  state.enqueue(positions.handle(), weights.handle(), n, measures.handle(), status.handle(), nullptr);
+  state.enqueue(positions.handle(), weights.handle(), n, measures.handle(), status.handle(), nullptr, 0,
+                nullptr);
   const std::vector<Real> rows = measures.download();
   for (std::uint32_t i = 0; i < n; ++i)
     require_golden(*state.device.context(), clip_file, variant, seeds.input[i], rows[i * columns]);
@@ -83,6 +88,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       blocks_(device.context(), variant(domain, precision, {1, 1}),
               std::make_shared<BlockBuffers>(device.context())),
       pairs_(domain_buffers, plain_defines(domain, precision)),
+      walls_(device.context(), plain_defines(domain, precision), real_bytes(precision)),
       compaction_(device.context()),
       finish_(device.context(),
               device.context()->program("diagram/finish.cl", plain_defines(domain, precision)),
@@ -154,18 +160,27 @@ void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uin
                          seeds_.state, domain_buffers.corners, domain_buffers.region_offset,
                          domain_buffers.region_vertex, domain_buffers.behind, domain_buffers.shape,
                          piece_status_, moments_);
+    walls_.append_store(clip_[capacity]);
     blocks_.append_arguments(clip_[capacity], device_tree(n));
     clip_[capacity].submit(end - first);
   }
 }
 
+std::uint32_t DeviceDiagram::State::stored_walls() const {
+  if (wall_capacity > 0) return wall_capacity;
+  // More than pieces have on average; a cell in several pieces has a row besides.
+  const bool volume = domain.cell_dimension() == 3, whole = domain.region_count() == 1;
+  const std::uint64_t each = volume ? (whole ? 20 : 16) : (whole ? 8 : 6);
+  return static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(each * pairs_.capacity, 4096, DeviceWalls::most_entries));
+}
+
 void DeviceDiagram::State::clip(std::uint32_t n) {
-  const std::size_t real = precision == Precision::float32 ? sizeof(float) : sizeof(double);
   const auto d = static_cast<std::size_t>(domain.dimension());
   piece_status_.resize(pairs_.capacity);
   list_.resize(pairs_.capacity);
   found_.resize(1);
-  moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real);
+  moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real_bytes(precision));
   piece_status_.zero();
   clip_with(first_capacity, false, n);
   for (std::size_t capacity = first_capacity + 1; capacity < clip_.size(); ++capacity) {
@@ -175,16 +190,20 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
 }
 
 void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures,
-                                   cl_mem status, cl_event* done) {
+                                   cl_mem status, const DeviceAdjacency* adjacency, std::uint32_t room,
+                                   cl_event* done) {
   seeds_.enqueue(frame_.handle(), positions, weights, n);
   tree_.enqueue(seeds_.points.handle(), seeds_.points.handle(), n);
   blocks_.enqueue(device_tree(n));
   pairs_.enqueue(seeds_, tree_, n, pair_capacity);
+  adjacency ? walls_.begin(stored_walls(), pairs_.capacity, n) : walls_.begin_without();
   clip(n);
+  if (adjacency) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, *adjacency);
   finish_
       .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,
             frame_, positions, measures, status)
-      .submit(n, 0, done);
+      .submit(n, 0, adjacency ? nullptr : done);
+  if (adjacency) walls_.write(status, frame_.handle(), n, *adjacency, room, done);
 }
 
 }  // namespace powercell

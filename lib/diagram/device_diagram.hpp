@@ -4,6 +4,7 @@
 
 #include <powercell/opencl.hpp>
 
+#include "lib/diagram/device_walls.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
 #include "lib/pairs/device_pairs.hpp"
 #include "lib/primitives/compaction.hpp"
@@ -13,8 +14,9 @@ namespace powercell {
 struct DeviceDiagram::State {
   State(Device device, Domain domain, Options options);
 
+  /// \param adjacency  null where it is not wanted  \param room  of its rows, entries
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
-               cl_event* done);
+               const DeviceAdjacency* adjacency, std::uint32_t room, cl_event* done);
 
   Device device;
   Domain domain;
@@ -22,6 +24,7 @@ struct DeviceDiagram::State {
   Precision precision;
   DomainBuffers domain_buffers;
   std::uint32_t pair_capacity = 0;  // 0: as many as needed
+  std::uint32_t wall_capacity = 0;  // of the store; 0: by the number of pairs
   std::size_t first_capacity = 0;   // number of the smallest capacity to use
 
  private:
@@ -29,6 +32,7 @@ struct DeviceDiagram::State {
   /// Builds the program of a capacity, tested with the golden diagram before its first use.
   void add_capacity(std::size_t capacity);
   TreeBlocks::Tree device_tree(std::uint32_t n) const;
+  std::uint32_t stored_walls() const;
   void clip(std::uint32_t n);
   /// Launches one capacity over all pairs, or over those in list_.
   void clip_with(std::size_t capacity, bool listed, std::uint32_t n);
@@ -38,6 +42,7 @@ struct DeviceDiagram::State {
   DeviceTree tree_;
   TreeBlocks blocks_;
   DevicePairs pairs_;
+  DeviceWalls walls_;
   Compaction compaction_;
   cl::Kernel finish_;
   std::vector<cl::Kernel> clip_;  // by number of the capacity

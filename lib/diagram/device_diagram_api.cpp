@@ -31,6 +31,69 @@ void require_buffer(const cl::Context& context, cl_mem memory, std::size_t bytes
                                                  std::to_string(bytes));
 }
 
+/// The arguments of a call.
+struct Job {
+  cl_mem positions, weights;
+  std::uint32_t n;
+  cl_mem measures, status;
+  const DeviceAdjacency* adjacency;
+};
+
+void require_buffers(const DeviceDiagram::State& s, const Job& job) {
+  const cl::Context& context = *s.device.context();
+  const std::size_t real = s.precision == Precision::float32 ? sizeof(float) : sizeof(double);
+  const auto d = static_cast<std::size_t>(s.domain.dimension());
+  require_buffer(context, job.positions, job.n * d * real, "positions");
+  if (job.weights) require_buffer(context, job.weights, job.n * real, "weights");
+  require_buffer(context, job.measures, job.n * (2 + d) * real, "measures");
+  require_buffer(context, job.status, job.n * sizeof(cl_uint), "status");
+}
+
+/// The entries that the caller's rows have room for. \throw Error invalid_argument
+std::uint32_t room_of(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
+  const cl::Context& context = *s.device.context();
+  const std::size_t real = s.precision == Precision::float32 ? sizeof(float) : sizeof(double);
+  require_buffer(context, rows.offset, (std::size_t{n} + 1) * sizeof(cl_uint), "offsets");
+  require_buffer(context, rows.neighbor, sizeof(cl_uint), "neighbors");
+  require_buffer(context, rows.wall, real, "walls");
+  const std::size_t entries =
+      std::min(memory_value<std::size_t>(rows.neighbor, CL_MEM_SIZE, "neighbors") / sizeof(cl_uint),
+               memory_value<std::size_t>(rows.wall, CL_MEM_SIZE, "walls") / real);
+  return static_cast<std::uint32_t>(std::min<std::size_t>(entries, 0xffffffffu));
+}
+
+void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_event* wait_list,
+         cl_event* done) {
+  const cl::Context& context = *s.device.context();
+  if (job.n > most_seeds_of_diagram)
+    throw Error(ErrorCode::invalid_argument, std::to_string(job.n) + " seeds are more than the " +
+                                                 std::to_string(most_seeds_of_diagram) +
+                                                 " that one diagram can have");
+  if (job.n > 0) require_buffers(s, job);
+  if (job.n == 0 && job.adjacency && job.adjacency->offset) {
+    const cl_uint zero = 0;
+    require_buffer(context, job.adjacency->offset, sizeof zero, "offsets");
+    cl::check(clEnqueueFillBuffer(context.queue(), job.adjacency->offset, &zero, sizeof zero, 0, sizeof zero,
+                                  wait_count, wait_list, nullptr),
+              "writing the offset of no rows");
+  }
+  const std::uint32_t room = job.adjacency && job.n > 0 ? room_of(s, job.n, *job.adjacency) : 0;
+  // The queue is in order, so all later commands wait for the caller's events too.
+  if (wait_count > 0)
+    cl::check(clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
+              "enqueueing a barrier for the caller's events");
+  if (job.n > 0)
+    s.enqueue(job.positions, job.weights, job.n, job.measures, job.status, job.adjacency, room, done);
+  else if (done)
+    cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
+  const cl_int flushed = clFlush(context.queue());
+  if (flushed != CL_SUCCESS && done) {  // callers get no event with an exception
+    clReleaseEvent(*done);
+    *done = nullptr;
+  }
+  cl::check(flushed, "flushing the caller's queue");
+}
+
 }  // namespace
 
 DeviceDiagram::DeviceDiagram(Device device, Domain domain, Options options) {
@@ -63,36 +126,22 @@ void DeviceDiagram::set_pair_capacity(std::uint32_t pairs) {
   state_->pair_capacity = pairs;
 }
 
+void DeviceDiagram::set_wall_capacity(std::uint32_t walls) {
+  if (walls > DeviceWalls::most_entries)
+    throw Error(ErrorCode::invalid_argument,
+                std::to_string(walls) + " walls are more than the 2^31 that the store can have");
+  state_->wall_capacity = walls;
+}
+
 void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                             cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
-  State& s = *state_;
-  const cl::Context& context = *s.device.context();
-  if (n > most_seeds_of_diagram)
-    throw Error(ErrorCode::invalid_argument, std::to_string(n) + " seeds are more than the " +
-                                                 std::to_string(most_seeds_of_diagram) +
-                                                 " that one diagram can have");
-  if (n > 0) {
-    const std::size_t real = s.precision == Precision::float32 ? sizeof(float) : sizeof(double);
-    const auto d = static_cast<std::size_t>(s.domain.dimension());
-    require_buffer(context, positions, n * d * real, "positions");
-    if (weights) require_buffer(context, weights, n * real, "weights");
-    require_buffer(context, measures, n * (2 + d) * real, "measures");
-    require_buffer(context, status, n * sizeof(cl_uint), "status");
-  }
-  // The queue is in order, so all later commands wait for the caller's events too.
-  if (wait_count > 0)
-    cl::check(clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
-              "enqueueing a barrier for the caller's events");
-  if (n > 0)
-    s.enqueue(positions, weights, n, measures, status, done);
-  else if (done)
-    cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
-  const cl_int flushed = clFlush(context.queue());
-  if (flushed != CL_SUCCESS && done) {  // callers get no event with an exception
-    clReleaseEvent(*done);
-    *done = nullptr;
-  }
-  cl::check(flushed, "flushing the caller's queue");
+  run(*state_, {positions, weights, n, measures, status, nullptr}, wait_count, wait_list, done);
+}
+
+void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
+                            const DeviceAdjacency& adjacency, cl_uint wait_count, const cl_event* wait_list,
+                            cl_event* done) {
+  run(*state_, {positions, weights, n, measures, status, &adjacency}, wait_count, wait_list, done);
 }
 
 }  // namespace powercell

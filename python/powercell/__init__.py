@@ -40,7 +40,7 @@ from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
 from ._outside import SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
-from ._queue import DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
+from ._queue import DeviceAdjacency, DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
 from ._results import Adjacency, BoundaryWalls, Status  # noqa: E402
 from ._sampling import sample  # noqa: E402
 from ._saved import SavedDiagram  # noqa: E402
@@ -55,6 +55,7 @@ __all__ = [
     "BoundaryWalls",
     "DensityIntegrals",
     "Device",
+    "DeviceAdjacency",
     "DeviceDiagram",
     "DeviceMeasures",
     "DeviceRates",

@@ -29,6 +29,48 @@ class DeviceStatus(enum.IntEnum):
     """Only the host can compute its cell: use :class:`Diagram`. The cells of the others are right."""
 
 
+class DeviceAdjacency:
+    """The walls of a :class:`DeviceDiagram`, as compressed sparse rows in device memory.
+
+    Attributes
+    ----------
+    indptr : (n + 1,) pyopencl.array.Array of uint32
+        Row i is ``indices[indptr[i]:indptr[i + 1]]``. Right also where the other arrays are too short.
+    indices : (room,) pyopencl.array.Array of uint32
+        Neighbours, ascending within a row. Rows that end beyond the room are not written, the others are whole.
+    data : (room,) pyopencl.array.Array
+        The length or area of each wall, the same from both sides.
+    """
+
+    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any) -> None:
+        self._queue = queue
+        self.indptr = indptr
+        self.indices = indices
+        self.data = data
+
+    def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` if the walls exceed the room (how many there are).
+        """
+        indptr = self.indptr.get(self._queue)
+        count = int(indptr[-1])
+        if count > len(self.indices):
+            raise Error(
+                f"there are {count} entries, and room for {len(self.indices)}; give compute(adjacency={count})",
+                "invalid_argument",
+            )
+        if count == 0:
+            return indptr, np.empty(0, np.uint32), np.empty(0, self.data.dtype)
+        return indptr, self.indices[:count].get(self._queue), self.data[:count].get(self._queue)
+
+    def __repr__(self) -> str:
+        return f"<powercell.DeviceAdjacency of {len(self.indptr) - 1} seeds, room for {len(self.indices)} entries>"
+
+
 class DeviceMeasures:
     """The measures of a :class:`DeviceDiagram`, in device memory.
 
@@ -39,14 +81,19 @@ class DeviceMeasures:
         are invalid or unfinished.
     status : (n,) pyopencl.array.Array of uint32
         A :class:`DeviceStatus` of each seed.
+    adjacency : DeviceAdjacency or None
+        If :meth:`DeviceDiagram.compute` was asked for it.
     event : pyopencl.Event
         Of the last command.
     """
 
-    def __init__(self, queue: Any, measures: Any, status: Any, event: Any) -> None:
+    def __init__(
+        self, queue: Any, measures: Any, status: Any, adjacency: Optional[DeviceAdjacency], event: Any
+    ) -> None:
         self._queue = queue
         self.measures = measures
         self.status = status
+        self.adjacency = adjacency
         self.event = event
         self._parts: dict[str, Any] = {}
 
@@ -132,6 +179,9 @@ class DeviceDiagram:
         For domains of several regions, the room for pairs of a seed and a region; seeds beyond it are
         unfinished. With 0 there is room for all, and :meth:`compute` waits for the queue once to read their
         number. It waits in no other case.
+    wall_capacity : int
+        The room for walls of pieces while the rows of an adjacency are made; seeds beyond it are unfinished. With
+        0 there is more than seeds have on average.
     chunk_pairs : int
         The most pairs of one kernel launch; 0 lets the library choose.
 
@@ -144,7 +194,13 @@ class DeviceDiagram:
     """
 
     def __init__(
-        self, domain: Domain, queue: Union[Device, Any], *, pair_capacity: int = 0, chunk_pairs: int = 0
+        self,
+        domain: Domain,
+        queue: Union[Device, Any],
+        *,
+        pair_capacity: int = 0,
+        wall_capacity: int = 0,
+        chunk_pairs: int = 0,
     ) -> None:
         if not isinstance(domain, Domain):
             raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
@@ -153,8 +209,11 @@ class DeviceDiagram:
             raise ValueError("queue is a Device without a queue of pyopencl; make it with Device.from_queue")
         if not 0 <= pair_capacity < 2**32:
             raise ValueError(f"pair_capacity is {pair_capacity}; 0 (room for all) to 2^32 - 1 are expected")
+        if not 0 <= wall_capacity <= 2**31:
+            raise ValueError(f"wall_capacity is {wall_capacity}; 0 (enough for most) to 2^31 are expected")
         self.domain = domain
         self._pair_capacity = pair_capacity
+        self._wall_capacity = wall_capacity
         self._chunk_pairs = chunk_pairs
         self._cores: dict[str, Any] = {}
         self._core(PRECISIONS["float64" if self.device.fp64 else "float32"])
@@ -165,11 +224,17 @@ class DeviceDiagram:
             options = diagram_options(precision, chunk_pairs=self._chunk_pairs)
             core = _core.DeviceDiagram(self.device._open(), self.domain._core, options)
             core.set_pair_capacity(self._pair_capacity)
+            core.set_wall_capacity(self._wall_capacity)
             self._cores[precision] = core
         return self._cores[precision]
 
     def compute(
-        self, positions: Any, weights: Optional[Any] = None, *, out: Optional[DeviceMeasures] = None
+        self,
+        positions: Any,
+        weights: Optional[Any] = None,
+        *,
+        adjacency: Union[bool, int] = False,
+        out: Optional[DeviceMeasures] = None,
     ) -> DeviceMeasures:
         """Enqueues the diagram of n seeds, and returns without waiting for it.
 
@@ -180,9 +245,13 @@ class DeviceDiagram:
             for if the array knows their events, as arrays of pyopencl do.
         weights : (n,) pyopencl.array.Array, optional
             Of the same type. Default: 0.
+        adjacency : bool or int
+            Whether walls are wanted too, or the number of entries to make room for: two for each wall. True makes
+            room for 8 a seed in the plane and on surfaces, 20 in space.
         out : DeviceMeasures, optional
-            Of an earlier call with as many seeds of this type: its arrays are written again. Otherwise new ones
-            come from the allocator of ``positions``.
+            Of an earlier call with as many seeds of this type: its arrays are written again, those of the adjacency
+            where it has one and ``adjacency`` is not False. Otherwise new ones come from the allocator of
+            ``positions``.
 
         Returns
         -------
@@ -210,18 +279,51 @@ class DeviceDiagram:
         else:
             measures, status = out.measures, out.status
             _check(measures, "out.measures", (n, 2 + d), positions.dtype)
+        rows = self._rows(adjacency, n, positions, out)
+        arrays = [rows.indptr, rows.indices, rows.data] if rows else []
         used = [whole(array, queue) for array in (positions, weights) if array is not None]
-        events = [event.int_ptr for array in [*used, measures, status] for event in array.events]
+        events = [event.int_ptr for array in [*used, measures, status, *arrays] for event in array.events]
         pointers = [_pointer(array) for array in used]
         done = cl.Event.from_int_ptr(
             core.enqueue(
-                pointers[0], pointers[1] if weights is not None else 0, n, _pointer(measures), _pointer(status), events
+                pointers[0],
+                pointers[1] if weights is not None else 0,
+                n,
+                _pointer(measures),
+                _pointer(status),
+                [_pointer(array) for array in arrays],
+                events,
             ),
             retain=False,
         )
-        measures.add_event(done)
-        status.add_event(done)
-        return DeviceMeasures(queue, measures, status, done)
+        for array in (measures, status, *arrays):
+            array.add_event(done)
+        return DeviceMeasures(queue, measures, status, rows, done)
+
+    def _rows(
+        self, adjacency: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
+    ) -> Optional[DeviceAdjacency]:
+        """The memory of the adjacency, if it is wanted."""
+        if adjacency is False:
+            return None
+        if adjacency is not True and not (isinstance(adjacency, int) and 0 < adjacency < 2**32):
+            raise ValueError(f"adjacency is {adjacency!r}; True, False or a number of entries from 1 to 2^32 - 1 is expected")
+        if out is not None and out.adjacency is not None:
+            _check(out.adjacency.data, "out.adjacency.data", (None,), positions.dtype)
+            if len(out.adjacency.indptr) != n + 1:
+                raise ValueError(f"out.adjacency is of {len(out.adjacency.indptr) - 1} seeds; {n} are expected")
+            if adjacency is True or adjacency <= len(out.adjacency.indices):
+                return out.adjacency
+        each = 20 if self.domain.cell_dimension == 3 else 8
+        room = max(1, each * n) if adjacency is True else adjacency
+        queue, allocator = self.device.queue, positions.allocator
+        unsigned = np.dtype(np.uint32)
+        return DeviceAdjacency(
+            queue,
+            _empty(queue, (n + 1,), unsigned, allocator),
+            _empty(queue, (room,), unsigned, allocator),
+            _empty(queue, (room,), positions.dtype, allocator),
+        )
 
     def __repr__(self) -> str:
         return f"<powercell.DeviceDiagram in {self.domain!r} on {self.device.name!r}>"

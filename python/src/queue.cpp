@@ -27,17 +27,31 @@ class PyDeviceDiagram {
     diagram_.set_pair_capacity(pairs);
   }
 
+  void set_wall_capacity(std::uint32_t walls) {
+    const std::scoped_lock lock(mutex_);
+    diagram_.set_wall_capacity(walls);
+  }
+
+  /// \param rows  empty, or the offsets, neighbours and walls of the adjacency
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, Pointer measures, Pointer status,
-                  const std::vector<Pointer>& events) {
+                  const std::vector<Pointer>& rows, const std::vector<Pointer>& events) {
     std::vector<cl_event> wait_list;
     for (const Pointer event : events) wait_list.push_back(handle_of<cl_event>(event));
     return Call(nb::none()).run([&] {
       const std::scoped_lock lock(mutex_);
       cl_event done = nullptr;
-      diagram_.enqueue(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n,
-                       handle_of<cl_mem>(measures), handle_of<cl_mem>(status),
-                       static_cast<cl_uint>(wait_list.size()), wait_list.data(), &done);
+      const auto wait_count = static_cast<cl_uint>(wait_list.size());
+      if (rows.empty())
+        diagram_.enqueue(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n,
+                         handle_of<cl_mem>(measures), handle_of<cl_mem>(status), wait_count, wait_list.data(),
+                         &done);
+      else
+        diagram_.enqueue(
+            handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n, handle_of<cl_mem>(measures),
+            handle_of<cl_mem>(status),
+            {handle_of<cl_mem>(rows.at(0)), handle_of<cl_mem>(rows.at(1)), handle_of<cl_mem>(rows.at(2))},
+            wait_count, wait_list.data(), &done);
       return reinterpret_cast<Pointer>(done);
     });
   }
@@ -60,8 +74,9 @@ void bind_queues(nb::module_& m) {
   nb::class_<PyDeviceDiagram>(m, "DeviceDiagram")
       .def(nb::init<const Device&, const Domain&, const nb::dict&>())
       .def("set_pair_capacity", &PyDeviceDiagram::set_pair_capacity)
+      .def("set_wall_capacity", &PyDeviceDiagram::set_wall_capacity)
       .def("enqueue", &PyDeviceDiagram::enqueue, "positions"_a, "weights"_a, "n"_a, "measures"_a, "status"_a,
-           "events"_a);
+           "rows"_a, "events"_a);
 }
 
 }  // namespace powercell::python

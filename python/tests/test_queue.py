@@ -7,6 +7,7 @@ import threading
 
 import numpy as np
 import pytest
+import scipy.sparse
 
 import powercell as pc
 
@@ -41,6 +42,32 @@ def test_measures_are_those_of_diagram(rng, queue, d, dtype, tolerance):
     assert np.abs(found.centroid.get() - want.centroid)[big].max() < 10 * tolerance
     assert np.abs(found.second_moment.get() - want.second_moment).max() < tolerance * want.second_moment.max()
     assert found.count()[pc.DeviceStatus.HIDDEN] == np.count_nonzero(~live)
+
+
+@pytest.mark.parametrize("dtype, tolerance", [(np.float64, 1e-11), (np.float32, 1e-3)])
+@pytest.mark.parametrize("d", [2, 3])
+def test_walls_are_those_of_diagram(rng, queue, d, dtype, tolerance):
+    box = pc.Domain.box([0] * d, [1] * d)
+    p, w = rng.random((400, d)).astype(dtype), (rng.random(400) * 0.002).astype(dtype)
+    want = pc.Diagram(box, p, w, decisions="fast").adjacency.to_scipy()
+    diagram = pc.DeviceDiagram(box, queue)
+    seeds, weights = cl.array.to_device(queue, p), cl.array.to_device(queue, w)
+    found = diagram.compute(seeds, weights, adjacency=True)
+    indptr, indices, data = found.adjacency.get()
+    assert data.dtype == dtype and indptr.dtype == indices.dtype == np.uint32
+    walls = scipy.sparse.csr_array((data, indices, indptr), shape=(400, 400))
+    assert abs(walls - walls.T).max() == 0
+    assert abs(walls - want).max() < tolerance
+    assert diagram.compute(seeds, weights).adjacency is None
+    again = diagram.compute(seeds, weights, adjacency=True, out=found)
+    assert again.adjacency is found.adjacency and np.array_equal(again.adjacency.get()[2], data)
+    exact = diagram.compute(seeds, weights, adjacency=len(data))
+    assert np.array_equal(exact.adjacency.get()[1], indices)
+    with pytest.raises(pc.Error, match=f"{len(data)} entries, and room for 100") as error:
+        diagram.compute(seeds, weights, adjacency=100).adjacency.get()
+    assert error.value.code == "invalid_argument"
+    few = pc.DeviceDiagram(box, queue, wall_capacity=1000).compute(seeds, weights, adjacency=True)
+    assert few.count()[pc.DeviceStatus.UNFINISHED] > 0
 
 
 def test_both_loaders_name_the_same_devices(queue):
@@ -137,6 +164,8 @@ def test_wrong_arguments_are_named(rng, queue, square):
         ("positions is not C-contiguous", lambda: diagram.compute(device(np.zeros((2, 4))).T)),
         (r"weights has the shape \(3,\); \(4,\)", lambda: diagram.compute(good, device(np.zeros(3)))),
         ("weights has the type float32", lambda: diagram.compute(good, device(np.zeros(4, np.float32)))),
+        ("adjacency is 0", lambda: diagram.compute(good, adjacency=0)),
+        ("wall_capacity is -1", lambda: pc.DeviceDiagram(square, queue, wall_capacity=-1)),
         ("queue is a int", lambda: pc.DeviceDiagram(square, 3)),
         ("queue is a Device without", lambda: pc.DeviceDiagram(square, pc.devices()[0])),
         ("positions is an array of pyopencl.*DeviceDiagram", lambda: pc.Diagram(square, good)),

@@ -83,6 +83,32 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
   }
   CHECK(states[4] == PC_DEVICE_SEED_INVALID);
 
+  const cl_mem offset = own.buffer(6 * sizeof(cl_uint)), neighbor = own.buffer(8 * sizeof(cl_uint)),
+               wall = own.buffer(8 * sizeof(cl_float));
+  const pc_device_adjacency walls = {offset, neighbor, wall};
+  REQUIRE(pc_device_diagram_set_wall_capacity(diagram.handle, 50) == PC_OK);
+  CHECK(pc_device_diagram_set_wall_capacity(diagram.handle, 0x80000001u) == PC_INVALID_ARGUMENT);
+  REQUIRE(pc_device_diagram_enqueue_adjacency(diagram.handle, seeds, nullptr, 5, measures, status, &walls, 0,
+                                              nullptr, nullptr) == PC_OK);
+  cl_uint offsets[6], neighbors[8];
+  cl_float lengths[8];
+  REQUIRE(clEnqueueReadBuffer(own.queue, offset, CL_TRUE, 0, sizeof offsets, offsets, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  REQUIRE(clEnqueueReadBuffer(own.queue, neighbor, CL_TRUE, 0, sizeof neighbors, neighbors, 0, nullptr,
+                              nullptr) == CL_SUCCESS);
+  REQUIRE(clEnqueueReadBuffer(own.queue, wall, CL_TRUE, 0, sizeof lengths, lengths, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  const cl_uint expected_offsets[6] = {0, 2, 4, 6, 8, 8}, expected_neighbors[8] = {1, 2, 0, 3, 0, 3, 1, 2};
+  const double expected_lengths[8] = {0.5, 1, 0.5, 1, 1, 0.5, 1, 0.5};
+  for (int i = 0; i < 6; ++i) CHECK(offsets[i] == expected_offsets[i]);
+  for (int k = 0; k < 8; ++k) {
+    CHECK(neighbors[k] == expected_neighbors[k]);
+    CHECK(lengths[k] == doctest::Approx(expected_lengths[k]).epsilon(1e-4));
+  }
+  CHECK(pc_device_diagram_enqueue_adjacency(diagram.handle, seeds, nullptr, 5, measures, status, nullptr, 0,
+                                            nullptr, nullptr) == PC_INVALID_ARGUMENT);
+  for (const cl_mem memory : {offset, neighbor, wall}) clReleaseMemObject(memory);
+
   CHECK(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 500, measures, status, 0, nullptr,
                                   nullptr) == PC_INVALID_ARGUMENT);  // buffers too small
   CHECK(pc_device_diagram_enqueue(diagram.handle, nullptr, nullptr, 5, measures, status, 0, nullptr,

@@ -83,6 +83,11 @@ void Job::enqueue(DeviceDiagram& diagram, cl_uint wait_count, const cl_event* wa
                   wait_list, done);
 }
 
+void Job::enqueue(DeviceDiagram& diagram, const DeviceAdjacency& adjacency) const {
+  diagram.enqueue(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
+                  static_cast<std::uint32_t>(count_), measures_.handle(), status_.handle(), adjacency);
+}
+
 Output Job::read() const {
   Output output;
   const std::size_t columns = 2 + dimension_, entries = count_ * columns;

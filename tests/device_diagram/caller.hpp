@@ -60,6 +60,7 @@ class Job {
   Job(const Caller& caller, Precision precision, const SeedsView& seeds, bool weighted = true);
   void enqueue(DeviceDiagram& diagram, cl_uint wait_count = 0, const cl_event* wait_list = nullptr,
                cl_event* done = nullptr) const;
+  void enqueue(DeviceDiagram& diagram, const DeviceAdjacency& adjacency) const;
   /// Waits for the queue.
   Output read() const;
 

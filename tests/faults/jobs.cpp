@@ -137,7 +137,10 @@ class DeviceDiagramJob : public Job {
         positions_(device_, seeds.positions.size() * real_),
         weights_(device_, n_ * real_),
         measures_(device_, n_ * (2 + static_cast<std::size_t>(seeds.dimension)) * real_),
-        status_(device_, n_ * sizeof(cl_uint)) {}
+        status_(device_, n_ * sizeof(cl_uint)),
+        offset_(device_, (n_ + 1) * sizeof(cl_uint)),
+        neighbor_(device_, room * sizeof(cl_uint)),
+        wall_(device_, room * real_) {}
 
   std::size_t steps() const override { return 5; }
   void step(std::size_t k) override {
@@ -155,15 +158,17 @@ class DeviceDiagramJob : public Job {
       case 3:
         results_ = {measures_.read(), status_.read()};
         return;
-      default:  // other weights in the same diagram
+      default:  // other weights in the same diagram, and walls
         write(weights_, other_weights(seeds_));
-        compute();
-        others_ = {measures_.read(), status_.read()};
+        write(wall_, std::vector<double>(room));
+        neighbor_.write(std::vector<cl_uint>(room).data());
+        compute(true);
+        others_ = {measures_.read(), status_.read(), offset_.read(), neighbor_.read(), wall_.read()};
     }
   }
   std::string differences(const Job& other) const override {
     const auto& that = dynamic_cast<const DeviceDiagramJob&>(other);
-    return results_ == that.results_ && others_ == that.others_ ? "" : "measures or statuses differ";
+    return results_ == that.results_ && others_ == that.others_ ? "" : "measures, statuses or walls differ";
   }
 
  private:
@@ -171,14 +176,21 @@ class DeviceDiagramJob : public Job {
     const std::vector<float> narrow(values.begin(), values.end());
     memory.write(float32_ ? static_cast<const void*>(narrow.data()) : values.data());
   }
-  void compute() {
+  void compute(bool walls = false) {
     cl_event done = nullptr;
-    diagram_->enqueue(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_),
-                      measures_.handle(), status_.handle(), 0, nullptr, &done);
+    const auto n = static_cast<std::uint32_t>(n_);
+    if (walls)
+      diagram_->enqueue(positions_.handle(), weights_.handle(), n, measures_.handle(), status_.handle(),
+                        {offset_.handle(), neighbor_.handle(), wall_.handle()}, 0, nullptr, &done);
+    else
+      diagram_->enqueue(positions_.handle(), weights_.handle(), n, measures_.handle(), status_.handle(), 0,
+                        nullptr, &done);
     const cl_int status = clWaitForEvents(1, &done);
     clReleaseEvent(done);
     cl::check(status, "waiting for the diagram");
   }
+
+  static constexpr std::size_t room = 2000;  // more walls than the cases have
 
   Device device_;
   Options options_;
@@ -186,7 +198,7 @@ class DeviceDiagramJob : public Job {
   bool float32_;
   std::size_t real_, n_;
   SeedArray seeds_;
-  Memory positions_, weights_, measures_, status_;
+  Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_;
   std::optional<DeviceDiagram> diagram_;
   std::vector<std::vector<std::byte>> results_, others_;
 };

@@ -1,6 +1,8 @@
 // Any bits as seeds in device memory: each seed gets a status, and the others are as without the bad ones.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <powercell/opencl.hpp>
 
@@ -60,6 +62,53 @@ struct Memory {
   cl_mem handle = nullptr;
 };
 
+/// The rows of a diagram of n seeds, of which those with the status ok have walls. \throw Finding
+template <class Real>
+class Rows {
+ public:
+  static constexpr std::size_t room = 4096;  // more than 20 seeds can need
+  explicit Rows(std::size_t n)
+      : n_(n),
+        offset_((n + 1) * sizeof(cl_uint)),
+        neighbor_(room * sizeof(cl_uint)),
+        wall_(room * sizeof(Real)) {}
+  DeviceAdjacency handles() const { return {offset_.handle, neighbor_.handle, wall_.handle}; }
+
+  void check(const std::vector<cl_uint>& status) const {
+    const auto offset = read<cl_uint>(offset_, n_ + 1);
+    require(offset[0] == 0 && std::is_sorted(offset.begin(), offset.end()) && offset[n_] <= room,
+            "offsets of rows");
+    const auto neighbor = read<cl_uint>(neighbor_, offset[n_]);
+    const auto wall = read<Real>(wall_, offset[n_]);
+    std::map<std::pair<cl_uint, cl_uint>, Real> found;
+    for (cl_uint i = 0; i < n_; ++i)
+      for (cl_uint k = offset[i]; k < offset[i + 1]; ++k) {
+        const cl_uint j = neighbor[k];
+        require(j < n_ && j != i && status[i] == 0 && status[j] == 0 && wall[k] > 0, "a wall that cannot be");
+        require(k == offset[i] || neighbor[k - 1] < j, "a row that does not ascend");
+        found[{i, j}] = wall[k];
+      }
+    for (const auto& [pair, measure] : found) {
+      const auto back = found.find({pair.second, pair.first});
+      require(back != found.end() && back->second == measure, "a wall with one side");
+    }
+  }
+
+ private:
+  template <class T>
+  static std::vector<T> read(const Memory& memory, std::size_t count) {
+    std::vector<T> values(count);
+    if (count > 0)
+      succeed(clEnqueueReadBuffer(caller().queue, memory.handle, CL_TRUE, 0, count * sizeof(T), values.data(),
+                                  0, nullptr, nullptr),
+              "reading rows");
+    return values;
+  }
+
+  std::size_t n_;
+  Memory offset_, neighbor_, wall_;
+};
+
 template <class Real>
 void run(Input& input, const Domain& domain, Precision precision) {
   Options options;
@@ -72,8 +121,9 @@ void run(Input& input, const Domain& domain, Precision precision) {
   const Memory position_memory(positions.size() * sizeof(Real), positions.data());
   const Memory weight_memory(n * sizeof(Real), weights.data());
   const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
+  const Rows<Real> adjacency(n);
   diagram.enqueue(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n),
-                  measure_memory.handle, status_memory.handle);
+                  measure_memory.handle, status_memory.handle, adjacency.handles());
   std::vector<Real> rows(n * (2 + d));
   std::vector<cl_uint> status(n);
   if (n > 0) {
@@ -84,6 +134,7 @@ void run(Input& input, const Domain& domain, Precision precision) {
                                 status.data(), 0, nullptr, nullptr),
             "reading statuses");
   }
+  adjacency.check(status);
 
   SeedInput valid;
   double total = 0;

@@ -1,0 +1,146 @@
+/* The walls of all cells as compressed sparse rows, from those that clip_pairs.cl stored piece by piece. Rows
+   in the store go by the seeds' place in the input: row i has the entries row_first[i] .. row_first[i] +
+   row_size[i]. */
+#include "base/real.cl"
+
+#define NO_ENTRY 0xffffffffu
+
+/* Adds a wall to a row of `size` neighbours in ascending order, or its measure to the wall with that
+   neighbour. Returns the new size. */
+static inline uint add_to_row(uint size, uint j, real measure, __global uint* neighbor,
+                              __global stored_real* wall) {
+  uint at = size;
+  while (at > 0 && neighbor[at - 1] >= j) --at;
+  if (at < size && neighbor[at] == j) {
+    wall[at] += measure;
+    return size;
+  }
+  for (uint k = size; k > at; --k) {
+    neighbor[k] = neighbor[k - 1];
+    wall[k] = wall[k - 1];
+  }
+  neighbor[at] = j;
+  wall[at] = measure;
+  return size + 1;
+}
+
+/* The entry of neighbour j in a row in ascending order, or NO_ENTRY. */
+static inline uint find_in_row(uint first, uint size, uint j, __global const uint* neighbor) {
+  uint low = 0, high = size;
+  while (low < high) {
+    const uint middle = (low + high) / 2;
+    if (neighbor[first + middle] < j)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < size && neighbor[first + low] == j ? first + low : NO_ENTRY;
+}
+
+static inline real largest_of_row(uint first, uint size, __global const stored_real* wall) {
+  real largest = 0;
+  for (uint k = first; k < first + size; ++k) largest = fmax(largest, wall[k]);
+  return largest;
+}
+
+/* Work-item t makes the row of rank t: the walls of its pieces, sorted by the neighbours' place in the input,
+   those with the same neighbour summed in the order of the pieces. The row of one piece stays in its place;
+   that of several takes another. Where there is none the first piece counts as one that does not fit.
+   Work-item `count` and the others also set the caller's offsets and the lists of match_rows to nothing. */
+__kernel void gather_rows(const uint count, __global const uint* order, __global const ulong* pair_offset,
+                          const ulong pair_capacity, __global uint* pair_status,
+                          __global const uint* piece_first, __global const uint* piece_size,
+                          const uint capacity, volatile __global uint* used, __global uint* neighbor,
+                          __global stored_real* wall, __global uint* row_first, __global uint* row_size,
+                          __global uint* last_extra, __global uint* offset) {
+  const uint t = (uint)get_global_id(0);
+  if (t > count) return;
+  if (t == count) offset[count] = 0;
+  if (t == count) return;
+  const uint i = order[t];
+  offset[i] = last_extra[i] = row_first[i] = row_size[i] = 0;
+  const ulong begin = pair_offset[t], end = pair_offset[t + 1];
+  if (end > pair_capacity) return;
+  uint pieces = 0, entries = 0, first = 0;
+  for (ulong pair = begin; pair < end; ++pair) {
+    if (piece_size[pair] == 0) continue;
+    first = piece_first[pair];
+    entries += piece_size[pair];
+    ++pieces;
+  }
+  if (pieces == 0) return;
+  if (pieces > 1) {
+    first = *used <= capacity ? atomic_add(used, entries) : capacity;
+    if (entries > capacity || first > capacity - entries) {
+      pair_status[begin] = PIECE_FULL;
+      return;
+    }
+  }
+  uint size = 0;
+  for (ulong pair = begin; pair < end; ++pair)
+    for (uint k = piece_first[pair]; k < piece_first[pair] + piece_size[pair]; ++k)
+      size = add_to_row(size, order[neighbor[k]], wall[k], neighbor + first, wall + first);
+  row_first[i] = first;
+  row_size[i] = size;
+}
+
+/* Work-item i finds the final measure of each of its walls: the mean of both sides. A wall that only one cell
+   has is rounding if it is small beside the largest of both cells, else the other cell has it too: its list
+   of such walls, last_extra[j] and next[...], gets the entry, counted from 1. Adds what the rows will have to
+   offset[]. */
+__kernel void match_rows(const uint count, __global const uint* status, __global const uint* row_first,
+                         __global const uint* row_size, __global const uint* neighbor,
+                         __global const stored_real* wall, __global stored_real* matched, __global uint* from,
+                         __global uint* next, volatile __global uint* last_extra,
+                         volatile __global uint* offset) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count || status[i] != SEED_OK) return;
+  const uint first = row_first[i], size = row_size[i];
+  uint kept = 0;
+  for (uint k = first; k < first + size; ++k) {
+    const uint j = neighbor[k];
+    const real here = wall[k];
+    real measure = 0;
+    if (status[j] == SEED_OK) {
+      const uint back = find_in_row(row_first[j], row_size[j], i, neighbor);
+      if (back != NO_ENTRY) {
+        measure = (here + wall[back]) / 2;
+      } else {
+        const real largest =
+            fmax(largest_of_row(first, size, wall), largest_of_row(row_first[j], row_size[j], wall));
+        if (here > NEGLIGIBLE_WALL * largest) {
+          measure = here;
+          from[k] = i;
+          next[k] = atomic_xchg(last_extra + j, k + 1);
+          atomic_inc(offset + j);
+        }
+      }
+    }
+    matched[k] = measure;
+    kept += measure > 0 ? 1u : 0u;
+  }
+  atomic_add(offset + i, kept);
+}
+
+/* Work-item i writes its row from offset[i] on, unless it ends beyond the caller's memory. */
+__kernel void write_rows(const uint count, __global const uint* status, __global const uint* row_first,
+                         __global const uint* row_size, __global const uint* neighbor,
+                         __global const stored_real* matched, __global const uint* from,
+                         __global const uint* next, __global const uint* last_extra,
+                         __global const stored_real* frame, __global const uint* offset, const uint capacity,
+                         __global uint* row_neighbor, __global stored_real* row_wall) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count || status[i] != SEED_OK || offset[i + 1] > capacity) return;
+  __global uint* to = row_neighbor + offset[i];
+  __global stored_real* measure = row_wall + offset[i];
+  real unit = 1;
+  for (int k = 1; k < CELL_DIMENSION; ++k) unit *= frame[FRAME_UNIT];
+  uint size = 0;
+  for (uint k = row_first[i]; k < row_first[i] + row_size[i]; ++k) {
+    if (!(matched[k] > 0)) continue;
+    to[size] = neighbor[k];
+    measure[size++] = matched[k] * unit;
+  }
+  for (uint extra = last_extra[i]; extra != 0; extra = next[extra - 1])
+    size = add_to_row(size, from[extra - 1], matched[extra - 1] * unit, to, measure);
+}

@@ -1,0 +1,50 @@
+/// \file
+/// The walls of a DeviceDiagram, from pieces to rows. Internal.
+#pragma once
+
+#include <powercell/opencl.hpp>
+
+#include "lib/pairs/device_pairs.hpp"
+#include "lib/primitives/scan.hpp"
+
+namespace powercell {
+
+/// A store of the walls of pieces, which the clip kernel fills, and the rows made of them in the caller's
+/// memory (docs/decisions.md, "Walls in device memory"). Enqueues without waiting. Memory grows as needed and
+/// is reused.
+class DeviceWalls {
+ public:
+  /// So that pieces without room cannot bring the number of entries beyond 32 bits.
+  static constexpr std::uint32_t most_entries = 0x80000000u;
+
+  /// Builds the kernels. \param defines  of kernels that hold no cell
+  DeviceWalls(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
+              std::size_t real_bytes);
+
+  /// Makes room for `entries` walls of `pairs` pieces of n seeds, and empties the store.
+  void begin(std::uint32_t entries, std::uint32_t pairs, std::uint32_t n);
+  /// Makes room for none: the clip kernel then computes none.
+  void begin_without();
+  /// Those of the clip kernel (kernels/diagram/clip_pairs.cl).
+  void append_store(cl::Kernel& kernel) const;
+  /// Makes rows of the stored walls, before the seeds' statuses are known: pieces without room become
+  /// PIECE_FULL.
+  void gather(const DeviceSeeds& seeds, const DevicePairs& pairs, cl_mem pair_status, std::uint32_t n,
+              const DeviceAdjacency& to);
+  /// Combines both sides of each wall, and writes the rows to the caller's memory with room for `capacity`
+  /// entries. \param status  final, of each seed in input order
+  void write(cl_mem status, cl_mem frame, std::uint32_t n, const DeviceAdjacency& to, std::uint32_t capacity,
+             cl_event* done);
+
+ private:
+  std::size_t real_bytes_;
+  std::uint32_t entries_ = 0;
+  cl::Kernel gather_, match_, write_;
+  ExclusiveScan scan_;
+  cl::Buffer<std::uint32_t> used_, piece_first_, piece_size_;    // the store, by pair
+  cl::Buffer<std::uint32_t> neighbor_, from_, next_;             // by entry
+  cl::RawBuffer wall_, matched_;                                 // the same
+  cl::Buffer<std::uint32_t> row_first_, row_size_, last_extra_;  // by seed
+};
+
+}  // namespace powercell
