@@ -48,7 +48,7 @@ by_pkg_config() {
 for kind in "$@"; do
   step "by CMake ($kind)"
   shared=ON
-  programs="host_cpp host_c own_queue c_cells c_periodic c_own_queue c_transport c_sampling c_remeshing c_treemap"
+  programs="host_cpp host_c own_queue heat_on_device c_cells c_periodic c_own_queue c_transport c_sampling c_remeshing c_treemap"
   if [ "$kind" = static ]; then # the code is the same, so some suffice
     shared=OFF
     programs="host_cpp c_cells c_transport"
@@ -58,7 +58,7 @@ for kind in "$@"; do
     cmake --build "$work/$kind" --target $programs >>"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
   for program in $programs; do
     part=applications
-    case $program in host_* | own_queue | c_cells | c_periodic | c_own_queue) part=core ;; esac
+    case $program in host_* | own_queue | heat_on_device | c_cells | c_periodic | c_own_queue) part=core ;; esac
     check_links "$work/$kind/$program" "$kind" $part
     step "$program ($kind)"
     "$work/$kind/$program"
