@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/cl/quirks.hpp"
 #include "lib/clip/golden.hpp"
 #include "lib/diagram/setup.hpp"
 #include "lib/scene/variant.hpp"
@@ -25,13 +26,14 @@ static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished))
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
-Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
-  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity};
+Variant variant(const Device& device, const Domain& domain, Precision precision, Capacity capacity) {
+  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
+          cl::lane_width(device.info())};
 }
 
 /// The defines of kernels that hold no cell.
-std::vector<std::string> plain_defines(const Domain& domain, Precision precision) {
-  return variant(domain, precision, {1, 1}).defines();
+std::vector<std::string> plain_defines(const Device& device, const Domain& domain, Precision precision) {
+  return variant(device, domain, precision, {1, 1}).defines();
 }
 
 template <class Real>
@@ -78,14 +80,14 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       precision(choose_precision(device, options.precision)),
       domain_buffers(device.context(), domain.mesh(), precision == Precision::float32),
       frame_(device.context()),
-      seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
-      tree_(device.context(), plain_defines(domain, precision)),
-      blocks_(device.context(), variant(domain, precision, {1, 1}),
+      seeds_(device.context(), plain_defines(device, domain, precision), precision == Precision::float32),
+      tree_(device.context(), plain_defines(device, domain, precision)),
+      blocks_(device.context(), variant(device, domain, precision, {1, 1}),
               std::make_shared<BlockBuffers>(device.context())),
-      pairs_(domain_buffers, plain_defines(domain, precision)),
+      pairs_(domain_buffers, plain_defines(device, domain, precision)),
       compaction_(device.context()),
       finish_(device.context(),
-              device.context()->program("diagram/finish.cl", plain_defines(domain, precision)),
+              device.context()->program("diagram/finish.cl", plain_defines(device, domain, precision)),
               "write_measures"),
       piece_status_(device.context()),
       list_(device.context()),
@@ -103,7 +105,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
 }
 
 void DeviceDiagram::State::add_capacity(std::size_t capacity) {
-  const Variant used = variant(domain, precision, capacities(domain.cell_dimension())[capacity]);
+  const Variant used = variant(device, domain, precision, capacities(domain.cell_dimension())[capacity]);
   auto program = device.context()->program(clip_file, used.defines());
   program->trust_after([&] { test_capacity(device, used, capacity); });
   clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
