@@ -46,7 +46,7 @@ constexpr Row table[] = {
     // GPUs: several warps a group, but few enough to leave each work-item its registers.
     {is_gpu, [](Quirks& quirks) { quirks.group_size = 128; }},
 
-    // Vectors of eight make clip kernels spill on GPUs; on CPUs they are twice as fast.
+    // Vectors of eight make clip kernels spill on GPUs (docs/gpu_costs.md); on CPUs they are twice as fast.
     {is_gpu, [](Quirks& quirks) { quirks.lane_width = 1; }},
     {is_accelerator, [](Quirks& quirks) { quirks.lane_width = 1; }},
 
