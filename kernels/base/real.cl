@@ -1,7 +1,7 @@
 /* Scalar and seed types, and the constants and functions that depend on the precision. Only this file,
    lanes.cl, point.cl and neighbors/blocks.cl test REAL_BITS. The host defines REAL_BITS (32, 64), DIMENSION
-   (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY and
-   FACE_CAPACITY. */
+   (of the space), CELL_DIMENSION (2: convex polygons, 3: convex polyhedra), VERTEX_CAPACITY, FACE_CAPACITY
+   and LANE_WIDTH (lanes.cl). */
 #ifndef POWERCELL_BASE_REAL
 #define POWERCELL_BASE_REAL
 #include "layout.h"
@@ -22,6 +22,9 @@
    keep indexed arrays in memory; others may ignore it. */
 #define UNROLL _Pragma("unroll")
 
+#ifndef LANE_WIDTH
+#define LANE_WIDTH 8
+#endif
 #ifndef VERTEX_CAPACITY
 #define VERTEX_CAPACITY 64
 #endif

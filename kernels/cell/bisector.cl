@@ -73,8 +73,9 @@ static inline int cut_by_plane(cell_t* cell, const real* q, real dw, int border)
 }
 
 /* Cuts the cell by the bisector with `other`, whose rank is `border`. Returns a CUT code. */
-static inline int cut_by_seed(cell_t* cell, seed_t seed, seed_t other, int border) {
+static inline int cut_by_seed(cell_t* cell, int border) {
   real q[DIMENSION];
+  const seed_t seed = cell->at.seeds[cell->at.self], other = cell->at.seeds[border];
   difference(other, seed, q);
   return cut_by_plane(cell, q, weight_difference(seed, other), border);
 }

@@ -1,4 +1,4 @@
-/* The vertices of a cell, in blocks of eight lanes, relative to the cell's seed: what polygons and polyhedra
+/* The vertices of a cell, in blocks of LANES, relative to the cell's seed: what polygons and polyhedra
    have in common. A slot is a vertex or free; free slots of the blocks in use hold 0. */
 #ifndef POWERCELL_CLIP_VERTICES
 #define POWERCELL_CLIP_VERTICES
@@ -10,10 +10,11 @@
 
 typedef struct {
   real x[DIMENSION][VERTEX_CAPACITY];
-  real side[VERTEX_CAPACITY];  /* of the last plane tried */
-  ulong used[VERTEX_WORDS];    /* a bit per slot: it is a vertex */
-  ulong outside[VERTEX_WORDS]; /* vertices outside the last plane that cut */
-  int blocks;                  /* in use */
+  real side[VERTEX_CAPACITY];           /* of the last plane tried */
+  ulong used[VERTEX_WORDS];             /* a bit per slot: it is a vertex */
+  ulong outside[VERTEX_WORDS];          /* vertices outside the last plane that cut */
+  int blocks;                           /* in use */
+  real low[DIMENSION], high[DIMENSION]; /* bounding box, at the last find_box */
   real reach;  /* largest coordinate sum of the region's corners: the scale of rounding errors */
   real radius; /* no vertex is farther from the seed */
   real most;   /* largest of side[] */
@@ -58,9 +59,21 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
 
 /* Adds a free block. */
 static inline void add_block(vertices_t* p) {
-  UNROLL for (int k = 0; k < DIMENSION; ++k) store8(ZERO8, p->x[k] + p->blocks * LANES);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    EACH_LANE(lane) store_lanes(ZERO, p->x[k] + p->blocks * LANES + lane);
+  }
   if (p->blocks % 8 == 0) p->used[p->blocks / 8] = p->outside[p->blocks / 8] = 0;
   ++p->blocks;
+}
+
+/* Slots in use and free ones of the same blocks. */
+static inline int slots_of(const vertices_t* p) {
+  return p->blocks * LANES;
+}
+
+/* Which of the slots from `v` on, a multiple of LANE_WIDTH, are vertices. */
+static inline mask used_lanes(const vertices_t* p, int v) {
+  return lanes_of((uint)(p->used[v / WORD_BITS] >> v % WORD_BITS));
 }
 
 /* A free slot, or -1 if `capacity` slots are in use. The slot is not marked as used. */
@@ -69,12 +82,12 @@ static inline int free_slot(vertices_t* p, int capacity) {
   for (int w = 0; w < words; ++w)
     if (~p->used[w] != 0) {
       const int slot = w * WORD_BITS + lowest_bit(~p->used[w]);
-      if (slot < p->blocks * LANES) return slot;
+      if (slot < slots_of(p)) return slot;
       break;
     }
-  if ((p->blocks + 1) * LANES > capacity) return -1;
+  if (slots_of(p) + LANES > capacity) return -1;
   add_block(p);
-  return (p->blocks - 1) * LANES;
+  return slots_of(p) - LANES;
 }
 
 static inline void use_slot(vertices_t* p, int v) {
@@ -85,7 +98,7 @@ static inline void use_slot(vertices_t* p, int v) {
 static inline void set_corners(vertices_t* p, int count) {
   const seed_t seed = p->seeds[p->self];
   real reach = 0;
-  while (p->blocks * LANES < count) add_block(p);
+  while (slots_of(p) < count) add_block(p);
   for (int v = 0; v < count; ++v) {
     real y[DIMENSION], sum = 0;
     difference(p->corner[p->region[v]], seed, y);
@@ -111,15 +124,15 @@ static inline void drop_outside(vertices_t* p) {
 
 /* side[v] = 2 q.y_v - offset for all slots; returns the largest (that of free slots is -offset). */
 static inline real find_sides(vertices_t* p, const real* q, real offset) {
-  real8 most = all_lanes(-REAL_MAX), a[DIMENSION];
-  const real8 l = all_lanes(offset);
+  reals most = all_lanes(-REAL_MAX), a[DIMENSION];
+  const reals l = all_lanes(offset);
   UNROLL for (int k = 0; k < DIMENSION; ++k) a[k] = all_lanes(2 * q[k]);
-  for (int b = 0; b < p->blocks; ++b) {
-    real8 s = a[0] * load8(p->x[0] + b * LANES);
-    UNROLL for (int k = 1; k < DIMENSION; ++k) s = s + a[k] * load8(p->x[k] + b * LANES);
+  ONE_BY_ONE for (int v = 0; v < slots_of(p); v += LANE_WIDTH) {
+    reals s = a[0] * load_lanes(p->x[0] + v);
+    UNROLL for (int k = 1; k < DIMENSION; ++k) s = s + a[k] * load_lanes(p->x[k] + v);
     s = s - l;
-    store8(s, p->side + b * LANES);
-    most = most8(most, s);
+    store_lanes(s, p->side + v);
+    most = each_most(most, s);
   }
   p->most = lane_most(most);
   return p->most;
@@ -130,9 +143,10 @@ static inline int count_inside(const vertices_t* p, real tolerance) {
   int inside = 0;
   for (int w = 0; w < words_of(p); ++w) {
     ulong in = 0;
-    const int end = min(8, p->blocks - 8 * w);
-    for (int b = 0; b < end; ++b)
-      in |= (ulong)lane_bits(load8(p->side + (8 * w + b) * LANES) < all_lanes(-tolerance)) << 8 * b;
+    const real* side = p->side + w * WORD_BITS;
+    const int end = min(WORD_BITS, slots_of(p) - w * WORD_BITS);
+    ONE_BY_ONE for (int v = 0; v < end; v += LANE_WIDTH) in |=
+        (ulong)lane_bits(load_lanes(side + v) < all_lanes(-tolerance)) << v;
     inside += (int)popcount(in & p->used[w]);
   }
   return inside;
@@ -141,14 +155,15 @@ static inline int count_inside(const vertices_t* p, real tolerance) {
 /* How many vertices are beyond the tolerance on either side, by side[]. Those outside go to `outside`. */
 static inline int count_sides(vertices_t* p, real tolerance, int* vertices, int* inside) {
   int outside = 0, all = 0;
-  real8 nearest = all_lanes(REAL_MAX);
+  reals nearest = all_lanes(REAL_MAX);
   for (int w = 0; w < words_of(p); ++w) {
     ulong out = 0;
-    const int end = min(8, p->blocks - 8 * w);
-    for (int b = 0; b < end; ++b) {
-      const real8 s = load8(p->side + (8 * w + b) * LANES);
-      out |= (ulong)lane_bits(s > all_lanes(tolerance)) << 8 * b;
-      nearest = least8(nearest, size8(s));
+    const real* side = p->side + w * WORD_BITS;
+    const int end = min(WORD_BITS, slots_of(p) - w * WORD_BITS);
+    ONE_BY_ONE for (int v = 0; v < end; v += LANE_WIDTH) {
+      const reals s = load_lanes(side + v);
+      out |= (ulong)lane_bits(s > all_lanes(tolerance)) << v;
+      nearest = each_least(nearest, each_size(s));
     }
     p->outside[w] = out & p->used[w];
     outside += (int)popcount(p->outside[w]);
@@ -182,32 +197,33 @@ static inline void set_edge_point(vertices_t* p, int u, int in, int out) {
 
 /* Largest squared distance of a vertex from the seed. */
 static inline real find_radius2(vertices_t* p) {
-  real8 most = ZERO8;
-  for (int b = 0; b < p->blocks; ++b) {
-    real8 s = ZERO8;
+  reals most = ZERO;
+  ONE_BY_ONE for (int v = 0; v < slots_of(p); v += LANE_WIDTH) {
+    reals s = ZERO;
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
-      const real8 x = load8(p->x[k] + b * LANES);
+      const reals x = load_lanes(p->x[k] + v);
       s = s + x * x;
     }
-    most = most8(most, s);
+    most = each_most(most, s);
   }
   const real radius2 = lane_most(most);
   p->radius = sqrt(radius2) * (1 + 8 * REAL_EPSILON);
   return radius2;
 }
 
-/* Bounding box of the vertices. */
-static inline void find_box(const vertices_t* p, real* low, real* high) {
+/* Finds the bounding box of the vertices. It is kept with them, as everything that outlasts a cut should be:
+   what is in variables meanwhile takes registers from all of the cut. */
+static inline void find_box(vertices_t* p) {
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    real8 l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
-    for (int b = 0; b < p->blocks; ++b) {
-      const mask8 vertex = lanes_of((uint)(p->used[b / 8] >> b % 8 * 8) & 255u);
-      const real8 x = load8(p->x[k] + b * LANES);
-      l = least8(l, choose8(l, x, vertex));
-      h = most8(h, choose8(h, x, vertex));
+    reals l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
+    ONE_BY_ONE for (int v = 0; v < slots_of(p); v += LANE_WIDTH) {
+      const mask vertex = used_lanes(p, v);
+      const reals x = load_lanes(p->x[k] + v);
+      l = each_least(l, choose(l, x, vertex));
+      h = each_most(h, choose(h, x, vertex));
     }
-    low[k] = lane_least(l);
-    high[k] = lane_most(h);
+    p->low[k] = lane_least(l);
+    p->high[k] = lane_most(h);
   }
 }
 

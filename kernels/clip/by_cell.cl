@@ -7,21 +7,20 @@
 /* A cell of more walls than this is searched for in each region: few of them meet it. */
 #define WALLS_MOST 64
 
-/* Bit k is set if neighbour k of the first eight may cut the box of the cell. */
+/* Bit k is set if neighbour k of the first LANE_WIDTH may cut the box of the cell. */
 static inline uint walls_that_cut(const cell_t* cell, __global const seed_t* seeds, seed_t seed,
                                   __global const uint* neighbor, uint count) {
-  real row[DIMENSION + 1][LANES], low[DIMENSION], high[DIMENSION], d[DIMENSION];
-  real8 q[DIMENSION];
-  for (uint lane = 0; lane < LANES; ++lane) {
+  real row[DIMENSION + 1][LANE_WIDTH], d[DIMENSION];
+  reals q[DIMENSION];
+  for (uint lane = 0; lane < LANE_WIDTH; ++lane) {
     const seed_t other = seeds[neighbor[min(lane, count - 1)]];
     difference(other, seed, d);
     UNROLL for (int k = 0; k < DIMENSION; ++k) row[k][lane] = d[k];
     row[DIMENSION][lane] = weight_difference(seed, other) - 4 * cell->at.blur.weight;
   }
-  UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = load8(row[k]);
-  find_box(&cell->at, low, high);
-  const uint bits = lane_bits(seeds_may_cut(q, load8(row[DIMENSION]), resolution_of(&cell->at), low, high));
-  return count < LANES ? bits & ((1u << count) - 1) : bits;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = load_lanes(row[k]);
+  const uint bits = lane_bits(seeds_may_cut(&cell->at, q, load_lanes(row[DIMENSION])));
+  return count < LANE_WIDTH ? bits & ((1u << count) - 1) : bits;
 }
 
 /* Cuts by `count` neighbours. The seed alone in its own list has no cell. Returns a PIECE status. */
@@ -29,12 +28,16 @@ static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint
                                 __global const uint* neighbor, uint count) {
   const seed_t seed = seeds[i];
   if (count == 1 && neighbor[0] == i) return PIECE_EMPTY;
-  for (uint first = 0; first < count; first += LANES) {
+  bool shrunk = true; /* since the box was found */
+  for (uint first = 0; first < count; first += LANE_WIDTH) {
+    if (shrunk) find_box(&cell->at);
+    shrunk = false;
     uint bits = walls_that_cut(cell, seeds, seed, neighbor + first, count - first);
     for (; bits != 0; bits &= bits - 1) {
       const uint j = neighbor[first + (uint)lowest_bit(bits)];
-      const int cut = cut_by_seed(cell, seed, seeds[j], (int)j);
+      const int cut = cut_by_seed(cell, (int)j);
       if (cut > CUT_SHRUNK) return piece_status(cut);
+      shrunk = shrunk || cut == CUT_SHRUNK;
     }
   }
   return PIECE_DONE;

@@ -16,13 +16,13 @@ typedef struct {
 } output_t;
 
 /* True if the cell is no thicker than the rounding errors of its vertices. */
-static inline bool cell_is_flat(const cell_t* cell, real measure) {
-  real low[DIMENSION], high[DIMENSION], extent = 2 * cell->at.radius;
+static inline bool cell_is_flat(cell_t* cell, real measure) {
+  real extent = 2 * cell->at.radius;
   const real thickness = 32 * REAL_EPSILON * cell->at.reach;
   if (measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent)) return false;
-  find_box(&cell->at, low, high);
+  find_box(&cell->at);
   extent = 0;
-  UNROLL for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, high[k] - low[k]);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) extent = fmax(extent, cell->at.high[k] - cell->at.low[k]);
   return !(measure > thickness * (CELL_DIMENSION == 3 ? extent * extent : extent));
 }
 

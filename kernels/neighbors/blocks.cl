@@ -1,6 +1,7 @@
 /* The packed tree by blocks of eight, each coordinate of the eight side by side, so that one vector
-   operation does a whole leaf or all children of a node. A block of seeds: coordinates, weight. A block of
-   nodes: low corner, high corner, largest weight. In single precision each is a high and a low row. */
+   operation can do a whole leaf or all children of a node (base/lanes.cl). A block of seeds: coordinates,
+   weight. A block of nodes: low corner, high corner, largest weight. In single precision each is a high and a
+   low row. */
 #ifndef POWERCELL_NEIGHBORS_BLOCKS
 #define POWERCELL_NEIGHBORS_BLOCKS
 #include "base/lanes.cl"
@@ -11,7 +12,7 @@
 #else
 #define BLOCK_PARTS 1
 #endif
-#define BLOCK_ROW (8 * BLOCK_PARTS)
+#define BLOCK_ROW (LANES * BLOCK_PARTS)
 #define SEED_BLOCK ((DIMENSION + 1) * BLOCK_ROW)
 #define NODE_BLOCK ((2 * DIMENSION + 1) * BLOCK_ROW)
 /* Of lanes behind the last seed or child: nothing is cut by it (DEAD_WEIGHT in base/point.cl). */
@@ -51,15 +52,16 @@ static inline origin_t origin_with_weight(seed_t p, seed_t heavy) {
   p.low.w = heavy.low.w;
   return origin_of(p);
 }
-/* Row `row` of a block less coordinate k of the origin (k == DIMENSION: the weight). */
-static inline real8 block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
-  return (load8_stored(block + row * BLOCK_ROW) - o->high[k]) +
-         (load8_stored(block + row * BLOCK_ROW + 8) - o->low[k]);
+/* Lanes of row `row` of a block less coordinate k of the origin (k == DIMENSION: the weight). `block` begins
+   at the first of these lanes. */
+static inline reals block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
+  return (load_stored_lanes(block + row * BLOCK_ROW) - o->high[k]) +
+         (load_stored_lanes(block + row * BLOCK_ROW + LANES) - o->low[k]);
 }
 #define LOWEST_PART low
 static inline void store_part(__global stored_real* block, int row, int lane, real high, real low) {
   block[row * BLOCK_ROW + lane] = high;
-  block[row * BLOCK_ROW + 8 + lane] = low;
+  block[row * BLOCK_ROW + LANES + lane] = low;
 }
 #else
 static inline origin_t origin_of(seed_t p) {
@@ -74,8 +76,8 @@ static inline origin_t origin_with_weight(seed_t p, seed_t heavy) {
   p.w = heavy.w;
   return origin_of(p);
 }
-static inline real8 block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
-  return load8_stored(block + row * BLOCK_ROW) - all_lanes(o->high[k]);
+static inline reals block_row(__global const stored_real* block, int row, const origin_t* o, int k) {
+  return load_stored_lanes(block + row * BLOCK_ROW) - all_lanes(o->high[k]);
 }
 #define LOWEST_PART high
 static inline void store_part(__global stored_real* block, int row, int lane, real high, real low) {
@@ -129,15 +131,15 @@ static inline void pack_node_block(tree_t tree, uint node, int level, __global s
   }
 }
 
-/* Lanes relative to `o`: positions q, and by how much the weight at `o` exceeds theirs. */
-static inline void seed_lanes(blocks_t blocks, uint leaf, const origin_t* o, real8* q, real8* dw) {
-  __global const stored_real* block = blocks.seeds + (size_t)leaf * SEED_BLOCK;
+/* Lanes from `lane` on relative to `o`: positions q, and by how much the weight at `o` exceeds theirs. */
+static inline void seed_lanes(blocks_t blocks, uint leaf, uint lane, const origin_t* o, reals* q, reals* dw) {
+  __global const stored_real* block = blocks.seeds + (size_t)leaf * SEED_BLOCK + lane;
   UNROLL for (int k = 0; k < DIMENSION; ++k) q[k] = block_row(block, k, o, k);
   *dw = -block_row(block, DIMENSION, o, DIMENSION);
 }
-static inline void node_lanes(blocks_t blocks, uint block_number, const origin_t* o, real8* a, real8* b,
-                              real8* dw) {
-  __global const stored_real* block = blocks.nodes + (size_t)block_number * NODE_BLOCK;
+static inline void node_lanes(blocks_t blocks, uint block_number, uint lane, const origin_t* o, reals* a,
+                              reals* b, reals* dw) {
+  __global const stored_real* block = blocks.nodes + (size_t)block_number * NODE_BLOCK + lane;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
     a[k] = block_row(block, k, o, k);
     b[k] = block_row(block, DIMENSION + k, o, k);

@@ -66,19 +66,22 @@ static inline real rival_error(const room_t* room, const real* q, real offset) {
 static inline bool find_rivals(rivals_t* rivals, blocks_t blocks, const nearest_t* near, seed_t seed,
                                uint i) {
   const origin_t origin = origin_of(seed);
-  real8 least = ZERO8, most = ZERO8;
+  reals least = ZERO, most = ZERO;
   rivals->leaves = near->count;
   for (int k = 0; k < near->count; ++k) {
-    real8 q[DIMENSION], dw, offset;
-    seed_lanes(blocks, near->leaf[k], &origin, q, &dw);
-    offset = ZERO8;
-    UNROLL for (int c = 0; c < DIMENSION; ++c) offset = offset + q[c] * q[c];
-    most = most8(most, offset);
-    offset = offset + dw;
-    if (near->leaf[k] == i / TREE_FAN) offset = with_lane(offset, i % TREE_FAN, REAL_MAX / 4);
-    UNROLL for (int c = 0; c < DIMENSION; ++c) store8(q[c], rivals->q[c] + k * LANES);
-    store8(offset, rivals->offset + k * LANES);
-    least = least8(least, offset);
+    EACH_LANE(lane) {
+      const uint at = (uint)k * LANES + lane;
+      reals q[DIMENSION], dw, offset;
+      seed_lanes(blocks, near->leaf[k], lane, &origin, q, &dw);
+      offset = ZERO;
+      UNROLL for (int c = 0; c < DIMENSION; ++c) offset = offset + q[c] * q[c];
+      most = each_most(most, offset);
+      offset = offset + dw;
+      if (near->leaf[k] == i / TREE_FAN) offset = with_lane(offset, i % TREE_FAN - lane, REAL_MAX / 4);
+      UNROLL for (int c = 0; c < DIMENSION; ++c) store_lanes(q[c], rivals->q[c] + at);
+      store_lanes(offset, rivals->offset + at);
+      least = each_least(least, offset);
+    }
   }
   rivals->extent = sqrt(lane_most(most));
   return lane_least(least) < 0;
@@ -118,12 +121,12 @@ static inline void start_basis(basis_t* basis, const room_t* room, real size) {
 /* The rival whose value offset - q.(2y) is least at the current point y. If the value is below 0, y is the
    rival's and not the seed's. */
 static inline int worst_rival(const rivals_t* rivals, const basis_t* basis, real* value) {
-  real8 worst = all_lanes(REAL_MAX / 4);
-  for (int k = 0; k < rivals->leaves; ++k) {
-    real8 left = load8(rivals->offset + k * LANES);
+  reals worst = all_lanes(REAL_MAX / 4);
+  for (int k = 0; k < rivals->leaves * LANES; k += LANE_WIDTH) {
+    reals left = load_lanes(rivals->offset + k);
     UNROLL for (int c = 0; c < DIMENSION; ++c) left =
-        left - load8(rivals->q[c] + k * LANES) * all_lanes(basis->dual[c]);
-    worst = least8(worst, tag8(left, (uint)k * LANES));
+        left - load_lanes(rivals->q[c] + k) * all_lanes(basis->dual[c]);
+    worst = each_least(worst, tag(left, (uint)k));
   }
   const real least = lane_least(worst);
   *value = untagged(least);

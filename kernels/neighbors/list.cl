@@ -32,13 +32,12 @@ typedef struct {
 
 /* Clips the cell of rank i, started as a region, by the neighbours in its row. Returns a PIECE status. */
 static inline int clip_by_list(cell_t* cell, lists_t lists, uint i, uint row, list_use_t* use) {
-  const seed_t seed = lists.seeds[i];
   const real h = lists.lift[i];
   real stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + SEARCH_MARGIN);
   for (uint k = 0; k < lists.count; ++k) {
     const uint j = lists.neighbor[row * lists.stride + k];
     if (lifted_distance2(lists, i, j) >= stop) return PIECE_DONE;
-    const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
+    const int cut = cut_by_seed(cell, (int)j);
     ++use->tried;
     if (cut != CUT_NONE) ++use->cuts;
     if (cut == CUT_SHRUNK) stop = 4 * (find_radius2(&cell->at) + h * h) * (1 + SEARCH_MARGIN);

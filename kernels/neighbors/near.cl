@@ -18,23 +18,42 @@ typedef struct {
 static inline home_t home_of(tree_t tree, blocks_t blocks, uint leaf) {
   home_t home;
   home.origin = origin_with_weight(tree.seeds[leaf * TREE_FAN], tree.node_low[leaf]);
-  real8 q[DIMENSION], dw;
-  seed_lanes(blocks, leaf, &home.origin, q, &dw);
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    home.low[k] = lane_least(q[k]);
-    home.high[k] = lane_most(q[k]);
+    home.low[k] = REAL_MAX;
+    home.high[k] = -REAL_MAX;
+  }
+  EACH_LANE(lane) {
+    reals q[DIMENSION], dw;
+    seed_lanes(blocks, leaf, lane, &home.origin, q, &dw);
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
+      home.low[k] = least_of(lane_least(q[k]), home.low[k]);
+      home.high[k] = most_of(lane_most(q[k]), home.high[k]);
+    }
   }
   return home;
 }
 
-/* Squared distances of eight boxes from the home's, plus the excess dw of the home's weight over theirs. */
-static inline real8 lifted_distance8(const home_t* home, const real8* a, const real8* b, real8 dw) {
-  real8 d = dw;
+/* Squared distances of boxes from the home's, plus the excess dw of the home's weight over theirs. */
+static inline reals lifted_distances(const home_t* home, const reals* a, const reals* b, reals dw) {
+  reals d = dw;
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    const real8 gap = most8(most8(a[k] - all_lanes(home->high[k]), all_lanes(home->low[k]) - b[k]), ZERO8);
+    const reals gap =
+        each_most(each_most(a[k] - all_lanes(home->high[k]), all_lanes(home->low[k]) - b[k]), ZERO);
     d = d + gap * gap;
   }
   return d;
+}
+
+/* A bit for each child of a node with lifted distance below `bound`. */
+static inline uint children_below(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level,
+                                  real bound) {
+  uint bits = 0;
+  EACH_LANE(lane) {
+    reals a[DIMENSION], b[DIMENSION], dw;
+    node_lanes(blocks, block_of_children(tree, node, level), lane, &home->origin, a, b, &dw);
+    bits |= lane_bits(lifted_distances(home, a, b, dw) < all_lanes(bound)) << lane;
+  }
+  return bits;
 }
 
 /* Writes the leaves with lifted distance below `bound` to `list`; returns their number, or NEAR_MOST + 1 if
@@ -49,10 +68,7 @@ static inline int collect_near(tree_t tree, blocks_t blocks, const home_t* home,
   while (depth > 0) {
     const uint parent = node[--depth];
     const int level = node_level[depth];
-    real8 a[DIMENSION], b[DIMENSION], dw;
-    node_lanes(blocks, block_of_children(tree, parent, level), &home->origin, a, b, &dw);
-    uint bits = lane_bits(lifted_distance8(home, a, b, dw) < all_lanes(bound));
-    for (; bits != 0; bits &= bits - 1) {
+    for (uint bits = children_below(tree, blocks, home, parent, level, bound); bits != 0; bits &= bits - 1) {
       const uint child = parent * TREE_FAN + (uint)lowest_bit(bits);
       if (level > 1) {
         node[depth] = child;
@@ -71,11 +87,15 @@ static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const 
   uint node = leaf;
   for (int level = 1; level < tree.levels; ++level) {
     node /= TREE_FAN;
-    real8 a[DIMENSION], b[DIMENSION], dw, sum = ZERO8;
-    node_lanes(blocks, block_of_children(tree, node, level), o, a, b, &dw);
-    UNROLL for (int k = 0; k < DIMENSION; ++k) sum = sum + (b[k] - a[k]);
     const uint present = children_end(tree, node, level - 1) - node * TREE_FAN;
-    const real extent = lane_sum(choose8(ZERO8, sum, lanes_of((1u << present) - 1)));
+    real part[LANES];
+    EACH_LANE(lane) {
+      reals a[DIMENSION], b[DIMENSION], dw, sum = ZERO;
+      node_lanes(blocks, block_of_children(tree, node, level), lane, o, a, b, &dw);
+      UNROLL for (int k = 0; k < DIMENSION; ++k) sum = sum + (b[k] - a[k]);
+      store_lanes(choose(ZERO, sum, lanes_of(((1u << present) - 1) >> lane)), part + lane);
+    }
+    const real extent = sum_of_lanes(part);
     if (extent > 0) return extent / (real)(present * DIMENSION);
   }
   return 0;

@@ -6,12 +6,16 @@
 /* Writes the lifted distances of a node's children from the home; returns a bit for each below `reach`. */
 static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* home, uint node, int level,
                                    real reach, real* distance) {
-  real8 a[DIMENSION], b[DIMENSION], dw;
-  node_lanes(blocks, block_of_children(tree, node, level), &home->origin, a, b, &dw);
-  const real8 lifted = lifted_distance8(home, a, b, dw);
-  store8(lifted, distance);
+  uint bits = 0;
+  EACH_LANE(lane) {
+    reals a[DIMENSION], b[DIMENSION], dw;
+    node_lanes(blocks, block_of_children(tree, node, level), lane, &home->origin, a, b, &dw);
+    const reals lifted = lifted_distances(home, a, b, dw);
+    store_lanes(lifted, distance + lane);
+    bits |= lane_bits(lifted < all_lanes(reach)) << lane;
+  }
   const uint children = children_end(tree, node, level - 1) - node * TREE_FAN;
-  return lane_bits(lifted < all_lanes(reach)) & ((1u << children) - 1);
+  return bits & ((1u << children) - 1);
 }
 
 /* Inserts the leaves below a node that are nearer than the farthest one kept. */

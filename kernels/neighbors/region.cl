@@ -21,26 +21,25 @@ static inline bool region_has_list(region_lists_t lists, uint region) {
 
 /* Twice the largest distance of a vertex of the cell from `centre`. */
 static inline real cell_reach(const cell_t* cell, const real* centre) {
-  real8 most = ZERO8;
-  for (int b = 0; b < cell->at.blocks; ++b) {
-    const mask8 vertex = lanes_of((uint)(cell->at.used[b / 8] >> b % 8 * 8) & 255u);
-    real8 r2 = ZERO8;
+  reals most = ZERO;
+  for (int v = 0; v < slots_of(&cell->at); v += LANE_WIDTH) {
+    reals r2 = ZERO;
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
-      const real8 t = load8(cell->at.x[k] + b * LANES) - all_lanes(centre[k]);
+      const reals t = load_lanes(cell->at.x[k] + v) - all_lanes(centre[k]);
       r2 = r2 + t * t;
     }
-    most = most8(most, choose8(ZERO8, r2, vertex));
+    most = each_most(most, choose(ZERO, r2, used_lanes(&cell->at, v)));
   }
   return 2 * sqrt(lane_most(most)) * (1 + SEARCH_MARGIN);
 }
 
 /* The point whose distance orders the cuts: the seed, or the middle of the region if the seed is farther from
    it than the region's vertices are. Returns cell_reach. */
-static inline real cell_centre(const cell_t* cell, real* centre) {
-  real low[DIMENSION], high[DIMENSION], c2 = 0;
-  find_box(&cell->at, low, high);
+static inline real cell_centre(cell_t* cell, real* centre) {
+  real c2 = 0;
+  find_box(&cell->at);
   UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    centre[k] = (low[k] + high[k]) / 2;
+    centre[k] = (cell->at.low[k] + cell->at.high[k]) / 2;
     c2 += centre[k] * centre[k];
   }
   const real reach = cell_reach(cell, centre);
@@ -69,20 +68,18 @@ static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint 
     const real offset = q2 + dw - 2 * along - plane_error(&cell->at, sum, q2, dw);
     key[k] = k >= count || j == i ? LISTED_LAST : offset / most_of(sqrt(q2), resolution);
   }
-  for (int row = 0; row < rows; ++row)
-    store8(tag8(least8(load8(key + row * LANES), all_lanes(LISTED_LAST)), (uint)(row * LANES)),
-           key + row * LANES);
+  for (int k = 0; k < rows * LANES; k += LANE_WIDTH)
+    store_lanes(tag(each_least(load_lanes(key + k), all_lanes(LISTED_LAST)), (uint)k), key + k);
   return rows * LANES;
 }
 
 /* Clips the cell of rank i by all of `count` seeds, in their order. Returns a PIECE status. */
 static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __global const uint* listed,
                               int count) {
-  const seed_t seed = lists.seeds[i];
   for (int k = 0; k < count; ++k) {
     const uint j = listed[k];
     if (j == i) continue;
-    const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
+    const int cut = cut_by_seed(cell, (int)j);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }
   return PIECE_DONE;
@@ -90,21 +87,20 @@ static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __glob
 
 /* The same in the order of the keys, for longer lists. */
 static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint region) {
-  const seed_t seed = lists.seeds[i];
   real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
   const int keys = find_list_keys(cell, lists, i, region, centre, key);
   for (;;) {
-    real8 best = load8(key);
-    for (int k = LANES; k < keys; k += LANES) best = least8(best, load8(key + k));
+    reals best = load_lanes(key);
+    for (int k = LANE_WIDTH; k < keys; k += LANE_WIDTH) best = each_least(best, load_lanes(key + k));
     const real least = lane_least(best);
     if (!(untagged(least) < reach)) { /* this plane and all later ones clear every vertex */
       cell->at.gap = fmin(cell->at.gap, SEARCH_MARGIN / 8 * reach);
       return PIECE_DONE;
     }
-    const uint at = tag_of(least), row = at / LANES * LANES;
-    store8(with_lane(load8(key + row), at % LANES, LISTED_LAST), key + row);
+    const uint at = tag_of(least), row = at / LANE_WIDTH * LANE_WIDTH;
+    store_lanes(with_lane(load_lanes(key + row), at - row, LISTED_LAST), key + row);
     const uint j = lists.seed[lists.offset[region] + at];
-    const int cut = cut_by_seed(cell, seed, lists.seeds[j], (int)j);
+    const int cut = cut_by_seed(cell, (int)j);
     if (cut == CUT_SHRUNK) reach = cell_reach(cell, centre);
     if (cut > CUT_SHRUNK) return piece_status(cut);
   }

@@ -34,55 +34,89 @@ static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, ui
   return own * (1 - SEARCH_MARGIN / 8) - weights_off > 2 * sqrt(lifted2) * (cell->at.radius + off);
 }
 
+/* Tells which leaves are near: eight at once by their lifted distance, else by the list. */
+#if LANE_WIDTH == 1
+typedef uint near_t; /* the home */
+
+static inline near_t near_to(tree_t tree, blocks_t blocks, uint home) {
+  (void)tree;
+  (void)blocks;
+  return home;
+}
+
+static inline uint near_leaves(const near_t* home, tree_t tree, blocks_t blocks, uint node, uint lane) {
+  __global const uint* list = blocks.near + (size_t)*home * NEAR_MOST;
+  const uint count = blocks.near_count[*home], leaf = node * TREE_FAN + lane;
+  (void)tree;
+  for (uint k = 0; k < count; ++k)
+    if (list[k] == leaf) return 1;
+  return 0;
+}
+#else
+typedef struct {
+  home_t home;
+  real bound;
+} near_t;
+
+static inline near_t near_to(tree_t tree, blocks_t blocks, uint home) {
+  near_t near;
+  near.home = home_of(tree, blocks, home);
+  near.bound = blocks.near_bound[home];
+  return near;
+}
+
+static inline uint near_leaves(const near_t* near, tree_t tree, blocks_t blocks, uint node, uint lane) {
+  reals a[DIMENSION], b[DIMENSION], dw;
+  node_lanes(blocks, block_of_children(tree, node, 1), lane, &near->home.origin, a, b, &dw);
+  return lane_bits(lifted_distances(&near->home, a, b, dw) < all_lanes(near->bound));
+}
+#endif
+
 /* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the box of
    the cell, and if `close` by its vertices. */
 static inline void push_children(stack_t* stack, tree_t tree, blocks_t blocks, uint node, int level,
-                                 const home_t* home, real bound, const origin_t* origin, const real* low,
-                                 const real* high, const vertices_t* at, bool close) {
-  real8 a[DIMENSION], b[DIMENSION], dw;
+                                 const near_t* near, const vertices_t* at, bool close) {
   const uint block = block_of_children(tree, node, level);
-  node_lanes(blocks, block, origin, a, b, &dw);
-  uint bits = lane_bits(nodes_may_cut(a, b, dw, resolution_of(at), low, high));
-  if (close && bits != 0) bits &= lane_bits(nodes_cut(at, a, b, dw));
-  if (bits == 0) return;
-  real8 distance = dw;
-  UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    const real8 gap = most8(most8(a[k], -b[k]), ZERO8);
-    distance = distance + gap * gap;
-  }
-  real key[LANES];
-  store8(distance, key);
-  if (level == 1) {
-    node_lanes(blocks, block, &home->origin, a, b, &dw);
-    bits &= ~lane_bits(lifted_distance8(home, a, b, dw) < all_lanes(bound));
-  }
   const int base = stack->depth;
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = lowest_bit(bits);
-    push_sorted(stack, base, node * TREE_FAN + (uint)lane, level - 1, key[lane]);
+  const origin_t origin = search_origin(at->seeds[at->self]);
+  EACH_LANE(lane) {
+    reals a[DIMENSION], b[DIMENSION], dw;
+    node_lanes(blocks, block, lane, &origin, a, b, &dw);
+    uint bits = lane_bits(nodes_may_cut(at, a, b, dw));
+    if (close && bits != 0) bits &= lane_bits(nodes_cut(at, a, b, dw));
+    if (bits == 0) continue;
+    reals distance = dw;
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
+      const reals gap = each_most(each_most(a[k], -b[k]), ZERO);
+      distance = distance + gap * gap;
+    }
+    real key[LANE_WIDTH];
+    store_lanes(distance, key);
+    if (level == 1) bits &= ~near_leaves(near, tree, blocks, node, lane);
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = lowest_bit(bits);
+      push_sorted(stack, base, node * TREE_FAN + lane + (uint)k, level - 1, key[k]);
+    }
   }
 }
 
 /* Cuts by all seeds outside the near leaves that may cut the cell. */
 static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   stack_t stack;
-  real low[DIMENSION], high[DIMENSION];
-  const origin_t origin = search_origin(tree.seeds[i]);
-  const home_t home = home_of(tree, blocks, i / TREE_FAN);
-  const real bound = blocks.near_bound[i / TREE_FAN];
-  find_box(&cell->at, low, high);
+  const near_t near = near_to(tree, blocks, i / TREE_FAN);
+  find_box(&cell->at);
   push_root(&stack, tree);
   for (int visits = 0; stack.depth > 0; ++visits) {
     const bool close = visits >= VISITS_MOST;
     const uint node = stack.node[--stack.depth];
     const int level = stack.level[stack.depth];
     if (level > 0) {
-      push_children(&stack, tree, blocks, node, level, &home, bound, &origin, low, high, &cell->at, close);
+      push_children(&stack, tree, blocks, node, level, &near, &cell->at, close);
       continue;
     }
     uint left = (1u << min(TREE_FAN, tree.count - node * TREE_FAN)) - 1;
     if (node == i / TREE_FAN) left &= ~(1u << i % TREE_FAN);
-    const int cut = cut_by_leaf(cell, tree, blocks, i, node, left, close, low, high);
+    const int cut = cut_by_leaf(cell, blocks, node, left, close);
     if (cut > CUT_SHRUNK) return cut;
   }
   return CUT_NONE;

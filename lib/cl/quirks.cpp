@@ -1,5 +1,8 @@
 #include "lib/cl/quirks.hpp"
 
+#include <cstdlib>
+#include <string_view>
+
 // Workarounds that cost nothing apply to every device and have no row in the table below:
 // - PoCL keeps short loops over private arrays rolled up, and so the arrays in memory
 //   (github.com/pocl/pocl/issues/825): UNROLL in kernels/base/real.cl.
@@ -23,6 +26,9 @@ namespace {
 bool is_gpu(const DeviceInfo& device) {
   return device.type == DeviceInfo::Type::gpu;
 }
+bool is_accelerator(const DeviceInfo& device) {
+  return device.type == DeviceInfo::Type::accelerator;
+}
 bool is_cpu(const DeviceInfo& device) {
   return device.type == DeviceInfo::Type::cpu;
 }
@@ -39,6 +45,10 @@ struct Row {
 constexpr Row table[] = {
     // GPUs: several warps a group, but few enough to leave each work-item its registers.
     {is_gpu, [](Quirks& quirks) { quirks.group_size = 128; }},
+
+    // Vectors of eight make clip kernels spill on GPUs (docs/gpu_costs.md); on CPUs they are twice as fast.
+    {is_gpu, [](Quirks& quirks) { quirks.lane_width = 1; }},
+    {is_accelerator, [](Quirks& quirks) { quirks.lane_width = 1; }},
 
     // PoCL compiles a kernel once for grids of less than 2^16 work-items and once for larger ones
     // (github.com/pocl/pocl/pull/738). The limit holds on every CPU, so that chunks are the same with every
@@ -62,6 +72,14 @@ Quirks quirks_of(const DeviceInfo& device) {
   for (const Row& row : table)
     if (row.applies(device)) row.change(quirks);
   return quirks;
+}
+
+int lane_width(const DeviceInfo& device) {
+  const char* set = std::getenv("POWERCELL_LANES");
+  const std::string_view wish = set ? set : "";
+  if (wish == "vector") return 8;
+  if (wish == "scalar") return 1;
+  return quirks_of(device).lane_width;
 }
 
 }  // namespace powercell::cl

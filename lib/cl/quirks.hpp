@@ -21,8 +21,14 @@ struct Quirks {
   std::size_t group_size = 32;
   /// A launch of more work-items makes the driver compile the kernel once more.
   std::uint64_t launch_limit = std::numeric_limits<std::uint64_t>::max();
+  /// Numbers that a work-item handles at once: 8 in vectors, which take eight registers each where work-items
+  /// are lanes themselves, or 1 (LANE_WIDTH of kernels/base/lanes.cl).
+  int lane_width = 8;
 };
 
 Quirks quirks_of(const DeviceInfo& device);
+
+/// That of its quirks, unless the environment variable POWERCELL_LANES is "vector" or "scalar".
+int lane_width(const DeviceInfo& device);
 
 }  // namespace powercell::cl

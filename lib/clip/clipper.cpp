@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "kernels/layout.h"
+#include "lib/cl/quirks.hpp"
 #include "lib/clip/golden.hpp"
 #include "lib/report/log.hpp"
 
@@ -69,7 +70,8 @@ cl::Kernel& Clipper::kernel(std::size_t number) {
   const auto found = kernels_.find(number);
   if (found != kernels_.end()) return found->second;
   const RegionMesh& mesh = scene_.mesh();
-  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number)};
+  const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number),
+                        cl::lane_width(scene_.context()->info())};
   auto program = scene_.context()->program(candidates_.file(), variant.defines());
   program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, number); });
   return kernels_

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/cl/quirks.hpp"
 #include "lib/clip/golden.hpp"
 #include "lib/diagram/setup.hpp"
 #include "lib/scene/variant.hpp"
@@ -29,13 +30,14 @@ std::size_t real_bytes(Precision precision) {
   return precision == Precision::float32 ? sizeof(float) : sizeof(double);
 }
 
-Variant variant(const Domain& domain, Precision precision, Capacity capacity) {
-  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity};
+Variant variant(const Device& device, const Domain& domain, Precision precision, Capacity capacity) {
+  return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
+          cl::lane_width(device.info())};
 }
 
 /// The defines of kernels that hold no cell.
-std::vector<std::string> plain_defines(const Domain& domain, Precision precision) {
-  return variant(domain, precision, {1, 1}).defines();
+std::vector<std::string> plain_defines(const Device& device, const Domain& domain, Precision precision) {
+  return variant(device, domain, precision, {1, 1}).defines();
 }
 
 template <class Real>
@@ -83,15 +85,15 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       precision(choose_precision(device, options.precision)),
       domain_buffers(device.context(), domain.mesh(), precision == Precision::float32),
       frame_(device.context()),
-      seeds_(device.context(), plain_defines(domain, precision), precision == Precision::float32),
-      tree_(device.context(), plain_defines(domain, precision)),
-      blocks_(device.context(), variant(domain, precision, {1, 1}),
+      seeds_(device.context(), plain_defines(device, domain, precision), precision == Precision::float32),
+      tree_(device.context(), plain_defines(device, domain, precision)),
+      blocks_(device.context(), variant(device, domain, precision, {1, 1}),
               std::make_shared<BlockBuffers>(device.context())),
-      pairs_(domain_buffers, plain_defines(domain, precision)),
-      walls_(device.context(), plain_defines(domain, precision), real_bytes(precision)),
+      pairs_(domain_buffers, plain_defines(device, domain, precision)),
+      walls_(device.context(), plain_defines(device, domain, precision), real_bytes(precision)),
       compaction_(device.context()),
       finish_(device.context(),
-              device.context()->program("diagram/finish.cl", plain_defines(domain, precision)),
+              device.context()->program("diagram/finish.cl", plain_defines(device, domain, precision)),
               "write_measures"),
       piece_status_(device.context()),
       list_(device.context()),
@@ -109,7 +111,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
 }
 
 void DeviceDiagram::State::add_capacity(std::size_t capacity) {
-  const Variant used = variant(domain, precision, capacities(domain.cell_dimension())[capacity]);
+  const Variant used = variant(device, domain, precision, capacities(domain.cell_dimension())[capacity]);
   auto program = device.context()->program(clip_file, used.defines());
   program->trust_after([&] { test_capacity(device, used, capacity); });
   clip_.emplace_back(device.context(), std::move(program), "clip_pairs");

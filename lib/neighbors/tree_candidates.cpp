@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/cl/quirks.hpp"
+
 namespace powercell {
 namespace {
 
@@ -37,7 +39,11 @@ std::vector<std::uint32_t> plane_offsets(const CellPlanes& planes, std::size_t s
 }  // namespace
 
 Variant without_cells(const Scene& scene) {
-  return {scene.mesh().dimension, scene.mesh().cell_dimension, scene.float32(), {1, 1}};
+  return {scene.mesh().dimension,
+          scene.mesh().cell_dimension,
+          scene.float32(),
+          {1, 1},
+          cl::lane_width(scene.context()->info())};
 }
 
 TreeBlocks::Tree device_tree(const Scene& scene) {

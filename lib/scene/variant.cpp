@@ -3,10 +3,12 @@
 namespace powercell {
 
 std::vector<std::string> Variant::defines() const {
-  return {std::string("REAL_BITS=") + (float32 ? "32" : "64"), "DIMENSION=" + std::to_string(dimension),
+  return {std::string("REAL_BITS=") + (float32 ? "32" : "64"),
+          "DIMENSION=" + std::to_string(dimension),
           "CELL_DIMENSION=" + std::to_string(cell_dimension),
           "VERTEX_CAPACITY=" + std::to_string(capacity.vertices),
-          "FACE_CAPACITY=" + std::to_string(capacity.faces)};
+          "FACE_CAPACITY=" + std::to_string(capacity.faces),
+          "LANE_WIDTH=" + std::to_string(lane_width)};
 }
 
 const std::vector<Capacity>& capacities(int cell_dimension) {
@@ -17,12 +19,12 @@ const std::vector<Capacity>& capacities(int cell_dimension) {
   return cell_dimension == 2 ? polygons : polyhedra;
 }
 
-std::vector<Variant> all_variants(bool float32) {
+std::vector<Variant> all_variants(bool float32, int lane_width) {
   const int spaces[3][2] = {{2, 2}, {3, 2}, {3, 3}};
   std::vector<Variant> all;
   for (const auto& [dimension, cell_dimension] : spaces)
     for (const Capacity& capacity : capacities(cell_dimension))
-      all.push_back({dimension, cell_dimension, float32, capacity});
+      all.push_back({dimension, cell_dimension, float32, capacity, lane_width});
   return all;
 }
 

@@ -20,6 +20,7 @@ struct Variant {
   int cell_dimension = 0;
   bool float32 = false;
   Capacity capacity{};
+  int lane_width = 8;  ///< 1 or 8 (lib/cl/quirks.hpp)
 
   std::vector<std::string> defines() const;
 };
@@ -29,7 +30,7 @@ struct Variant {
 /// 3D: white noise has 15.5 faces and 27 vertices, in 10^6 cells at most about 40 and 76.
 const std::vector<Capacity>& capacities(int cell_dimension);
 
-/// All variants of one precision, for tests that compile each.
-std::vector<Variant> all_variants(bool float32);
+/// All variants of one precision and width of lanes, for tests that compile each.
+std::vector<Variant> all_variants(bool float32, int lane_width);
 
 }  // namespace powercell

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/environment.hpp"
+
 using namespace powercell;
 using Type = DeviceInfo::Type;
 
@@ -44,4 +46,22 @@ TEST_CASE("quirks: a launch at a CPU's limit, rounded up to whole groups, stays 
   CHECK(cpu.group_size == 32);
   CHECK(cpu.launch_limit + cpu.group_size < std::uint64_t{1} << 16);
   CHECK(cpu.launch_limit > std::uint64_t{1} << 15);
+}
+
+TEST_CASE("quirks: GPUs and accelerators take lanes one by one, unless the environment says otherwise") {
+  const test::Environment unset("POWERCELL_LANES", "");
+  DeviceInfo cpu, gpu, accelerator, other;
+  cpu.type = Type::cpu;
+  gpu.type = Type::gpu;
+  accelerator.type = Type::accelerator;
+  CHECK(cl::lane_width(cpu) == 8);
+  CHECK(cl::lane_width(gpu) == 1);
+  CHECK(cl::lane_width(accelerator) == 1);
+  CHECK(cl::lane_width(other) == 8);
+  {
+    const test::Environment vector("POWERCELL_LANES", "vector");
+    CHECK(cl::lane_width(gpu) == 8);
+  }
+  const test::Environment scalar("POWERCELL_LANES", "scalar");
+  CHECK(cl::lane_width(cpu) == 1);
 }

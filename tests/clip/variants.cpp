@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
+#include "lib/cl/quirks.hpp"
 #include "lib/clip/golden.hpp"
 #include "lib/neighbors/list_candidates.hpp"
 #include "lib/neighbors/tree_candidates.hpp"
 #include "lib/scene/variant.hpp"
 #include "tests/clip/random_scene.hpp"
+#include "tests/support/environment.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
@@ -56,7 +58,7 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
 #endif
   for (const bool float32 : {false, true}) {
     if (!float32 && !context->info().fp64) continue;
-    for (const Variant& variant : all_variants(float32)) {
+    for (const Variant& variant : all_variants(float32, cl::lane_width(context->info()))) {
       for (const Candidates* source : sources) {
         CAPTURE(source->file());
         CAPTURE(variant.dimension);
@@ -69,10 +71,28 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
   }
 }
 
+TEST_CASE("every variant computes the golden diagram with lanes as on other kinds of devices") {
+  const auto context = test_context();
+  const bool scalar = cl::lane_width(context->info()) == 1;
+  const Environment lanes("POWERCELL_LANES", scalar ? "vector" : "scalar");
+  const RandomScene scene(context, 3, 50, 0.5, false);
+  const TreeCandidates tree(scene.scene);
+  for (const bool float32 : {false, true}) {
+    if (!float32 && !context->info().fp64) continue;
+    for (const Variant& variant : all_variants(float32, scalar ? 8 : 1)) {
+      CAPTURE(variant.dimension);
+      CAPTURE(variant.cell_dimension);
+      CAPTURE(variant.capacity.vertices);
+      CAPTURE(float32);
+      REQUIRE_NOTHROW(golden_test(context, tree, variant, capacity_of(variant)));
+    }
+  }
+}
+
 TEST_CASE("a device that computes the golden diagram wrongly is refused, and named") {
   const auto context = test_context();
   const RandomScene scene(context, 2, 20, 0.5, true);
-  Variant variant = all_variants(true).front();
+  Variant variant = all_variants(true, cl::lane_width(context->info())).front();
   try {
     golden_test(context, BlindCandidates(scene.scene), variant, 0);
     FAIL("the wrong answer was believed");

@@ -1,0 +1,42 @@
+// Eight lanes at once, as on CPUs, and one after the other, as on GPUs, give the same bits.
+#include <doctest/doctest.h>
+
+#include "tests/support/domains.hpp"
+#include "tests/support/environment.hpp"
+#include "tests/support/permuted.hpp"
+#include "tests/support/setups.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+std::vector<NamedDomain> kinds() {
+  return {{"islands", Domain::polygon(islands())},
+          {"square", unit_box(2)},
+          {"torus", surface_of(torus(12, 7))},
+          {"ball", volume_of(ball_tetrahedra(0))},
+          {"cube", unit_box(3)}};
+}
+
+Results results(const char* lanes, const Setup& setup, const Domain& domain, const SeedArray& seeds) {
+  const Environment environment("POWERCELL_LANES", lanes);
+  Diagram diagram(setup.device, domain, setup.options);
+  diagram.set_seeds(seeds.view());
+  return results_of(diagram);
+}
+
+}  // namespace
+
+TEST_CASE("lanes at once and one by one give the same bits, for equal, moderate and hiding weights") {
+  for (const NamedDomain& named : kinds())
+    for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
+      Random random(test_seed());
+      const SeedArray seeds = seeds_for(named.domain, Distribution::white, range, 1500, random);
+      for (const Setup& setup : all_setups()) {
+        INFO(named.name << ", " << setup.name << ", W" << static_cast<int>(range));
+        const Results vector = results("vector", setup, named.domain, seeds);
+        CHECK(bit_differences(results("scalar", setup, named.domain, seeds), vector) == "");
+      }
+    }
+}
