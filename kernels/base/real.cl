@@ -58,8 +58,10 @@ typedef real stored_real;
    leave out a seed whose bisector clears every vertex by m / 16 of the radius of the cell. A cell goes to the
    host if errors of the data move a wall more than MOST_BLUR times as far as rounding does, or if its measure
    is below LEAST_FILLING of the square or cube of its radius and it goes on in no other region. QUICK_PROOF:
-   whether (84) is tried, for which floats are not exact enough. */
+   whether (84) is tried, for which floats are not exact enough. START_NEAR: whether cells start near their
+   seeds, (82b). */
 #define QUICK_PROOF (REAL_BITS == 64)
+#define START_NEAR (REAL_BITS == 32)
 #if REAL_BITS == 32
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
 #define LEAST_FILLING ((real)0.05)

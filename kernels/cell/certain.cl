@@ -131,14 +131,15 @@ static inline real4 raw_bisector(const vertices_t* p, int other) {
                     norm2(q) + weight_difference(seed, there));
 }
 
-/* Corner k of the region relative to the seed; .w is 0. */
+/* Corner k of the region relative to the seed, within the extent; .w is 0. */
 static inline real4 region_corner(const vertices_t* p, int k) {
   real y[DIMENSION];
-  difference(p->corner[p->region[k]], p->seeds[p->self], y);
+  find_corner(p, k, y);
   return make_real4(y[0], y[1], DIMENSION == 3 ? y[DIMENSION - 1] : 0, 0);
 }
 
-/* The plane through y with normal n = a x b, which is outward. */
+/* The plane through y with normal n = a x b, which is outward. Of a box the normal is along an axis, and the
+   plane is off by no more than y. */
 static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a, real4 b, real4 n) {
   certain_plane_t unit;
   const real size = sqrt(dot3(n, n)), scale = 1 / size;
@@ -146,6 +147,7 @@ static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a,
   unit.plane.w = dot3(unit.plane, y);
   unit.doubt =
       (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
+  if (p->box) unit.doubt = 8 * (REAL_EPSILON * fabs(unit.plane.w) + p->blur.position);
   return unit;
 }
 

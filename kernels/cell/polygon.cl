@@ -25,9 +25,10 @@ static inline void link_vertices(cell_t* cell, int from, int to) {
   cell->previous[to] = (index_t)from;
 }
 
-/* The region as the cell of seed `self`. Returns a PIECE status. */
+/* The region as the cell of seed `self`; of a box around the seed only what is within `extent` in each
+   coordinate. Returns a PIECE status. */
 static inline int cell_start(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint self,
-                             uint region) {
+                             uint region, real extent) {
   const uint first = regions.offset[region];
   const int count = (int)(regions.offset[region + 1] - first);
   if (count > VERTEX_CAPACITY) return PIECE_FULL;
@@ -35,7 +36,7 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   cell->first = 0;
   cell->corners = count;
   cell->removed_count = 0;
-  set_corners(&cell->at, count);
+  set_corners(&cell->at, count, extent);
   for (int v = 0; v < count; ++v) {
     cell->border[v] = ~v;
     link_vertices(cell, v, v + 1 == count ? 0 : v + 1);

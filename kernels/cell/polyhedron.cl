@@ -18,15 +18,16 @@ typedef struct {
   int faces;                            /* face numbers assigned; some may be unused */
 } cell_t;
 
-/* The region as the cell of seed `self`. Returns a PIECE status. */
+/* The region as the cell of seed `self`; of a box around the seed only what is within `extent` in each
+   coordinate. Returns a PIECE status. */
 static inline int cell_start(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint self,
-                             uint region) {
+                             uint region, real extent) {
   const uint first = regions.offset[region];
   cell->faces = regions.shape->faces;
   cell->shape = regions.shape;
   start_vertices(&cell->at, regions, seeds, self, regions.vertex + first,
                  regions.behind + region * (uint)cell->faces);
-  set_corners(&cell->at, regions.shape->vertices);
+  set_corners(&cell->at, regions.shape->vertices, extent);
   for (int v = 0; v < regions.shape->vertices; ++v) {
     UNROLL for (int k = 0; k < 3; ++k) {
       cell->next[k][v] = (index_t)regions.shape->next[k][v];

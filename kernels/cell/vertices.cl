@@ -15,6 +15,8 @@ typedef struct {
   ulong outside[VERTEX_WORDS]; /* vertices outside the last plane that cut */
   int blocks;                  /* in use */
   real reach;  /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  real extent; /* no coordinate of a corner is larger: those of the region are brought down to it */
+  bool box;    /* the region is a box along the axes (looked for if START_NEAR) */
   real radius; /* no vertex is farther from the seed */
   real most;   /* largest of side[] */
   real
@@ -56,6 +58,21 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
   p->behind = behind;
 }
 
+/* Bounding box of the vertices. */
+static inline void find_box(const vertices_t* p, real* low, real* high) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    real8 l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
+    for (int b = 0; b < p->blocks; ++b) {
+      const mask8 vertex = lanes_of((uint)(p->used[b / 8] >> b % 8 * 8) & 255u);
+      const real8 x = load8(p->x[k] + b * LANES);
+      l = least8(l, choose8(l, x, vertex));
+      h = most8(h, choose8(h, x, vertex));
+    }
+    low[k] = lane_least(l);
+    high[k] = lane_most(h);
+  }
+}
+
 /* Adds a free block. */
 static inline void add_block(vertices_t* p) {
   UNROLL for (int k = 0; k < DIMENSION; ++k) store8(ZERO8, p->x[k] + p->blocks * LANES);
@@ -81,23 +98,64 @@ static inline void use_slot(vertices_t* p, int v) {
   p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS;
 }
 
+/* Corner k of the region relative to the seed, brought within the extent. */
+static inline void find_corner(const vertices_t* p, int k, real* y) {
+  difference(p->corner[p->region[k]], p->seeds[p->self], y);
+  UNROLL for (int c = 0; c < DIMENSION; ++c) y[c] = most_of(least_of(y[c], p->extent), -p->extent);
+}
+
+/* Whether the corners are those of a box along the axes, which has as many dimensions as the space. */
+static inline bool corners_of_box(const vertices_t* p, int count, const real* low, const real* high) {
+  bool box = CELL_DIMENSION == DIMENSION && count == 1 << DIMENSION;
+  for (int v = 0; box && v < count; ++v)
+    UNROLL for (int k = 0; k < DIMENSION; ++k) box = box && (p->x[k][v] == low[k] || p->x[k][v] == high[k]);
+  return box;
+}
+
+/* Brings the corners of a box within `extent` of the seed in each coordinate, if enough of the box is there
+   (docs/mathematics.md (82b)). */
+static inline void shrink_box(vertices_t* p, int count, real extent) {
+  real low[DIMENSION], high[DIMENSION];
+  find_box(p, low, high);
+  p->box = corners_of_box(p, count, low, high);
+  bool near = p->box && extent < p->reach;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) near = near && 2 * low[k] < extent && 2 * high[k] > -extent;
+  if (!near) return;
+  p->extent = extent;
+  for (int v = 0; v < count; ++v)
+    UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][v] = most_of(least_of(p->x[k][v], extent), -extent);
+  p->reach = least_of(p->reach, DIMENSION * extent);
+}
+
 /* The corners of the region as vertices 0, 1, ... */
-static inline void set_corners(vertices_t* p, int count) {
-  const seed_t seed = p->seeds[p->self];
-  real reach = 0;
+static inline void set_corners(vertices_t* p, int count, real extent) {
+  p->reach = 0;
+  p->extent = REAL_MAX;
+  p->box = false;
   while (p->blocks * LANES < count) add_block(p);
   for (int v = 0; v < count; ++v) {
     real y[DIMENSION], sum = 0;
-    difference(p->corner[p->region[v]], seed, y);
+    difference(p->corner[p->region[v]], p->seeds[p->self], y);
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       p->x[k][v] = y[k];
       sum += fabs(y[k]);
     }
-    reach = most_of(sum, reach);
+    p->reach = most_of(sum, p->reach);
   }
-  p->radius = p->reach = reach;
   for (int w = 0; w * WORD_BITS < count; ++w)
     p->used[w] = ~(ulong)0 >> (WORD_BITS - min(WORD_BITS, count - w * WORD_BITS));
+  if (START_NEAR) shrink_box(p, count, extent);
+  p->radius = p->reach;
+}
+
+/* Whether no vertex is near the planes that the extent put in place of the region's: then the cell is that of
+   the whole region. */
+static inline bool clears_extent(const vertices_t* p) {
+  if (p->extent == REAL_MAX) return true;
+  real low[DIMENSION], high[DIMENSION], most = 0;
+  find_box(p, low, high);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) most = most_of(most, most_of(high[k], -low[k]));
+  return most < (1 - SEARCH_MARGIN) * p->extent;
 }
 
 /* Frees the slots of `outside`. */
@@ -194,21 +252,6 @@ static inline real find_radius2(vertices_t* p) {
   const real radius2 = lane_most(most);
   p->radius = sqrt(radius2) * (1 + 8 * REAL_EPSILON);
   return radius2;
-}
-
-/* Bounding box of the vertices. */
-static inline void find_box(const vertices_t* p, real* low, real* high) {
-  UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    real8 l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
-    for (int b = 0; b < p->blocks; ++b) {
-      const mask8 vertex = lanes_of((uint)(p->used[b / 8] >> b % 8 * 8) & 255u);
-      const real8 x = load8(p->x[k] + b * LANES);
-      l = least8(l, choose8(l, x, vertex));
-      h = most8(h, choose8(h, x, vertex));
-    }
-    low[k] = lane_least(l);
-    high[k] = lane_most(h);
-  }
 }
 
 #endif
