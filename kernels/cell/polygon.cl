@@ -65,7 +65,7 @@ static inline certain_plane_t facet_line(const cell_t* cell, int slot, real4 gro
 /* The line of an edge. */
 static inline certain_plane_t edge_line(const cell_t* cell, int v, real4 ground) {
   return cell->border[v] < 0 ? facet_line(cell, ~cell->border[v], ground)
-                             : unit_plane(&cell->at, cell->line[v]);
+                             : border_plane(&cell->at, cell->border[v], cell->line[v]);
 }
 
 /* What edge f lies in: 2 q.y = offset. */
@@ -157,7 +157,8 @@ static inline real4 certain_place(const cell_t* cell, int v, certain_plane_t gro
   const int u = cell->previous[v];
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
   real4 y = vertex_point(&cell->at, v);
-  if ((cell->border[u] & cell->border[v]) >= 0) return meeting_point(&cell->at, y, ground, in, out);
+  if (cell->at.centred || (cell->border[u] & cell->border[v]) >= 0)
+    return meeting_point(&cell->at, y, ground, in, out);
   y.w = corner_error(&cell->at); /* a corner of the region */
   return y;
 }

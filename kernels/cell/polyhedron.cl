@@ -56,7 +56,8 @@ static inline certain_plane_t region_plane(const cell_t* cell, int f) {
 
 /* The plane of face f, with unit normal. */
 static inline certain_plane_t face_plane(const cell_t* cell, int f) {
-  return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]) : unit_plane(&cell->at, cell->normal[f]);
+  return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f])
+                             : border_plane(&cell->at, cell->border[f], cell->normal[f]);
 }
 
 /* What face f lies in: 2 q.y = offset. */
@@ -218,7 +219,8 @@ static inline bool find_places(cell_t* cell) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       const int a = cell->face[0][v], b = cell->face[1][v], c = cell->face[2][v];
       real4 y = vertex_point(&cell->at, v);
-      if ((cell->border[a] & cell->border[b] & cell->border[c]) < 0) { /* a corner of the region */
+      if (!cell->at.centred && (cell->border[a] & cell->border[b] & cell->border[c]) < 0) {
+        /* a corner of the region */
         y.w = corner_error(&cell->at);
       } else {
         const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},

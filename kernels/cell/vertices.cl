@@ -3,6 +3,7 @@
 #ifndef POWERCELL_CLIP_VERTICES
 #define POWERCELL_CLIP_VERTICES
 #include "base/lanes.cl"
+#include "base/point.cl"
 #include "base/regions.cl"
 
 #define NO_VERTEX ((index_t)(-1))
@@ -14,11 +15,14 @@ typedef struct {
   ulong used[VERTEX_WORDS];    /* a bit per slot: it is a vertex */
   ulong outside[VERTEX_WORDS]; /* vertices outside the last plane that cut */
   int blocks;                  /* in use */
-  real reach;  /* largest coordinate sum of the region's corners: the scale of rounding errors */
-  real extent; /* no coordinate of a corner is larger: those of the region are brought down to it */
-  bool box;    /* the region is a box along the axes (looked for if START_NEAR) */
-  real radius; /* no vertex is farther from the seed */
-  real most;   /* largest of side[] */
+  real reach;   /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  real extent;  /* no coordinate of a corner is larger: those of the region are brought down to it */
+  bool box;     /* the region is a box along the axes (looked for if START_NEAR) */
+  bool centred; /* coordinates are relative to `centre`, which is relative to the seed */
+  real centre[DIMENSION]; /* c */
+  real away;              /* |c_1| + |c_2| + ... */
+  real radius;            /* no vertex is farther from the seed */
+  real most;              /* largest of side[] */
   real
       gap; /* no plane that cut nothing, but that of `closest`, is nearer to a vertex; below 0: one may cut */
   real closest_gap;  /* how near that of `closest` came; of both, rounding is taken off */
@@ -50,6 +54,7 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
   p->steep = 1;
   p->rounding = 0;
   p->drift = 0;
+  p->centred = false;
   p->blur = blur_of(seeds[self]);
   p->region = region;
   p->self = self;
@@ -104,6 +109,21 @@ static inline void find_corner(const vertices_t* p, int k, real* y) {
   UNROLL for (int c = 0; c < DIMENSION; ++c) y[c] = most_of(least_of(y[c], p->extent), -p->extent);
 }
 
+/* The same relative to the centre, to the precision of the result. */
+static inline void find_centred_corner(const vertices_t* p, int k, real* y) {
+  const parts_t a = parts_of(p->corner[p->region[k]]), b = parts_of(p->seeds[p->self]);
+  find_corner(p, k, y);
+  UNROLL for (int c = 0; c < DIMENSION; ++c) {
+    real low = 0, rest;
+    if (fabs(y[c]) < p->extent) {
+      y[c] = exact_difference(a.high[c], b.high[c], &low);
+      low += a.low[c] - b.low[c];
+    }
+    y[c] = exact_difference(y[c], p->centre[c], &rest);
+    y[c] += low + rest;
+  }
+}
+
 /* Whether the corners are those of a box along the axes, which has as many dimensions as the space. */
 static inline bool corners_of_box(const vertices_t* p, int count, const real* low, const real* high) {
   bool box = CELL_DIMENSION == DIMENSION && count == 1 << DIMENSION;
@@ -156,6 +176,29 @@ static inline bool clears_extent(const vertices_t* p) {
   find_box(p, low, high);
   UNROLL for (int k = 0; k < DIMENSION; ++k) most = most_of(most, most_of(high[k], -low[k]));
   return most < (1 - SEARCH_MARGIN) * p->extent;
+}
+
+/* Takes coordinates relative to the middle of the vertices from here on. */
+static inline void recentre(vertices_t* p) {
+  real low[DIMENSION], high[DIMENSION];
+  find_box(p, low, high);
+  p->away = 0;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    p->centre[k] = (low[k] + high[k]) / 2;
+    p->away += fabs(p->centre[k]);
+  }
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1)
+      UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] -= p->centre[k];
+  p->centred = true;
+}
+
+/* Takes them relative to the seed again. */
+static inline void leave_centre(vertices_t* p) {
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1)
+      UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] += p->centre[k];
+  p->centred = false;
 }
 
 /* Frees the slots of `outside`. */

@@ -56,7 +56,7 @@ void check_float(int dimension, WeightRange range, std::size_t n) {
   CHECK(worst_error(narrow.measures(), wide.measures()) < 1e-5);
 }
 
-constexpr WeightRange all_ranges[] = {WeightRange::W0};
+constexpr WeightRange all_ranges[] = {WeightRange::W0, WeightRange::W1, WeightRange::W2};
 
 }  // namespace
 
