@@ -59,18 +59,22 @@ typedef real stored_real;
 
 /* Bounds of the proofs (docs/mathematics.md, "Certain decisions"), in which m is SEARCH_MARGIN. A search may
    leave out a seed whose bisector clears every vertex by m / 16 of the radius of the cell. A cell goes to the
-   host if errors of the data move a wall more than MOST_BLUR times as far as rounding does, or if its measure
-   is below LEAST_FILLING of the square or cube of its radius and it goes on in no other region. QUICK_PROOF:
-   whether (84) is tried, for which floats are not exact enough. */
+   host if errors of the data move a wall more than MOST_BLUR times as far as rounding does. If its measure is
+   below LEAST_FILLING of the square or cube of its radius and it goes on in no other region, it is measured
+   about a centre, and goes to the host below LEAST_CENTRED_FILLING. QUICK_PROOF: whether (84) is tried, for
+   which floats are not exact enough. START_NEAR: whether cells start near their seeds, (82b). */
 #define QUICK_PROOF (REAL_BITS == 64)
+#define START_NEAR (REAL_BITS == 32)
 #if REAL_BITS == 32
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
-#define LEAST_FILLING ((real)0.05)
+#define LEAST_FILLING ((real)0.1)
+#define LEAST_CENTRED_FILLING ((real)0.005)
 #define MOST_BLUR 1
 #define NEGLIGIBLE_WALL NEGLIGIBLE_WALL_FLOAT
 #else
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_DOUBLE))
 #define LEAST_FILLING 0
+#define LEAST_CENTRED_FILLING 0
 #define MOST_BLUR (REAL_MAX / 4)
 #define NEGLIGIBLE_WALL NEGLIGIBLE_WALL_DOUBLE
 #endif

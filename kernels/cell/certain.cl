@@ -3,7 +3,7 @@
    common to polygons and polyhedra. L is the unit of length of the cell; symbols are those of (80)-(84).
 
    name         unit    meaning                                               computed in                   symbol
-   radius       L       no vertex is farther from the seed                    find_radius2                  R
+   radius       L       no vertex is farther from the seed, or the centre     find_radius2                  R
    blur         L, L^2  errors of a coordinate and of a weight as stored      blur_of (base/real.cl)        b, b_w
    doubt        L       error of a plane of unit normal within the radius     unit_plane, facet_plane       delta_f
    y.w, side[]  L       error of a vertex solved from its planes              meeting_point, move_vertex    e_v
@@ -115,8 +115,13 @@ static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   certain_plane_t unit;
   const real size = sqrt(raw.x * raw.x + raw.y * raw.y + raw.z * raw.z), scale = 1 / size;
   const real h = raw.w * scale * (real)0.5;
-  const real rounding = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h));
-  const real data = plane_blur(p->blur, p->radius, size) * (scale / 2);
+  real rounding = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h));
+  real data = plane_blur(p->blur, p->radius, size) * (scale / 2);
+  if (p->centred) { /* by (82c) */
+    rounding = REAL_EPSILON * (3 * p->radius + fabs(h));
+    data = plane_blur(p->blur, p->radius + p->away, size) * (scale / 2) +
+           32 * REAL_EPSILON * REAL_EPSILON * (p->radius + p->away + size);
+  }
   unit.plane = make_real4(raw.x * scale, raw.y * scale, raw.z * scale, h);
   unit.doubt = data > MOST_BLUR * rounding ? 4 * p->radius + data : rounding + data;
   return unit;
@@ -131,14 +136,42 @@ static inline real4 raw_bisector(const vertices_t* p, int other) {
                     norm2(q) + weight_difference(seed, there));
 }
 
-/* Corner k of the region relative to the seed; .w is 0. */
+/* The same about the centre, 2 q.(y - c) = q.(q - 2 c) + w_i - w_j, to the precision of the result although
+   the terms may cancel. */
+static inline real4 centred_bisector(const vertices_t* p, int other) {
+  const parts_t a = parts_of(p->seeds[other]), b = parts_of(p->seeds[p->self]);
+  real q[3] = {0, 0, 0}, low, rest, sum = exact_difference(b.high[3], a.high[3], &low);
+  low += b.low[3] - a.low[3];
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    real q_low, u_low;
+    q[k] = exact_difference(a.high[k], b.high[k], &q_low);
+    q_low += a.low[k] - b.low[k];
+    normalize_parts(&q[k], &q_low);
+    const real u = exact_difference(q[k], 2 * p->centre[k], &u_low), product = q[k] * u;
+    low += fma(q[k], u, -product) + (q[k] * (u_low + q_low) + q_low * u);
+    sum = exact_difference(sum, -product, &rest);
+    low += rest;
+  }
+  return make_real4(q[0], q[1], q[2], sum + low);
+}
+
+/* The plane of `border` with unit normal; `raw` is (q, offset) of it, relative to the seed. */
+static inline certain_plane_t border_plane(const vertices_t* p, int border, real4 raw) {
+  return unit_plane(p, p->centred ? centred_bisector(p, border) : raw);
+}
+
+/* Corner k of the region, within the extent; .w is 0. */
 static inline real4 region_corner(const vertices_t* p, int k) {
   real y[DIMENSION];
-  difference(p->corner[p->region[k]], p->seeds[p->self], y);
+  if (p->centred)
+    find_centred_corner(p, k, y);
+  else
+    find_corner(p, k, y);
   return make_real4(y[0], y[1], DIMENSION == 3 ? y[DIMENSION - 1] : 0, 0);
 }
 
-/* The plane through y with normal n = a x b, which is outward. */
+/* The plane through y with normal n = a x b, which is outward. Of a box the normal is along an axis, and the
+   plane is off by no more than y. About a centre, no other is known to enough digits. */
 static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a, real4 b, real4 n) {
   certain_plane_t unit;
   const real size = sqrt(dot3(n, n)), scale = 1 / size;
@@ -146,6 +179,8 @@ static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a,
   unit.plane.w = dot3(unit.plane, y);
   unit.doubt =
       (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
+  if (p->box) unit.doubt = 8 * (REAL_EPSILON * fabs(unit.plane.w) + p->blur.position);
+  if (p->centred && !p->box) unit.doubt = REAL_MAX;
   return unit;
 }
 

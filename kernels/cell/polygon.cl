@@ -25,9 +25,10 @@ static inline void link_vertices(cell_t* cell, int from, int to) {
   cell->previous[to] = (index_t)from;
 }
 
-/* The region as the cell of seed `self`. Returns a PIECE status. */
+/* The region as the cell of seed `self`; of a box around the seed only what is within `extent` in each
+   coordinate. Returns a PIECE status. */
 static inline int cell_start(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint self,
-                             uint region) {
+                             uint region, real extent) {
   const uint first = regions.offset[region];
   const int count = (int)(regions.offset[region + 1] - first);
   if (count > VERTEX_CAPACITY) return PIECE_FULL;
@@ -35,7 +36,7 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   cell->first = 0;
   cell->corners = count;
   cell->removed_count = 0;
-  set_corners(&cell->at, count);
+  set_corners(&cell->at, count, extent);
   for (int v = 0; v < count; ++v) {
     cell->border[v] = ~v;
     link_vertices(cell, v, v + 1 == count ? 0 : v + 1);
@@ -64,7 +65,7 @@ static inline certain_plane_t facet_line(const cell_t* cell, int slot, real4 gro
 /* The line of an edge. */
 static inline certain_plane_t edge_line(const cell_t* cell, int v, real4 ground) {
   return cell->border[v] < 0 ? facet_line(cell, ~cell->border[v], ground)
-                             : unit_plane(&cell->at, cell->line[v]);
+                             : border_plane(&cell->at, cell->border[v], cell->line[v]);
 }
 
 /* What edge f lies in: 2 q.y = offset. */
@@ -156,7 +157,8 @@ static inline real4 certain_place(const cell_t* cell, int v, certain_plane_t gro
   const int u = cell->previous[v];
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
   real4 y = vertex_point(&cell->at, v);
-  if ((cell->border[u] & cell->border[v]) >= 0) return meeting_point(&cell->at, y, ground, in, out);
+  if (cell->at.centred || (cell->border[u] & cell->border[v]) >= 0)
+    return meeting_point(&cell->at, y, ground, in, out);
   y.w = corner_error(&cell->at); /* a corner of the region */
   return y;
 }

@@ -18,15 +18,16 @@ typedef struct {
   int faces;                            /* face numbers assigned; some may be unused */
 } cell_t;
 
-/* The region as the cell of seed `self`. Returns a PIECE status. */
+/* The region as the cell of seed `self`; of a box around the seed only what is within `extent` in each
+   coordinate. Returns a PIECE status. */
 static inline int cell_start(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint self,
-                             uint region) {
+                             uint region, real extent) {
   const uint first = regions.offset[region];
   cell->faces = regions.shape->faces;
   cell->shape = regions.shape;
   start_vertices(&cell->at, regions, seeds, self, regions.vertex + first,
                  regions.behind + region * (uint)cell->faces);
-  set_corners(&cell->at, regions.shape->vertices);
+  set_corners(&cell->at, regions.shape->vertices, extent);
   for (int v = 0; v < regions.shape->vertices; ++v) {
     UNROLL for (int k = 0; k < 3; ++k) {
       cell->next[k][v] = (index_t)regions.shape->next[k][v];
@@ -55,7 +56,8 @@ static inline certain_plane_t region_plane(const cell_t* cell, int f) {
 
 /* The plane of face f, with unit normal. */
 static inline certain_plane_t face_plane(const cell_t* cell, int f) {
-  return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f]) : unit_plane(&cell->at, cell->normal[f]);
+  return cell->border[f] < 0 ? region_plane(cell, ~cell->border[f])
+                             : border_plane(&cell->at, cell->border[f], cell->normal[f]);
 }
 
 /* What face f lies in: 2 q.y = offset. */
@@ -217,7 +219,8 @@ static inline bool find_places(cell_t* cell) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       const int a = cell->face[0][v], b = cell->face[1][v], c = cell->face[2][v];
       real4 y = vertex_point(&cell->at, v);
-      if ((cell->border[a] & cell->border[b] & cell->border[c]) < 0) { /* a corner of the region */
+      if (!cell->at.centred && (cell->border[a] & cell->border[b] & cell->border[c]) < 0) {
+        /* a corner of the region */
         y.w = corner_error(&cell->at);
       } else {
         const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},

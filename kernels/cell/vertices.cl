@@ -3,6 +3,7 @@
 #ifndef POWERCELL_CLIP_VERTICES
 #define POWERCELL_CLIP_VERTICES
 #include "base/lanes.cl"
+#include "base/point.cl"
 #include "base/regions.cl"
 
 #define NO_VERTEX ((index_t)(-1))
@@ -15,9 +16,14 @@ typedef struct {
   ulong outside[VERTEX_WORDS];          /* vertices outside the last plane that cut */
   int blocks;                           /* in use */
   real low[DIMENSION], high[DIMENSION]; /* bounding box, at the last find_box */
-  real reach;  /* largest coordinate sum of the region's corners: the scale of rounding errors */
-  real radius; /* no vertex is farther from the seed */
-  real most;   /* largest of side[] */
+  real reach;   /* largest coordinate sum of the region's corners: the scale of rounding errors */
+  real extent;  /* no coordinate of a corner is larger: those of the region are brought down to it */
+  bool box;     /* the region is a box along the axes (looked for if START_NEAR) */
+  bool centred; /* coordinates are relative to `centre`, which is relative to the seed */
+  real centre[DIMENSION]; /* c */
+  real away;              /* |c_1| + |c_2| + ... */
+  real radius;            /* no vertex is farther from the seed */
+  real most;              /* largest of side[] */
   real
       gap; /* no plane that cut nothing, but that of `closest`, is nearer to a vertex; below 0: one may cut */
   real closest_gap;  /* how near that of `closest` came; of both, rounding is taken off */
@@ -49,6 +55,7 @@ static inline void start_vertices(vertices_t* p, regions_t regions, __global con
   p->steep = 1;
   p->rounding = 0;
   p->drift = 0;
+  p->centred = false;
   p->blur = blur_of(seeds[self]);
   p->region = region;
   p->self = self;
@@ -94,23 +101,118 @@ static inline void use_slot(vertices_t* p, int v) {
   p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS;
 }
 
+/* Finds the bounding box of the vertices. It is kept with them, as everything that outlasts a cut should be:
+   what is in variables meanwhile takes registers from all of the cut. */
+static inline void find_box(vertices_t* p) {
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    reals l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
+    ONE_BY_ONE for (int v = 0; v < slots_of(p); v += LANE_WIDTH) {
+      const mask vertex = used_lanes(p, v);
+      const reals x = load_lanes(p->x[k] + v);
+      l = each_least(l, choose(l, x, vertex));
+      h = each_most(h, choose(h, x, vertex));
+    }
+    p->low[k] = lane_least(l);
+    p->high[k] = lane_most(h);
+  }
+}
+
+/* Corner k of the region relative to the seed, brought within the extent. */
+static inline void find_corner(const vertices_t* p, int k, real* y) {
+  difference(p->corner[p->region[k]], p->seeds[p->self], y);
+  UNROLL for (int c = 0; c < DIMENSION; ++c) y[c] = most_of(least_of(y[c], p->extent), -p->extent);
+}
+
+/* The same relative to the centre, to the precision of the result. */
+static inline void find_centred_corner(const vertices_t* p, int k, real* y) {
+  const parts_t a = parts_of(p->corner[p->region[k]]), b = parts_of(p->seeds[p->self]);
+  find_corner(p, k, y);
+  UNROLL for (int c = 0; c < DIMENSION; ++c) {
+    real low = 0, rest;
+    if (fabs(y[c]) < p->extent) {
+      y[c] = exact_difference(a.high[c], b.high[c], &low);
+      low += a.low[c] - b.low[c];
+    }
+    y[c] = exact_difference(y[c], p->centre[c], &rest);
+    y[c] += low + rest;
+  }
+}
+
+/* Whether the corners are those of a box along the axes, which has as many dimensions as the space. */
+static inline bool corners_of_box(const vertices_t* p, int count) {
+  bool box = CELL_DIMENSION == DIMENSION && count == 1 << DIMENSION;
+  for (int v = 0; box && v < count; ++v)
+    UNROLL for (int k = 0; k < DIMENSION; ++k) box =
+        box && (p->x[k][v] == p->low[k] || p->x[k][v] == p->high[k]);
+  return box;
+}
+
+/* Brings the corners of a box within `extent` of the seed in each coordinate, if enough of the box is there
+   (docs/mathematics.md (82b)). */
+static inline void shrink_box(vertices_t* p, int count, real extent) {
+  find_box(p);
+  p->box = corners_of_box(p, count);
+  bool near = p->box && extent < p->reach;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) near =
+      near && 2 * p->low[k] < extent && 2 * p->high[k] > -extent;
+  if (!near) return;
+  p->extent = extent;
+  for (int v = 0; v < count; ++v)
+    UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][v] = most_of(least_of(p->x[k][v], extent), -extent);
+  p->reach = least_of(p->reach, DIMENSION * extent);
+}
+
 /* The corners of the region as vertices 0, 1, ... */
-static inline void set_corners(vertices_t* p, int count) {
-  const seed_t seed = p->seeds[p->self];
-  real reach = 0;
+static inline void set_corners(vertices_t* p, int count, real extent) {
+  p->reach = 0;
+  p->extent = REAL_MAX;
+  p->box = false;
   while (slots_of(p) < count) add_block(p);
   for (int v = 0; v < count; ++v) {
     real y[DIMENSION], sum = 0;
-    difference(p->corner[p->region[v]], seed, y);
+    difference(p->corner[p->region[v]], p->seeds[p->self], y);
     UNROLL for (int k = 0; k < DIMENSION; ++k) {
       p->x[k][v] = y[k];
       sum += fabs(y[k]);
     }
-    reach = most_of(sum, reach);
+    p->reach = most_of(sum, p->reach);
   }
-  p->radius = p->reach = reach;
   for (int w = 0; w * WORD_BITS < count; ++w)
     p->used[w] = ~(ulong)0 >> (WORD_BITS - min(WORD_BITS, count - w * WORD_BITS));
+  if (START_NEAR) shrink_box(p, count, extent);
+  p->radius = p->reach;
+}
+
+/* Whether no vertex is near the planes that the extent put in place of the region's: then the cell is that of
+   the whole region. */
+static inline bool clears_extent(vertices_t* p) {
+  if (p->extent == REAL_MAX) return true;
+  real most = 0;
+  find_box(p);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) most = most_of(most, most_of(p->high[k], -p->low[k]));
+  return most < (1 - SEARCH_MARGIN) * p->extent;
+}
+
+/* Takes coordinates relative to the middle of the vertices from here on. */
+static inline void recentre(vertices_t* p) {
+  find_box(p);
+  p->away = 0;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    p->centre[k] = (p->low[k] + p->high[k]) / 2;
+    p->away += fabs(p->centre[k]);
+  }
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1)
+      UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] -= p->centre[k];
+  p->centred = true;
+}
+
+/* Takes them relative to the seed again. */
+static inline void leave_centre(vertices_t* p) {
+  for (int w = 0; w < words_of(p); ++w)
+    for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1)
+      UNROLL for (int k = 0; k < DIMENSION; ++k) p->x[k][w * WORD_BITS + lowest_bit(bits)] += p->centre[k];
+  p->centred = false;
 }
 
 /* Frees the slots of `outside`. */
@@ -209,22 +311,6 @@ static inline real find_radius2(vertices_t* p) {
   const real radius2 = lane_most(most);
   p->radius = sqrt(radius2) * (1 + 8 * REAL_EPSILON);
   return radius2;
-}
-
-/* Finds the bounding box of the vertices. It is kept with them, as everything that outlasts a cut should be:
-   what is in variables meanwhile takes registers from all of the cut. */
-static inline void find_box(vertices_t* p) {
-  UNROLL for (int k = 0; k < DIMENSION; ++k) {
-    reals l = all_lanes(REAL_MAX), h = all_lanes(-REAL_MAX);
-    ONE_BY_ONE for (int v = 0; v < slots_of(p); v += LANE_WIDTH) {
-      const mask vertex = used_lanes(p, v);
-      const reals x = load_lanes(p->x[k] + v);
-      l = each_least(l, choose(l, x, vertex));
-      h = each_most(h, choose(h, x, vertex));
-    }
-    p->low[k] = lane_least(l);
-    p->high[k] = lane_most(h);
-  }
 }
 
 #endif

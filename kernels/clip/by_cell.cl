@@ -23,10 +23,12 @@ static inline uint walls_that_cut(const cell_t* cell, __global const seed_t* see
   return count < LANE_WIDTH ? bits & ((1u << count) - 1) : bits;
 }
 
-/* Cuts by `count` neighbours. The seed alone in its own list has no cell. Returns a PIECE status. */
-static inline int clip_by_walls(cell_t* cell, __global const seed_t* seeds, uint i,
-                                __global const uint* neighbor, uint count) {
+/* Clips by `count` neighbours. The seed alone in its own list has no cell. Returns a PIECE status. */
+static inline int clip_by_walls(cell_t* cell, regions_t regions, __global const seed_t* seeds, uint i,
+                                uint region, __global const uint* neighbor, uint count) {
   const seed_t seed = seeds[i];
+  const int start = cell_start(cell, regions, seeds, i, region, REAL_MAX);
+  if (start != PIECE_DONE) return start;
   if (count == 1 && neighbor[0] == i) return PIECE_EMPTY;
   bool shrunk = true; /* since the box was found */
   for (uint first = 0; first < count; first += LANE_WIDTH) {
@@ -70,10 +72,9 @@ __kernel void clip_by_cell_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS, __global cons
   const uint first = wall_offset[i], walls = wall_offset[i + 1] - first;
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
-  int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
-  if (result == PIECE_DONE)
-    result = walls == 0 || walls > WALLS_MOST ? clip_by_tree(&cell, tree, blocks, i)
-                                              : clip_by_walls(&cell, seeds, i, neighbor + first, walls);
+  int result = walls == 0 || walls > WALLS_MOST
+                   ? clip_by_tree(&cell, regions, tree, blocks, i, pair_region[pair])
+                   : clip_by_walls(&cell, regions, seeds, i, pair_region[pair], neighbor + first, walls);
   const uint first_plane = plane_offset[i];
   if (result == PIECE_DONE)
     result =

@@ -16,7 +16,7 @@ __kernel void clip_by_list_kernel(PIECE_ARGUMENTS, __global const seed_t* seeds,
   const output_t out = OUTPUT_OF_ARGUMENTS;
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
-  int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
+  int result = cell_start(&cell, regions, seeds, i, pair_region[pair], REAL_MAX);
   list_use_t use = {0, 0};
   if (result == PIECE_DONE) result = clip_by_list(&cell, lists, i, active_list[row], &use);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);

@@ -15,9 +15,7 @@ __kernel void clip_by_region_kernel(PIECE_ARGUMENTS, __global const ulong* list_
   const output_t out = OUTPUT_OF_ARGUMENTS;
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
-  int result = cell_start(&cell, regions, seeds, i, region);
-  if (result == PIECE_DONE)
-    result = region_has_list(lists, region) ? clip_by_region(&cell, lists, i, region)
-                                            : clip_by_tree(&cell, tree, blocks, i);
+  const int result = region_has_list(lists, region) ? clip_by_region(&cell, regions, lists, i, region)
+                                                    : clip_by_tree(&cell, regions, tree, blocks, i, region);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

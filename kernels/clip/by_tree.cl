@@ -11,7 +11,6 @@ __kernel void clip_by_tree_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS) {
   const output_t out = OUTPUT_OF_ARGUMENTS;
   cell_t cell;
   const regions_t regions = REGIONS_OF_ARGUMENTS;
-  int result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
-  if (result == PIECE_DONE) result = clip_by_tree(&cell, tree, blocks, i);
+  const int result = clip_by_tree(&cell, regions, tree, blocks, i, pair_region[pair]);
   status[row] = (uint)write_piece(&cell, out, result, pair, row);
 }

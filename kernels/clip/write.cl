@@ -37,12 +37,33 @@ static inline bool done_is_certain(cell_t* cell) {
   return off < cell->at.closest_gap || closest_is_clear(&cell->at);
 }
 
-/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few
- * digits, and one that is small beside the domain moments below the range of numbers. */
-static inline bool measure_is_good(const cell_t* cell, real measure) {
+/* Whether moments are in the range of numbers and the measure is at least `filling` of the square or cube of
+   the radius. */
+static inline bool measure_is_good(const cell_t* cell, real measure, real filling) {
   const real r = cell->at.radius;
-  return measure >= fmax(REAL_LEAST, LEAST_FILLING * (CELL_DIMENSION == 3 ? r * r * r : r * r)) ||
-         cell_goes_on(cell);
+  return measure >= fmax(REAL_LEAST, filling * (CELL_DIMENSION == 3 ? r * r * r : r * r));
+}
+
+/* In single precision a whole cell that is small beside its distance from the seed has a measure of too few
+   digits. Computes it again, relative to a point inside the cell, whose shape is certain. False if it still
+   is not good. */
+static inline bool measure_closely(cell_t* cell, bool walls, real* moments) {
+  real about[2 + DIMENSION];
+  recentre(&cell->at);
+  bool good = cell_certain(cell) >= 0;
+  if (good) {
+    cell_moments(cell, walls, about);
+    good = measure_is_good(cell, about[0], LEAST_CENTRED_FILLING);
+    moments[0] = about[0];
+    moments[1 + DIMENSION] = about[1 + DIMENSION];
+    UNROLL for (int k = 0; k < DIMENSION; ++k) {
+      const real c = cell->at.centre[k];
+      moments[1 + k] = about[1 + k] + c * about[0];
+      moments[1 + DIMENSION] += c * (2 * about[1 + k] + c * about[0]);
+    }
+  }
+  leave_centre(&cell->at);
+  return good;
 }
 
 /* Writes a piece that ended with `status`; returns the final status. */
@@ -61,7 +82,8 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     cell_finish(cell, !certain);
     certain = certain || done_is_certain(cell);
     cell_moments(cell, sides, moments);
-    certain = certain && measure_is_good(cell, moments[0]);
+    if (certain && !measure_is_good(cell, moments[0], LEAST_FILLING) && !cell_goes_on(cell))
+      certain = LEAST_FILLING > 0 && measure_closely(cell, sides, moments);
     if (cell_is_flat(cell, moments[0])) {
       status = PIECE_FLAT;
       certain = false;

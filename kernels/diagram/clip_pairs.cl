@@ -48,12 +48,11 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
       OUTPUT_MOMENTS | (wall_capacity > 0 ? OUTPUT_SIDES : 0), moments, 0, 0, 0, 0, 0, 0, 0};
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   cell_t cell;
-  int result = state[i] == SEED_OK ? PIECE_DONE : PIECE_EMPTY;
-  if (result == PIECE_DONE)
-    result = cell_start(&cell, regions, seeds, i, pair_region[pair]);
+  int result = PIECE_EMPTY;
+  if (state[i] == SEED_OK)
+    result = clip_by_tree(&cell, regions, tree, blocks, i, pair_region[pair]);
   else
     cell.at.gap = 1; /* not even started, and certainly empty */
-  if (result == PIECE_DONE) result = clip_by_tree(&cell, tree, blocks, i);
   result = write_piece(&cell, out, result, pair, 0);
   if (wall_capacity > 0) {
     const int piece = result & ~PIECE_UNCERTAIN;

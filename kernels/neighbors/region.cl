@@ -74,8 +74,8 @@ static inline int find_list_keys(const cell_t* cell, region_lists_t lists, uint 
 }
 
 /* Clips the cell of rank i by all of `count` seeds, in their order. Returns a PIECE status. */
-static inline int clip_by_all(cell_t* cell, region_lists_t lists, uint i, __global const uint* listed,
-                              int count) {
+static inline int clip_by_listed(cell_t* cell, region_lists_t lists, uint i, __global const uint* listed,
+                                 int count) {
   for (int k = 0; k < count; ++k) {
     const uint j = listed[k];
     if (j == i) continue;
@@ -106,11 +106,13 @@ static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint
   }
 }
 
-/* Clips the cell of rank i, started as `region`, by the seeds in its list. Returns a PIECE status. */
-static inline int clip_by_region(cell_t* cell, region_lists_t lists, uint i, uint region) {
+/* Clips the cell of rank i in `region` by the seeds in its list. Returns a PIECE status. */
+static inline int clip_by_region(cell_t* cell, regions_t regions, region_lists_t lists, uint i, uint region) {
+  const int start = cell_start(cell, regions, lists.seeds, i, region, REAL_MAX);
+  if (start != PIECE_DONE) return start;
   const ulong begin = lists.offset[region];
   const int count = (int)(lists.offset[region + 1] - begin);
-  return count <= FEW_LISTED ? clip_by_all(cell, lists, i, lists.seed + begin, count)
+  return count <= FEW_LISTED ? clip_by_listed(cell, lists, i, lists.seed + begin, count)
                              : clip_in_order(cell, lists, i, region);
 }
 

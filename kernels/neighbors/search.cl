@@ -9,6 +9,9 @@
 /* After so many nodes, the next are tested by the vertices of the cell too. White noise visits some 20. */
 #define VISITS_MOST 48
 
+/* Cells start no nearer than this: products of four lengths are in the range of numbers. */
+#define LEAST_EXTENT ((real)1e-7)
+
 /* A bound for the rounding of distances from the leaf's box, computed relative to its first seed. */
 static inline real box_rounding(tree_t tree, uint leaf) {
   real low[DIMENSION], high[DIMENSION], extent = 0;
@@ -123,12 +126,39 @@ static inline int cut_by_rest(cell_t* cell, tree_t tree, blocks_t blocks, uint i
 }
 
 /* Clips the cell of rank i, started as a region, by all other seeds. Returns a PIECE status. */
-static inline int clip_by_tree(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
+static inline int clip_by_all(cell_t* cell, tree_t tree, blocks_t blocks, uint i) {
   int cut = cut_by_near(cell, tree, blocks, i);
   if (cut > CUT_SHRUNK) return piece_status(cut);
   if (near_is_enough(cell, tree, blocks, i)) return PIECE_DONE;
   cut = cut_by_rest(cell, tree, blocks, i);
   return cut > CUT_SHRUNK ? piece_status(cut) : PIECE_DONE;
+}
+
+/* How far from the seed its cell may be expected to reach: as far as the leaf before its own, along each
+   axis. That leaf is the same whatever images or other seeds follow in rank, and so are all bits of the cell.
+ */
+static inline real expected_extent(tree_t tree, uint i) {
+  if (!START_NEAR || i < TREE_FAN) return REAL_MAX;
+  const uint leaf = i / TREE_FAN - 1;
+  real low[DIMENSION], high[DIMENSION], extent = LEAST_EXTENT;
+  difference(tree.node_low[leaf], tree.seeds[i], low);
+  difference(tree.node_high[leaf], tree.seeds[i], high);
+  UNROLL for (int k = 0; k < DIMENSION; ++k) extent = most_of(extent, most_of(-low[k], high[k]));
+  return extent;
+}
+
+/* Clips the cell of rank i in a region by all other seeds: first in the part of the region in which it is
+   expected, so that rounding is relative to that, then, if it is not within it, in all of the region. Returns
+   a PIECE status. */
+static inline int clip_by_tree(cell_t* cell, regions_t regions, tree_t tree, blocks_t blocks, uint i,
+                               uint region) {
+  real extent = expected_extent(tree, i);
+  for (;;) {
+    int result = cell_start(cell, regions, tree.seeds, i, region, extent);
+    if (result == PIECE_DONE) result = clip_by_all(cell, tree, blocks, i);
+    if (result > PIECE_EMPTY || clears_extent(&cell->at)) return result;
+    extent = REAL_MAX;
+  }
 }
 
 #endif
