@@ -64,7 +64,7 @@ typedef real stored_real;
    about a centre, and goes to the host below LEAST_CENTRED_FILLING. QUICK_PROOF: whether (84) is tried, for
    which floats are not exact enough. START_NEAR: whether cells start near their seeds, (82b). */
 #define QUICK_PROOF (REAL_BITS == 64)
-#define START_NEAR (REAL_BITS == 32)
+#define START_NEAR (REAL_BITS == 32 && CELL_DIMENSION == DIMENSION)
 #if REAL_BITS == 32
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_FLOAT))
 #define LEAST_FILLING ((real)0.1)

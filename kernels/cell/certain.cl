@@ -117,7 +117,7 @@ static inline certain_plane_t unit_plane(const vertices_t* p, real4 raw) {
   const real h = raw.w * scale * (real)0.5;
   real rounding = REAL_EPSILON * (3 * p->radius + 2 * size + fabs(h));
   real data = plane_blur(p->blur, p->radius, size) * (scale / 2);
-  if (p->centred) { /* by (82c) */
+  if (is_centred(p)) { /* by (82c) */
     rounding = REAL_EPSILON * (3 * p->radius + fabs(h));
     data = plane_blur(p->blur, p->radius + p->away, size) * (scale / 2) +
            32 * REAL_EPSILON * REAL_EPSILON * (p->radius + p->away + size);
@@ -157,13 +157,13 @@ static inline real4 centred_bisector(const vertices_t* p, int other) {
 
 /* The plane of `border` with unit normal; `raw` is (q, offset) of it, relative to the seed. */
 static inline certain_plane_t border_plane(const vertices_t* p, int border, real4 raw) {
-  return unit_plane(p, p->centred ? centred_bisector(p, border) : raw);
+  return unit_plane(p, is_centred(p) ? centred_bisector(p, border) : raw);
 }
 
 /* Corner k of the region, within the extent; .w is 0. */
 static inline real4 region_corner(const vertices_t* p, int k) {
   real y[DIMENSION];
-  if (p->centred)
+  if (is_centred(p))
     find_centred_corner(p, k, y);
   else
     find_corner(p, k, y);
@@ -179,8 +179,8 @@ static inline certain_plane_t facet_plane(const vertices_t* p, real4 y, real4 a,
   unit.plane.w = dot3(unit.plane, y);
   unit.doubt =
       (16 * REAL_EPSILON * p->reach + 8 * p->blur.position) * (sqrt(dot3(a, a) * dot3(b, b)) * scale);
-  if (p->box) unit.doubt = 8 * (REAL_EPSILON * fabs(unit.plane.w) + p->blur.position);
-  if (p->centred && !p->box) unit.doubt = REAL_MAX;
+  if (is_box(p)) unit.doubt = 8 * (REAL_EPSILON * fabs(unit.plane.w) + p->blur.position);
+  if (is_centred(p) && !is_box(p)) unit.doubt = REAL_MAX;
   return unit;
 }
 

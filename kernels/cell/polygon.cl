@@ -157,7 +157,7 @@ static inline real4 certain_place(const cell_t* cell, int v, certain_plane_t gro
   const int u = cell->previous[v];
   const certain_plane_t in = {cell->line[u], cell->doubt[u]}, out = {cell->line[v], cell->doubt[v]};
   real4 y = vertex_point(&cell->at, v);
-  if (cell->at.centred || (cell->border[u] & cell->border[v]) >= 0)
+  if (is_centred(&cell->at) || (cell->border[u] & cell->border[v]) >= 0)
     return meeting_point(&cell->at, y, ground, in, out);
   y.w = corner_error(&cell->at); /* a corner of the region */
   return y;

@@ -219,7 +219,7 @@ static inline bool find_places(cell_t* cell) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       const int a = cell->face[0][v], b = cell->face[1][v], c = cell->face[2][v];
       real4 y = vertex_point(&cell->at, v);
-      if (!cell->at.centred && (cell->border[a] & cell->border[b] & cell->border[c]) < 0) {
+      if (!is_centred(&cell->at) && (cell->border[a] & cell->border[b] & cell->border[c]) < 0) {
         /* a corner of the region */
         y.w = corner_error(&cell->at);
       } else {

@@ -101,6 +101,14 @@ static inline void use_slot(vertices_t* p, int v) {
   p->used[v / WORD_BITS] |= (ulong)1 << v % WORD_BITS;
 }
 
+/* Both are known to be false where they are not used, which saves registers. */
+static inline bool is_box(const vertices_t* p) {
+  return START_NEAR && p->box;
+}
+static inline bool is_centred(const vertices_t* p) {
+  return LEAST_FILLING > 0 && p->centred;
+}
+
 /* Finds the bounding box of the vertices. It is kept with them, as everything that outlasts a cut should be:
    what is in variables meanwhile takes registers from all of the cut. */
 static inline void find_box(vertices_t* p) {
@@ -120,7 +128,8 @@ static inline void find_box(vertices_t* p) {
 /* Corner k of the region relative to the seed, brought within the extent. */
 static inline void find_corner(const vertices_t* p, int k, real* y) {
   difference(p->corner[p->region[k]], p->seeds[p->self], y);
-  UNROLL for (int c = 0; c < DIMENSION; ++c) y[c] = most_of(least_of(y[c], p->extent), -p->extent);
+  if (START_NEAR)
+    UNROLL for (int c = 0; c < DIMENSION; ++c) y[c] = most_of(least_of(y[c], p->extent), -p->extent);
 }
 
 /* The same relative to the centre, to the precision of the result. */
@@ -186,7 +195,7 @@ static inline void set_corners(vertices_t* p, int count, real extent) {
 /* Whether no vertex is near the planes that the extent put in place of the region's: then the cell is that of
    the whole region. */
 static inline bool clears_extent(vertices_t* p) {
-  if (p->extent == REAL_MAX) return true;
+  if (!START_NEAR || p->extent == REAL_MAX) return true;
   real most = 0;
   find_box(p);
   UNROLL for (int k = 0; k < DIMENSION; ++k) most = most_of(most, most_of(p->high[k], -p->low[k]));
