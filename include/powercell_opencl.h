@@ -53,9 +53,9 @@ POWERCELL_API pc_status pc_device_diagram_device(const pc_device_diagram* diagra
  * waits for the queue once to read their number. It waits in no other case. */
 POWERCELL_API pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32_t pairs);
 
-/** The room for walls of pieces while rows are made of them; at most 2^31. Seeds whose walls exceed it are
- * unfinished. With 0, the default, there is room for more than seeds have on average
- * (powercell::DeviceDiagram). */
+/** The room for walls while rows are made of them; at most 2^31. Cells whose walls do not fit are unfinished;
+ * which these are may change from call to call. With 0, the default, there is room for more walls than random
+ * seeds have (powercell::DeviceDiagram). */
 POWERCELL_API pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* diagram, uint32_t walls);
 
 /** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context

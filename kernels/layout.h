@@ -48,8 +48,7 @@
 #define OUTPUT_LIST_USE 8 /* how far the neighbour lists were read (kernels/clip/by_list.cl only) */
 #define OUTPUT_REACH 16   /* the distance of the farthest vertex from the seed */
 #define OUTPUT_FACETS 32  /* the facets of the region among the walls, as with geometry */
-#define OUTPUT_SIDES \
-  64 /* measures of walls, left in the cell for the caller (kernels/diagram/clip_pairs.cl) */
+#define OUTPUT_SIDES 64   /* measures of walls, left in the cell (kernels/diagram/clip_pairs.cl) */
 
 /* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it
    is a plane of the boundary of the domain (kernels/clip/by_cell.cl). */

@@ -74,10 +74,10 @@ class POWERCELL_API DeviceDiagram {
   /// no other case.
   void set_pair_capacity(std::uint32_t pairs);
 
-  /// The room for walls of pieces while rows are made of them, 12 bytes and 2 reals each; at most 2^31. Seeds
-  /// whose walls exceed it are `unfinished`. With 0, the default, there is room for more than all that seeds
-  /// of which most have a cell need: in a domain of one region 8 (plane) or 20 (space) for each seed, else 6
-  /// or 16 for each pair.
+  /// The room for walls while rows are made of them, 12 bytes and 2 reals each; at most 2^31. Cells whose
+  /// walls do not fit are `unfinished`; which these are may change from call to call. With 0, the default,
+  /// there is room for 8 walls a seed (cells of dimension 2) or 20 (3) in a domain of one region, else for 6
+  /// or 16 a pair. Cells of random seeds have 6 and 15.5 on average.
   void set_wall_capacity(std::uint32_t walls);
 
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the

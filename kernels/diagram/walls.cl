@@ -44,9 +44,10 @@ static inline real largest_of_row(uint first, uint size, __global const stored_r
 }
 
 /* Work-item t makes the row of rank t: the walls of its pieces, sorted by the neighbours' place in the input,
-   those with the same neighbour summed in the order of the pieces. The row of one piece stays in its place;
-   that of several takes another. Where there is none the first piece counts as one that does not fit.
-   Work-item `count` and the others also set the caller's offsets and the lists of match_rows to nothing. */
+   those with the same neighbour summed in the order of the pieces. The row of one piece stays where the walls
+   are; that of several takes new room in the store, and where there is none its first piece counts as one
+   that does not fit. Clears what match_rows adds to: the caller's `count` + 1 offsets and the lists of extra
+   walls. */
 __kernel void gather_rows(const uint count, __global const uint* order, __global const ulong* pair_offset,
                           const ulong pair_capacity, __global uint* pair_status,
                           __global const uint* piece_first, __global const uint* piece_size,
@@ -54,9 +55,8 @@ __kernel void gather_rows(const uint count, __global const uint* order, __global
                           __global stored_real* wall, __global uint* row_first, __global uint* row_size,
                           __global uint* last_extra, __global uint* offset) {
   const uint t = (uint)get_global_id(0);
-  if (t > count) return;
   if (t == count) offset[count] = 0;
-  if (t == count) return;
+  if (t >= count) return;
   const uint i = order[t];
   offset[i] = last_extra[i] = row_first[i] = row_size[i] = 0;
   const ulong begin = pair_offset[t], end = pair_offset[t + 1];

@@ -79,6 +79,9 @@ int lane_width(const DeviceInfo& device) {
   const std::string_view wish = set ? set : "";
   if (wish == "vector") return 8;
   if (wish == "scalar") return 1;
+  if (!wish.empty())
+    throw Error(ErrorCode::invalid_argument, "the environment variable POWERCELL_LANES is '" +
+                                                 std::string(wish) + "'; 'vector' or 'scalar' is expected");
   return quirks_of(device).lane_width;
 }
 

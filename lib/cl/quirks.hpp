@@ -29,6 +29,7 @@ struct Quirks {
 Quirks quirks_of(const DeviceInfo& device);
 
 /// That of its quirks, unless the environment variable POWERCELL_LANES is "vector" or "scalar".
+/// \throw Error invalid_argument if it is anything else
 int lane_width(const DeviceInfo& device);
 
 }  // namespace powercell::cl

@@ -26,10 +26,6 @@ static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished))
 constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
-std::size_t real_bytes(Precision precision) {
-  return precision == Precision::float32 ? sizeof(float) : sizeof(double);
-}
-
 Variant variant(const Device& device, const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
           cl::lane_width(device.info())};
@@ -90,7 +86,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       blocks_(device.context(), variant(device, domain, precision, {1, 1}),
               std::make_shared<BlockBuffers>(device.context())),
       pairs_(domain_buffers, plain_defines(device, domain, precision)),
-      walls_(device.context(), plain_defines(device, domain, precision), real_bytes(precision)),
+      walls_(device.context(), plain_defines(device, domain, precision), real_bytes()),
       compaction_(device.context()),
       finish_(device.context(),
               device.context()->program("diagram/finish.cl", plain_defines(device, domain, precision)),
@@ -182,7 +178,7 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
   piece_status_.resize(pairs_.capacity);
   list_.resize(pairs_.capacity);
   found_.resize(1);
-  moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real_bytes(precision));
+  moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real_bytes());
   piece_status_.zero();
   clip_with(first_capacity, false, n);
   for (std::size_t capacity = first_capacity + 1; capacity < clip_.size(); ++capacity) {

@@ -14,6 +14,8 @@ namespace powercell {
 struct DeviceDiagram::State {
   State(Device device, Domain domain, Options options);
 
+  std::size_t real_bytes() const { return precision == Precision::float32 ? sizeof(float) : sizeof(double); }
+
   /// \param adjacency  null where it is not wanted  \param room  of its rows, entries
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                const DeviceAdjacency* adjacency, std::uint32_t room, cl_event* done);

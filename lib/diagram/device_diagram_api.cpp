@@ -41,7 +41,7 @@ struct Job {
 
 void require_buffers(const DeviceDiagram::State& s, const Job& job) {
   const cl::Context& context = *s.device.context();
-  const std::size_t real = s.precision == Precision::float32 ? sizeof(float) : sizeof(double);
+  const std::size_t real = s.real_bytes();
   const auto d = static_cast<std::size_t>(s.domain.dimension());
   require_buffer(context, job.positions, job.n * d * real, "positions");
   if (job.weights) require_buffer(context, job.weights, job.n * real, "weights");
@@ -52,14 +52,25 @@ void require_buffers(const DeviceDiagram::State& s, const Job& job) {
 /// The entries that the caller's rows have room for. \throw Error invalid_argument
 std::uint32_t room_of(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
   const cl::Context& context = *s.device.context();
-  const std::size_t real = s.precision == Precision::float32 ? sizeof(float) : sizeof(double);
+  const std::size_t real = s.real_bytes();
   require_buffer(context, rows.offset, (std::size_t{n} + 1) * sizeof(cl_uint), "offsets");
+  if (n == 0) return 0;
   require_buffer(context, rows.neighbor, sizeof(cl_uint), "neighbors");
   require_buffer(context, rows.wall, real, "walls");
   const std::size_t entries =
       std::min(memory_value<std::size_t>(rows.neighbor, CL_MEM_SIZE, "neighbors") / sizeof(cl_uint),
                memory_value<std::size_t>(rows.wall, CL_MEM_SIZE, "walls") / real);
   return static_cast<std::uint32_t>(std::min<std::size_t>(entries, 0xffffffffu));
+}
+
+/// The diagram of no seeds.
+void enqueue_nothing(const cl::Context& context, const DeviceAdjacency* adjacency, cl_event* done) {
+  const cl_uint zero = 0;
+  if (adjacency)
+    cl::check(clEnqueueFillBuffer(context.queue(), adjacency->offset, &zero, sizeof zero, 0, sizeof zero, 0,
+                                  nullptr, nullptr),
+              "writing the offset of no rows");
+  if (done) cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
 }
 
 void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_event* wait_list,
@@ -70,22 +81,15 @@ void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_e
                                                  std::to_string(most_seeds_of_diagram) +
                                                  " that one diagram can have");
   if (job.n > 0) require_buffers(s, job);
-  if (job.n == 0 && job.adjacency && job.adjacency->offset) {
-    const cl_uint zero = 0;
-    require_buffer(context, job.adjacency->offset, sizeof zero, "offsets");
-    cl::check(clEnqueueFillBuffer(context.queue(), job.adjacency->offset, &zero, sizeof zero, 0, sizeof zero,
-                                  wait_count, wait_list, nullptr),
-              "writing the offset of no rows");
-  }
-  const std::uint32_t room = job.adjacency && job.n > 0 ? room_of(s, job.n, *job.adjacency) : 0;
+  const std::uint32_t room = job.adjacency ? room_of(s, job.n, *job.adjacency) : 0;
   // The queue is in order, so all later commands wait for the caller's events too.
   if (wait_count > 0)
     cl::check(clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
               "enqueueing a barrier for the caller's events");
   if (job.n > 0)
     s.enqueue(job.positions, job.weights, job.n, job.measures, job.status, job.adjacency, room, done);
-  else if (done)
-    cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
+  else
+    enqueue_nothing(context, job.adjacency, done);
   const cl_int flushed = clFlush(context.queue());
   if (flushed != CL_SUCCESS && done) {  // callers get no event with an exception
     clReleaseEvent(*done);

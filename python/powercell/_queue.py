@@ -180,8 +180,9 @@ class DeviceDiagram:
         unfinished. With 0 there is room for all, and :meth:`compute` waits for the queue once to read their
         number. It waits in no other case.
     wall_capacity : int
-        The room for walls of pieces while the rows of an adjacency are made; seeds beyond it are unfinished. With
-        0 there is more than seeds have on average.
+        The room for walls while the rows of an adjacency are made of them. Cells whose walls do not fit are
+        unfinished; which these are may change from call to call. With 0 there is room for more walls than random
+        seeds have.
     chunk_pairs : int
         The most pairs of one kernel launch; 0 lets the library choose.
 

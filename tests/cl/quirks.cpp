@@ -62,6 +62,10 @@ TEST_CASE("quirks: GPUs and accelerators take lanes one by one, unless the envir
     const test::Environment vector("POWERCELL_LANES", "vector");
     CHECK(cl::lane_width(gpu) == 8);
   }
+  {
+    const test::Environment wrong("POWERCELL_LANES", "scaler");
+    CHECK_THROWS_WITH_AS(cl::lane_width(cpu), doctest::Contains("POWERCELL_LANES is 'scaler'"), Error);
+  }
   const test::Environment scalar("POWERCELL_LANES", "scalar");
   CHECK(cl::lane_width(cpu) == 1);
 }

@@ -139,15 +139,9 @@ void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray&
   CHECK(differences(found.adjacency, expected,
                     scale * (diagram.precision() == Precision::float64 ? 1e-9 : 1e-3)) == 0);
   if (diagram.precision() == Precision::float64 && seeds.size() > 100) {
-    std::size_t walls = expected.neighbor.size();
-    CHECK(std::abs(static_cast<double>(found.adjacency.neighbor.size()) - static_cast<double>(walls)) <=
-          0.001 * static_cast<double>(walls));
+    const auto walls = static_cast<double>(expected.neighbor.size());
+    CHECK(std::abs(static_cast<double>(found.adjacency.neighbor.size()) - walls) <= 0.001 * walls);
   }
-}
-
-std::vector<Precision> precisions(const Caller& caller) {
-  if (caller.fp64()) return {Precision::float64, Precision::float32};
-  return {Precision::float32};
 }
 
 }  // namespace

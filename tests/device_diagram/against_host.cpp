@@ -12,11 +12,6 @@ using namespace powercell::test;
 
 namespace {
 
-std::vector<Precision> precisions(const Caller& caller) {
-  if (caller.fp64()) return {Precision::float64, Precision::float32};
-  return {Precision::float32};
-}
-
 /// Relative to the mean mass and to the domain's size: the cells are cut in another order.
 double tolerance(Precision precision) {
   return precision == Precision::float64 ? 1e-11 : 2e-4;

@@ -49,6 +49,11 @@ const Device& Caller::device() {
   return device_.front();
 }
 
+std::vector<Precision> precisions(const Caller& caller) {
+  if (caller.fp64()) return {Precision::float64, Precision::float32};
+  return {Precision::float32};
+}
+
 Memory::Memory(const Caller& caller, std::size_t bytes, const void* values) {
   cl_int status = CL_SUCCESS;
   memory_ = clCreateBuffer(caller.context(), CL_MEM_READ_WRITE | (values ? CL_MEM_COPY_HOST_PTR : 0),

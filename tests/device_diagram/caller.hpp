@@ -32,6 +32,9 @@ class Caller {
   std::vector<Device> device_;
 };
 
+/// Those that the device computes in.
+std::vector<Precision> precisions(const Caller& caller);
+
 /// A buffer of the caller.
 class Memory {
  public:

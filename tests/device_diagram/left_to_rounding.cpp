@@ -29,12 +29,6 @@ Options left_to_rounding(Precision precision) {
   return options;
 }
 
-/// The precisions of the device.
-std::vector<Precision> precisions(const Caller& caller) {
-  if (!caller.fp64()) return {Precision::float32};
-  return {Precision::float64, Precision::float32};
-}
-
 /// The octahedron of radius 1, with edges in the coordinate planes, close to the bisectors of seeds in the
 /// middle.
 Mesh octahedron(bool solid) {
