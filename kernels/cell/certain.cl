@@ -89,23 +89,34 @@ static inline void note_gap(vertices_t* p, real sum, real offset, real error, in
   p->closest = closest ? border : p->closest;
 }
 
-/* The same for the plane of a removed face: 2 q.y = offset, with q in x, y, z and the offset in w. */
-static inline void note_removed(vertices_t* p, real4 raw, real sum, real error, int border) {
-  real normal[DIMENSION];
-  if (raw.w - error - 2 * sum * p->radius >= 2 * sum * p->gap) return;
-  normal[0] = raw.x;
-  normal[1] = raw.y;
-  if (DIMENSION == 3) normal[DIMENSION - 1] = raw.z;
-  find_sides(p, normal, raw.w);
-  note_gap(p, sum, raw.w, error, border);
-}
+/* The plane 2 q.y = offset of a face that no vertex has any more: q in x, y, z and the offset in w. */
+typedef struct {
+  real4 raw;
+  real sum, error;
+  int border;
+} removed_t;
 
-/* The same for a bisector. Its error does not follow from its offset, in which |q|^2 and weights may cancel.
- */
-static inline void note_removed_bisector(vertices_t* p, real4 raw, int border) {
+/* Of a bisector. Its error does not follow from its offset, in which |q|^2 and weights may cancel. */
+static inline removed_t removed_bisector(const vertices_t* p, real4 raw, int border) {
   const real sum = fabs(raw.x) + fabs(raw.y) + fabs(raw.z),
              q2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
-  note_removed(p, raw, sum, plane_error(p, sum, q2, raw.w - q2), border);
+  const removed_t removed = {raw, sum, plane_error(p, sum, q2, raw.w - q2), border};
+  return removed;
+}
+
+/* Whether the plane may come nearer than the gap, by the radius of the cell. */
+static inline bool may_be_gap(const vertices_t* p, removed_t removed) {
+  return !(removed.raw.w - removed.error - 2 * removed.sum * p->radius >= 2 * removed.sum * p->gap);
+}
+
+/* Updates the gaps for the plane of a removed face. */
+static inline void note_removed(vertices_t* p, removed_t removed) {
+  real normal[DIMENSION];
+  normal[0] = removed.raw.x;
+  normal[1] = removed.raw.y;
+  if (DIMENSION == 3) normal[DIMENSION - 1] = removed.raw.z;
+  find_sides(p, normal, removed.raw.w);
+  note_gap(p, removed.sum, removed.raw.w, removed.error, removed.border);
 }
 
 /* Scales the plane (q, offset) of 2 q.y = offset, known to rounding, to a unit normal. Where the errors of
@@ -194,11 +205,12 @@ static inline real4 raw_plane(certain_plane_t unit) {
   return make_real4(unit.plane.x, unit.plane.y, unit.plane.z, 2 * unit.plane.w);
 }
 
-/* The same for a removed facet of the region. */
-static inline void note_removed_facet(vertices_t* p, certain_plane_t facet, int border) {
+/* Of a facet of the region. */
+static inline removed_t removed_facet(const vertices_t* p, certain_plane_t facet, int border) {
   const real sum = fabs(facet.plane.x) + fabs(facet.plane.y) + fabs(facet.plane.z);
   const real error = REAL_EPSILON * (8 * sum * p->radius + 8 * fabs(facet.plane.w)) + 2 * sum * facet.doubt;
-  note_removed(p, raw_plane(facet), sum, error, border);
+  const removed_t removed = {raw_plane(facet), sum, error, border};
+  return removed;
 }
 
 /* Solves for the point where three planes meet; w is its error (80), below 0 if the planes are nearly
@@ -208,14 +220,14 @@ static inline void note_removed_facet(vertices_t* p, certain_plane_t facet, int 
 static inline real4 meeting_point(const vertices_t* p, real4 from, certain_plane_t a, certain_plane_t b,
                                   certain_plane_t c) {
   const real4 bc = cross3(b.plane, c.plane), ca = cross3(c.plane, a.plane), ab = cross3(a.plane, b.plane);
-  const real d = dot3(a.plane, bc);
-  if (!(d > 256 * REAL_EPSILON)) return make_real4(0, 0, 0, -1);
-  const real scale = 1 / d;
+  const real d = dot3(a.plane, bc), scale = 1 / d;
   const real sum = fabs(a.plane.w) + fabs(b.plane.w) + fabs(c.plane.w);
   const real ra = a.plane.w - dot3(a.plane, from), rb = b.plane.w - dot3(b.plane, from),
              rc = c.plane.w - dot3(c.plane, from);
   real4 y = from + (bc * ra + ca * rb + ab * rc) * scale;
-  y.w = (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + 3 * p->radius));
+  const real error =
+      (real)1.125 * scale * (a.doubt + b.doubt + c.doubt + 4 * REAL_EPSILON * (sum + 3 * p->radius));
+  y.w = d > 256 * REAL_EPSILON ? error : -1;
   return y;
 }
 
@@ -241,12 +253,13 @@ static inline bool is_inside(const vertices_t* p, real4 y, real error, certain_p
 /* Whether each vertex, with its own error (side[]), is inside the bisector of `closest`. */
 static inline bool closest_is_clear(const vertices_t* p) {
   const certain_plane_t plane = unit_plane(p, raw_bisector(p, p->closest));
+  bool clear = true;
   for (int w = 0; w < words_of(p); ++w)
     for (ulong bits = p->used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      if (!is_inside(p, vertex_point(p, v), p->side[v], plane)) return false;
+      clear = is_inside(p, vertex_point(p, v), p->side[v], plane) && clear;
     }
-  return true;
+  return clear;
 }
 
 #endif

@@ -81,18 +81,27 @@ static inline void forget_edges(cell_t* cell, int first, int last) {
   }
 }
 
-/* Updates the gaps for the lines of removed edges. If there were more than the list holds, nothing is
- * certain. */
-static inline void note_removed_edges(cell_t* cell) {
-  if (cell->removed_count > REMOVED_CAPACITY) cell->at.gap = -1;
-  for (int k = 0; k < min(cell->removed_count, REMOVED_CAPACITY); ++k) {
+/* The first removed edge from k on whose line may come nearer than the gap; where there is none, `count`. */
+static inline int next_removed(const cell_t* cell, int k, int count, removed_t* removed) {
+  for (; k < count; ++k) {
     const int border = cell->removed[k];
-    if (border < 0) {
-      note_removed_facet(&cell->at, facet_line(cell, ~border, ground_plane(cell).plane), border);
-    } else {
-      note_removed_bisector(&cell->at, raw_bisector(&cell->at, border), border);
-    }
+    *removed = border < 0
+                   ? removed_facet(&cell->at, facet_line(cell, ~border, ground_plane(cell).plane), border)
+                   : removed_bisector(&cell->at, raw_bisector(&cell->at, border), border);
+    if (may_be_gap(&cell->at, *removed)) break;
   }
+  return k;
+}
+
+/* Updates the gaps for the lines of removed edges. If there were more than the list holds, nothing is
+   certain. Work-items search for such an edge first, so that they look at its line together. */
+static inline void note_removed_edges(cell_t* cell) {
+  const int count = min(cell->removed_count, REMOVED_CAPACITY);
+  removed_t removed;
+  if (cell->removed_count > REMOVED_CAPACITY) cell->at.gap = -1;
+  for (int k = next_removed(cell, 0, count, &removed); k < count;
+       k = next_removed(cell, k + 1, count, &removed))
+    note_removed(&cell->at, removed);
 }
 
 /* The ends first..last of the one run of outside vertices; false if there are several. */

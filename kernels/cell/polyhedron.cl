@@ -1,14 +1,15 @@
 /* A convex polyhedron as a 3-regular graph, cut by half-spaces. Seen from outside, the neighbours
-   next[0..2][v] of vertex v go counter-clockwise; face[k][v] lies between next[k][v] and next[k+1][v], and
-   its loop goes from v on to next[k][v]. */
+   next[v][0..2] of vertex v go counter-clockwise; face[v][k] lies between next[v][k] and next[v][k+1], and
+   its loop goes from v on to next[v][k]. */
 #ifndef POWERCELL_CLIP_POLYHEDRON
 #define POWERCELL_CLIP_POLYHEDRON
 #include "cell/certain.cl"
 
 typedef struct {
   vertices_t at;
-  index_t next[3][VERTEX_CAPACITY];
-  index_t face[3][VERTEX_CAPACITY];
+  /* The last of each is not used: what belongs to a vertex is one word, which a GPU loads once. */
+  index_t next[VERTEX_CAPACITY][4] __attribute__((aligned(4)));
+  index_t face[VERTEX_CAPACITY][4] __attribute__((aligned(4)));
   int border[FACE_CAPACITY];
   index_t mark[FACE_CAPACITY];  /* NO_VERTEX between cuts */
   real4 point[VERTEX_CAPACITY]; /* for cell_certain, then for the moments */
@@ -30,8 +31,8 @@ static inline int cell_start(cell_t* cell, regions_t regions, __global const see
   set_corners(&cell->at, regions.shape->vertices, extent);
   for (int v = 0; v < regions.shape->vertices; ++v) {
     UNROLL for (int k = 0; k < 3; ++k) {
-      cell->next[k][v] = (index_t)regions.shape->next[k][v];
-      cell->face[k][v] = (index_t)regions.shape->face[k][v];
+      cell->next[v][k] = (index_t)regions.shape->next[k][v];
+      cell->face[v][k] = (index_t)regions.shape->face[k][v];
     }
   }
   for (int f = 0; f < cell->faces; ++f) cell->border[f] = ~f;
@@ -65,14 +66,25 @@ static inline void set_face_plane(cell_t* cell, int f, const real* q, real offse
   cell->normal[f] = make_real4(q[0], q[1], q[DIMENSION - 1], offset);
 }
 
-/* Before the number of a face that no vertex has is given out again. */
-static inline void forget_face(cell_t* cell, int f) {
-  const int border = cell->border[f];
-  if (border < 0) {
-    note_removed_facet(&cell->at, region_plane(cell, ~border), border);
-  } else {
-    note_removed_bisector(&cell->at, cell->normal[f], border);
+/* The first face from f on that no vertex has and whose plane may come nearer than the gap; where there is
+   none, the number of faces. */
+static inline int next_to_forget(const cell_t* cell, int f, removed_t* removed) {
+  for (; f < cell->faces; ++f) {
+    if (cell->mark[f] != NO_VERTEX) continue;
+    const int border = cell->border[f];
+    *removed = border < 0 ? removed_facet(&cell->at, region_plane(cell, ~border), border)
+                          : removed_bisector(&cell->at, cell->normal[f], border);
+    if (may_be_gap(&cell->at, *removed)) break;
   }
+  return f;
+}
+
+/* Before the numbers of faces that no vertex has are given out again. Work-items search for such a face
+   first, so that they look at its plane together. */
+static inline void forget_faces(cell_t* cell) {
+  removed_t removed;
+  for (int f = next_to_forget(cell, 0, &removed); f < cell->faces; f = next_to_forget(cell, f + 1, &removed))
+    note_removed(&cell->at, removed);
 }
 
 /* Forgets the faces that no vertex has, so that their numbers can be given out again; notes the gaps to them
@@ -80,12 +92,11 @@ static inline void forget_face(cell_t* cell, int f) {
 static inline void collect_faces(cell_t* cell, bool note) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1)
-      UNROLL for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][w * WORD_BITS + lowest_bit(bits)]] = 0;
+      UNROLL for (int k = 0; k < 3; ++k) cell->mark[cell->face[w * WORD_BITS + lowest_bit(bits)][k]] = 0;
+  if (note) forget_faces(cell);
   int used = 0;
   for (int f = 0; f < cell->faces; ++f)
-    if (cell->mark[f] == NO_VERTEX) {
-      if (note) forget_face(cell, f);
-    } else {
+    if (cell->mark[f] != NO_VERTEX) {
       cell->border[used] = cell->border[f];
       cell->normal[used] = cell->normal[f];
       cell->mark[f] = (index_t)used++;
@@ -93,7 +104,7 @@ static inline void collect_faces(cell_t* cell, bool note) {
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      UNROLL for (int k = 0; k < 3; ++k) cell->face[k][v] = cell->mark[cell->face[k][v]];
+      UNROLL for (int k = 0; k < 3; ++k) cell->face[v][k] = cell->mark[cell->face[v][k]];
     }
   for (int f = 0; f < cell->faces; ++f) cell->mark[f] = NO_VERTEX;
   cell->faces = used;
@@ -101,7 +112,7 @@ static inline void collect_faces(cell_t* cell, bool note) {
 
 /* Slot k of vertex v with next[k][v] == w. */
 static inline int slot_to(const cell_t* cell, int v, int w) {
-  return (cell->next[1][v] == (index_t)w) + 2 * (cell->next[2][v] == (index_t)w);
+  return (cell->next[v][1] == (index_t)w) + 2 * (cell->next[v][2] == (index_t)w);
 }
 
 /* A new vertex on the edge from `out` by its slot k to `in`, which is kept; `cut` is the new face. The mark
@@ -110,13 +121,13 @@ static inline int slot_to(const cell_t* cell, int v, int w) {
 static inline int cut_edge(cell_t* cell, int out, int k, int in, int cut) {
   const int u = free_slot(&cell->at, VERTEX_CAPACITY);
   if (u < 0) return u;
-  const index_t left = cell->face[k == 0 ? 2 : k - 1][out];
+  const index_t left = cell->face[out][k == 0 ? 2 : k - 1];
   set_edge_point(&cell->at, u, in, out);
-  cell->next[0][u] = (index_t)in;
-  cell->face[0][u] = cell->face[k][out];
-  cell->face[1][u] = (index_t)cut;
-  cell->face[2][u] = left;
-  cell->next[slot_to(cell, in, out)][in] = (index_t)u;
+  cell->next[u][0] = (index_t)in;
+  cell->face[u][0] = cell->face[out][k];
+  cell->face[u][1] = (index_t)cut;
+  cell->face[u][2] = left;
+  cell->next[in][slot_to(cell, in, out)] = (index_t)u;
   cell->mark[left] = (index_t)u;
   return u;
 }
@@ -126,11 +137,11 @@ static inline int cut_edge(cell_t* cell, int out, int k, int in, int cut) {
 static inline int link_cut(cell_t* cell, int first, int count) {
   int length = 0, u = first;
   do {
-    const index_t face = cell->face[0][u], along = cell->mark[face];
+    const index_t face = cell->face[u][0], along = cell->mark[face];
     if (along == NO_VERTEX) return CUT_TANGLED;
     cell->mark[face] = NO_VERTEX;
-    cell->next[1][u] = along;
-    cell->next[2][along] = (index_t)u;
+    cell->next[u][1] = along;
+    cell->next[along][2] = (index_t)u;
     u = along;
     ++length;
   } while (u != first);
@@ -145,7 +156,7 @@ static inline int list_cut_edges(const cell_t* cell, int w, uchar* edge) {
     const int bit = lowest_bit(bits);
     UNROLL for (int k = 0; k < 3; ++k) {
       edge[count] = (uchar)(4 * bit + k);
-      count += is_outside(&cell->at, cell->next[k][w * WORD_BITS + bit]) ? 0 : 1;
+      count += is_outside(&cell->at, cell->next[w * WORD_BITS + bit][k]) ? 0 : 1;
     }
   }
   return count;
@@ -160,7 +171,7 @@ static inline int cut_outside(cell_t* cell, int cut) {
     const int edges = list_cut_edges(cell, w, edge);
     for (int e = 0; e < edges; ++e) {
       const int out = w * WORD_BITS + edge[e] / 4, k = edge[e] % 4;
-      u = cut_edge(cell, out, k, cell->next[k][out], cut);
+      u = cut_edge(cell, out, k, cell->next[out][k], cut);
       if (u < 0) return CUT_FULL;
     }
     count += edges;
@@ -203,7 +214,7 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       UNROLL for (int k = 0; k < 3; ++k) {
-        if (cell->face[k][v] != (index_t)f) continue;
+        if (cell->face[v][k] != (index_t)f) continue;
         if (cell->at.side[v] < -tolerance) return false;
         used = true;
       }
@@ -212,41 +223,42 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
 }
 
 /* point[v] = where the three planes of vertex v meet, and at least the error of that in w. False if some
-   planes are nearly dependent. */
+   planes are nearly dependent. As in all proofs, no loop ends early: work-items that go on alone after that
+   cost more than is saved. */
 static inline bool find_places(cell_t* cell) {
+  bool found = true;
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
-      const int a = cell->face[0][v], b = cell->face[1][v], c = cell->face[2][v];
+      const int a = cell->face[v][0], b = cell->face[v][1], c = cell->face[v][2];
+      const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
+                            pc = {cell->normal[c], cell->doubt[c]};
       real4 y = vertex_point(&cell->at, v);
-      if (!is_centred(&cell->at) && (cell->border[a] & cell->border[b] & cell->border[c]) < 0) {
-        /* a corner of the region */
+      const bool corner = !is_centred(&cell->at) && (cell->border[a] & cell->border[b] & cell->border[c]) < 0;
+      if (corner) /* of the region */
         y.w = corner_error(&cell->at);
-      } else {
-        const certain_plane_t pa = {cell->normal[a], cell->doubt[a]}, pb = {cell->normal[b], cell->doubt[b]},
-                              pc = {cell->normal[c], cell->doubt[c]};
+      else
         y = meeting_point(&cell->at, y, pa, pb, pc);
-        if (y.w < 0) return false;
-      }
       cell->point[v] = y;
+      found = found && !(y.w < 0);
     }
-  return true;
+  return found;
 }
 
 /* Whether each edge goes inwards from the face across its start: then the faces bound the intersection of
    their half-spaces, and no other polyhedron. Needs find_places. */
 static inline bool edges_are_certain(const cell_t* cell) {
+  bool certain = true;
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       UNROLL for (int k = 0; k < 3; ++k) {
-        const int u = cell->next[k][v], f = cell->face[k == 2 ? 0 : k + 1][v];
-        if (u < v) continue;
+        const int u = cell->next[v][k], f = cell->face[v][k == 2 ? 0 : k + 1];
         const certain_plane_t plane = {cell->normal[f], cell->doubt[f]};
-        if (!is_inside(&cell->at, cell->point[u], cell->point[u].w, plane)) return false;
+        if (u > v) certain = is_inside(&cell->at, cell->point[u], cell->point[u].w, plane) && certain;
       }
     }
-  return true;
+  return certain;
 }
 
 /* Proves the shape of the cell from its faces alone, whatever rounding did on the way to it; the vertices are
@@ -254,15 +266,16 @@ static inline bool edges_are_certain(const cell_t* cell) {
    0 if the shape is not certain: then the vertices are as they were. */
 static inline real cell_certain(cell_t* cell) {
   real worst = 0;
+  bool known = true;
   find_radius2(&cell->at);
   for (int f = 0; f < cell->faces; ++f) {
     const certain_plane_t unit = face_plane(cell, f);
-    if (!(unit.doubt < REAL_MAX))
-      return -1; /* the square of q is nothing, but cell_moments needs its direction */
-    cell->normal[f] = unit.plane;
+    /* else the square of q is nothing, but cell_moments needs its direction */
+    if (unit.doubt < REAL_MAX) cell->normal[f] = unit.plane;
     cell->doubt[f] = unit.doubt;
+    known = known && unit.doubt < REAL_MAX;
   }
-  if (!find_places(cell) || !edges_are_certain(cell)) return -1;
+  if (!known || !find_places(cell) || !edges_are_certain(cell)) return -1;
   for (int w = 0; w < words_of(&cell->at); ++w)
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
@@ -279,7 +292,7 @@ static inline void cell_finish(cell_t* cell, bool note) {
     for (ulong bits = cell->at.used[w]; bits != 0;) {
       const int bit = 63 - (int)clz(bits), v = w * WORD_BITS + bit;
       bits &= ~((ulong)1 << bit);
-      UNROLL for (int k = 0; k < 3; ++k) cell->mark[cell->face[k][v]] = (index_t)v;
+      UNROLL for (int k = 0; k < 3; ++k) cell->mark[cell->face[v][k]] = (index_t)v;
     }
 }
 
@@ -340,10 +353,10 @@ static inline void cell_moments(cell_t* cell, bool walls, real* moments) {
     for (ulong bits = cell->at.used[w]; bits != 0; bits &= bits - 1) {
       const int v = w * WORD_BITS + lowest_bit(bits);
       UNROLL for (int k = 0; k < 3; ++k) {
-        const int f = cell->face[k][v];
+        const int f = cell->face[v][k];
         const real area =
             tetrahedron_moments(top, cell->point[cell->mark[f]], cell->point[v],
-                                cell->point[cell->next[k][v]], cell->normal[f], &volume, &sums, &squares);
+                                cell->point[cell->next[v][k]], cell->normal[f], &volume, &sums, &squares);
         if (walls) cell->at.side[f] += area;
       }
     }
@@ -383,8 +396,8 @@ static inline int cell_write_vertices(cell_t* cell, __global stored_real* vertex
       const int v = w * WORD_BITS + lowest_bit(bits);
       UNROLL for (int k = 0; k < 3; ++k) {
         vertex[number * 3 + k] = (stored_real)cell->at.x[k][v];
-        link[number * 6 + k] = (uint)cell->at.side[cell->next[k][v]];
-        link[number * 6 + 3 + k] = cell->face[k][v];
+        link[number * 6 + k] = (uint)cell->at.side[cell->next[v][k]];
+        link[number * 6 + 3 + k] = cell->face[v][k];
       }
     }
   return count;

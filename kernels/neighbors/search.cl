@@ -37,25 +37,7 @@ static inline bool near_is_enough(cell_t* cell, tree_t tree, blocks_t blocks, ui
   return own * (1 - SEARCH_MARGIN / 8) - weights_off > 2 * sqrt(lifted2) * (cell->at.radius + off);
 }
 
-/* Tells which leaves are near: eight at once by their lifted distance, else by the list. */
-#if LANE_WIDTH == 1
-typedef uint near_t; /* the home */
-
-static inline near_t near_to(tree_t tree, blocks_t blocks, uint home) {
-  (void)tree;
-  (void)blocks;
-  return home;
-}
-
-static inline uint near_leaves(const near_t* home, tree_t tree, blocks_t blocks, uint node, uint lane) {
-  __global const uint* list = blocks.near + (size_t)*home * NEAR_MOST;
-  const uint count = blocks.near_count[*home], leaf = node * TREE_FAN + lane;
-  (void)tree;
-  for (uint k = 0; k < count; ++k)
-    if (list[k] == leaf) return 1;
-  return 0;
-}
-#else
+/* Tells which leaves are near, by their lifted distance. */
 typedef struct {
   home_t home;
   real bound;
@@ -73,7 +55,6 @@ static inline uint near_leaves(const near_t* near, tree_t tree, blocks_t blocks,
   node_lanes(blocks, block_of_children(tree, node, 1), lane, &near->home.origin, a, b, &dw);
   return lane_bits(lifted_distances(&near->home, a, b, dw) < all_lanes(near->bound));
 }
-#endif
 
 /* Pushes the children of a node that may cut the cell and are not near, nearest on top. Tested by the box of
    the cell, and if `close` by its vertices. */
@@ -93,7 +74,7 @@ static inline void push_children(stack_t* stack, tree_t tree, blocks_t blocks, u
       const reals gap = each_most(each_most(a[k], -b[k]), ZERO);
       distance = distance + gap * gap;
     }
-    real key[LANE_WIDTH];
+    real key[LANE_WIDTH] FOR_LANES;
     store_lanes(distance, key);
     if (level == 1) bits &= ~near_leaves(near, tree, blocks, node, lane);
     for (; bits != 0; bits &= bits - 1) {
