@@ -29,7 +29,7 @@ constexpr const char* general_examples =
     "  POWERCELL_CACHE_DIR   the folder of compiled kernels; else ~/.cache/powercell\n"
     "  POWERCELL_CACHE       never or always keep them there; else where the driver does not keep them "
     "itself\n"
-    "  POWERCELL_LANES       vector or scalar: kernels as for CPUs or as for GPUs, whatever the device\n"
+    "  POWERCELL_LANES       8, 4 or 1: how many numbers kernels take at once, whatever the device\n"
     "  POWERCELL_LOG         info or detail: say on standard error what is done";
 
 Command add_help(CLI::App& app) {

@@ -97,6 +97,12 @@ def variants(path):
     return result
 
 
+def with_lanes(defines, target):
+    """With the width of lanes that the host chooses for GPUs of this maker (lib/cl/quirks.cpp)."""
+    width = 4 if target == "nvidia" and "CELL_DIMENSION=3" in defines else 1
+    return tuple(f"LANE_WIDTH={width}" if define.startswith("LANE_WIDTH=") else define for define in defines)
+
+
 def recorded(jobs):
     """Those of the table."""
     first = {}
@@ -274,7 +280,7 @@ def main():
     parser.add_argument("programs", nargs="*")
     arguments = parser.parse_args()
     listed = variants(arguments.work / "variants.txt")
-    jobs = [Job(program, defines, target) for program, kind in programs() for defines in listed[kind]
+    jobs = [Job(program, with_lanes(defines, target), target) for program, kind in programs() for defines in listed[kind]
             for target in ("nvidia", "gfx90a", "gfx1100")]
     if arguments.programs:
         jobs = [job for job in jobs if job.program in arguments.programs]

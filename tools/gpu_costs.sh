@@ -56,7 +56,7 @@ static void print(const char* kind, const powercell::Variant& variant) {
 
 int main() {
   for (const bool float32 : {true, false})
-    for (powercell::Variant variant : powercell::all_variants(float32, 1)) {  // as for GPUs: lib/cl/quirks.cpp
+    for (powercell::Variant variant : powercell::all_variants(float32, 1)) {  // tools/gpu_costs.py changes the width
       print("cells", variant);
       variant.capacity = {1, 1};
       print("plain", variant);

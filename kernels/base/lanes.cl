@@ -2,8 +2,9 @@
    vertices of a cell. Like real.cl it hides the precision behind names.
 
    A CPU takes all eight of a leaf at once (LANE_WIDTH 8), in the registers of its vector units. On a GPU each
-   work-item is a lane itself, and numbers of eight lanes would take eight registers of each: there, one is
-   taken after the other (LANE_WIDTH 1). Results have the same bits. */
+   work-item is a lane itself, and numbers of eight lanes take eight registers of each: there, four are taken
+   at once (LANE_WIDTH 4), since a work-item that waits for one number at a time waits too often, or one
+   (LANE_WIDTH 1). Results have the same bits. */
 #ifndef POWERCELL_BASE_LANES
 #define POWERCELL_BASE_LANES
 #include "base/real.cl"
@@ -100,22 +101,35 @@ static inline reals tag(reals a, uint first) {
   return AS_REAL((AS_INDEX(a) & ~TAG_MASK) | (lane_bits_t)first);
 }
 #else
+#define JOINED(name, width) name##width
+#define OF_WIDTH(name, width) JOINED(name, width)
+#define WIDE(name) OF_WIDTH(name, LANE_WIDTH)
 #if REAL_BITS == 64
-typedef double8 reals;
+typedef WIDE(double) reals;
 typedef double2 real2;
-typedef long8 mask;
-typedef ulong8 indices;
-#define AS_INDEX8 as_ulong8
-#define AS_REAL8 as_double8
+typedef WIDE(long) mask;
+typedef WIDE(ulong) indices;
+typedef long mask_lane_t;
+#define AS_INDICES WIDE(as_ulong)
+#define AS_REALS WIDE(as_double)
 #else
-typedef float8 reals;
+typedef WIDE(float) reals;
 typedef float2 real2;
-typedef int8 mask;
-typedef uint8 indices;
-#define AS_INDEX8 as_uint8
-#define AS_REAL8 as_float8
+typedef WIDE(int) mask;
+typedef WIDE(uint) indices;
+typedef int mask_lane_t;
+#define AS_INDICES WIDE(as_uint)
+#define AS_REALS WIDE(as_float)
 #endif
+#if LANE_WIDTH == 8
 #define LANE_NUMBERS ((indices)(0, 1, 2, 3, 4, 5, 6, 7))
+#define LANE_SHIFTS ((mask)(0, 1, 2, 3, 4, 5, 6, 7))
+#define LANE_POWERS ((int8)(1, 2, 4, 8, 16, 32, 64, 128))
+#else
+#define LANE_NUMBERS ((indices)(0, 1, 2, 3))
+#define LANE_SHIFTS ((mask)(0, 1, 2, 3))
+#define LANE_POWERS ((int4)(1, 2, 4, 8))
+#endif
 #define ONE_BY_ONE
 
 static inline reals all_lanes(real x) {
@@ -134,31 +148,40 @@ static inline reals each_size(reals a) {
   return fabs(a);
 }
 static inline real lane_most(reals a) {
+#if LANE_WIDTH == 8
   const real4 b = select(a.lo, a.hi, a.lo < a.hi);
+#else
+  const real4 b = a;
+#endif
   const real2 c = select(b.lo, b.hi, b.lo < b.hi);
   return c.x < c.y ? c.y : c.x;
 }
 static inline real lane_least(reals a) {
+#if LANE_WIDTH == 8
   const real4 b = select(a.lo, a.hi, a.hi < a.lo);
+#else
+  const real4 b = a;
+#endif
   const real2 c = select(b.lo, b.hi, b.hi < b.lo);
   return c.y < c.x ? c.y : c.x;
 }
 static inline uint lane_bits(mask yes) {
-  const int8 bits = convert_int8(yes) & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const WIDE(int) bits = WIDE(convert_int)(yes) & LANE_POWERS;
+#if LANE_WIDTH == 8
   const int4 b = bits.lo | bits.hi;
+#else
+  const int4 b = bits;
+#endif
   const int2 c = b.lo | b.hi;
   return (uint)(c.x | c.y);
 }
 static inline mask lanes_of(uint bits) {
-#if REAL_BITS == 64
-  return (((long8)((long)bits) >> (long8)(0, 1, 2, 3, 4, 5, 6, 7)) & (long8)(1)) != (long8)(0);
-#else
-  return (((int8)((int)bits) >> (int8)(0, 1, 2, 3, 4, 5, 6, 7)) & (int8)(1)) != (int8)(0);
-#endif
+  return (((mask)((mask_lane_t)bits) >> LANE_SHIFTS) & (mask)(1)) != (mask)(0);
 }
 static inline reals with_lane(reals a, uint lane, real x) {
   return select(a, (reals)(x), LANE_NUMBERS == (indices)((lane_bits_t)lane));
 }
+#if LANE_WIDTH == 8
 static inline reals load_lanes(const real* at) {
   return vload8(0, at);
 }
@@ -167,15 +190,33 @@ static inline reals load_stored_lanes(__global const stored_real* at) {
 }
 typedef struct __attribute__((packed, aligned(REAL_BITS / 8))) {
   reals lanes;
-} loose8_t;
+} loose_lanes_t;
 static inline void store_lanes(reals a, real* at) {
-  ((loose8_t*)at)->lanes = a;
+  ((loose_lanes_t*)at)->lanes = a;
 }
+#else
+/* Aligned, since GPUs load what is not number by number. */
+static inline reals load_lanes(const real* at) {
+  return *(const reals*)at;
+}
+static inline reals load_stored_lanes(__global const stored_real* at) {
+  return *(__global const reals*)at;
+}
+static inline void store_lanes(reals a, real* at) {
+  *(reals*)at = a;
+}
+#endif
 static inline reals tag(reals a, uint first) {
-  return AS_REAL8((AS_INDEX8(a) & (indices)(~TAG_MASK)) | ((indices)((lane_bits_t)first) + LANE_NUMBERS));
+  return AS_REALS((AS_INDICES(a) & (indices)(~TAG_MASK)) | ((indices)((lane_bits_t)first) + LANE_NUMBERS));
 }
 #endif
 #define ZERO ((reals)(0))
+/* Of arrays that lanes are loaded from and stored to, at multiples of LANE_WIDTH. */
+#if LANE_WIDTH == 4
+#define FOR_LANES __attribute__((aligned(LANE_WIDTH * REAL_BITS / 8)))
+#else
+#define FOR_LANES
+#endif
 /* Over the lanes of a block, in steps of LANE_WIDTH. */
 #define EACH_LANE(lane) ONE_BY_ONE for (uint lane = 0; lane < LANES; lane += LANE_WIDTH)
 

@@ -10,8 +10,8 @@
 #define WORD_BITS 64
 
 typedef struct {
-  real x[DIMENSION][VERTEX_CAPACITY];
-  real side[VERTEX_CAPACITY];           /* of the last plane tried */
+  real x[DIMENSION][VERTEX_CAPACITY] FOR_LANES;
+  real side[VERTEX_CAPACITY] FOR_LANES; /* of the last plane tried */
   ulong used[VERTEX_WORDS];             /* a bit per slot: it is a vertex */
   ulong outside[VERTEX_WORDS];          /* vertices outside the last plane that cut */
   int blocks;                           /* in use */

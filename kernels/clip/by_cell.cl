@@ -10,7 +10,7 @@
 /* Bit k is set if neighbour k of the first LANE_WIDTH may cut the box of the cell. */
 static inline uint walls_that_cut(const cell_t* cell, __global const seed_t* seeds, seed_t seed,
                                   __global const uint* neighbor, uint count) {
-  real row[DIMENSION + 1][LANE_WIDTH], d[DIMENSION];
+  real row[DIMENSION + 1][LANE_WIDTH] FOR_LANES, d[DIMENSION];
   reals q[DIMENSION];
   for (uint lane = 0; lane < LANE_WIDTH; ++lane) {
     const seed_t other = seeds[neighbor[min(lane, count - 1)]];

@@ -18,8 +18,8 @@
 /* The seeds of some leaves near a seed p_i: q_j = p_j - p_i and offset_j = |q_j|^2 + w_i - w_j, so that no
    point p_i + y with q_j.(2y) > offset_j is i's. */
 typedef struct {
-  real q[DIMENSION][RIVALS];
-  real offset[RIVALS];
+  real q[DIMENSION][RIVALS] FOR_LANES;
+  real offset[RIVALS] FOR_LANES;
   real extent; /* no q_j is longer */
   int leaves;
 } rivals_t;

@@ -88,7 +88,7 @@ static inline real extent_around(tree_t tree, blocks_t blocks, uint leaf, const 
   for (int level = 1; level < tree.levels; ++level) {
     node /= TREE_FAN;
     const uint present = children_end(tree, node, level - 1) - node * TREE_FAN;
-    real part[LANES];
+    real part[LANES] FOR_LANES;
     EACH_LANE(lane) {
       reals a[DIMENSION], b[DIMENSION], dw, sum = ZERO;
       node_lanes(blocks, block_of_children(tree, node, level), lane, o, a, b, &dw);

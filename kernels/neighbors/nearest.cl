@@ -20,7 +20,7 @@ static inline uint children_within(tree_t tree, blocks_t blocks, const home_t* h
 
 /* Inserts the leaves below a node that are nearer than the farthest one kept. */
 static inline void take_leaves(nearest_t* near, tree_t tree, blocks_t blocks, const home_t* home, uint node) {
-  real distance[LANES];
+  real distance[LANES] FOR_LANES;
   uint bits = children_within(tree, blocks, home, node, 1, nearest_reach(near), distance);
   for (; bits != 0; bits &= bits - 1) {
     const int lane = lowest_bit(bits);
@@ -43,7 +43,7 @@ static inline void find_nearest_leaves(nearest_t* near, tree_t tree, blocks_t bl
       if (node != leaf / TREE_FAN) take_leaves(near, tree, blocks, &home, node);
       continue;
     }
-    real distance[LANES];
+    real distance[LANES] FOR_LANES;
     uint bits = children_within(tree, blocks, &home, node, level, nearest_reach(near), distance);
     for (; bits != 0; bits &= bits - 1) {
       const int lane = lowest_bit(bits);

@@ -16,10 +16,10 @@ typedef struct {
 #if LANE_WIDTH == 1
   uchar left[NEAR_MOST]; /* a bit for each seed that is not taken */
 #else
-  real key[NEAR_MOST * LANES];
+  real key[NEAR_MOST * LANES] FOR_LANES;
 #endif
-  real first[NEAR_MOST]; /* least key of each leaf */
-  uint count;            /* leaves */
+  real first[NEAR_MOST] FOR_LANES; /* least key of each leaf */
+  uint count;                      /* leaves */
   __global const uint* leaf;
 } order_t;
 
@@ -79,18 +79,24 @@ static inline void note_keys(order_t* order, uint at, reals key) {
 
 static inline real take_seed(order_t* order, const vertices_t* p, blocks_t blocks, uint at) {
   real* leaf = order->key + at / LANES * LANES;
-  const reals rest = with_lane(load_lanes(leaf), at % LANES, TAKEN);
+  real least = REAL_MAX;
   (void)p;
   (void)blocks;
-  store_lanes(rest, leaf);
-  return lane_least(rest);
+  EACH_LANE(lane) {
+    const reals rest = with_lane(load_lanes(leaf + lane), at % LANES - lane, TAKEN);
+    store_lanes(rest, leaf + lane);
+    least = least_of(lane_least(rest), least);
+  }
+  return least;
 }
 
 static inline uint seeds_below(const order_t* order, const vertices_t* p, blocks_t blocks, uint k,
                                real reach) {
+  uint below = 0;
   (void)p;
   (void)blocks;
-  return lane_bits(load_lanes(order->key + k * LANES) < all_lanes(reach));
+  EACH_LANE(lane) below |= lane_bits(load_lanes(order->key + k * LANES + lane) < all_lanes(reach)) << lane;
+  return below;
 }
 #endif
 

@@ -87,7 +87,7 @@ static inline int clip_by_listed(cell_t* cell, region_lists_t lists, uint i, __g
 
 /* The same in the order of the keys, for longer lists. */
 static inline int clip_in_order(cell_t* cell, region_lists_t lists, uint i, uint region) {
-  real key[LISTED_SEEDS], centre[DIMENSION], reach = cell_centre(cell, centre);
+  real key[LISTED_SEEDS] FOR_LANES, centre[DIMENSION], reach = cell_centre(cell, centre);
   const int keys = find_list_keys(cell, lists, i, region, centre, key);
   for (;;) {
     reals best = load_lanes(key);

@@ -1,6 +1,7 @@
 #include "lib/cl/quirks.hpp"
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 // Workarounds that cost nothing apply to every device and have no row in the table below:
@@ -29,11 +30,18 @@ bool is_gpu(const DeviceInfo& device) {
 bool is_accelerator(const DeviceInfo& device) {
   return device.type == DeviceInfo::Type::accelerator;
 }
+bool is_nvidia(const DeviceInfo& device) {
+  return is_gpu(device) && device.vendor.find("NVIDIA") != std::string::npos;
+}
 bool is_cpu(const DeviceInfo& device) {
   return device.type == DeviceInfo::Type::cpu;
 }
 bool is_pocl(const DeviceInfo& device) {
   return device.platform_name == "Portable Computing Language";
+}
+
+void one_by_one(Quirks& quirks) {
+  quirks.polygon_lanes = quirks.polyhedron_lanes = 1;
 }
 
 /// A condition on the device and the change that it makes. Later rows overrule earlier ones.
@@ -46,9 +54,14 @@ constexpr Row table[] = {
     // GPUs: several warps a group, but few enough to leave each work-item its registers.
     {is_gpu, [](Quirks& quirks) { quirks.group_size = 128; }},
 
-    // Vectors of eight make clip kernels spill on GPUs (docs/gpu_costs.md); on CPUs they are twice as fast.
-    {is_gpu, [](Quirks& quirks) { quirks.lane_width = 1; }},
-    {is_accelerator, [](Quirks& quirks) { quirks.lane_width = 1; }},
+    // On CPUs vectors of eight are twice as fast. On GPUs they take all registers (docs/gpu_costs.md).
+    {is_gpu, one_by_one},
+    {is_accelerator, one_by_one},
+
+    // Work-items wait for their private memory: four numbers a load are a sixth faster for polyhedra on an
+    // H200
+    // (docs/records/gpu.md). AMD's compiler needs twice as many registers for them and has not been measured.
+    {is_nvidia, [](Quirks& quirks) { quirks.polyhedron_lanes = 4; }},
 
     // PoCL compiles a kernel once for grids of less than 2^16 work-items and once for larger ones
     // (github.com/pocl/pocl/pull/738). The limit holds on every CPU, so that chunks are the same with every
@@ -74,15 +87,17 @@ Quirks quirks_of(const DeviceInfo& device) {
   return quirks;
 }
 
-int lane_width(const DeviceInfo& device) {
+int lane_width(const DeviceInfo& device, int cell_dimension) {
   const char* set = std::getenv("POWERCELL_LANES");
   const std::string_view wish = set ? set : "";
-  if (wish == "vector") return 8;
-  if (wish == "scalar") return 1;
-  if (!wish.empty())
-    throw Error(ErrorCode::invalid_argument, "the environment variable POWERCELL_LANES is '" +
-                                                 std::string(wish) + "'; 'vector' or 'scalar' is expected");
-  return quirks_of(device).lane_width;
+  if (wish.empty()) {
+    const Quirks quirks = quirks_of(device);
+    return cell_dimension == 3 ? quirks.polyhedron_lanes : quirks.polygon_lanes;
+  }
+  for (const int width : {1, 4, 8})
+    if (wish == std::to_string(width)) return width;
+  throw Error(ErrorCode::invalid_argument, "the environment variable POWERCELL_LANES is '" +
+                                               std::string(wish) + "'; 1, 4 or 8 is expected");
 }
 
 }  // namespace powercell::cl

@@ -21,15 +21,16 @@ struct Quirks {
   std::size_t group_size = 32;
   /// A launch of more work-items makes the driver compile the kernel once more.
   std::uint64_t launch_limit = std::numeric_limits<std::uint64_t>::max();
-  /// Numbers that a work-item handles at once: 8 in vectors, which take eight registers each where work-items
-  /// are lanes themselves, or 1 (LANE_WIDTH of kernels/base/lanes.cl).
-  int lane_width = 8;
+  /// Numbers that a work-item handles at once when it clips polygons and polyhedra: 8 or 4 in vectors, which
+  /// take as many registers where work-items are lanes themselves, or 1 (LANE_WIDTH of
+  /// kernels/base/lanes.cl).
+  int polygon_lanes = 8, polyhedron_lanes = 8;
 };
 
 Quirks quirks_of(const DeviceInfo& device);
 
-/// That of its quirks, unless the environment variable POWERCELL_LANES is "vector" or "scalar".
+/// That of its quirks for cells of a dimension, unless the environment variable POWERCELL_LANES is 1, 4 or 8.
 /// \throw Error invalid_argument if it is anything else
-int lane_width(const DeviceInfo& device);
+int lane_width(const DeviceInfo& device, int cell_dimension);
 
 }  // namespace powercell::cl

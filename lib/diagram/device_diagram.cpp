@@ -22,13 +22,17 @@ static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
 static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
 static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
 
-/// Pairs of one launch, unless Options::chunk_pairs is set: short enough for a display driver's watchdog.
-constexpr std::uint64_t default_launch_pairs = std::uint64_t{1} << 18;
+/// Pairs of one launch, unless Options::chunk_pairs is set: few enough for a display driver's watchdog, and
+/// enough to keep all units busy (7 % on an H200, docs/records/gpu.md).
+std::uint64_t launch_pairs(const DeviceInfo& device) {
+  constexpr std::uint64_t least = std::uint64_t{1} << 18, of_unit = std::uint64_t{1} << 13;
+  return std::max(least, device.type == DeviceInfo::Type::gpu ? of_unit * device.compute_units : 0);
+}
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
 Variant variant(const Device& device, const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
-          cl::lane_width(device.info())};
+          cl::lane_width(device.info(), domain.cell_dimension())};
 }
 
 /// The defines of kernels that hold no cell.
@@ -150,7 +154,7 @@ TreeBlocks::Tree DeviceDiagram::State::device_tree(std::uint32_t n) const {
 }
 
 void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uint32_t n) {
-  const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : default_launch_pairs;
+  const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : launch_pairs(device.info());
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));

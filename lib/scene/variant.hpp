@@ -20,7 +20,7 @@ struct Variant {
   int cell_dimension = 0;
   bool float32 = false;
   Capacity capacity{};
-  int lane_width = 8;  ///< 1 or 8 (lib/cl/quirks.hpp)
+  int lane_width = 8;  ///< 1, 4 or 8 (lib/cl/quirks.hpp)
 
   std::vector<std::string> defines() const;
 };

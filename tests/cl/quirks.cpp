@@ -48,24 +48,28 @@ TEST_CASE("quirks: a launch at a CPU's limit, rounded up to whole groups, stays 
   CHECK(cpu.launch_limit > std::uint64_t{1} << 15);
 }
 
-TEST_CASE("quirks: GPUs and accelerators take lanes one by one, unless the environment says otherwise") {
+TEST_CASE("quirks: GPUs and accelerators take fewer lanes at once, unless the environment says otherwise") {
   const test::Environment unset("POWERCELL_LANES", "");
-  DeviceInfo cpu, gpu, accelerator, other;
+  DeviceInfo cpu, gpu, nvidia, accelerator, other;
   cpu.type = Type::cpu;
-  gpu.type = Type::gpu;
+  gpu.type = nvidia.type = Type::gpu;
+  nvidia.vendor = "NVIDIA Corporation";
   accelerator.type = Type::accelerator;
-  CHECK(cl::lane_width(cpu) == 8);
-  CHECK(cl::lane_width(gpu) == 1);
-  CHECK(cl::lane_width(accelerator) == 1);
-  CHECK(cl::lane_width(other) == 8);
-  {
-    const test::Environment vector("POWERCELL_LANES", "vector");
-    CHECK(cl::lane_width(gpu) == 8);
+  for (const int cell_dimension : {2, 3}) {
+    CHECK(cl::lane_width(cpu, cell_dimension) == 8);
+    CHECK(cl::lane_width(gpu, cell_dimension) == 1);
+    CHECK(cl::lane_width(nvidia, cell_dimension) == (cell_dimension == 2 ? 1 : 4));
+    CHECK(cl::lane_width(accelerator, cell_dimension) == 1);
+    CHECK(cl::lane_width(other, cell_dimension) == 8);
   }
   {
-    const test::Environment wrong("POWERCELL_LANES", "scaler");
-    CHECK_THROWS_WITH_AS(cl::lane_width(cpu), doctest::Contains("POWERCELL_LANES is 'scaler'"), Error);
+    const test::Environment eight("POWERCELL_LANES", "8");
+    CHECK(cl::lane_width(gpu, 3) == 8);
   }
-  const test::Environment scalar("POWERCELL_LANES", "scalar");
-  CHECK(cl::lane_width(cpu) == 1);
+  {
+    const test::Environment wrong("POWERCELL_LANES", "2");
+    CHECK_THROWS_WITH_AS(cl::lane_width(cpu, 3), doctest::Contains("POWERCELL_LANES is '2'"), Error);
+  }
+  const test::Environment one("POWERCELL_LANES", "1");
+  CHECK(cl::lane_width(cpu, 3) == 1);
 }
