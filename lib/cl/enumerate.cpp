@@ -1,6 +1,7 @@
 #include "lib/cl/enumerate.hpp"
 
 #include <mutex>
+#include <string_view>
 
 namespace powercell {
 namespace cl {
@@ -75,6 +76,12 @@ bool usable(cl_device_id device) {
          device_value<cl_bool>(device, CL_DEVICE_COMPILER_AVAILABLE);
 }
 
+/// For tests of what only GPUs are given: chunks, lanes, groups and overlap.
+bool treated_as_gpu() {
+  const char* set = std::getenv("POWERCELL_TREAT_AS");
+  return set && std::string_view(set) == "gpu";
+}
+
 }  // namespace
 
 std::string platform_text(cl_platform_id platform, cl_platform_info which) {
@@ -92,7 +99,7 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   info.vendor = device_text(device, CL_DEVICE_VENDOR);
   info.driver_version = device_text(device, CL_DRIVER_VERSION);
   info.opencl_c_version = device_text(device, CL_DEVICE_OPENCL_C_VERSION);
-  info.type = type_of(device);
+  info.type = treated_as_gpu() ? DeviceInfo::Type::gpu : type_of(device);
   info.fp64 = has_fp64(device);
   info.compute_units = device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS);
   info.clock_mhz = device_value<cl_uint>(device, CL_DEVICE_MAX_CLOCK_FREQUENCY);

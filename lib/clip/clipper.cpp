@@ -14,7 +14,7 @@ namespace {
 
 /// Maximum size of the output rows in device memory, in bytes.
 constexpr std::size_t row_budget = std::size_t{192} << 20;
-/// Moments of up to so many pairs are read with the statuses.
+/// Moments of up to so many pairs are read with the statuses; those of more only where they cannot be mapped.
 constexpr std::size_t few_pairs = 1024;
 /// In passes of up to so many pairs only the first capacity is used.
 constexpr std::uint64_t one_capacity_pairs = 5000;
@@ -177,7 +177,9 @@ void Clipper::read_launch(std::size_t rows, const Capacity& capacity) {
     reader_->read_ahead(reads, memory_.faces, static_cast<std::size_t>(capacity.faces), memory_.border,
                         memory_.wall, real);
   }
-  moments_read_ = rows == pair_seed_.size() && rows <= few_pairs;
+  const bool maps = scene_.context()->info().type == DeviceInfo::Type::cpu;
+  moments_read_ = rows == pair_seed_.size() && (rows <= few_pairs || !maps);
+  moments_changed_ = false;
   if (moments_read_) {
     host_moments_.resize(rows * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
     reads.add(memory_.moments, host_moments_.data(), host_moments_.size());
@@ -241,7 +243,7 @@ ClipMemory Clipper::release() && {
 
 Clipper::List Clipper::begin_chunk(std::span<const std::uint32_t> pair_seed,
                                    std::span<const std::uint32_t> pair_region) {
-  moments_read_ = false;
+  moments_read_ = moments_changed_ = false;
   memory_.pieces.used = 0;
   memory_.pieces.tied.clear();
   unmap_rows();

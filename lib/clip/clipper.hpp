@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lib/clip/host_clip.hpp"
@@ -85,11 +86,14 @@ class Clipper {
   const PieceSet& clip_with(std::size_t capacity, std::span<const std::uint32_t> pair_seed,
                             std::span<const std::uint32_t> pair_region);
 
-  /// The moments of the last chunk, by pair: rows of 2 + dimension reals of the device's precision.
-  const cl::RawBuffer& moments() const { return memory_.moments; }
+  /// The moments of the last chunk, by pair: rows of 2 + dimension reals of the device's precision. Writes
+  /// those that the host has changed.
+  const cl::RawBuffer& moments();
   /// The same on the host, where they have been read already; else null.
   const std::byte* moments_on_host() const { return moments_read_ ? host_moments_.data() : nullptr; }
   const ClipStatistics& statistics() const { return statistics_; }
+  /// The statistics since the last call.
+  ClipStatistics take_statistics() { return std::exchange(statistics_, {}); }
 
  private:
   using List = std::vector<std::uint32_t>;
@@ -124,7 +128,7 @@ class Clipper {
   int clip_split(HostClipper& host, const SplitPair& split, std::span<double> moments,
                  PieceBatch& rows) const;
   /// \param moments  rows of 2 + dimension for `pairs`, ascending
-  void write_moments(const List& pairs, std::span<const double> moments);
+  void change_moments(const List& pairs, std::span<const double> moments);
 
   const Scene scene_;
   Candidates& candidates_;
@@ -137,7 +141,7 @@ class Clipper {
   ClipMemory memory_;
   List launch_ranks_, launch_status_;
   std::vector<std::byte> host_moments_;
-  bool moments_read_ = false;
+  bool moments_read_ = false, moments_changed_ = false;  // on the host
   std::optional<RowReader> reader_;
 };
 

@@ -23,13 +23,16 @@ const SplitPair* find_split(std::span<const SplitPair> split, std::uint32_t pair
 
 }  // namespace
 
-void Clipper::write_moments(const List& pairs, std::span<const double> moments) {
-  moments_read_ = false;
+const cl::RawBuffer& Clipper::moments() {
+  if (moments_changed_) memory_.moments.write(host_moments_.data(), host_moments_.size());
+  moments_changed_ = false;
+  return memory_.moments;
+}
+
+void Clipper::change_moments(const List& pairs, std::span<const double> moments) {
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
-  const std::size_t first = pairs.front(), rows = pairs.back() + 1 - first;
-  const auto patch = [&](auto& all) {
-    using Real = typename std::remove_reference_t<decltype(all)>::value_type;
-    memory_.moments.read(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
+  const std::size_t first = moments_read_ ? 0 : pairs.front(), rows = pairs.back() + 1 - first;
+  const auto patch = [&]<class Real>(Real* all) {
     // A measure above 0 marks a non-empty cell. In single precision, where devices may flush numbers below
     // 2^-126 to 0, tiny measures are raised, and the other moments with them.
     constexpr double least = std::is_same_v<Real, float> ? 0x1p-100 : std::numeric_limits<double>::min();
@@ -39,15 +42,20 @@ void Clipper::write_moments(const List& pairs, std::span<const double> moments) 
       for (std::size_t m = 0; m < count; ++m)
         all[(pairs[k] - first) * count + m] = static_cast<Real>(factor * moments[k * count + m]);
     }
-    memory_.moments.write(all.data(), all.size() * sizeof(Real), first * count * sizeof(Real));
   };
-  if (scene_.float32()) {
-    std::vector<float> all(rows * count);
-    patch(all);
-  } else {
-    std::vector<double> all(rows * count);
-    patch(all);
+  const auto patch_bytes = [&](std::byte* all) {
+    scene_.float32() ? patch(reinterpret_cast<float*>(all)) : patch(reinterpret_cast<double*>(all));
+  };
+  if (moments_read_) {
+    patch_bytes(host_moments_.data());
+    moments_changed_ = true;
+    return;
   }
+  const std::size_t row = count * (scene_.float32() ? sizeof(float) : sizeof(double));
+  std::vector<std::byte> all(rows * row);
+  memory_.moments.read(all.data(), all.size(), first * row);
+  patch_bytes(all.data());
+  memory_.moments.write(all.data(), all.size(), first * row);
 }
 
 int Clipper::clip_split(HostClipper& host, const SplitPair& split, std::span<double> moments,
@@ -111,7 +119,7 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
   });
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (tied[k]) memory_.pieces.tied.push_back(pairs[k]);
-  write_moments(pairs, moments);
+  change_moments(pairs, moments);
   statistics_.on_host += pairs.size();
   write_log(LogLevel::detail, [&] { return "pieces finished on the host: " + std::to_string(pairs.size()); });
   return memory_.pieces;

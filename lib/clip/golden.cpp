@@ -87,7 +87,7 @@ void require_golden(const cl::Context& context, std::string_view program, const 
 
 namespace {
 
-std::vector<double> read_measures(const Clipper& clipper, const Scene& scene) {
+std::vector<double> read_measures(Clipper& clipper, const Scene& scene) {
   const std::size_t stride = 2 + static_cast<std::size_t>(scene.mesh().dimension), n = scene.seeds.size();
   std::vector<double> measures(n);
   std::vector<float> narrow(n * stride);

@@ -1,13 +1,16 @@
 #include "lib/diagram/clip.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "kernels/layout.h"
+#include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
 #include "lib/collect/selected_walls.hpp"
+#include "lib/diagram/chunk_ahead.hpp"
 #include "lib/diagram/chunk_pairs.hpp"
 #include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
@@ -37,6 +40,8 @@ class Pass {
         want_(want),
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact || setup.boundary),
+        overlaps_(setup.device.info().type == DeviceInfo::Type::gpu && plan.candidates &&
+                  plan.candidates->is_shared()),
         measures_(setup.on_device, row_seeds(), setup.domain.measure(), setup.threads),
         walls_(collects_walls() && !active.images() && !plan.selected ? active.seeds().size() : 0,
                setup.threads, std::exchange(workspace.walls, {})),
@@ -80,6 +85,13 @@ class Pass {
   template <class ClipSome>
   void in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timings& timings,
                          const ClipSome& clip_some);
+  Clipper make_clipper(std::optional<ClipMemory> memory) const;
+  static void keep_memory(ClipChunk& chunk, std::optional<ClipMemory>& kept);
+  /// Those of the chunk.
+  PairMoments moments() {
+    return {now_->clipper->moments_on_host(),
+            [this]() -> const cl::RawBuffer& { return now_->clipper->moments(); }};
+  }
   /// Cells that the boundary does not cut lie on the side of their neighbours, which are needed for that.
   bool collects_walls() const { return want_.adjacency || plan_.solid; }
   /// The seeds of the cells to compute, row by row: by rank unless they are selected.
@@ -87,17 +99,26 @@ class Pass {
   std::uint32_t rank_of_row(std::uint32_t row) const {
     return plan_.selected ? plan_.selected->rank[row] : row;
   }
-  /// Clips and collects the pairs [begin, end).
+  /// Clips and collects the pairs [begin, end). Where it pays, has the device clip those after them
+  /// meanwhile.
   void clip_chunk(std::uint64_t begin, std::uint64_t end);
-  /// Collects the pieces of the pairs in pair_row_, all but their measures.
+  /// The regions of the pairs of a chunk.
+  std::span<const std::uint32_t> regions_of(const ClipChunk& chunk) const {
+    return std::span(plan_.pairs.region).subspan(chunk.begin, chunk.end - chunk.begin);
+  }
+  std::vector<std::uint32_t> clip_on_device(ClipChunk& chunk) const {
+    return chunk.clipper->clip_on_device(chunk.pair_seed, regions_of(chunk));
+  }
+  void start_ahead(std::uint64_t begin, std::uint64_t end);
+  /// Collects the pieces of the pairs in now_->pair_row, all but their measures.
   void collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region);
   /// Lists the cells that reach beyond the margin.
   void prove_reach(const PieceSet& pieces);
   /// Removes what was collected of some rows.
   void discard(std::span<const std::uint32_t> rows);
-  void set_chunk_rows(std::uint64_t begin, std::uint64_t end);
-  /// Sets pair_seed_ from pair_row_.
-  void set_chunk_seeds();
+  void set_chunk_rows(ClipChunk& chunk, std::uint64_t begin, std::uint64_t end) const;
+  /// Sets pair_seed from pair_row.
+  void set_chunk_seeds(ClipChunk& chunk) const;
   std::uint32_t row_of(std::uint64_t pair) const;
   /// Moves the centroids from near the wrapped seeds to near those given.
   void place_centroids(Measures& measures) const;
@@ -111,14 +132,15 @@ class Pass {
   const Wanted want_;
   Workspace& workspace_;
   const bool exact_;
-  std::optional<Clipper> clipper_;
+  /// Whether the device clips a chunk while the host completes the one before it. The host's cores are idle
+  /// then unless they are the device.
+  const bool overlaps_;
   MomentSums measures_;
   WallCollector walls_;
   GeometryCollector geometry_;
-  std::vector<std::uint32_t> pair_row_;       // of a chunk
-  std::vector<std::uint32_t> selected_seed_;  // the same by rank, if cells are selected
-  std::span<const std::uint32_t> pair_seed_;  // the same by rank
-  std::vector<std::uint32_t> flat_;           // the row of each flat piece
+  std::unique_ptr<ClipChunk> now_ = std::make_unique<ClipChunk>(),
+                             ahead_ = std::make_unique<ClipChunk>();  // used where a GPU clips
+  std::vector<std::uint32_t> flat_;                                   // the row of each flat piece
   // In a periodic domain:
   std::optional<Placement> placement_;
   std::optional<MarginProof> proof_;
@@ -126,7 +148,9 @@ class Pass {
   std::optional<SelectedWalls> selected_walls_;
   std::vector<std::uint32_t> beyond_;  // ascending: rows of cells that reach too far
   double margin_ = 0;                  // that these need
-  ClipStatistics done_;                // of discarded clippers
+  ClipStatistics done_;                // of finished chunks
+  Candidates* candidates_ = nullptr;
+  std::uint64_t total_ = 0;  // pairs
   double clip_seconds_ = 0, collect_seconds_ = 0;
 };
 
@@ -136,59 +160,75 @@ std::uint32_t Pass::row_of(std::uint64_t pair) const {
                                     1);
 }
 
-void Pass::set_chunk_rows(std::uint64_t begin, std::uint64_t end) {
+void Pass::set_chunk_rows(ClipChunk& chunk, std::uint64_t begin, std::uint64_t end) const {
   const std::vector<std::uint64_t>& offset = plan_.pairs.offset;
-  pair_row_.resize(end - begin);
+  chunk.begin = begin;
+  chunk.end = end;
+  chunk.pair_row.resize(end - begin);
   for (std::uint32_t row = row_of(begin); row <= row_of(end - 1); ++row) {
     const std::uint64_t from = std::max(begin, offset[row]), to = std::min(end, offset[row + 1]);
-    if (to > from) std::fill_n(&pair_row_[from - begin], to - from, row);
+    if (to > from) std::fill_n(&chunk.pair_row[from - begin], to - from, row);
   }
-  set_chunk_seeds();
+  set_chunk_seeds(chunk);
 }
 
-void Pass::set_chunk_seeds() {
-  pair_seed_ = pair_row_;
+void Pass::set_chunk_seeds(ClipChunk& chunk) const {
+  chunk.pair_seed = chunk.pair_row;
   if (!plan_.selected) return;
-  selected_seed_.resize(pair_row_.size());
-  std::transform(pair_row_.begin(), pair_row_.end(), selected_seed_.begin(),
+  chunk.selected_seed.resize(chunk.pair_row.size());
+  std::transform(chunk.pair_row.begin(), chunk.pair_row.end(), chunk.selected_seed.begin(),
                  [&](std::uint32_t row) { return rank_of_row(row); });
-  pair_seed_ = selected_seed_;
+  chunk.pair_seed = chunk.selected_seed;
+}
+
+void Pass::start_ahead(std::uint64_t begin, std::uint64_t end) {
+  if (!ahead_->clipper) ahead_->clipper.emplace(make_clipper({}));
+  set_chunk_rows(*ahead_, begin, end);
+  ahead_->for_host = std::async(std::launch::async, [this] { return clip_on_device(*ahead_); });
 }
 
 void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
-  set_chunk_rows(begin, end);
-  const std::span pair_region(plan_.pairs.region.data() + begin, end - begin);
-  const std::vector<std::uint32_t> for_host = clipper_->clip_on_device(pair_seed_, pair_region);
-  const PieceSet& pieces =
-      clipper_->finish_on_host(for_host, plan_.split(setup_, active_, pair_seed_, pair_region, for_host));
+  std::vector<std::uint32_t> for_host;
+  if (ahead_->is_of(begin, end)) {
+    for_host = ahead_->for_host.get();
+    std::swap(now_, ahead_);
+  } else {
+    ahead_->drop();
+    set_chunk_rows(*now_, begin, end);
+    for_host = clip_on_device(*now_);
+  }
+  const std::uint64_t total = plan_.pairs.region.size();
+  if (overlaps_ && end < total) start_ahead(end, std::min(total, end + (end - begin)));
+  const std::span pair_region = regions_of(*now_);
+  const PieceSet& pieces = now_->clipper->finish_on_host(
+      for_host, plan_.split(setup_, active_, now_->pair_seed, pair_region, for_host));
   const Stopwatch watch(setup_.device);
   // This step may run out of device memory, and then adds nothing. No later step uses device memory.
-  measures_.add(plan_.pairs.offset, begin, end, pair_row_.front(), pair_row_.back(), clipper_->moments(),
-                clipper_->moments_on_host());
+  measures_.add(plan_.pairs.offset, begin, end, now_->pair_row.front(), now_->pair_row.back(), moments());
   collect(pieces, pair_region);
   collect_seconds_ += watch.seconds();
 }
 
 void Pass::collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region) {
   if (exact_)
-    for (std::size_t k = 0; k < pair_row_.size(); ++k)
-      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(pair_row_[k]);
+    for (std::size_t k = 0; k < now_->pair_row.size(); ++k)
+      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(now_->pair_row[k]);
   if (proof_) prove_reach(pieces);
   if (selected_walls_)
-    selected_walls_->add(pair_row_, pair_seed_, pieces);
+    selected_walls_->add(now_->pair_row, now_->pair_seed, pieces);
   else if (periodic_walls_)
-    periodic_walls_->add(pair_seed_, pieces);
+    periodic_walls_->add(now_->pair_seed, pieces);
   else if (collects_walls() && !plan_.selected)
-    walls_.add(pair_seed_, pieces);
-  if (want_.cells) geometry_.add(pair_seed_, pair_region, pieces);
+    walls_.add(now_->pair_seed, pieces);
+  if (want_.cells) geometry_.add(now_->pair_seed, pair_region, pieces);
 }
 
 void Pass::prove_reach(const PieceSet& pieces) {
   const double unit = setup_.on_device.frame().unit(1);
-  for (std::size_t k = 0; k < pair_seed_.size(); ++k) {
+  for (std::size_t k = 0; k < now_->pair_seed.size(); ++k) {
     if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
-    const double margin = proof_->margin_for(pair_seed_[k], pieces.reach[k] * unit);
-    if (margin > 0) beyond_.push_back(pair_row_[k]);
+    const double margin = proof_->margin_for(now_->pair_seed[k], pieces.reach[k] * unit);
+    if (margin > 0) beyond_.push_back(now_->pair_row[k]);
     margin_ = std::max(margin_, margin);
   }
 }
@@ -223,13 +263,13 @@ void Pass::clip_beyond(Timings& timings) {
   const std::vector<std::uint32_t> regions(rows.size());
   const std::unique_ptr<Candidates> candidates = search_all(setup_, active_.scene());
   in_clipped_chunks(rows.size(), *candidates, timings, [&](std::uint64_t begin, std::uint64_t end) {
-    pair_row_.assign(rows.begin() + static_cast<std::ptrdiff_t>(begin),
-                     rows.begin() + static_cast<std::ptrdiff_t>(end));
-    set_chunk_seeds();
+    now_->pair_row.assign(rows.begin() + static_cast<std::ptrdiff_t>(begin),
+                          rows.begin() + static_cast<std::ptrdiff_t>(end));
+    set_chunk_seeds(*now_);
     const std::span pair_region = std::span(regions).subspan(begin, end - begin);
-    const PieceSet& pieces = clipper_->clip(pair_seed_, pair_region);
+    const PieceSet& pieces = now_->clipper->clip(now_->pair_seed, pair_region);
     const Stopwatch watch(setup_.device);
-    measures_.replace(pair_row_, clipper_->moments(), clipper_->moments_on_host());
+    measures_.replace(now_->pair_row, moments());
     collect(pieces, pair_region);
     collect_seconds_ += watch.seconds();
   });
@@ -238,37 +278,48 @@ void Pass::clip_beyond(Timings& timings) {
 template <class ClipSome>
 void Pass::in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timings& timings,
                              const ClipSome& clip_some) {
-  const auto make_clipper = [&](std::optional<ClipMemory> memory) {
-    clipper_.emplace(
-        active_.scene(), candidates, outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
-        ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total}, std::move(memory));
-  };
-  make_clipper(std::exchange(workspace_.clip, std::nullopt));
+  candidates_ = &candidates;
+  total_ = total;
+  now_->clipper.emplace(make_clipper(std::exchange(workspace_.clip, std::nullopt)));
+  if (workspace_.clip_ahead)
+    ahead_->clipper.emplace(make_clipper(std::exchange(workspace_.clip_ahead, std::nullopt)));
   const std::function<bool(double)>& progress = setup_.options.progress;
   const double list_seconds_before = candidates.host_seconds(), collected_before = collect_seconds_;
-  ClipStatistics before;  // at the beginning of a chunk
   const Stopwatch watch(setup_.device);
   in_chunks(
       total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
       [&](std::uint64_t begin, std::uint64_t end) {
-        before = clipper_->statistics();
         clip_some(begin, end);
+        done_.add(now_->clipper->take_statistics());
         write_log(LogLevel::detail,
                   [&] { return std::to_string(end) + " of " + std::to_string(total) + " pairs clipped"; });
         if (progress && !progress(static_cast<double>(end) / static_cast<double>(total)))
           throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
       },
       [&] {
-        done_.add(before);
-        make_clipper({});
+        ahead_->drop();
+        ahead_->clipper.reset();
+        now_->clipper.emplace(make_clipper({}));
       });
   const double list_seconds = candidates.host_seconds() - list_seconds_before;
   timings.neighbors += list_seconds;
   clip_seconds_ += watch.seconds() - (collect_seconds_ - collected_before) - list_seconds;
-  done_.add(clipper_->statistics());
-  ClipMemory memory = std::move(*clipper_).release();
-  clipper_.reset();
-  if (memory.bytes() <= kept_bytes) workspace_.clip = std::move(memory);
+  keep_memory(*now_, workspace_.clip);
+  keep_memory(*ahead_, workspace_.clip_ahead);
+}
+
+Clipper Pass::make_clipper(std::optional<ClipMemory> memory) const {
+  return Clipper(active_.scene(), *candidates_,
+                 outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
+                 ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total_}, std::move(memory));
+}
+
+void Pass::keep_memory(ClipChunk& chunk, std::optional<ClipMemory>& kept) {
+  chunk.drop();
+  if (!chunk.clipper) return;
+  ClipMemory memory = std::move(*chunk.clipper).release();
+  chunk.clipper.reset();
+  if (memory.bytes() <= kept_bytes) kept = std::move(memory);
 }
 
 void Pass::keep_wall_memory() {

@@ -51,7 +51,7 @@ inline constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 struct Workspace {
   /// The search of all active seeds, of a plan that another selection replaces; null where there is none.
   std::unique_ptr<Candidates> search;
-  std::optional<ClipMemory> clip;
+  std::optional<ClipMemory> clip, clip_ahead;
   std::optional<ClipMemory> facets;  ///< of clipping the boundary of a solid
   WallRows::Memory walls;
 };

@@ -136,11 +136,10 @@ void MomentSums::set_measures(std::uint32_t first, std::uint32_t last, const std
                });
 }
 
-void MomentSums::replace(std::span<const std::uint32_t> ranks, const cl::RawBuffer& moments,
-                         const std::byte* on_host) {
+void MomentSums::replace(std::span<const std::uint32_t> ranks, const PairMoments& moments) {
   std::optional<cl::Mapping> mapping;
-  if (!on_host) mapping.emplace(moments, ranks.size() * row_bytes_);
-  const std::byte* const sums = on_host ? on_host : mapping->data();
+  if (!moments.on_host) mapping.emplace(moments.on_device(), ranks.size() * row_bytes_);
+  const std::byte* const sums = moments.on_host ? moments.on_host : mapping->data();
   for (std::size_t k = 0; k < ranks.size(); ++k) {
     clear_cell(measures_, seeds_.input[ranks[k]]);
     set(ranks[k], row_at(sums + k * row_bytes_));
@@ -149,13 +148,13 @@ void MomentSums::replace(std::span<const std::uint32_t> ranks, const cl::RawBuff
 }
 
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments,
-                     const std::byte* on_host) {
+                     std::uint32_t first, std::uint32_t last, const PairMoments& moments) {
   const bool summed = one_pair_per_rank(pair_offset, begin, end, first, last);
-  if (summed && on_host) return set_measures(first, last + 1, on_host);
-  if (!summed) sum_on_device(pair_offset, begin, end, first, last, moments);
+  if (summed && moments.on_host) return set_measures(first, last + 1, moments.on_host);
+  const cl::RawBuffer& on_device = moments.on_device();
+  if (!summed) sum_on_device(pair_offset, begin, end, first, last, on_device);
   const std::size_t ranks = std::size_t{last} - first + 1;
-  cl::Mapping sums(summed ? moments : device_sums_, ranks * row_bytes_);
+  cl::Mapping sums(summed ? on_device : device_sums_, ranks * row_bytes_);
   const bool open = pair_offset[last + 1] > end;
   set_measures(first, open ? last : last + 1, sums.data());
   // Keep the row of the previous chunk until the map has ended: if that fails the chunk is repeated.

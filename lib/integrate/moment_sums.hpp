@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <powercell/results.hpp>
@@ -19,6 +20,12 @@ namespace powercell {
 /// Makes the cell of seed i empty, and the seed hidden.
 void clear_cell(Measures& measures, std::size_t i);
 
+/// The moments of the pairs of a chunk.
+struct PairMoments {
+  const std::byte* on_host = nullptr;                    ///< null where they are on the device only
+  std::function<const cl::RawBuffer&()> on_device = {};  ///< called where the host does not suffice
+};
+
 /// Sums on the device and converts the rows that a chunk completes on the host, so device memory grows with
 /// the chunk and not with the number of seeds.
 class MomentSums {
@@ -29,16 +36,13 @@ class MomentSums {
   /// Adds the pairs [begin, end), which belong to the ranks [first, last]. The last rank may have more pairs
   /// in the next chunk, which must begin with pair `end`. Adds nothing if it throws.
   /// \param pair_offset  per rank: its first pair; then the number of pairs
-  /// \param moments      by pair of the chunk, in device memory
-  /// \param on_host      the same if they are on the host too, else null
+  /// \param moments      by pair of the chunk
   void add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-           std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments,
-           const std::byte* on_host = nullptr);
+           std::uint32_t first, std::uint32_t last, const PairMoments& moments);
 
   /// Replaces the measures of ranks with one pair each. Replaces none if it throws.
-  /// \param moments, on_host  as of add(), by rank
-  void replace(std::span<const std::uint32_t> ranks, const cl::RawBuffer& moments,
-               const std::byte* on_host = nullptr);
+  /// \param moments  by rank
+  void replace(std::span<const std::uint32_t> ranks, const PairMoments& moments);
 
   /// Sets the measures of a rank without pairs. \param moments  2 + dimension, in device units
   void set(std::uint32_t rank, std::span<const double> moments);

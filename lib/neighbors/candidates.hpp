@@ -27,6 +27,8 @@ class Candidates {
 
   // For lists of candidates, which are made for each launch. The tree needs none of this.
 
+  /// Whether two clippers may use them at once: nothing is made for a launch.
+  virtual bool is_shared() const { return true; }
   /// Maximum number of pairs in one launch of this round.
   virtual std::size_t most_pairs(int /*round*/) const { return std::numeric_limits<std::uint32_t>::max(); }
   /// Makes the lists of these ranks, ascending. Round r > 0 makes longer lists for the pairs that ended with

@@ -30,6 +30,7 @@ class ListCandidates : public Candidates {
   void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
   int outputs() const override;
+  bool is_shared() const override { return false; }
   double host_seconds() const override { return host_seconds_; }
 
   /// Turns the counts of use() on. \pre no clipper was made with these candidates yet

@@ -19,7 +19,7 @@ std::vector<std::uint32_t> all_ranks(const RandomScene& s) {
 }
 
 /// Moments by pair in device units.
-std::vector<double> read_moments(const Clipper& clipper, std::size_t count) {
+std::vector<double> read_moments(Clipper& clipper, std::size_t count) {
   std::vector<double> values(count);
   clipper.moments().read(values.data(), count * sizeof(double));
   return values;

@@ -159,6 +159,9 @@ TEST_CASE("a chunk repeated after a failed unmap counts once") {
     shim::reset_calls();
     const auto [expected, expected_timings] = measured();
     const std::uint64_t calls = shim::calls()[static_cast<std::size_t>(shim::Entry::clEnqueueUnmapMemObject)];
+    // A GPU maps only what it has summed up.
+    REQUIRE((calls > 1 || setup.device.info().type != DeviceInfo::Type::cpu));
+    if (calls <= 1) continue;
     std::size_t survived = 0;
     for (std::uint64_t nth = 1; nth <= calls; ++nth) {
       CAPTURE(nth);
