@@ -77,19 +77,19 @@ here=$(cd "$(dirname "$0")" && pwd)
 export POWERCELL_DEVICE="${1:-gpu}" LD_LIBRARY_PATH="$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 [ $# -eq 0 ] || shift
 [ $# -gt 0 ] || set -- devices rates bench campaign tests large
-export OUT="${OUT:-$here/out}" LIMIT="${LIMIT:-150}"
 failed=0
 began=$(date +%s)
-mkdir -p "$OUT"
+mkdir -p "${OUT:-$here/out}"
+OUT=$(cd "${OUT:-$here/out}" && pwd)
+export OUT LIMIT="${LIMIT:-150}"
 at_most() { timeout "$LIMIT" "$@"; }
 cd "$here" || exit 1
 
 # Where the machine names no drivers to the loader, or none of its GPU, those that it has are named here.
-if [ -z "${OCL_ICD_VENDORS:-}" ]; then
-  mkdir -p vendors
+if [ -z "${OCL_ICD_VENDORS:-}" ] && mkdir -p vendors 2>/dev/null && [ -w vendors ]; then
   cp /etc/OpenCL/vendors/*.icd vendors/ 2>/dev/null
   for driver in libnvidia-opencl.so.1 libamdocl64.so libigdrcl.so libpocl.so.2; do
-    ! ldconfig -p | grep -q "$driver" || echo "$driver" > "vendors/$driver.icd"
+    grep -qs "$driver" vendors/*.icd || ! ldconfig -p | grep -q "$driver" || echo "$driver" > "vendors/$driver.icd"
   done
   export OCL_ICD_VENDORS="$here/vendors"
 fi
@@ -102,7 +102,7 @@ run_test() {
 }
 [ "${1-}" != --test ] || { run_test "$2"; exit; }
 
-{
+(
   for part in "$@"; do
     echo "== $part, after $(($(date +%s) - began)) s"
     case $part in
@@ -130,7 +130,7 @@ run_test() {
   done
   echo "== done after $(($(date +%s) - began)) s, $([ $failed = 0 ] && echo 'all well' || echo 'with failures')"
   [ $failed = 0 ]
-} > "$OUT/log.txt" 2>&1
+) > "$OUT/log.txt" 2>&1
 status=$?
 cat "$OUT/log.txt"
 exit $status

@@ -110,7 +110,7 @@ static inline void collect_faces(cell_t* cell, bool note) {
   cell->faces = used;
 }
 
-/* Slot k of vertex v with next[k][v] == w. */
+/* Slot k of vertex v with next[v][k] == w. */
 static inline int slot_to(const cell_t* cell, int v, int w) {
   return (cell->next[v][1] == (index_t)w) + 2 * (cell->next[v][2] == (index_t)w);
 }
@@ -223,7 +223,7 @@ static inline bool cell_face_touches(const cell_t* cell, int f, real tolerance) 
 }
 
 /* point[v] = where the three planes of vertex v meet, and at least the error of that in w. False if some
-   planes are nearly dependent. As in all proofs, no loop ends early: work-items that go on alone after that
+   planes are nearly dependent. No loop of the proof ends early: work-items that go on alone after that
    cost more than is saved. */
 static inline bool find_places(cell_t* cell) {
   bool found = true;

@@ -131,19 +131,20 @@ void Context::note_write(std::weak_ptr<const Event> write) {
   constexpr std::size_t many = 64;  // where nobody waits for results, as of a caller's queue
   const std::lock_guard lock(record_mutex_);
   if (writes_.size() >= many)
-    std::erase_if(writes_, [](const std::weak_ptr<const Event>& noted) { return noted.expired(); });
-  writes_.push_back(std::move(write));
+    std::erase_if(writes_, [](const Write& noted) { return noted.event.expired(); });
+  writes_.push_back({std::this_thread::get_id(), std::move(write)});
 }
 
 void Context::check_writes() {
   cl_int failure = CL_SUCCESS;
   {
     const std::lock_guard lock(record_mutex_);
-    std::erase_if(writes_, [&](const std::weak_ptr<const Event>& noted) {
-      const std::shared_ptr<const Event> write = noted.lock();
+    std::erase_if(writes_, [&](const Write& noted) {
+      if (noted.thread != std::this_thread::get_id()) return noted.event.expired();
+      const std::shared_ptr<const Event> write = noted.event.lock();
       const cl_int state = write ? write->state() : CL_COMPLETE;
       if (state < CL_COMPLETE) failure = state;
-      return state <= CL_COMPLETE;  // others are of another thread
+      return state <= CL_COMPLETE;
     });
   }
   check(failure, "writing to " + info_.name);

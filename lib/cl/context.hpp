@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -71,8 +72,8 @@ class Context {
   void finish();
   /// A write that nobody waits for; its event.
   void note_write(std::weak_ptr<const Event> write);
-  /// To be called after waiting for later commands: forgets the writes that are done. \throw Error opencl if
-  /// one has failed, since what was computed with it is wrong
+  /// To be called after waiting for later commands: forgets the writes of this thread that are done. \throw
+  /// Error opencl if one has failed, since what was computed with it is wrong
   void check_writes();
 
  private:
@@ -83,8 +84,12 @@ class Context {
   DeviceInfo info_;
   double build_seconds_ = 0;
   std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
-  std::vector<std::weak_ptr<const Event>> writes_;  // noted and not known to be done
-  mutable std::mutex record_mutex_;                 // guards build_seconds_, launched_ and writes_
+  struct Write {
+    std::thread::id thread;
+    std::weak_ptr<const Event> event;
+  };
+  std::vector<Write> writes_;        // noted and not known to be done
+  mutable std::mutex record_mutex_;  // guards build_seconds_, launched_ and writes_
   std::mutex mutex_;  // guards programs_, also during a build, so that each program is built once
   std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
 };

@@ -60,8 +60,13 @@ constexpr Row table[] = {
 
     // Work-items wait for their private memory: four numbers a load are a sixth faster for polyhedra on an
     // H200
-    // (docs/records/gpu.md). AMD's compiler needs twice as many registers for them and has not been measured.
+    // in single precision and 7 % in double (docs/records/gpu.md). Eight were 3 % faster still, but take all
+    // registers. AMD's compiler needs twice as many registers for four and has not been measured.
     {is_nvidia, [](Quirks& quirks) { quirks.polyhedron_lanes = 4; }},
+
+    // With 2^18 pairs a launch an H200 waits for the last ones 7 % of the time (docs/records/gpu.md). Not so
+    // many that double precision on a GPU for displays takes a second.
+    {is_nvidia, [](Quirks& quirks) { quirks.pairs_of_unit = std::uint64_t{1} << 12; }},
 
     // PoCL compiles a kernel once for grids of less than 2^16 work-items and once for larger ones
     // (github.com/pocl/pocl/pull/738). The limit holds on every CPU, so that chunks are the same with every

@@ -21,6 +21,8 @@ struct Quirks {
   std::size_t group_size = 32;
   /// A launch of more work-items makes the driver compile the kernel once more.
   std::uint64_t launch_limit = std::numeric_limits<std::uint64_t>::max();
+  /// Pairs of a launch of DeviceDiagram for each compute unit, where 2^18 in all leave units idle.
+  std::uint64_t pairs_of_unit = 0;
   /// Numbers that a work-item handles at once when it clips polygons and polyhedra: 8 or 4 in vectors, which
   /// take as many registers where work-items are lanes themselves, or 1 (LANE_WIDTH of
   /// kernels/base/lanes.cl).

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -91,6 +92,9 @@ class Clipper {
   const cl::RawBuffer& moments();
   /// The same on the host, where they have been read already; else null.
   const std::byte* moments_on_host() const { return moments_read_ ? host_moments_.data() : nullptr; }
+  /// Takes the other's copy of the scene for the host, one of which is made for both. The two must not finish
+  /// chunks on the host at the same time.
+  void share_host_scene(const Clipper& other) { host_scene_ = other.host_scene_; }
   const ClipStatistics& statistics() const { return statistics_; }
   /// The statistics since the last call.
   ClipStatistics take_statistics() { return std::exchange(statistics_, {}); }
@@ -135,7 +139,8 @@ class Clipper {
   int outputs_;
   ClipOptions options_;
   std::map<std::size_t, cl::Kernel> kernels_;  // by number of the capacity
-  std::optional<HostScene> host_scene_;
+  /// Made on first use.
+  std::shared_ptr<std::optional<HostScene>> host_scene_ = std::make_shared<std::optional<HostScene>>();
   std::span<const std::uint32_t> pair_seed_, pair_region_;
   ClipStatistics statistics_;
   ClipMemory memory_;

@@ -91,7 +91,7 @@ int Clipper::clip_on_host(HostClipper& host, std::uint32_t pair, const SplitPair
 const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
                                         std::span<const SplitPair> split) {
   if (pairs.empty()) return memory_.pieces;
-  if (!host_scene_) host_scene_ = make_host_scene(scene_);
+  if (!*host_scene_) *host_scene_ = make_host_scene(scene_);
   const std::size_t count = 2 + static_cast<std::size_t>(scene_.mesh().dimension);
   const std::size_t tasks = (pairs.size() + pairs_of_task - 1) / pairs_of_task,
                     first_batch = memory_.pieces.used;
@@ -102,7 +102,7 @@ const PieceSet& Clipper::finish_on_host(const std::vector<std::uint32_t>& pairs,
   parallel_tasks(options_.threads, tasks, [&](int worker, std::size_t task) {
     std::unique_ptr<HostClipper>& host = clipper[static_cast<std::size_t>(worker)];
     if (!host)
-      host = HostClipper::make(*host_scene_, (outputs_ & (OUTPUT_GEOMETRY | OUTPUT_FACETS)) != 0,
+      host = HostClipper::make(**host_scene_, (outputs_ & (OUTPUT_GEOMETRY | OUTPUT_FACETS)) != 0,
                                options_.perturbed);
     const std::size_t begin = task * pairs_of_task, end = std::min(begin + pairs_of_task, pairs.size());
     PieceBatch unwanted, &rows = wants_rows() ? memory_.pieces.batches[first_batch + task] : unwanted;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "kernels/layout.h"
@@ -134,7 +135,7 @@ class Pass {
   const bool exact_;
   /// Whether the device clips a chunk while the host completes the one before it. The host's cores are idle
   /// then unless they are the device.
-  const bool overlaps_;
+  bool overlaps_;
   MomentSums measures_;
   WallCollector walls_;
   GeometryCollector geometry_;
@@ -183,8 +184,14 @@ void Pass::set_chunk_seeds(ClipChunk& chunk) const {
 
 void Pass::start_ahead(std::uint64_t begin, std::uint64_t end) {
   if (!ahead_->clipper) ahead_->clipper.emplace(make_clipper({}));
+  ahead_->clipper->share_host_scene(*now_->clipper);
   set_chunk_rows(*ahead_, begin, end);
-  ahead_->for_host = std::async(std::launch::async, [this] { return clip_on_device(*ahead_); });
+  try {
+    ahead_->for_host =
+        std::async(std::launch::async, [this, &chunk = *ahead_] { return clip_on_device(chunk); });
+  } catch (const std::system_error&) {
+    // The system refuses another thread: the chunk is clipped when its turn comes.
+  }
 }
 
 void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
@@ -299,6 +306,7 @@ void Pass::in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timing
       [&] {
         ahead_->drop();
         ahead_->clipper.reset();
+        overlaps_ = false;  // there is too little memory for two chunks
         now_->clipper.emplace(make_clipper({}));
       });
   const double list_seconds = candidates.host_seconds() - list_seconds_before;

@@ -22,11 +22,10 @@ static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
 static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
 static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
 
-/// Pairs of one launch, unless Options::chunk_pairs is set: few enough for a display driver's watchdog, and
-/// enough to keep all units busy (7 % on an H200, docs/records/gpu.md).
+/// Pairs of one launch, unless Options::chunk_pairs is set: short enough for a display driver's watchdog.
 std::uint64_t launch_pairs(const DeviceInfo& device) {
-  constexpr std::uint64_t least = std::uint64_t{1} << 18, of_unit = std::uint64_t{1} << 13;
-  return std::max(least, device.type == DeviceInfo::Type::gpu ? of_unit * device.compute_units : 0);
+  constexpr std::uint64_t least = std::uint64_t{1} << 18;
+  return std::max(least, cl::quirks_of(device).pairs_of_unit * device.compute_units);
 }
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
