@@ -35,14 +35,13 @@ TEST_CASE("a device treated as a GPU gives the same bits, chunk by chunk") {
       // The device sums the moments of several regions.
       {{"islands", several}, seeds_for(several, Distribution::white, WeightRange::W2, 1000, random)}};
   for (const SeededDomain& c : cases) {
-    const auto& [named, seeds] = c;
-    INFO(named.name);
+    INFO(c.domain.name);
     Options options = setup.options;
-    const Results expected = results(setup.device, options, named.domain, seeds);
+    const Results expected = results(setup.device, options, c.domain.domain, c.seeds);
     for (const std::uint64_t chunk : {std::uint64_t{130}, std::uint64_t{999}}) {
       CAPTURE(chunk);
       options.chunk_pairs = chunk;
-      CHECK(bit_differences(results(gpu, options, named.domain, seeds), expected) == "");
+      CHECK(bit_differences(results(gpu, options, c.domain.domain, c.seeds), expected) == "");
     }
   }
 }
