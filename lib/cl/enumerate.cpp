@@ -79,7 +79,11 @@ bool usable(cl_device_id device) {
 /// For tests of what only GPUs are given: chunks, lanes, groups and overlap.
 bool treated_as_gpu() {
   const char* set = std::getenv("POWERCELL_TREAT_AS");
-  return set && std::string_view(set) == "gpu";
+  const std::string_view kind = set ? set : "";
+  if (!kind.empty() && kind != "gpu")
+    throw Error(ErrorCode::invalid_argument, "the environment variable POWERCELL_TREAT_AS is '" +
+                                                 std::string(kind) + "'; 'gpu' is expected");
+  return kind == "gpu";
 }
 
 }  // namespace

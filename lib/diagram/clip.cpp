@@ -11,8 +11,8 @@
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
 #include "lib/collect/selected_walls.hpp"
-#include "lib/diagram/chunk_ahead.hpp"
 #include "lib/diagram/chunk_pairs.hpp"
+#include "lib/diagram/clip_chunk.hpp"
 #include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
@@ -88,7 +88,7 @@ class Pass {
                          const ClipSome& clip_some);
   Clipper make_clipper(std::optional<ClipMemory> memory) const;
   static void keep_memory(ClipChunk& chunk, std::optional<ClipMemory>& kept);
-  /// Those of the chunk.
+  /// The moments of the chunk that the host completes.
   PairMoments moments() {
     return {now_->clipper->moments_on_host(),
             [this]() -> const cl::RawBuffer& { return now_->clipper->moments(); }};
@@ -110,6 +110,7 @@ class Pass {
   std::vector<std::uint32_t> clip_on_device(ClipChunk& chunk) const {
     return chunk.clipper->clip_on_device(chunk.pair_seed, regions_of(chunk));
   }
+  /// Has the device clip the pairs [begin, end) in another thread.
   void start_ahead(std::uint64_t begin, std::uint64_t end);
   /// Collects the pieces of the pairs in now_->pair_row, all but their measures.
   void collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region);

@@ -73,3 +73,8 @@ TEST_CASE("quirks: GPUs and accelerators take fewer lanes at once, unless the en
   const test::Environment one("POWERCELL_LANES", "1");
   CHECK(cl::lane_width(cpu, 3) == 1);
 }
+
+TEST_CASE("a kind that devices cannot be treated as is refused") {
+  const test::Environment wrong("POWERCELL_TREAT_AS", "GPU");
+  CHECK_THROWS_WITH_AS(devices(), doctest::Contains("POWERCELL_TREAT_AS is 'GPU'"), Error);
+}
