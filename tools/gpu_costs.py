@@ -18,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 KERNELS = ROOT / "kernels"
 TABLE = ROOT / "docs" / "records" / "gpu_costs.csv"
 PAGE = ROOT / "docs" / "gpu_costs.md"
+MAKERS = ("NVIDIA", "AMD")
 TARGETS = ("sm_80", "sm_90", "gfx90a", "gfx1100")
 GROUP_SIZE = 128  # work-items of a group on GPUs (lib/cl/quirks.cpp)
 KEYS = ("program", "kernel", "variant", "target")
@@ -87,20 +88,14 @@ def programs():
 
 
 def variants(path):
-    """Those of each kind, as tuples of defines."""
-    result = {"none": [()]}
+    """Those of each maker of GPUs and kind, as tuples of defines."""
+    result = {(maker, "none"): [()] for maker in MAKERS}
     for line in path.read_text().splitlines():
-        kind, *defines = line.split()
-        listed = result.setdefault(kind, [])
+        maker, kind, *defines = line.split()
+        listed = result.setdefault((maker, kind), [])
         if tuple(defines) not in listed:
             listed.append(tuple(defines))
     return result
-
-
-def with_lanes(defines, target):
-    """With the width of lanes that the host chooses for GPUs of this maker (lib/cl/quirks.cpp)."""
-    width = 4 if target == "nvidia" and "CELL_DIMENSION=3" in defines else 1
-    return tuple(f"LANE_WIDTH={width}" if define.startswith("LANE_WIDTH=") else define for define in defines)
 
 
 def recorded(jobs):
@@ -280,8 +275,9 @@ def main():
     parser.add_argument("programs", nargs="*")
     arguments = parser.parse_args()
     listed = variants(arguments.work / "variants.txt")
-    jobs = [Job(program, with_lanes(defines, target), target) for program, kind in programs() for defines in listed[kind]
-            for target in ("nvidia", "gfx90a", "gfx1100")]
+    jobs = [Job(program, of_maker[maker], target) for program, kind in programs()
+            for of_maker in (dict(zip(MAKERS, both)) for both in zip(*(listed[maker, kind] for maker in MAKERS)))
+            for target, maker in (("nvidia", "NVIDIA"), ("gfx90a", "AMD"), ("gfx1100", "AMD"))]
     if arguments.programs:
         jobs = [job for job in jobs if job.program in arguments.programs]
     else:

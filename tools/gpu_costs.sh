@@ -46,25 +46,34 @@ fi
 # The variants, as the host names their defines.
 cat >"$work/variants.cpp" <<'END'
 #include <cstdio>
+#include "lib/cl/quirks.hpp"
 #include "lib/scene/variant.hpp"
 
-static void print(const char* kind, const powercell::Variant& variant) {
-  std::printf("%s", kind);
+using namespace powercell;
+
+static void print(const char* maker, const char* kind, const Variant& variant) {
+  std::printf("%s %s", maker, kind);
   for (const std::string& define : variant.defines()) std::printf(" %s", define.c_str());
   std::printf("\n");
 }
 
 int main() {
-  for (const bool float32 : {true, false})
-    for (powercell::Variant variant : powercell::all_variants(float32, 1)) {  // tools/gpu_costs.py changes the width
-      print("cells", variant);
-      variant.capacity = {1, 1};
-      print("plain", variant);
-    }
+  for (const char* maker : {"NVIDIA", "AMD"}) {
+    DeviceInfo gpu;
+    gpu.type = DeviceInfo::Type::gpu;
+    gpu.vendor = maker;
+    for (const bool float32 : {true, false})
+      for (Variant variant : all_variants(float32, 1)) {
+        variant.lane_width = cl::lane_width(gpu, variant.cell_dimension);
+        print(maker, "cells", variant);
+        variant.capacity = {1, 1};
+        print(maker, "plain", variant);
+      }
+  }
 }
 END
-c++ -std=c++20 -I . "$work/variants.cpp" lib/scene/variant.cpp -o "$work/variants"
-"$work/variants" >"$work/variants.txt"
+c++ -std=c++20 -I . -I include "$work/variants.cpp" lib/scene/variant.cpp lib/cl/quirks.cpp lib/report/error.cpp -o "$work/variants"
+env -u POWERCELL_LANES "$work/variants" >"$work/variants.txt"
 
 root=$work/root/usr/lib
 LD_LIBRARY_PATH=$root/x86_64-linux-gnu:$root/llvm-19/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
