@@ -4,6 +4,8 @@
 # powercell_io links the shared libraries, and a program must not link both.
 find_path(DOCTEST_INCLUDE_DIR doctest/doctest.h REQUIRED)
 include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
+# They see the library's Setup besides that of the tests.
+set_source_files_properties(diagram/cells_at_boundary.cpp solid/both_ways.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # -O3 compiles tests half as long again as -O1, and most of a test's time is in the libraries and helpers, which keep theirs.
 set(test_options -Wall -Wextra $<$<CONFIG:Release>:-O1>)
@@ -30,6 +32,7 @@ function(powercell_add_test_folders)
         include(${folder}/folder.cmake)  # sets `library` for this folder
       endif()
       target_link_libraries(test_${name} PRIVATE ${library})
+      powercell_in_batches(test_${name})
       add_test(NAME ${name} COMMAND test_${name})
     endif()
   endforeach()

@@ -18,8 +18,6 @@ using Solver = Owned<pc_transport_solver, pc_transport_solver_destroy>;
 using Samples = Owned<const pc_sampling_result, pc_sampling_result_destroy>;
 using Spectrum = Owned<const pc_spectrum, pc_spectrum_destroy>;
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-
 int tilted(const double* point, double* value, void*) {
   *value = 1 + point[0];
   return 1;

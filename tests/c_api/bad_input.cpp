@@ -11,7 +11,6 @@ using namespace powercell::c_api_test;
 
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t too_many = std::numeric_limits<size_t>::max() / 3 + 2;  // times 3 it is a small number
 
 /// Not a number among numbers.

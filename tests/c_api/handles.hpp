@@ -5,11 +5,13 @@
 #include <doctest/doctest.h>
 #include <powercell.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace powercell::c_api_test {
 
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double low[3] = {0, 0, 0};
 constexpr double high[3] = {2, 1, 1};
 

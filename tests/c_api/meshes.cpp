@@ -16,7 +16,6 @@ using Remeshed = Owned<const pc_remesh_result, pc_remesh_result_destroy>;
 using Quality = Owned<const pc_mesh_quality, pc_mesh_quality_destroy>;
 using Layout = Owned<const pc_treemap, pc_treemap_destroy>;
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1};
 
 }  // namespace

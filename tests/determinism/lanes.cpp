@@ -11,14 +11,6 @@ using namespace powercell::test;
 
 namespace {
 
-std::vector<NamedDomain> kinds() {
-  return {{"islands", Domain::polygon(islands())},
-          {"square", unit_box(2)},
-          {"torus", surface_of(torus(12, 7))},
-          {"ball", volume_of(ball_tetrahedra(0))},
-          {"cube", unit_box(3)}};
-}
-
 Results results(const char* lanes, const Setup& setup, const Domain& domain, const SeedArray& seeds) {
   const Environment environment("POWERCELL_LANES", lanes);
   Diagram diagram(setup.device, domain, setup.options);
@@ -30,7 +22,7 @@ Results results(const char* lanes, const Setup& setup, const Domain& domain, con
 
 TEST_CASE(
     "lanes eight or four at once and one by one give the same bits, for equal, moderate and hiding weights") {
-  for (const NamedDomain& named : kinds())
+  for (const NamedDomain& named : one_of_each())
     for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
       Random random(test_seed());
       const SeedArray seeds = seeds_for(named.domain, Distribution::white, range, 1500, random);

@@ -10,14 +10,6 @@ using namespace powercell::test;
 
 namespace {
 
-std::vector<NamedDomain> kinds() {
-  return {{"islands", Domain::polygon(islands())},
-          {"torus", surface_of(torus(12, 7))},
-          {"ball", volume_of(ball_tetrahedra(0))},
-          {"square", unit_box(2)},
-          {"cube", unit_box(3)}};
-}
-
 Results results(const Setup& setup, const Domain& domain, const SeedArray& seeds) {
   Diagram diagram(setup.device, domain, setup.options);
   diagram.set_seeds(seeds.view());
@@ -59,7 +51,7 @@ void check_orders(const NamedDomain& named, const SeedArray& seeds, Random& rand
 
 TEST_CASE("permuted seeds give permuted measures, adjacency, cells and dual, bit for bit") {
   INFO(replay_hint());
-  for (const NamedDomain& named : kinds())
+  for (const NamedDomain& named : one_of_each())
     for (const Distribution distribution : {Distribution::white, Distribution::cluster}) {
       INFO(name(distribution));
       Random random(test_seed());
@@ -70,7 +62,7 @@ TEST_CASE("permuted seeds give permuted measures, adjacency, cells and dual, bit
 
 TEST_CASE("permuted grids, where every decision is a tie") {
   INFO(replay_hint());
-  for (const NamedDomain& named : kinds()) {
+  for (const NamedDomain& named : one_of_each()) {
     Random random(test_seed());
     const int d = named.domain.dimension();
     for (const double angle : {0.0, 0.7}) {
@@ -88,7 +80,7 @@ TEST_CASE("permuted grids, where every decision is a tie") {
 
 TEST_CASE("permuted seeds closer together than the grid of the curve") {
   INFO(replay_hint());
-  for (const NamedDomain& named : kinds()) {
+  for (const NamedDomain& named : one_of_each()) {
     Random random(test_seed());
     const SeedArray seeds = spread_over_scales(200, named.domain.dimension(), 6, random,
                                                Box{named.domain.low(), named.domain.high()});
@@ -98,7 +90,7 @@ TEST_CASE("permuted seeds closer together than the grid of the curve") {
 
 TEST_CASE("of duplicates the heaviest is kept in any order, else the first of that order") {
   INFO(replay_hint());
-  for (const NamedDomain& named : kinds()) {
+  for (const NamedDomain& named : one_of_each()) {
     Random random(test_seed());
     SeedArray seeds = seeds_for(named.domain, Distribution::white, WeightRange::W1, 120, random);
     for (std::size_t i = 0; i < 60; ++i) {  // ten seeds at each of six positions

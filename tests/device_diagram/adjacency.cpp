@@ -122,7 +122,7 @@ std::size_t differences(const Adjacency& a, const Adjacency& b, double tolerance
   return different;
 }
 
-void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray& exact) {
+void check_walls_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray& exact) {
   const SeedArray seeds = rounded_seeds(exact, diagram.precision());
   Options options;
   options.precision = diagram.precision();
@@ -161,7 +161,8 @@ TEST_CASE("walls in device memory equal those of Diagram") {
           CAPTURE(name(weights));
           CAPTURE(name(distribution));
           CAPTURE(static_cast<int>(precision));
-          check_against_host(caller, diagram, random_seeds(distribution, weights, 2000, dimension, random));
+          check_walls_against_host(caller, diagram,
+                                   random_seeds(distribution, weights, 2000, dimension, random));
         }
     }
 }
@@ -180,8 +181,8 @@ TEST_CASE("walls in domains of several regions equal those of Diagram") {
           CAPTURE(domain.name);
           CAPTURE(n);
           CAPTURE(static_cast<int>(precision));
-          check_against_host(caller, diagram,
-                             seeds_for(domain.domain, Distribution::white, WeightRange::W1, n, random));
+          check_walls_against_host(caller, diagram,
+                                   seeds_for(domain.domain, Distribution::white, WeightRange::W1, n, random));
         }
       }
 }

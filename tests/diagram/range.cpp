@@ -4,19 +4,13 @@
 #include <powercell/diagram.hpp>
 #include <string>
 
+#include "tests/support/domains.hpp"
+#include "tests/support/setups.hpp"
+
 using namespace powercell;
+using namespace powercell::test;
 
 namespace {
-
-const Device& test_device() {
-  static const auto* device = new Device(Device::choose());
-  return *device;
-}
-
-Domain unit_square() {
-  const double low[] = {0, 0}, high[] = {1, 1};
-  return Domain::box(low, high);
-}
 
 std::string refusal(Diagram& diagram, const SeedsView& seeds) {
   try {
@@ -40,7 +34,7 @@ TEST_CASE("seeds with infinite squares are refused, other far ones are not") {
     if (precision == Precision::float64 && !test_device().info().fp64) continue;
     Options options;
     options.precision = precision;
-    Diagram diagram(test_device(), unit_square(), options);
+    Diagram diagram(test_device(), unit_box(2), options);
     const bool wide = precision == Precision::float64;
     const std::vector<double> zero = {0, 0, 0}, heavy = {0, wide ? 1e290 : 1e35, 0};
     std::vector<double> positions = {0.3, 0.3, 0.6, 0.7, wide ? 1e130 : 1e16, 0.5};

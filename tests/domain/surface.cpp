@@ -14,10 +14,10 @@ using Indices = std::vector<std::uint32_t>;
 Domain surface(const std::vector<double>& vertices, const Indices& triangles) {
   return Domain::surface(vertices, triangles);
 }
-const std::vector<double> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+const std::vector<double> four_corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 TEST_CASE("a closed surface has no boundary, an open one numbers its edges in order") {
-  const Domain closed = surface(corners, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+  const Domain closed = surface(four_corners, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
   test::check_mesh(closed);
   CHECK(closed.measure() == doctest::Approx(1.5 + std::sqrt(3.0) / 2).epsilon(1e-15));
   CHECK(closed.mesh().boundary_count == 0);
@@ -25,7 +25,7 @@ TEST_CASE("a closed surface has no boundary, an open one numbers its edges in or
   CHECK(closed.dimension() == 3);
   CHECK(closed.cell_dimension() == 2);
 
-  const Domain open = surface(corners, {0, 2, 1, 0, 1, 3});
+  const Domain open = surface(four_corners, {0, 2, 1, 0, 1, 3});
   test::check_mesh(open);
   using Kind = Border::Kind;
   CHECK(open.mesh().facet == std::vector<Border>{{Kind::boundary, 0},
@@ -37,11 +37,11 @@ TEST_CASE("a closed surface has no boundary, an open one numbers its edges in or
 }
 
 TEST_CASE("triangles of any orientation are adjacent, also by repeated vertices") {
-  const Domain flipped = surface(corners, {0, 2, 1, 0, 3, 1});
+  const Domain flipped = surface(four_corners, {0, 2, 1, 0, 3, 1});
   test::check_mesh(flipped);
   CHECK(flipped.mesh().boundary_count == 4);
 
-  std::vector<double> doubled = corners;
+  std::vector<double> doubled = four_corners;
   doubled.insert(doubled.end(), {-0.0, 0, 0, 1, 0, -0.0});
   const Domain soup = surface(doubled, {0, 2, 1, 4, 5, 3});
   test::check_mesh(soup);
@@ -65,7 +65,7 @@ TEST_CASE("each triangle at an edge of many has the next one behind the edge") {
 }
 
 TEST_CASE("flat triangles are left out, slivers are kept, at any scale") {
-  std::vector<double> v = corners;
+  std::vector<double> v = four_corners;
   v.insert(v.end(), {0.5, 0, 0, 0.5, 1e-9, 0, 0.1, 0.1, 0.1, 0.3, 0.3, 0.3, 0.7, 0.7, 0.7});
   const Domain domain = surface(v, {0, 1, 1, 0, 1, 4, 0, 1, 5, 6, 7, 8, 0, 2, 1});
   test::check_mesh(domain);
@@ -73,7 +73,7 @@ TEST_CASE("flat triangles are left out, slivers are kept, at any scale") {
   CHECK(domain.measure() == doctest::Approx(0.5 + 0.5e-9).epsilon(1e-15));
   // The threshold is relative to the size of the triangle.
   for (const double scale : {1e-100, 1e-6, 1e9}) {
-    std::vector<double> small = corners;
+    std::vector<double> small = four_corners;
     for (double& x : small) x *= scale;
     const Domain scaled = surface(small, {0, 1, 2});
     CHECK(scaled.measure() == doctest::Approx(scale * scale / 2).epsilon(1e-15));
@@ -82,15 +82,15 @@ TEST_CASE("flat triangles are left out, slivers are kept, at any scale") {
 
 TEST_CASE("invalid surfaces are refused, with the index of the element") {
   CHECK_CONTAINS(refusal([] { surface({}, {}); }), "has no triangles");
-  CHECK_CONTAINS(refusal([] { surface(corners, {0, 1}); }), "3 vertex indices each, got 2");
+  CHECK_CONTAINS(refusal([] { surface(four_corners, {0, 1}); }), "3 vertex indices each, got 2");
   CHECK_CONTAINS(refusal([] { surface({0, 0}, {0, 1, 2}); }), "3 coordinates each, got 2");
-  CHECK_CONTAINS(refusal([] { surface(corners, {0, 1, 2, 0, 1, 4}); }), "triangle 1: vertex index 4");
-  std::vector<double> broken = corners;
+  CHECK_CONTAINS(refusal([] { surface(four_corners, {0, 1, 2, 0, 1, 4}); }), "triangle 1: vertex index 4");
+  std::vector<double> broken = four_corners;
   broken[7] = std::nan("");
   CHECK_CONTAINS(refusal([&] { surface(broken, {0, 1, 3}); }), "vertex 2: coordinate y is nan");
   broken[7] = INFINITY;
   CHECK_CONTAINS(refusal([&] { surface(broken, {0, 1, 3}); }), "vertex 2: coordinate y is inf");
-  CHECK_CONTAINS(refusal([] { surface(corners, {0, 1, 1, 2, 2, 2}); }), "all 2 triangles are flat");
+  CHECK_CONTAINS(refusal([] { surface(four_corners, {0, 1, 1, 2, 2, 2}); }), "all 2 triangles are flat");
 }
 
 TEST_CASE("a million triangles") {

@@ -36,12 +36,12 @@ pc_device* shared() {
 }
 
 /// The handles of one input; freed at the end.
-class Session {
+class CSession {
  public:
-  explicit Session(Input& input) : input_(input) {}
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-  ~Session() {
+  explicit CSession(Input& input) : input_(input) {}
+  CSession(const CSession&) = delete;
+  CSession& operator=(const CSession&) = delete;
+  ~CSession() {
     pc_diagram_destroy(diagram_);
     pc_domain_destroy(domain_);
   }
@@ -278,7 +278,7 @@ void c_interface(Bytes bytes) {
     check(pc_device_create(selector.c_str(), &device));
     pc_device_destroy(device);
   }
-  Session session(input);
+  CSession session(input);
   session.make_domain();
   session.make_diagram();
   for (int steps = 0; steps < 8 && !input.at_end(); ++steps) session.step();

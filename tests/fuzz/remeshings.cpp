@@ -52,7 +52,7 @@ TriangleMesh any_mesh(Input& input) {
   }
 }
 
-RemeshOptions any_options(Input& input) {
+RemeshOptions any_remesh_options(Input& input) {
   RemeshOptions options;
   options.count = input.below(80);
   options.method = input.below(16) == 15 ? RemeshMethod::transport : RemeshMethod::farthest_point;
@@ -89,7 +89,7 @@ void check(const RemeshResult& result, const MeshQuality& before, std::size_t co
 void remeshings(Bytes bytes) {
   Input input(bytes);
   const TriangleMesh mesh = any_mesh(input);
-  const RemeshOptions options = any_options(input);
+  const RemeshOptions options = any_remesh_options(input);
   accepted({ErrorCode::invalid_argument, ErrorCode::invalid_domain, ErrorCode::not_converged,
             ErrorCode::unsupported},
            [&] {

@@ -15,7 +15,7 @@ namespace {
 constexpr auto kRefusals = {ErrorCode::invalid_argument, ErrorCode::invalid_seed, ErrorCode::invalid_domain,
                             ErrorCode::unsupported, ErrorCode::not_converged};
 
-SamplingOptions any_options(Input& input, const Density& density) {
+SamplingOptions any_sampling_options(Input& input, const Density& density) {
   SamplingOptions options;
   options.density = density;
   options.mode = input.flag() ? SamplingMode::blue : SamplingMode::quantise;
@@ -79,11 +79,12 @@ void samplings(Bytes bytes) {
       accepted(kRefusals, [&] {
         switch (input.below(6)) {
           case 0:
-            check_sample(sample(shared_device(), domain, n, any_options(input, density)), n, d);
+            check_sample(sample(shared_device(), domain, n, any_sampling_options(input, density)), n, d);
             break;
           case 1: {
             const SeedInput seeds = any_seeds(input, domain, n);
-            check_sample(sample(shared_device(), domain, seeds.positions, any_options(input, density)), n, d);
+            check_sample(
+                sample(shared_device(), domain, seeds.positions, any_sampling_options(input, density)), n, d);
             break;
           }
           case 2: {

@@ -12,7 +12,7 @@
 namespace powercell::fuzz {
 namespace {
 
-TransportOptions any_options(Input& input, const Domain& domain) {
+TransportOptions any_transport_options(Input& input, const Domain& domain) {
   TransportOptions options;
   options.density = any_density(input, domain);
   options.max_steps = static_cast<int>(input.below(16));
@@ -52,10 +52,12 @@ void check_result(const TransportResult& result, std::size_t n, std::size_t d) {
           "converged, with masses off by " + std::to_string(worst));
 }
 
-class Session {
+class TransportSession {
  public:
-  Session(Input& input, const Domain& domain)
-      : input_(input), domain_(domain), solver_(shared_device(), domain, any_options(input, domain)) {}
+  TransportSession(Input& input, const Domain& domain)
+      : input_(input),
+        domain_(domain),
+        solver_(shared_device(), domain, any_transport_options(input, domain)) {}
 
   void set_seeds() {
     const SeedInput next = any_seeds(input_, domain_, input_.below(12));
@@ -113,7 +115,7 @@ void transports(Bytes bytes) {
   Input input(bytes);
   accepted(kCallersFaults, [&] {
     const Domain domain = make(input.below(8) == 7 ? any_domain(input) : good_domain(input));
-    Session session(input, domain);
+    TransportSession session(input, domain);
     accepted(kCallersFaults, [&] { session.set_seeds(); });
     for (int steps = 0; steps < 6 && !input.at_end(); ++steps)
       accepted(kCallersFaults, [&] { session.step(); });

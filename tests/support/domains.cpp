@@ -100,6 +100,14 @@ std::vector<NamedDomain> box_domains() {
   return {{"box2", unit_box(2)}, {"box3", unit_box(3)}};
 }
 
+std::vector<NamedDomain> one_of_each() {
+  return {{"islands", Domain::polygon(islands())},
+          {"torus", surface_of(torus(12, 7))},
+          {"ball", volume_of(ball_tetrahedra(0))},
+          {"square", unit_box(2)},
+          {"cube", unit_box(3)}};
+}
+
 namespace {
 
 /// A point uniform in a simplex of k corners of d coordinates.

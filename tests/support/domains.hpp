@@ -32,6 +32,8 @@ std::vector<NamedDomain> polygon_domains();
 std::vector<NamedDomain> surface_domains();
 std::vector<NamedDomain> volume_domains();
 std::vector<NamedDomain> box_domains();
+/// Polygon, surface, volume, square and cube.
+std::vector<NamedDomain> one_of_each();
 
 /// n points uniform in measure on the regions of the domain (n x d).
 /// \pre the regions are polygons, tetrahedra or one box

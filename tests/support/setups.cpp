@@ -42,6 +42,11 @@ const std::vector<Setup>& all_setups() {
   return setups;
 }
 
+const Device& test_device() {
+  static const auto* device = new Device(Device::choose());
+  return *device;
+}
+
 const std::vector<Setup>& main_setups() {
   static const std::vector<Setup> setups = [] {
     std::vector<Setup> some;

@@ -21,6 +21,10 @@ const std::vector<Setup>& all_setups();
 /// The first device with its best precision and each provider.
 const std::vector<Setup>& main_setups();
 
+/// POWERCELL_DEVICE, or the default device; chosen once. Never released: at the end of the process the driver
+/// may be gone before it (oclgrind is).
+const Device& test_device();
+
 /// 2^-53 or 2^-24.
 double unit_roundoff(Precision precision);
 

@@ -7,6 +7,7 @@
 
 #include "tests/support/domains.hpp"
 #include "tests/support/generators.hpp"
+#include "tests/support/setups.hpp"
 
 namespace powercell::test {
 namespace {
@@ -14,11 +15,6 @@ namespace {
 /// In means. In the plane the ends of walls between lines that are nearly parallel are less certain than
 /// areas.
 constexpr double most_difference = 1e-12, most_wall_difference = 1e-9;
-
-const Device& device() {
-  static const Device chosen = Device::choose();
-  return chosen;
-}
 
 Domain random_domain(int dimension, Random& random) {
   if (dimension == 2 && random.index(4) == 0)
@@ -138,7 +134,7 @@ void run_loop(std::uint64_t random_seed, std::size_t most_seeds, LoopTally& tall
   Options options;
   options.threads = 1 + static_cast<int>(random.index(2));
   options.keep_mesh = true;
-  Diagram kept(device(), domain, options);
+  Diagram kept(test_device(), domain, options);
   options.keep_mesh = false;
   kept.set_seeds(work.seeds.view());
   kept.measures();
@@ -147,7 +143,7 @@ void run_loop(std::uint64_t random_seed, std::size_t most_seeds, LoopTally& tall
       kept.set_seeds(work.seeds.view());
     else
       kept.set_weights(work.seeds.weights);
-    Diagram one(device(), domain, options);
+    Diagram one(test_device(), domain, options);
     one.set_seeds(work.seeds.view());
     kept.compute(true, false);
     ++tally.updates;

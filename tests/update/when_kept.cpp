@@ -9,16 +9,12 @@
 
 #include "tests/support/domains.hpp"
 #include "tests/support/generators.hpp"
+#include "tests/support/setups.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
 
 namespace {
-
-const Device& device() {
-  static const Device chosen = Device::choose();
-  return chosen;
-}
 
 Options keeping() {
   Options options;
@@ -55,7 +51,7 @@ std::uint64_t reused_after(Diagram& diagram, SeedArray& seeds, double change, Ra
 TEST_CASE("a diagram is kept from the second change on") {
   Random random(test_seed());
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 500, 3, random);
-  Diagram diagram(device(), unit_box(3), keeping());
+  Diagram diagram(test_device(), unit_box(3), keeping());
   diagram.set_seeds(seeds.view());
   diagram.compute(true, false);
   CHECK(diagram.timings().reused == 0);
@@ -79,7 +75,7 @@ TEST_CASE("a diagram is kept from the second change on") {
 TEST_CASE("no mesh is kept unless it is asked for") {
   Random random(test_seed());
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 50, 2, random);
-  Diagram diagram(device(), unit_box(2));
+  Diagram diagram(test_device(), unit_box(2));
   diagram.set_seeds(seeds.view());
   diagram.measures();
   for (int k = 0; k < 3; ++k) CHECK(reused_after(diagram, seeds, 1e-6, random) == 0);
@@ -91,7 +87,7 @@ TEST_CASE("a stopped update goes on") {
   int calls = 0, stop_at = 0;
   Options options = keeping();
   options.progress = [&](double) { return ++calls != stop_at; };
-  Diagram diagram(device(), unit_box(3), options);
+  Diagram diagram(test_device(), unit_box(3), options);
   diagram.set_seeds(seeds.view());
   diagram.measures();
   for (int k = 0; k < 2; ++k) reused_after(diagram, seeds, 1e-5, random);
@@ -104,7 +100,7 @@ TEST_CASE("a stopped update goes on") {
     CHECK(calls == stop_at);
     diagram.compute(true, false);
     CHECK(diagram.timings().reused == 200);
-    Diagram fresh(device(), unit_box(3));
+    Diagram fresh(test_device(), unit_box(3));
     fresh.set_seeds(seeds.view());
     CHECK(diagram.adjacency().neighbor == fresh.adjacency().neighbor);
   }
@@ -121,7 +117,7 @@ TEST_CASE("what cannot be kept is computed anew") {
       {Domain::periodic_box(std::vector<double>{0, 0}, std::vector<double>{1, 1}), keeping()}};
   for (const auto& [domain, options] : cases) {
     SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 50, domain.dimension(), random);
-    Diagram diagram(device(), domain, options);
+    Diagram diagram(test_device(), domain, options);
     diagram.set_seeds(seeds.view());
     diagram.measures();
     for (int k = 0; k < 3; ++k) CHECK(reused_after(diagram, seeds, 1e-6, random) == 0);
@@ -130,7 +126,7 @@ TEST_CASE("what cannot be kept is computed anew") {
 
 TEST_CASE("after failures a mesh is tried more and more seldom") {
   SeedArray seeds = grid(5, 3);
-  Diagram diagram(device(), unit_box(3), keeping());
+  Diagram diagram(test_device(), unit_box(3), keeping());
   diagram.set_seeds(seeds.view());
   diagram.measures();
   const LogCounter failures("the dual mesh is of no use");
@@ -147,7 +143,7 @@ TEST_CASE("selected cells and certified diagrams do without a mesh, or with it")
   SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 300, 2, random);
   Options options = keeping();
   options.certify = true;
-  Diagram certified(device(), unit_box(2), options), selected(device(), unit_box(2), keeping());
+  Diagram certified(test_device(), unit_box(2), options), selected(test_device(), unit_box(2), keeping());
   for (Diagram* diagram : {&certified, &selected}) {
     diagram->set_seeds(seeds.view());
     diagram->measures();
@@ -169,7 +165,7 @@ TEST_CASE("transport goes on from the kept mesh") {
   const LogCounter kept("from the kept mesh");
   TransportOptions options;
   options.diagram.keep_mesh = true;
-  TransportSolver solver(device(), unit_box(3), options);
+  TransportSolver solver(test_device(), unit_box(3), options);
   solver.set_seeds(seeds.view());
   CHECK(solver.solve().converged);
   CHECK(kept.count() > 2);

@@ -25,7 +25,7 @@ std::vector<NamedDomain> periodic_domains() {
           {"lattice3", Domain::lattice(std::array{1.0, 0.0, 0.0, 0.4, 1.1, 0.0, -0.3, 0.2, 0.9})}};
 }
 
-void expect_laws(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
+void expect_periodic_laws(const Setup& setup, const Domain& domain, const SeedsView& seeds) {
   Diagram diagram(setup.device, domain, setup.options);
   diagram.set_seeds(seeds);
   const std::vector<LawCheck> checks = verify(diagram, seeds, {200, test_seed()});
@@ -48,11 +48,11 @@ TEST_CASE("periodic diagrams obey the laws") {
       for (const std::size_t n : {1, 2, 7, 150})
         for (const WeightRange range : {WeightRange::W0, WeightRange::W2}) {
           SeedArray seeds = seeds_for(named.domain, Distribution::white, range, n, random);
-          expect_laws(setup, named.domain, seeds.view());
+          expect_periodic_laws(setup, named.domain, seeds.view());
           if (named.domain.periods()[0][0] == 0) continue;
           for (std::size_t i = 0; i < n; i += 2)
             seeds.coordinate(i, 0) += 3;  // three periods of these domains
-          expect_laws(setup, named.domain, seeds.view());
+          expect_periodic_laws(setup, named.domain, seeds.view());
         }
     }
   }

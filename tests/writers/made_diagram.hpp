@@ -3,6 +3,7 @@
 /// the library.
 #pragma once
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ struct MadeDiagram {
 
 /// Clips, measures, joins. Seeds at the same position are treated as SeedStatus describes.
 MadeDiagram make_diagram(const Domain& domain, std::vector<double> positions, std::vector<double> weights);
+
+/// In [low, high). Reproducible on every machine, unlike the distributions of <random>.
+inline double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
 
 /// A wavy shape with a hole. Of the `n` weighted seeds some are hidden, two share a position and every fifth
 /// has a negative weight.

@@ -18,11 +18,6 @@ Ring blob(double radius, double wave, int lobes, int points, double x, double y)
   return ring;
 }
 
-// Reproducible on every machine, unlike the distributions of <random>.
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
-
 }  // namespace
 
 MadeDiagram polygon_diagram(int n) {

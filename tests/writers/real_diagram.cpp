@@ -4,13 +4,10 @@
 #include <random>
 
 #include "apps/io/read_domain.hpp"
+#include "tests/writers/made_diagram.hpp"
 
 namespace powercell::test {
 namespace {
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 Domain named(const std::string& spec) {
   return io::read_domain(spec).domain;

@@ -17,10 +17,6 @@ using namespace powercell::test;
 
 namespace {
 
-const Device& device() {
-  return main_setups().front().device;
-}
-
 /// A closed plate [0, 1]^2 x [0, thickness], with per_axis^2 squares on each side.
 Mesh plate(int per_axis, double thickness) {
   Mesh mesh;
@@ -67,7 +63,7 @@ SamplingResult sampled(const Domain& domain, std::size_t n, const Density& densi
   SamplingOptions options;
   options.random_seed = test_seed();
   options.density = density;
-  const SamplingResult found = sample(device(), domain, n, options);
+  const SamplingResult found = sample(test_device(), domain, n, options);
   CHECK(found.converged);
   CHECK(found.positions.size() == 3 * n);
   return found;
@@ -106,12 +102,12 @@ TEST_CASE("both sides of a thin plate get their share of even points, whatever t
       const auto count = static_cast<double>(points.size() / 2);
       CHECK(count > sides - 3);
       CHECK(count < sides + rim + 3);
-      const Spacing even = spacing(device(), unit_box(2), points);
+      const Spacing even = spacing(test_device(), unit_box(2), points);
       CHECK(even.mean > 0.84);
       CHECK(even.least > 0.5);
       CHECK(found.layer_spacing.mean == doctest::Approx(even.mean).epsilon(0.03));
       // The masses are those of power cells on the plate.
-      Diagram diagram(device(), domain);
+      Diagram diagram(test_device(), domain);
       diagram.set_seeds({3, found.positions, found.weights});
       const double mass = domain.measure() / n;
       for (const double m : diagram.measures().mass) CHECK(std::abs(m / mass - 1) < 2e-6);
@@ -135,7 +131,7 @@ TEST_CASE("a thick plate, a body without thin parts and the best quantiser have 
   options.mode = SamplingMode::quantise;
   options.iterations = 2;
   options.movement = 0;
-  CHECK(sample(device(), surface_of(plate(4, 0.1 * spacing)), n, options).layers.empty());
+  CHECK(sample(test_device(), surface_of(plate(4, 0.1 * spacing)), n, options).layers.empty());
 }
 
 TEST_CASE("both surfaces of a hollow sphere get their share") {

@@ -17,15 +17,11 @@ using namespace powercell::test;
 
 namespace {
 
-const Device& device() {
-  return main_setups().front().device;
-}
-
 /// Checks the masses against an independent diagram of the points and weights.
 void check_capacities(const Domain& domain, const Density& density, const SamplingResult& found,
                       std::size_t n) {
   CHECK(found.capacity_error < 1e-6);
-  Diagram diagram(device(), domain);
+  Diagram diagram(test_device(), domain);
   diagram.set_seeds({domain.dimension(), found.positions, found.weights});
   const DensityIntegrals cells = integrate(diagram, density, false);
   REQUIRE(cells.mass.size() == n);
@@ -43,10 +39,10 @@ TEST_CASE("blue noise in a periodic box has the expected hexatic order, spacing 
     SamplingOptions options;
     options.periodic = true;
     options.random_seed = test_seed() + run;
-    const SamplingResult found = sample(device(), unit_box(2), 400, options);
+    const SamplingResult found = sample(test_device(), unit_box(2), 400, options);
     CHECK(found.converged);
     CHECK(found.capacity_error < 1e-6);
-    const Spacing even = spacing(device(), unit_box(2), found.positions, true);
+    const Spacing even = spacing(test_device(), unit_box(2), found.positions, true);
     CHECK(even.hexatic > 0.58);
     CHECK(even.hexatic < 0.66);
     CHECK(found.steps.size() > 10);
@@ -72,11 +68,11 @@ TEST_CASE("capacities are equal on polygons, surfaces and volumes, and the point
     options.density = density;
     options.iterations = 5;
     options.random_seed = test_seed();
-    const SamplingResult found = sample(device(), domain, 80, options);
+    const SamplingResult found = sample(test_device(), domain, 80, options);
     CHECK(found.steps.back().iteration <= 5);
     check_capacities(domain, density, found, 80);
     // A point is in the domain if it is in its Voronoi cell.
-    Diagram voronoi(device(), domain);
+    Diagram voronoi(test_device(), domain);
     voronoi.set_seeds({domain.dimension(), found.positions, {}});
     const Cells& cells = voronoi.cells();
     const auto d = static_cast<std::size_t>(domain.dimension());
@@ -96,7 +92,7 @@ TEST_CASE("the gradient of the energy agrees with finite differences") {
   options.density = Density::formula("1 + x*y");
   const std::vector<double> positions = scatter(Distribution::white, 30, 2, {}, random).positions;
   const Domain domain = unit_box(2);
-  SamplingState state(device(), domain, options, positions);
+  SamplingState state(test_device(), domain, options, positions);
   state.move_to(positions, 1e-11, 500);
   const std::vector<double> gradient = state.energy_gradient();
   const double step = 1e-5;
@@ -120,9 +116,9 @@ TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   options.iterations = 30;
   options.random_seed = test_seed();
   options.descent = SamplingDescent::lloyd;
-  const SamplingResult lloyd = sample(device(), unit_box(2), 100, options);
+  const SamplingResult lloyd = sample(test_device(), unit_box(2), 100, options);
   options.descent = SamplingDescent::lbfgs;
-  const SamplingResult lbfgs = sample(device(), unit_box(2), 100, options);
+  const SamplingResult lbfgs = sample(test_device(), unit_box(2), 100, options);
   CHECK(lloyd.steps.size() == 31);
   CHECK(lloyd.converged);
   // The error of an energy is the square of the capacity error.
@@ -140,7 +136,7 @@ TEST_CASE("quantise decreases the energy, L-BFGS faster than Lloyd") {
   CHECK(lbfgs.relative_energy < 1.025);
   options.movement = 1e-3;
   options.iterations = 200;
-  const SamplingResult rested = sample(device(), unit_box(2), 20, options);
+  const SamplingResult rested = sample(test_device(), unit_box(2), 20, options);
   CHECK(rested.converged);
   CHECK(rested.steps.back().gradient < 1e-3 / std::sqrt(20.0));
 }
@@ -167,7 +163,7 @@ TEST_CASE(
       options.density = one.density;
       options.mode = SamplingMode::quantise;
       options.random_seed = test_seed();
-      const SamplingResult found = sample(device(), one.domain, n, options);
+      const SamplingResult found = sample(test_device(), one.domain, n, options);
       CHECK(found.converged);
       CHECK(found.capacity_error < 1e-6);
       CHECK(found.steps.back().iteration < 400);
@@ -187,7 +183,7 @@ TEST_CASE("a drawing: dots lie on the ink, masses are equal, and a low hexatic o
   SamplingOptions options;
   options.density = Density::image({side, side, ink});
   options.random_seed = test_seed();
-  const SamplingResult found = sample(device(), unit_box(2), 120, options);
+  const SamplingResult found = sample(test_device(), unit_box(2), 120, options);
   CHECK(found.converged);
   check_capacities(unit_box(2), options.density, found, 120);
   CHECK(found.steps.back().iteration <= 100);
@@ -210,9 +206,9 @@ TEST_CASE("Lloyd's method comes to rest too, with about the energy of L-BFGS") {
     SamplingOptions options;
     options.mode = SamplingMode::quantise;
     options.random_seed = test_seed();
-    const SamplingResult lbfgs = sample(device(), unit_box(2), n, options);
+    const SamplingResult lbfgs = sample(test_device(), unit_box(2), n, options);
     options.descent = SamplingDescent::lloyd;
-    const SamplingResult lloyd = sample(device(), unit_box(2), n, options);
+    const SamplingResult lloyd = sample(test_device(), unit_box(2), n, options);
     CHECK(lbfgs.converged);
     CHECK(lloyd.converged);
     CHECK(lloyd.steps.back().gradient < 1e-4 / std::sqrt(static_cast<double>(n)));
@@ -234,7 +230,7 @@ TEST_CASE("the hexagonal lattice is a fixed point, with relative energy 1") {
   SamplingOptions options;
   options.mode = SamplingMode::quantise;
   options.periodic = true;
-  const SamplingResult found = sample(device(), Domain::box(low, high), lattice, options);
+  const SamplingResult found = sample(test_device(), Domain::box(low, high), lattice, options);
   CHECK(found.converged);
   CHECK(found.relative_energy == doctest::Approx(1).epsilon(1e-9));
   for (std::size_t k = 0; k < lattice.size(); ++k) CHECK(std::abs(found.positions[k] - lattice[k]) < 1e-9);
@@ -243,17 +239,17 @@ TEST_CASE("the hexagonal lattice is a fixed point, with relative energy 1") {
 TEST_CASE("the same random seed gives the same points, another one different points") {
   SamplingOptions options;
   options.iterations = 3;
-  const SamplingResult a = sample(device(), unit_box(2), 50, options),
-                       b = sample(device(), unit_box(2), 50, options);
+  const SamplingResult a = sample(test_device(), unit_box(2), 50, options),
+                       b = sample(test_device(), unit_box(2), 50, options);
   CHECK(a.positions == b.positions);
   options.random_seed = 2;
-  CHECK(sample(device(), unit_box(2), 50, options).positions != a.positions);
+  CHECK(sample(test_device(), unit_box(2), 50, options).positions != a.positions);
 }
 
 TEST_CASE("points in a row, on islands and few points move, whatever the initial hexatic order") {
   const std::array<double, 2> low{0, 0}, high{1000, 1};
   const Domain strip = Domain::box(low, high);
-  const SamplingResult row = sample(device(), strip, 100);
+  const SamplingResult row = sample(test_device(), strip, 100);
   CHECK(row.converged);
   CHECK(row.steps.back().iteration == 20);
   CHECK(row.relative_energy < 10);  // above 500 for random points; 5.2 for cells of 10 x 1
@@ -262,12 +258,12 @@ TEST_CASE("points in a row, on islands and few points move, whatever the initial
     for (const bool periodic : {false, true}) {
       SamplingOptions options;
       options.periodic = periodic;
-      const SamplingResult found = sample(device(), unit_box(2), n, options);
+      const SamplingResult found = sample(test_device(), unit_box(2), n, options);
       CHECK(found.converged);
       CHECK(found.steps.back().iteration > 0);
       CHECK(found.relative_energy < 1.4);
     }
-    CHECK(sample(device(), Domain::polygon(islands()), n).converged);
+    CHECK(sample(test_device(), Domain::polygon(islands()), n).converged);
   }
 }
 
@@ -279,17 +275,17 @@ TEST_CASE("given points outside move into the domain, and duplicates are refused
       options.descent = descent;
       options.movement = movement;
       const std::vector<double> outside{5, 5, 6, 6, 7, 5.5, 0.5, 0.5};
-      for (const double x : sample(device(), unit_box(2), outside, options).positions)
+      for (const double x : sample(test_device(), unit_box(2), outside, options).positions)
         CHECK(x == std::clamp(x, 0.0, 1.0));
     }
   const std::vector<double> twice{0.2, 0.2, 0.5, 0.5, 0.2, 0.2};
-  CHECK_THROWS_AS(sample(device(), unit_box(2), twice), Error);
+  CHECK_THROWS_AS(sample(test_device(), unit_box(2), twice), Error);
 }
 
 TEST_CASE("invalid options and domains are refused, and progress may interrupt") {
   const auto code = [](std::size_t n, const SamplingOptions& options, const Domain& domain = unit_box(2)) {
     try {
-      sample(device(), domain, n, options);
+      sample(test_device(), domain, n, options);
     } catch (const Error& error) {
       return error.code();
     }
@@ -316,5 +312,5 @@ TEST_CASE("invalid options and domains are refused, and progress may interrupt")
   options.progress = [](const SamplingStep& step) { return step.iteration < 2; };
   CHECK(code(20, options) == ErrorCode::interrupted);
   const std::vector<double> odd{0.1, 0.2, 0.3};
-  CHECK_THROWS_AS(sample(device(), unit_box(2), odd, {}), Error);
+  CHECK_THROWS_AS(sample(test_device(), unit_box(2), odd, {}), Error);
 }

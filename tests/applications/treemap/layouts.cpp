@@ -14,8 +14,6 @@ using namespace powercell::test;
 
 namespace {
 
-const Ring square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-
 std::vector<std::array<double, 2>> polygon(const Treemap& map, std::size_t i) {
   std::vector<std::array<double, 2>> points;
   for (std::uint64_t v = map.vertex_offset[i]; v < map.vertex_offset[i + 1]; ++v)

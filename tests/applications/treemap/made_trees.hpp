@@ -9,6 +9,9 @@
 
 namespace powercell::test {
 
+/// The unit square.
+inline const Ring square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
 struct MadeTree {
   std::vector<std::int64_t> parent = {TreeView::no_parent};
   std::vector<double> value = {0};

@@ -12,8 +12,6 @@ using namespace powercell::test;
 
 namespace {
 
-const Ring square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-
 void check_refused(const TreeView& tree, const Ring& outline, ErrorCode code, const std::string& says,
                    const TreemapOptions& options = {}) {
   try {

@@ -9,7 +9,7 @@
 #include <powercell/shapes.hpp>
 
 #include "lib/applications/treemap/convex_diagram.hpp"
-#include "tests/support/generators.hpp"
+#include "tests/applications/treemap/made_trees.hpp"
 #include "tests/support/setups.hpp"
 
 using namespace powercell;
@@ -93,7 +93,6 @@ void compare(const Ring& outline, SeedArray seeds, const Setup& setup, double sc
   check_same(own, twin, scale);
 }
 
-const Ring square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 const Ring kite = {{0.1, 0}, {1, 0.4}, {0.9, 1}, {0, 0.7}};
 
 Ring in_unit_square(const Ring& ring) {
