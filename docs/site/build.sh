@@ -31,9 +31,11 @@ if ! "$python" -c 'import powercell' 2>/dev/null; then
   fi
 fi
 if [ "$install" = yes ]; then
-  if "$python" -c 'import uv' 2>/dev/null; then pip="uv pip"; else pip="pip --disable-pip-version-check"; fi
-  # shellcheck disable=SC2086 # the command is meant to be split
-  "$python" -m $pip install -q -r docs/site/requirements.txt
+  if "$python" -c 'import uv' 2>/dev/null; then # python/tests/run.sh put it there
+    "$python" -m uv pip install -q --python "$python" -r docs/site/requirements.txt
+  else
+    "$python" -m pip -q install --disable-pip-version-check -r docs/site/requirements.txt
+  fi
 fi
 "$python" -c 'import powercell, sphinx' || fail "Python packages are missing; run it without --no-install"
 
