@@ -29,6 +29,7 @@ constexpr const char* general_examples =
     "  POWERCELL_CACHE_DIR   the folder of compiled kernels; else ~/.cache/powercell\n"
     "  POWERCELL_CACHE       never or always keep them there; else where the driver does not keep them "
     "itself\n"
+    "  POWERCELL_FP64        never: use devices as if they had no double precision\n"
     "  POWERCELL_LANES       8, 4 or 1: how many numbers kernels take at once, whatever the device\n"
     "  POWERCELL_LOG         info or detail: say on standard error what is done";
 

@@ -10,8 +10,9 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
 
-// operands: 3 per item (a, b, c; b > 0). results: 6 per item:
-// a*b + c rounded twice, fma(a, b, c), a/b, sqrt(b), -1 where NaN and infinity behave, a*b - b*a.
+// operands: 3 per item (a, b, c; b > 0). results: 7 per item:
+// a*b + c rounded twice, fma(a, b, c), a/b, sqrt(b), -1 where NaN and infinity behave, a*b - b*a, 1/b (for
+// which compilers have shortcuts).
 // A macro, so that one program serves both precisions: a second one would double the time of the test.
 #define ARITHMETIC(name, number)                                                                        \
   __kernel void name(__global const number* operands, __global number* results, uint count) {           \
@@ -23,13 +24,14 @@
     const number undefined = zero / zero;                                                               \
     const int sane = undefined != undefined && !(undefined < a) && !(undefined >= a) && infinite > a && \
                      -infinite < a && isinf(infinite) && isnan(infinite - infinite);                    \
-    __global number* out = results + 6 * i;                                                             \
+    __global number* out = results + 7 * i;                                                             \
     out[0] = a * b + c;                                                                                 \
     out[1] = fma(a, b, c);                                                                              \
     out[2] = a / b;                                                                                     \
     out[3] = sqrt(b);                                                                                   \
     out[4] = sane ? (number)-1 : (number)1;                                                             \
     out[5] = a * b - b * a;                                                                             \
+    out[6] = 1 / b;                                                                                     \
   }
 
 ARITHMETIC(arithmetic_float, float)

@@ -1,5 +1,6 @@
 #include "lib/cl/enumerate.hpp"
 
+#include <cstdlib>
 #include <mutex>
 #include <string_view>
 
@@ -32,7 +33,19 @@ T device_value(cl_device_id device, cl_device_info which) {
   return value;
 }
 
+/// The environment variable if it is set. \throw Error invalid_argument if it is anything but `word`
+bool environment_says(const char* name, std::string_view word) {
+  const char* set = std::getenv(name);
+  const std::string_view value = set ? set : "";
+  if (!value.empty() && value != word)
+    throw Error(ErrorCode::invalid_argument, "the environment variable " + std::string(name) + " is '" +
+                                                 std::string(value) + "'; '" + std::string(word) +
+                                                 "' is expected");
+  return !value.empty();
+}
+
 bool has_fp64(cl_device_id device) {
+  if (environment_says("POWERCELL_FP64", "never")) return false;  // where the self-test refuses it
   cl_device_fp_config config = 0;
   const cl_int status = clGetDeviceInfo(device, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof config, &config, nullptr);
   // Devices of OpenCL 1.1 without the extension do not know the query: they have no double precision. Any
@@ -76,16 +89,6 @@ bool usable(cl_device_id device) {
          device_value<cl_bool>(device, CL_DEVICE_COMPILER_AVAILABLE);
 }
 
-/// For tests of what only GPUs are given: chunks, lanes, groups and overlap.
-bool treated_as_gpu() {
-  const char* set = std::getenv("POWERCELL_TREAT_AS");
-  const std::string_view kind = set ? set : "";
-  if (!kind.empty() && kind != "gpu")
-    throw Error(ErrorCode::invalid_argument, "the environment variable POWERCELL_TREAT_AS is '" +
-                                                 std::string(kind) + "'; 'gpu' is expected");
-  return kind == "gpu";
-}
-
 }  // namespace
 
 std::string platform_text(cl_platform_id platform, cl_platform_info which) {
@@ -103,7 +106,8 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   info.vendor = device_text(device, CL_DEVICE_VENDOR);
   info.driver_version = device_text(device, CL_DRIVER_VERSION);
   info.opencl_c_version = device_text(device, CL_DEVICE_OPENCL_C_VERSION);
-  info.type = treated_as_gpu() ? DeviceInfo::Type::gpu : type_of(device);
+  // For tests of what only GPUs are given: chunks, lanes, groups and overlap.
+  info.type = environment_says("POWERCELL_TREAT_AS", "gpu") ? DeviceInfo::Type::gpu : type_of(device);
   info.fp64 = has_fp64(device);
   info.compute_units = device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS);
   info.clock_mhz = device_value<cl_uint>(device, CL_DEVICE_MAX_CLOCK_FREQUENCY);

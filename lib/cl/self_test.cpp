@@ -1,7 +1,9 @@
 #include "lib/cl/self_test.hpp"
 
+#include "lib/cl/accuracy.hpp"
 #include "lib/cl/program.hpp"
 #include "lib/cl/self_test_results.hpp"
+#include "lib/report/log.hpp"
 
 namespace powercell::cl {
 namespace {
@@ -9,13 +11,22 @@ namespace {
 using ContextPointer = std::shared_ptr<Context>;
 using ProgramPointer = std::shared_ptr<const Program>;
 
-void require_no_fault(const Context& context, const std::string& fault) {
+void require_no_fault(const Context& context, const std::string& fault, bool is_double = false) {
   if (fault.empty()) return;
   const DeviceInfo& info = context.info();
   throw Error(ErrorCode::self_test_failed,
               "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
                   ") computes wrongly: " + fault +
-                  "; update its driver or choose another device (POWERCELL_DEVICE or --device)");
+                  "; update its driver or choose another device (POWERCELL_DEVICE or --device)" +
+                  (is_double ? ", or use its single precision alone (POWERCELL_FP64=never)" : ""));
+}
+
+/// Whether the driver says that it emulates double precision: right, but slow.
+bool is_software(const Context& context) {
+  cl_device_fp_config config = 0;
+  check(clGetDeviceInfo(context.device(), CL_DEVICE_DOUBLE_FP_CONFIG, sizeof config, &config, nullptr),
+        "asking a device for its double precision");
+  return (config & CL_FP_SOFT_FLOAT) != 0;
 }
 
 void test_control(const ContextPointer& context, const ProgramPointer& program) {
@@ -32,13 +43,24 @@ void test_control(const ContextPointer& context, const ProgramPointer& program) 
 
 template <class T>
 void test_arithmetic(const ContextPointer& context, const ProgramPointer& program) {
-  const auto operands = arithmetic_operands<T>();
-  Buffer<T> in(context), out(context);
-  in.upload(operands);
-  out.resize(6 * self_test_items);
-  Kernel kernel(context, program, sizeof(T) == 8 ? "arithmetic_double" : "arithmetic_float");
-  kernel.args(in, out, cl_uint{self_test_items}).launch(self_test_items);
-  require_no_fault(*context, arithmetic_fault<T>(operands, out.download()));
+  constexpr bool is_double = sizeof(T) == 8;
+  const auto compute = [&](const std::vector<T>& operands) {
+    Buffer<T> in(context), out(context);
+    const std::size_t items = operands.size() / 3;
+    in.upload(operands);
+    out.resize(arithmetic_results * items);
+    Kernel kernel(context, program, is_double ? "arithmetic_double" : "arithmetic_float");
+    kernel.args(in, out, static_cast<cl_uint>(items)).launch(items);
+    return out.download();
+  };
+  const auto operands = arithmetic_operands<T>(), divided = accuracy_operands<T>();
+  require_no_fault(*context, arithmetic_fault<T>(operands, compute(operands)), is_double);
+  const Accuracy accuracy = measure_accuracy<T>(divided, compute(divided));
+  const bool emulated = is_double && is_software(*context);
+  write_log(emulated ? LogLevel::info : LogLevel::detail, [&] {
+    return "self-test in " + describe(accuracy, is_double) + (emulated ? ", emulated in software" : "");
+  });
+  require_no_fault(*context, accuracy_fault(accuracy, is_double), is_double);
 }
 
 }  // namespace

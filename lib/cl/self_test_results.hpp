@@ -9,13 +9,14 @@
 
 namespace powercell::cl {
 
-constexpr std::uint32_t self_test_items = 67;  // more than a group, and not a multiple of one
+constexpr std::uint32_t self_test_items = 67;    // more than a group, and not a multiple of one
+constexpr std::uint32_t arithmetic_results = 7;  // of an item
 
 /// 3 per item: a, b, c. T is float or double.
 template <class T>
 std::vector<T> arithmetic_operands();
-/// Describes the first fault in the 6 results per item of the kernel `arithmetic_...`; empty if all are
-/// right.
+/// Describes the first fault in the results of the kernel `arithmetic_...`; empty if all are right. Of
+/// quotients and roots, accuracy.hpp knows how much they may be off.
 template <class T>
 std::string arithmetic_fault(std::span<const T> operands, std::span<const T> results);
 

@@ -16,15 +16,13 @@ namespace {
 template <class T, class Fault>
 std::string arithmetic_with(Fault fault) {
   const auto operands = cl::arithmetic_operands<T>();
-  std::vector<T> results(6 * cl::self_test_items);
+  std::vector<T> results(cl::arithmetic_results * cl::self_test_items);
   for (std::size_t i = 0; i < cl::self_test_items; ++i) {
     const T a = operands[3 * i], b = operands[3 * i + 1], c = operands[3 * i + 2];
-    T* r = &results[6 * i];
+    T* r = &results[cl::arithmetic_results * i];
     const T product = a * b;
     r[0] = product + c;
     r[1] = std::fma(a, b, c);
-    r[2] = a / b;
-    r[3] = std::sqrt(b);
     r[4] = -1;
     r[5] = 0;
     fault(r, a, b, c);
@@ -54,15 +52,6 @@ TEST_CASE_TEMPLATE("arithmetic that a broken compiler would give is found out", 
   CHECK(
       contains(arithmetic_with<T>([](T* r, T a, T b, T) { r[5] = std::fma(a, b, -(b * a)); }), "a*b - b*a"));
   CHECK(contains(arithmetic_with<T>([](T* r, T, T, T) { r[4] = 1; }), "NaN"));
-  CHECK(contains(arithmetic_with<T>([](T* r, T, T, T) { r[3] *= 1 + 8 * std::numeric_limits<T>::epsilon(); }),
-                 "sqrt"));
-  CHECK(contains(arithmetic_with<T>([](T* r, T, T, T) { r[2] = std::nan(""); }), "a / b"));
-}
-
-TEST_CASE("double results that are only float are found out") {
-  CHECK(contains(
-      arithmetic_with<double>([](double* r, double, double, double) { r[2] = static_cast<float>(r[2]); }),
-      "a / b in double"));
 }
 
 TEST_CASE("wrong control flow is found out") {

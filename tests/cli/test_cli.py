@@ -6,6 +6,7 @@ usage: test_cli.py PATH_OF_POWERCELL [unittest options]
 
 import json
 import os
+import pathlib
 import re
 import subprocess
 import time
@@ -45,6 +46,7 @@ class Devices(ToolTest):
             self.assertRegex(device["device"], r"^\d+:\d+$")
             self.assertIn(device["name"], table)
             self.assertGreater(device["memory_bytes"], 0)
+            self.assertIsNone(device["refused"])
 
     def test_number_and_name_choose_a_device(self):
         device = self.report("devices")["devices"][0]
@@ -58,6 +60,20 @@ class Devices(ToolTest):
         self.bad(1, re.escape(name), *arguments, "--device", "no such device")
         self.bad(1, re.escape(name), *arguments, env={"POWERCELL_DEVICE": "99:99"})
 
+    def test_an_inexact_device_is_refused_with_the_reason(self):
+        library = self.folder / "inexact.so"
+        source = pathlib.Path(__file__).with_name("inexact_device.c")
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", library, source], check=True, timeout=60)
+        inexact = {"LD_PRELOAD": str(library)}
+        arguments = ("diagram", "--domain", "square", "--seeds", "random:10")
+        reason = r"computes wrongly: a / b in double for .* of which the proofs of cells allow 2.5; .*POWERCELL_FP64=never"
+        self.bad(1, reason, *arguments, env=inexact)
+        devices = json.loads(self.good("devices", "--json", env=inexact).stdout)["devices"]
+        for device in devices:
+            self.assertRegex(device["refused"], reason)
+        self.assertRegex(self.good("devices", env=inexact).stdout, f"refused: .*{reason}")
+        self.good(*arguments, env={**inexact, "POWERCELL_FP64": "never"})
+        self.bad(1, "POWERCELL_FP64 is 'no'; 'never' is expected", *arguments, env={"POWERCELL_FP64": "no"})
 
     def test_pocl_without_a_cache_says_what_to_set(self):
         names = [device["name"] for device in self.report("devices")["devices"]]
