@@ -64,7 +64,7 @@ int main() {
     gpu.vendor = maker;
     for (const bool float32 : {true, false})
       for (Variant variant : all_variants(float32, 1)) {
-        variant.lane_width = cl::lane_width(gpu, variant.cell_dimension);
+        variant.lane_width = cl::lane_width(cl::quirks_of(gpu).settings, variant.cell_dimension);
         print(maker, "cells", variant);
         variant.capacity = {1, 1};
         print(maker, "plain", variant);

@@ -5,6 +5,7 @@
 #include <powercell/density.hpp>
 #include <powercell/device.hpp>
 #include <powercell/device_rates.hpp>
+#include <powercell/device_settings.hpp>
 #include <powercell/diagram.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/error.hpp>

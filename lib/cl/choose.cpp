@@ -10,6 +10,7 @@
 #include "lib/base/text.hpp"
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/self_test.hpp"
+#include "lib/cl/settings_file.hpp"
 
 namespace powercell {
 namespace cl {
@@ -89,6 +90,15 @@ Device Device::choose(std::string_view selector) {
   auto context = std::make_shared<cl::Context>(entry.platform, entry.device, entry.info);
   cl::self_test(context);
   return Device(std::move(context));
+}
+
+DeviceSettings settings_of(const Device& device) {
+  return device.context()->settings();
+}
+
+void use_settings(const Device& device, const DeviceSettings& settings) {
+  cl::require_usable(device.info(), settings);
+  device.context()->use(settings);
 }
 
 Device device_from_queue(cl_command_queue queue) {

@@ -7,6 +7,7 @@
 #include "lib/cl/enumerate.hpp"
 #include "lib/cl/program.hpp"
 #include "lib/cl/quirks.hpp"
+#include "lib/cl/settings_file.hpp"
 #include "lib/report/log.hpp"
 
 namespace powercell::cl {
@@ -43,7 +44,7 @@ void find_indices(cl_device_id device, DeviceInfo& info) {
 }  // namespace
 
 Context::Context(cl_platform_id platform, cl_device_id device, DeviceInfo info)
-    : device_(device), info_(std::move(info)) {
+    : device_(device), info_(std::move(info)), settings_(measured_settings(info_)) {
   cl_int status = CL_SUCCESS;
   const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                               reinterpret_cast<cl_context_properties>(platform), 0};
@@ -68,6 +69,7 @@ Context::Context(cl_command_queue queue) {
         "asking the caller's device for its platform");
   info_ = describe(platform, device_);
   find_indices(device_, info_);
+  settings_ = measured_settings(info_);
   const auto context = queue_value<cl_context>(queue, CL_QUEUE_CONTEXT);
   check(clRetainContext(context), "retaining the caller's context");
   if (const cl_int status = clRetainCommandQueue(queue); status != CL_SUCCESS) {

@@ -9,7 +9,7 @@
 
 #include <memory>
 #include <mutex>
-#include <powercell/device.hpp>
+#include <powercell/device_settings.hpp>
 #include <set>
 #include <string>
 #include <string_view>
@@ -57,6 +57,9 @@ class Context {
   bool has_callers_queue() const { return callers_queue_; }
   cl_device_id device() const { return device_; }
   const DeviceInfo& info() const { return info_; }
+  const DeviceSettings& settings() const { return settings_; }
+  /// To be called before the first diagram: kernels keep what they were built with.
+  void use(const DeviceSettings& settings) { settings_ = settings; }
   double build_seconds() const;
   void add_build_seconds(double seconds);
   /// Whether the driver compiles this kernel for groups of `local` at its next launch: true at the first call
@@ -82,6 +85,7 @@ class Context {
   bool callers_queue_ = false;
   cl_device_id device_ = nullptr;
   DeviceInfo info_;
+  DeviceSettings settings_;
   double build_seconds_ = 0;
   std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
   struct Write {

@@ -67,6 +67,22 @@ const char* environment(const char* name) {
 
 }  // namespace
 
+bool write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (error) return false;
+  const auto temporary = temporary_beside(path);
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  for (const std::string_view part : parts)
+    file.write(part.data(), static_cast<std::streamsize>(part.size()));
+  file.close();
+  const bool whole = !file.fail();
+  if (whole) std::filesystem::rename(temporary, path, error);
+  if (whole && !error) return true;
+  std::filesystem::remove(temporary, error);
+  return false;
+}
+
 CacheKey CacheKey::of(std::span<const std::string_view> parts) {
   Hash hash;
   for (const auto part : parts) {
@@ -116,20 +132,9 @@ std::optional<Binary> DiskCache::read(const CacheKey& key) const {
 
 bool DiskCache::write(const CacheKey& key, std::span<const unsigned char> binary) const {
   if (folder_.empty()) return false;
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) return false;
-  const auto temporary = temporary_beside(path(key));
   const Header header = header_of(key, binary);
-  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(&header), sizeof header);
-  file.write(reinterpret_cast<const char*>(binary.data()), static_cast<std::streamsize>(binary.size()));
-  file.close();
-  const bool whole = !file.fail();
-  if (whole) std::filesystem::rename(temporary, path(key), error);
-  if (whole && !error) return true;
-  std::filesystem::remove(temporary, error);
-  return false;
+  return write_whole(path(key), {{reinterpret_cast<const char*>(&header), sizeof header},
+                                 {reinterpret_cast<const char*>(binary.data()), binary.size()}});
 }
 
 void DiskCache::remove(const CacheKey& key) const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,10 @@
 #include <vector>
 
 namespace powercell::cl {
+
+/// Writes `parts` one after the other beside `path`, makes its folder when needed, and renames, so that
+/// readers see a whole file or none. False if it could not be written whole.
+bool write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
 /// 128 bits that name an entry.
 struct CacheKey {

@@ -5,7 +5,6 @@
 
 #include "lib/cl/build_clock.hpp"
 #include "lib/cl/program.hpp"
-#include "lib/cl/quirks.hpp"
 #include "lib/report/log.hpp"
 
 namespace powercell::cl {
@@ -16,6 +15,7 @@ struct Launch {
   cl_command_queue queue;
   cl_device_id device;
   const DeviceInfo& info;
+  std::size_t group_size;  // wished for
   std::string what;
 };
 
@@ -36,7 +36,7 @@ std::size_t choose_group_size(const Launch& launch) {
   const std::size_t limit = std::max<std::size_t>(
       1,
       std::min(group_value<std::size_t>(launch, CL_KERNEL_WORK_GROUP_SIZE), launch.info.max_work_group_size));
-  std::size_t wanted = quirks_of(launch.info).group_size;
+  std::size_t wanted = launch.group_size;
   // One size for all kernels where each size may be compiled apart; on a GPU whole warps.
   if (launch.info.type == DeviceInfo::Type::gpu)
     wanted = std::max(wanted, group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE));
@@ -139,8 +139,12 @@ Kernel::~Kernel() {
 void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
   if (global == 0) return;
   require_all_arguments();
-  const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
-                      "running the kernel " + name_ + " on " + context_->info().name};
+  const Launch launch = {kernel_,
+                         context_->queue(),
+                         context_->device(),
+                         context_->info(),
+                         context_->settings().group_size,
+                         "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
   global = (global + local - 1) / local * local;
   const bool profiling = profiles(launch.queue);
@@ -161,8 +165,12 @@ void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
 void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
   if (global == 0) return;
   require_all_arguments();
-  const Launch launch{kernel_, context_->queue(), context_->device(), context_->info(),
-                      "running the kernel " + name_ + " on " + context_->info().name};
+  const Launch launch = {kernel_,
+                         context_->queue(),
+                         context_->device(),
+                         context_->info(),
+                         context_->settings().group_size,
+                         "running the kernel " + name_ + " on " + context_->info().name};
   if (local == 0) local = choose_group_size(launch);
   global = (global + local - 1) / local * local;
   // Nothing holds back a queue of the library's own, so the compilation can be waited for, and counted.

@@ -1,5 +1,6 @@
 #include "lib/cl/quirks.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -40,19 +41,19 @@ bool is_pocl(const DeviceInfo& device) {
   return device.platform_name == "Portable Computing Language";
 }
 
-void one_by_one(Quirks& quirks) {
-  quirks.polygon_lanes = quirks.polyhedron_lanes = 1;
+void one_by_one(Quirks& quirks, const DeviceInfo&) {
+  quirks.settings.polygon_lanes = quirks.settings.polyhedron_lanes = 1;
 }
 
 /// A condition on the device and the change that it makes. Later rows overrule earlier ones.
 struct Row {
   bool (*applies)(const DeviceInfo&);
-  void (*change)(Quirks&);
+  void (*change)(Quirks&, const DeviceInfo&);
 };
 
 constexpr Row table[] = {
     // GPUs: several warps a group, but few enough to leave each work-item its registers.
-    {is_gpu, [](Quirks& quirks) { quirks.group_size = 128; }},
+    {is_gpu, [](Quirks& quirks, const DeviceInfo&) { quirks.settings.group_size = 128; }},
 
     // On CPUs vectors of eight are twice as fast. On GPUs they take all registers (docs/gpu_costs.md).
     {is_gpu, one_by_one},
@@ -62,22 +63,36 @@ constexpr Row table[] = {
     // H200
     // in single precision and 7 % in double (docs/records/gpu.md). Eight were 3 % faster still, but take all
     // registers. AMD's compiler needs twice as many registers for four and has not been measured.
-    {is_nvidia, [](Quirks& quirks) { quirks.polyhedron_lanes = 4; }},
+    {is_nvidia, [](Quirks& quirks, const DeviceInfo&) { quirks.settings.polyhedron_lanes = 4; }},
 
     // With 2^18 pairs a launch an H200 waits for the last ones 7 % of the time (docs/records/gpu.md). Not so
     // many that double precision on a GPU for displays takes a second.
-    {is_nvidia, [](Quirks& quirks) { quirks.pairs_of_unit = std::uint64_t{1} << 12; }},
+    {is_nvidia,
+     [](Quirks& quirks, const DeviceInfo& device) {
+       auto& pairs = quirks.settings.launch_pairs;
+       pairs = std::max(pairs, std::uint64_t{device.compute_units} << 12);
+     }},
+
+    // A GPU needs many pairs to be busy. A core of a CPU needs a few groups, and collects the output of a
+    // small chunk
+    // from its cache.
+    {is_cpu,
+     [](Quirks& quirks, const DeviceInfo& device) {
+       quirks.settings.chunk_pairs =
+           std::clamp<std::uint64_t>(std::uint64_t{device.compute_units} << 14, 1 << 14, 1 << 22);
+     }},
 
     // PoCL compiles a kernel once for grids of less than 2^16 work-items and once for larger ones
     // (github.com/pocl/pocl/pull/738). The limit holds on every CPU, so that chunks are the same with every
     // driver; the margin is for rounding up to whole groups.
-    {is_cpu, [](Quirks& quirks) { quirks.launch_limit = (std::uint64_t{1} << 16) - 4096; }},
+    {is_cpu,
+     [](Quirks& quirks, const DeviceInfo&) { quirks.launch_limit = (std::uint64_t{1} << 16) - 4096; }},
 
     // PoCL specialises a kernel by its group size when it is launched (github.com/pocl/pocl/issues/1958) and
     // keeps the result in its own folder; a cache of binaries on top makes it compile a general form besides
     // (github.com/inducer/pyopencl/issues/731).
     {is_pocl,
-     [](Quirks& quirks) {
+     [](Quirks& quirks, const DeviceInfo&) {
        quirks.compiles_at_launch = true;
        quirks.keeps_programs = true;
      }},
@@ -88,17 +103,14 @@ constexpr Row table[] = {
 Quirks quirks_of(const DeviceInfo& device) {
   Quirks quirks;
   for (const Row& row : table)
-    if (row.applies(device)) row.change(quirks);
+    if (row.applies(device)) row.change(quirks, device);
   return quirks;
 }
 
-int lane_width(const DeviceInfo& device, int cell_dimension) {
+int lane_width(const DeviceSettings& settings, int cell_dimension) {
   const char* set = std::getenv("POWERCELL_LANES");
   const std::string_view wish = set ? set : "";
-  if (wish.empty()) {
-    const Quirks quirks = quirks_of(device);
-    return cell_dimension == 3 ? quirks.polyhedron_lanes : quirks.polygon_lanes;
-  }
+  if (wish.empty()) return cell_dimension == 3 ? settings.polyhedron_lanes : settings.polygon_lanes;
   for (const int width : {1, 4, 8})
     if (wish == std::to_string(width)) return width;
   throw Error(ErrorCode::invalid_argument, "the environment variable POWERCELL_LANES is '" +

@@ -71,7 +71,7 @@ cl::Kernel& Clipper::kernel(std::size_t number) {
   if (found != kernels_.end()) return found->second;
   const RegionMesh& mesh = scene_.mesh();
   const Variant variant{mesh.dimension, mesh.cell_dimension, scene_.float32(), capacity(number),
-                        cl::lane_width(scene_.context()->info(), mesh.cell_dimension)};
+                        cl::lane_width(scene_.context()->settings(), mesh.cell_dimension)};
   auto program = scene_.context()->program(candidates_.file(), variant.defines());
   program->trust_after([&] { golden_test(scene_.context(), candidates_, variant, number); });
   return kernels_

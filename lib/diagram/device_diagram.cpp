@@ -22,16 +22,11 @@ static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
 static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
 static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
 
-/// Pairs of one launch, unless Options::chunk_pairs is set: short enough for a display driver's watchdog.
-std::uint64_t launch_pairs(const DeviceInfo& device) {
-  constexpr std::uint64_t least = std::uint64_t{1} << 18;
-  return std::max(least, cl::quirks_of(device).pairs_of_unit * device.compute_units);
-}
 constexpr const char* clip_file = "diagram/clip_pairs.cl";
 
 Variant variant(const Device& device, const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
-          cl::lane_width(device.info(), domain.cell_dimension())};
+          cl::lane_width(device.context()->settings(), domain.cell_dimension())};
 }
 
 /// The defines of kernels that hold no cell.
@@ -153,7 +148,8 @@ TreeBlocks::Tree DeviceDiagram::State::device_tree(std::uint32_t n) const {
 }
 
 void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uint32_t n) {
-  const std::uint64_t most = options.chunk_pairs > 0 ? options.chunk_pairs : launch_pairs(device.info());
+  const std::uint64_t most =
+      options.chunk_pairs > 0 ? options.chunk_pairs : device.context()->settings().launch_pairs;
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));

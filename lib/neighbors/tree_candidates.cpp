@@ -43,7 +43,7 @@ Variant without_cells(const Scene& scene) {
           scene.mesh().cell_dimension,
           scene.float32(),
           {1, 1},
-          cl::lane_width(scene.context()->info(), scene.mesh().cell_dimension)};
+          cl::lane_width(scene.context()->settings(), scene.mesh().cell_dimension)};
 }
 
 TreeBlocks::Tree device_tree(const Scene& scene) {

@@ -21,7 +21,7 @@ cl::Quirks quirks_of(const std::string& platform, Type type) {
 TEST_CASE("quirks: GPUs get groups of several warps and launches of any size") {
   for (const char* platform : {"NVIDIA CUDA", "AMD Accelerated Parallel Processing", "rusticl"}) {
     const cl::Quirks gpu = quirks_of(platform, Type::gpu);
-    CHECK(gpu.group_size == 128);
+    CHECK(gpu.settings.group_size == 128);
     CHECK(gpu.launch_limit > std::uint64_t{1} << 32);
     CHECK_FALSE(gpu.compiles_at_launch);
     CHECK_FALSE(gpu.keeps_programs);
@@ -36,15 +36,15 @@ TEST_CASE("quirks: only PoCL compiles at the launch and keeps programs, on whate
     const cl::Quirks other = quirks_of("Intel(R) OpenCL", type);
     CHECK_FALSE(other.compiles_at_launch);
     CHECK_FALSE(other.keeps_programs);
-    CHECK(pocl.group_size == other.group_size);
+    CHECK(pocl.settings == other.settings);
     CHECK(pocl.launch_limit == other.launch_limit);
   }
 }
 
 TEST_CASE("quirks: a launch at a CPU's limit, rounded up to whole groups, stays below 2^16 work-items") {
   const cl::Quirks cpu = quirks_of("Intel(R) OpenCL", Type::cpu);
-  CHECK(cpu.group_size == 32);
-  CHECK(cpu.launch_limit + cpu.group_size < std::uint64_t{1} << 16);
+  CHECK(cpu.settings.group_size == 32);
+  CHECK(cpu.launch_limit + cpu.settings.group_size < std::uint64_t{1} << 16);
   CHECK(cpu.launch_limit > std::uint64_t{1} << 15);
 }
 
@@ -56,22 +56,23 @@ TEST_CASE("quirks: GPUs and accelerators take fewer lanes at once, unless the en
   nvidia.vendor = "NVIDIA Corporation";
   accelerator.type = Type::accelerator;
   for (const int cell_dimension : {2, 3}) {
-    CHECK(cl::lane_width(cpu, cell_dimension) == 8);
-    CHECK(cl::lane_width(gpu, cell_dimension) == 1);
-    CHECK(cl::lane_width(nvidia, cell_dimension) == (cell_dimension == 2 ? 1 : 4));
-    CHECK(cl::lane_width(accelerator, cell_dimension) == 1);
-    CHECK(cl::lane_width(other, cell_dimension) == 8);
+    CHECK(cl::lane_width(cl::quirks_of(cpu).settings, cell_dimension) == 8);
+    CHECK(cl::lane_width(cl::quirks_of(gpu).settings, cell_dimension) == 1);
+    CHECK(cl::lane_width(cl::quirks_of(nvidia).settings, cell_dimension) == (cell_dimension == 2 ? 1 : 4));
+    CHECK(cl::lane_width(cl::quirks_of(accelerator).settings, cell_dimension) == 1);
+    CHECK(cl::lane_width(cl::quirks_of(other).settings, cell_dimension) == 8);
   }
   {
     const test::Environment eight("POWERCELL_LANES", "8");
-    CHECK(cl::lane_width(gpu, 3) == 8);
+    CHECK(cl::lane_width(cl::quirks_of(gpu).settings, 3) == 8);
   }
   {
     const test::Environment wrong("POWERCELL_LANES", "2");
-    CHECK_THROWS_WITH_AS(cl::lane_width(cpu, 3), doctest::Contains("POWERCELL_LANES is '2'"), Error);
+    CHECK_THROWS_WITH_AS(cl::lane_width(cl::quirks_of(cpu).settings, 3),
+                         doctest::Contains("POWERCELL_LANES is '2'"), Error);
   }
   const test::Environment one("POWERCELL_LANES", "1");
-  CHECK(cl::lane_width(cpu, 3) == 1);
+  CHECK(cl::lane_width(cl::quirks_of(cpu).settings, 3) == 1);
 }
 
 TEST_CASE("a kind that devices cannot be treated as is refused") {

@@ -58,7 +58,7 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
 #endif
   for (const bool float32 : {false, true}) {
     if (!float32 && !context->info().fp64) continue;
-    for (const Variant& variant : all_variants(float32, cl::lane_width(context->info(), 3))) {
+    for (const Variant& variant : all_variants(float32, cl::lane_width(context->settings(), 3))) {
       for (const Candidates* source : sources) {
         CAPTURE(source->file());
         CAPTURE(variant.dimension);
@@ -73,7 +73,7 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
 
 TEST_CASE("every variant computes the golden diagram with lanes as on other kinds of devices") {
   const auto context = test_context();
-  const int own = cl::lane_width(context->info(), 3);
+  const int own = cl::lane_width(context->settings(), 3);
   for (const int width : {1, 4, 8}) {
     if (width == own) continue;
     const Environment lanes("POWERCELL_LANES", std::to_string(width));
@@ -96,7 +96,7 @@ TEST_CASE("every variant computes the golden diagram with lanes as on other kind
 TEST_CASE("a device that computes the golden diagram wrongly is refused, and named") {
   const auto context = test_context();
   const RandomScene scene(context, 2, 20, 0.5, true);
-  Variant variant = all_variants(true, cl::lane_width(context->info(), 3)).front();
+  Variant variant = all_variants(true, cl::lane_width(context->settings(), 3)).front();
   try {
     golden_test(context, BlindCandidates(scene.scene), variant, 0);
     FAIL("the wrong answer was believed");
