@@ -22,6 +22,7 @@ constexpr const char* general_examples =
     "  powercell remesh mesh.off --count 5000 -o new.off    well-shaped triangles\n"
     "  powercell verify --device cpu                        does this device compute correctly?\n"
     "  powercell bench                                      and how fast?\n"
+    "  powercell tune                                       settings that make it faster\n"
     "  powercell treemap sales.csv -o sales.svg             hierarchical data as nested cells\n"
     "  powercell sample --image photo.png -n 8000 -o dots.svg\n"
     "Environment:\n"
@@ -116,7 +117,7 @@ CommandLine::CommandLine()
       {"devices", add_devices(app)}, {"diagram", add_diagram(app)}, {"verify", add_verify(app)},
       {"demo", add_demo(app)},       {"bench", add_bench(app)},     {"transport", add_transport(app)},
       {"treemap", add_treemap(app)}, {"remesh", add_remesh(app)},   {"sample", add_sample(app)},
-      {"help", add_help(app)},       {"manuals", add_manuals(app)},
+      {"tune", add_tune(app)},       {"help", add_help(app)},       {"manuals", add_manuals(app)},
   };
 }
 

@@ -76,6 +76,7 @@ Command add_transport(CLI::App& app);
 Command add_treemap(CLI::App& app);
 Command add_remesh(CLI::App& app);
 Command add_sample(CLI::App& app);
+Command add_tune(CLI::App& app);
 /// A hidden command of the build: manual pages and completions.
 Command add_manuals(CLI::App& app);
 

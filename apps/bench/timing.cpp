@@ -17,11 +17,6 @@ constexpr std::size_t first_seeds = 1000;      // of the first result
 constexpr std::size_t counted_seeds = 10'000;  // on whose cells the work is counted
 constexpr double bytes_a_seed = 2500;          // upper estimate of a diagram's memory
 
-io::SeedTable white_seeds(const Domain& domain, std::size_t n) {
-  const double spacing = std::pow(domain.measure() / static_cast<double>(n), 1.0 / domain.cell_dimension());
-  return io::random_seeds({n, 0, spacing * spacing / 2, 1}, domain);
-}
-
 class RowTimer {
  public:
   RowTimer(const BenchTask& task, BenchRow& row) : task_(task), row_(row) {}
@@ -85,13 +80,8 @@ class RowTimer {
     return runs;
   }
 
-  // Seconds from seeds in host memory to results there, without building kernels.
   double time_once(const io::SeedTable& seeds, bool adjacency) {
-    const double built = diagram_->device().build_seconds();
-    Stopwatch watch;
-    diagram_->set_seeds(seeds.view());
-    diagram_->compute(adjacency, false);
-    return watch.lap() - (diagram_->device().build_seconds() - built);
+    return app::time_once(*diagram_, seeds, adjacency);
   }
 
   void check(const Measures* before) {
@@ -126,6 +116,19 @@ class RowTimer {
 
 }  // namespace
 
+io::SeedTable white_seeds(const Domain& domain, std::size_t n) {
+  const double spacing = std::pow(domain.measure() / static_cast<double>(n), 1.0 / domain.cell_dimension());
+  return io::random_seeds({n, 0, spacing * spacing / 2, 1}, domain);
+}
+
+double time_once(Diagram& diagram, const io::SeedTable& seeds, bool adjacency) {
+  const double built = diagram.device().build_seconds();
+  Stopwatch watch;
+  diagram.set_seeds(seeds.view());
+  diagram.compute(adjacency, false);
+  return watch.lap() - (diagram.device().build_seconds() - built);
+}
+
 std::size_t round_seeds(double wanted) {
   std::size_t best = least_seeds;
   for (std::size_t decade = least_seeds; decade <= most_seeds; decade *= 10)
@@ -141,7 +144,8 @@ std::string fault_of(const Measures& measures, Precision precision, const Measur
     return fmt::format(
         "the measures sum to {:.17g}, the domain's is {:.17g} (relative error {:.1e}, allowed {:.0e})",
         measures.total(), measures.domain_measure, measures.relative_error(), allowed);
-  if (before && before->mass != measures.mass) return "two runs on the same seeds gave different measures";
+  if (before && (before->mass != measures.mass || before->second_moment != measures.second_moment))
+    return "two runs on the same seeds gave different measures";
   return {};
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/bench/record.hpp"
 #include "apps/io/read_domain.hpp"
+#include "apps/io/read_seeds.hpp"
 
 namespace powercell::app {
 
@@ -28,8 +29,13 @@ struct BenchTask {
   DeviceRates rates = {};          ///< of the device
 };
 
+/// Uniform in the domain, weights uniform in [0, h^2 / 2] with h = (measure / n)^(1/d).
+io::SeedTable white_seeds(const Domain& domain, std::size_t n);
+
+/// Seconds from seeds in host memory to results there, without building kernels.
+double time_once(Diagram& diagram, const io::SeedTable& seeds, bool adjacency);
+
 /// Opens the device, times the first result, finds the number of seeds, and times; every run is checked.
-/// White seeds: uniform in the domain, weights uniform in [0, h^2 / 2] with h = (measure / n)^(1/d).
 /// Errors are reported in `BenchRow::failure`. \throw Error interrupted
 BenchRow time_row(const BenchTask& task, WorkCounts& counts);
 
