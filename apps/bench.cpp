@@ -32,8 +32,15 @@ int conclude_comparison(const BenchArguments& arguments, const SavedRecord& now,
   const auto worst = std::min_element(ratios.begin(), ratios.end(),
                                       [](const auto& a, const auto& b) { return a.least() < b.least(); });
   if (worst->least() >= arguments.fail_below) return 0;
-  return fail(fmt::format("{}: {:.3f} of the rate in {}, below --fail-below {}", worst->now->title(),
-                          worst->least(), then.path, arguments.fail_below));
+  const double scatter = worst->scatter();
+  return fail(fmt::format(
+      "{}: {:.3f} of the rate in {}, below --fail-below {}{}", worst->now->title(), worst->least(), then.path,
+      arguments.fail_below,
+      scatter > much_scatter
+          ? fmt::format("; but runs scatter by {:.0f} %, too much to tell: measure again, on a machine "
+                        "that does nothing else or with a larger --repeat",
+                        100 * scatter)
+          : ""));
 }
 
 int compare_with_earlier(const BenchArguments& arguments, const BenchRecord& record,

@@ -68,17 +68,20 @@ std::string comparison(const SavedRecord& now, const SavedRecord& then,
                         device);
   };
   line("domain", "precision", "seeds", "cells/s", "+adjacency", "device");
-  bool other_sizes = false;
+  bool other_sizes = false, scattered = false;
   for (const BenchRatio& ratio : ratios) {
     const SavedRow& row = *ratio.now;
+    const char* about = ratio.scatter() > much_scatter ? "~" : "";
+    scattered = scattered || ratio.scatter() > much_scatter;
     std::string device = devices_of_ratio(ratio);
     if (row.n != ratio.then->n) {
       device += fmt::format(" (with {} seeds)", with_commas(ratio.then->n));
       other_sizes = true;
     }
-    line(row.domain, row.precision, with_commas(row.n), fmt::format("{:.2f}", ratio.measures),
-         fmt::format("{:.2f}", ratio.adjacency), device);
+    line(row.domain, row.precision, with_commas(row.n), fmt::format("{}{:.2f}", about, ratio.measures),
+         fmt::format("{}{:.2f}", about, ratio.adjacency), device);
   }
+  if (scattered) text += "~: the runs of either scatter so much that the ratio is no result.\n";
   if (other_sizes) text += "Where the numbers of seeds differ, the ratio is a rough one.\n";
   std::set<const SavedRow*> compared;
   for (const BenchRatio& ratio : ratios) compared.insert(ratio.now);

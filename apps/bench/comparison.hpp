@@ -13,6 +13,8 @@ namespace powercell::app {
 struct BenchRatio {
   const SavedRow *now, *then;  ///< of the records that were compared
   double measures = 0, adjacency = 0;
+  /// Of the runs of both.
+  double scatter() const { return now->scatter > then->scatter ? now->scatter : then->scatter; }
   double least() const { return measures < adjacency ? measures : adjacency; }
 };
 

@@ -54,6 +54,7 @@ json row_json(const BenchRow& row) {
     out["failure"] = row.failure;
     return out;
   }
+  out["scattered"] = row.scatter() > much_scatter;
   out["measures"] = runs_json(row.measures, row.rate());
   out["adjacency"] = runs_json(row.adjacency, row.adjacency_rate());
   out["build_seconds"] = row.build;
@@ -104,6 +105,9 @@ double TimedRuns::scatter() const {
 std::string BenchRow::title() const {
   return fmt::format("{} in {} with {} seeds on {}", domain, precision, with_commas(n), device);
 }
+double BenchRow::scatter() const {
+  return std::max(measures.scatter(), adjacency.scatter());
+}
 double BenchRow::rate() const {
   return measures.best() > 0 ? static_cast<double>(n) / measures.best() : 0;
 }
@@ -142,10 +146,11 @@ std::vector<const BenchRow*> BenchRecord::headlines() const {
 json as_json(const BenchRecord& record) {
   json devices = json::array(), rows = json::array(), headlines = json::array();
   for (const BenchRow* row : record.headlines())
-    headlines.push_back({{"device", row->device},
-                         {"precision", row->precision},
-                         {"n", row->n},
-                         {"million_cells_per_second", 1e-6 * row->rate()}});
+    if (row->scatter() <= much_scatter)
+      headlines.push_back({{"device", row->device},
+                           {"precision", row->precision},
+                           {"n", row->n},
+                           {"million_cells_per_second", 1e-6 * row->rate()}});
   for (const DeviceInfo& device : record.devices) devices.push_back(device_json(device));
   for (const BenchRow& row : record.rows) rows.push_back(row_json(row));
   return {{"format", bench_format},

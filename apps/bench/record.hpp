@@ -40,6 +40,7 @@ struct BenchRow {
   std::string failure;        ///< the error if the row failed, else empty
 
   std::string title() const;           ///< for messages: "cube in double with 1,000 seeds on NAME"
+  double scatter() const;              ///< the larger of both kinds of runs
   double rate() const;                 ///< cells a second, measures
   double adjacency_rate() const;       ///< cells a second, measures and adjacency
   double arithmetic_fraction() const;  ///< counted operations per second over the device's rate

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -19,6 +20,17 @@ double rate_of(const json& row, const char* results) {
   if (!(rate > 0) || !std::isfinite(rate))
     throw std::invalid_argument(fmt::format("'cells_per_second' of '{}' is not above 0", results));
   return rate;
+}
+
+double scatter_of(const json& row) {
+  double most = 0;
+  for (const char* results : {"measures", "adjacency"}) {
+    const double scatter = row.at(results).value("scatter", 0.0);  // missing in older files
+    if (!(scatter >= 0) || !std::isfinite(scatter))
+      throw std::invalid_argument(fmt::format("'scatter' of '{}' is not 0 or above", results));
+    most = std::max(most, scatter);
+  }
+  return most;
 }
 
 std::size_t seeds_of(const json& row) {
@@ -61,8 +73,8 @@ SavedRecord saved(const BenchRecord& record, const std::string& path) {
   SavedRecord result{path, version(), record.revision, record.date, record.description, {}};
   for (const BenchRow& row : record.rows)
     if (row.failure.empty())
-      result.rows.push_back(
-          {row.device, row.selector, row.domain, row.precision, row.n, row.rate(), row.adjacency_rate()});
+      result.rows.push_back({row.device, row.selector, row.domain, row.precision, row.n, row.rate(),
+                             row.adjacency_rate(), row.scatter()});
   return result;
 }
 
@@ -87,7 +99,8 @@ SavedRecord parse_record(std::string_view bytes, const std::string& name) {
       if (!row.at("passed").get<bool>()) continue;
       record.rows.push_back({row.at("device").get<std::string>(), row.at("selector").get<std::string>(),
                              row.at("domain").get<std::string>(), row.at("precision").get<std::string>(),
-                             seeds_of(row), rate_of(row, "measures"), rate_of(row, "adjacency")});
+                             seeds_of(row), rate_of(row, "measures"), rate_of(row, "adjacency"),
+                             scatter_of(row)});
     }
   } catch (const json::parse_error& error) {
     refuse(name, fmt::format("is not JSON at byte {}", error.byte));

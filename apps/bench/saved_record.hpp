@@ -19,6 +19,7 @@ struct SavedRow {
   std::string device, selector, domain, precision;
   std::size_t n = 0;
   double rate = 0, adjacency_rate = 0;  ///< cells a second
+  double scatter = 0;                   ///< of the runs; 0 in records that were saved before it was
 
   std::string title() const;  ///< for messages: "cube in double with 1,000 seeds on NAME"
 };

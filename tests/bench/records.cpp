@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <tuple>
+#include <utility>
 
 #include "apps/bench/comparison.hpp"
 #include "apps/bench/table.hpp"
@@ -25,7 +26,7 @@ BenchRow made_row(const std::string& selector, const std::string& precision, std
   row.domain = "cube";
   row.precision = precision;
   row.n = n;
-  row.measures.seconds = {2 * seconds, seconds};
+  row.measures.seconds = {1.05 * seconds, seconds};
   row.adjacency.seconds = {2 * seconds};
   return row;
 }
@@ -183,8 +184,26 @@ TEST_CASE("runs scatter by how much longer the median takes than the best") {
   const std::string text = scatter_notes(record);
   CHECK(text.find("cube in float with 2,000 seeds on device of two units") != std::string::npos);
   CHECK(text.find("30 %") != std::string::npos);
+  CHECK(table_line(record.rows[2]).find("~") != std::string::npos);
+  CHECK(table_line(record.rows[1]).find("~") == std::string::npos);
   record.rows[2].failure = "out of memory";
   CHECK(scatter_notes(record) == "");
+}
+
+TEST_CASE("runs that scatter much give no figure, and a ratio that is marked") {
+  BenchRecord record = made_record();
+  record.rows[0].measures.seconds = {0.1, 0.12, 0.12};
+  const std::string text = headline(record);
+  CHECK(text.find("no figure for device of two units: the runs of cube in double scatter by 20 %") == 0);
+  CHECK(text.find("million cells a second: cube, white, 1,000 seeds, double") !=
+        std::string::npos);  // of 1:0
+  CHECK(as_json(record)["headlines"].size() == 1);
+  CHECK(as_json(record)["rows"][0]["scattered"] == true);
+  const SavedRecord calm = saved(made_record(), "calm.json"), scattered = read_text(as_json(record).dump());
+  CHECK(scattered.rows[0].scatter == doctest::Approx(0.2));
+  CHECK(comparison(calm, calm, same_rows(calm, calm)).find("~") == std::string::npos);
+  for (const auto& [now, then] : {std::pair(&calm, &scattered), std::pair(&scattered, &calm)})
+    CHECK(comparison(*now, *then, same_rows(*now, *then)).find("~1.00") != std::string::npos);
 }
 
 TEST_CASE("the figure of a device is that of its first row in the cube") {

@@ -71,7 +71,7 @@ class Bench(ToolTest):
         out = self.good(*self.SMALL, "--device", device["device"]).stdout
         self.assertIn(device["name"], out)
         self.assertRegex(out, r"GB/s copied, [\d.]+ Gflop/s")
-        self.assertRegex(out, r"square +float +1,000 +[\d,]+ +[\d,]+ +[\d.e-]+ % +[\d.e-]+ % ")
+        self.assertRegex(out, r"square +float +1,000 +~?[\d,]+ +~?[\d,]+ +[\d.e-]+ % +[\d.e-]+ % ")
         lines = [line for line in out.splitlines() if not line.startswith(("note:", "      "))]  # a busy machine
         self.assertRegex(lines[-1], r"^1 row in \d+ s; the measures of every run sum to the domain's$")
 
@@ -105,7 +105,7 @@ class Bench(ToolTest):
         # The number of seeds is that of the earlier record; the same file may be read and then replaced.
         arguments = ("bench", "--domain", "square", "--precision", "float", "--compare", old)
         out = self.good(*arguments).stdout
-        self.assertRegex(out, r"square +float +500 +[\d.]+ +0\.00 ")
+        self.assertRegex(out, r"square +float +500 +~?[\d.]+ +~?0\.00 ")
         self.good(*arguments, "--fail-below", 1e-9, "--json", old)
         self.good(*arguments, "--fail-below", 0.001)
 
@@ -123,7 +123,8 @@ class Bench(ToolTest):
             self.assertEqual(host["cpu"], found[1].strip())
 
     def test_two_saved_files_are_compared_without_measuring(self):
-        record = self.measured(name="old.json")
+        self.changed(lambda record: [record["rows"][0][kind].update(scatter=0) for kind in ("measures", "adjacency")])
+        record = json.loads((self.folder / "old.json").read_text())
         record["rows"][0]["measures"]["cells_per_second"] *= 2
         record["rows"][0]["adjacency"]["cells_per_second"] *= 3
         record["description"] = "twice as fast"
@@ -138,7 +139,12 @@ class Bench(ToolTest):
         self.assertRegex(self.good(*back).stdout, r"square +float +1,000 +0\.50 +0\.33 ")
         done = run(*back, "--fail-below", 0.9, cwd=self.folder)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("0.333 of the rate in new.json, below --fail-below 0.9", done.stderr)
+        self.assertTrue(done.stderr.endswith("0.333 of the rate in new.json, below --fail-below 0.9\n"), done.stderr)
+        record["rows"][0]["measures"]["scatter"] = 0.2
+        self.write("scattered.json", json.dumps(record))
+        self.assertRegex(self.good(*compare[:-1], "scattered.json").stdout, r"square +float +1,000 +~2\.00 +~3\.00 ")
+        done = run("bench", "--compare", "scattered.json", "old.json", "--fail-below", 0.9, cwd=self.folder)
+        self.assertIn("below --fail-below 0.9; but runs scatter by 20 %, too much to tell: measure again", done.stderr)
         self.assertEqual(self.good(*compare, "--quiet").stdout, "")
         for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--json", "a.json", "--describe", "x"], ["--domain", "cube"]):
             self.bad(2, f"measures nothing; leave {option[0]} out", *compare, *option)
@@ -153,7 +159,7 @@ class Bench(ToolTest):
         done = run(*self.SMALL, "--compare", old, "--fail-below", 0.5, "--json", "new.json", cwd=self.folder)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"^powercell: error: square in float with 1,000 seeds on .* 0\.000 of the rate in "
-                                      r"old\.json, below --fail-below 0\.5\n$")
+                                      r"old\.json, below --fail-below 0\.5(; but runs scatter .*)?\n$")
         self.assertTrue((self.folder / "new.json").exists())
 
     def test_nothing_to_compare_with(self):
