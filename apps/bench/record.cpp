@@ -76,7 +76,8 @@ json host_json(const HostInfo& host) {
           {"opencl_loader", host.opencl_loader}};
 }
 
-json device_json(const DeviceInfo& device) {
+json device_json(const BenchDevice& measured) {
+  const DeviceInfo& device = measured.info;
   return {{"device", device.selector()},
           {"name", device.name},
           {"platform", device.platform_name},
@@ -86,7 +87,9 @@ json device_json(const DeviceInfo& device) {
           {"compute_units", device.compute_units},
           {"clock_mhz", device.clock_mhz},
           {"memory_bytes", device.memory_bytes},
-          {"fp64", device.fp64}};
+          {"fp64", device.fp64},
+          {"launch_seconds", measured.latencies.launch},
+          {"transfer_seconds", measured.latencies.transfer}};
 }
 
 }  // namespace
@@ -151,7 +154,7 @@ json as_json(const BenchRecord& record) {
                            {"precision", row->precision},
                            {"n", row->n},
                            {"million_cells_per_second", 1e-6 * row->rate()}});
-  for (const DeviceInfo& device : record.devices) devices.push_back(device_json(device));
+  for (const BenchDevice& device : record.devices) devices.push_back(device_json(device));
   for (const BenchRow& row : record.rows) rows.push_back(row_json(row));
   return {{"format", bench_format},
           {"format_version", bench_format_version},

@@ -56,6 +56,11 @@ inline constexpr double much_scatter = 0.1;
 inline constexpr std::size_t headline_seeds = 1'000'000, quick_headline_seeds = 100'000;
 inline constexpr const char* headline_domain = "cube";
 
+struct BenchDevice {
+  DeviceInfo info;
+  DeviceLatencies latencies;  ///< 0 if they could not be measured
+};
+
 struct BenchRecord {
   std::string revision;     ///< of the source, as known to git when the build was configured; may be empty
   std::string date;         ///< ISO 8601, UTC
@@ -64,7 +69,7 @@ struct BenchRecord {
   int threads = 0;
   bool cold = false;  ///< kernels compiled, not found in a cache
   std::size_t repeat = 0;
-  std::vector<DeviceInfo> devices;
+  std::vector<BenchDevice> devices;
   std::vector<BenchRow> rows;
   double seconds = 0;  ///< of the whole benchmark
 

@@ -101,23 +101,25 @@ class Bench {
     record_.threads = arguments.threads;
     record_.cold = arguments.cold;
     record_.repeat = arguments.repeat;
-    record_.devices = find_devices(arguments);
+    for (const DeviceInfo& device : find_devices(arguments)) record_.devices.push_back({device, {}});
   }
 
   BenchRecord run() {
-    for (const DeviceInfo& device : record_.devices)
-      rows_left_ += precisions_of(arguments_, device).size() * domains_.size();
+    for (const BenchDevice& device : record_.devices)
+      rows_left_ += precisions_of(arguments_, device.info).size() * domains_.size();
     rows_ = rows_left_;
-    for (const DeviceInfo& device : record_.devices) run_device(device);
+    for (BenchDevice& device : record_.devices) run_device(device);
     progress_.finish();
     record_.seconds = spent();
     return std::move(record_);
   }
 
  private:
-  void run_device(const DeviceInfo& device) {
+  void run_device(BenchDevice& measured_device) {
+    const DeviceInfo& device = measured_device.info;
     say(fmt::format("{}  {} ({}, {}), {} units", device.selector(), device.name, device.platform_name,
                     device.driver_version, device.compute_units));
+    measured_device.latencies = latencies_of(device);
     std::vector<std::pair<Precision, DeviceRates>> measured;
     std::vector<std::string> faults;
     for (const Precision precision : precisions_of(arguments_, device)) {
@@ -129,6 +131,20 @@ class Bench {
     for (const NamedDomain& domain : domains_)
       for (std::size_t k = 0; k < measured.size(); ++k)
         run_row(device, domain, measured[k].first, measured[k].second, faults[k]);
+  }
+
+  // A device that cannot be used fails its rows, which say why.
+  DeviceLatencies latencies_of(const DeviceInfo& device) {
+    DeviceLatencies latencies;
+    try {
+      const Device opened = open_device(on_device(arguments_, device.selector()));
+      compute([&] { latencies = measure_device_latencies(opened); });
+      say(fmt::format("     a launch takes {:.1f} us, a transfer {:.1f} us", 1e6 * latencies.launch,
+                      1e6 * latencies.transfer));
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::interrupted) throw;
+    }
+    return latencies;
   }
 
   DeviceRates rates_of(const DeviceInfo& device, Precision precision, std::string& fault) {

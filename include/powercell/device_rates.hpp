@@ -1,5 +1,5 @@
 /// \file
-/// The best rates that a device reaches, measured: the yardstick of `powercell bench`.
+/// The best rates and latencies that a device reaches, measured: the yardstick of `powercell bench`.
 #pragma once
 
 #include <powercell/device.hpp>
@@ -18,5 +18,15 @@ struct DeviceRates {
 /// \throw Error no_fp64; self_test_failed (a wrong result); out_of_device_memory, build_failed, opencl
 POWERCELL_API DeviceRates measure_device_rates(const Device& device,
                                                Precision precision = Precision::automatic);
+
+/// Seconds on the host from a call to its end, each the least of many: what work costs however small it is.
+struct DeviceLatencies {
+  double launch = 0;    ///< enqueuing a kernel of one work-item and waiting for it
+  double transfer = 0;  ///< reading one number from device memory
+};
+
+/// Takes a few milliseconds, and once the time to compile a kernel. \throw Error self_test_failed (a wrong
+/// result); build_failed, opencl
+POWERCELL_API DeviceLatencies measure_device_latencies(const Device& device);
 
 }  // namespace powercell

@@ -112,4 +112,12 @@ pc_status pc_device_rates(const pc_device* device, pc_precision precision, doubl
   });
 }
 
+pc_status pc_device_latencies(const pc_device* device, double* launch, double* transfer) {
+  return guarded([&] {
+    const DeviceLatencies latencies = measure_device_latencies(device_in(device));
+    if (launch) *launch = latencies.launch;
+    if (transfer) *transfer = latencies.transfer;
+  });
+}
+
 }  // extern "C"

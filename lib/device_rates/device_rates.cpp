@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <powercell/device_rates.hpp>
 
 #include "lib/cl/program.hpp"
@@ -97,7 +99,39 @@ DeviceRates measure_all(const ContextPointer& context) {
   return {measure_copy<T>(context, program), measure_multiply_add<T>(context, program)};
 }
 
+/// The least seconds of many calls.
+template <class Call>
+double least_seconds(Call&& call) {
+  constexpr int calls = 100;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < calls; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return least;
+}
+
 }  // namespace
+
+DeviceLatencies measure_device_latencies(const Device& device) {
+  const ContextPointer& context = device.context();
+  cl::Buffer<float> one(context);
+  one.resize(1);
+  one.upload(std::vector<float>{1});
+  cl::Kernel fill(context, context->program("device_rates/device_rates.cl", {"REAL_BITS=32"}), "fill");
+  fill.args(one, cl_ulong{1}).launch(1);  // compiles
+  context->finish();
+  DeviceLatencies latencies;
+  latencies.launch = least_seconds([&] {
+    fill.launch(1);
+    context->finish();
+  });
+  std::vector<float> read(1);
+  latencies.transfer = least_seconds([&] { one.download(std::span<float>(read)); });
+  require_no_fault(*context, copy_fault<float>(read, 0));
+  return latencies;
+}
 
 DeviceRates measure_device_rates(const Device& device, Precision precision) {
   const bool fp64 = device.info().fp64;

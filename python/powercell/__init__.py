@@ -27,10 +27,12 @@ from ._core import version as _version  # noqa: E402
 from ._density import integrate  # noqa: E402
 from ._device import (  # noqa: E402
     Device,
+    DeviceLatencies,
     DeviceRates,
     KernelBuilds,
     devices,
     kernel_builds,
+    measure_device_latencies,
     measure_device_rates,
 )
 from ._diagram import Diagram, regular_triangulation  # noqa: E402
@@ -58,6 +60,7 @@ __all__ = [
     "DeviceAdjacency",
     "DeviceDiagram",
     "DeviceMeasures",
+    "DeviceLatencies",
     "DeviceRates",
     "DeviceStatus",
     "Diagram",
@@ -83,6 +86,7 @@ __all__ = [
     "farthest_from",
     "integrate",
     "kernel_builds",
+    "measure_device_latencies",
     "measure_device_rates",
     "mesh_quality",
     "random_points",

@@ -180,3 +180,28 @@ def measure_device_rates(device: Union[None, str, Device] = None, precision: str
         ``no_fp64``, ``self_test_failed`` (a wrong result), ``out_of_device_memory``.
     """
     return DeviceRates(*_core.measure_device_rates(open_device(device), precision))
+
+
+class DeviceLatencies(NamedTuple):
+    """Seconds on the host from a call to its end, each the least of many: what work costs however small it is."""
+
+    launch: float
+    """Enqueuing a kernel of one work-item and waiting for it."""
+    transfer: float
+    """Reading one number from device memory."""
+
+
+def measure_device_latencies(device: Union[None, str, Device] = None) -> DeviceLatencies:
+    """What a launch and a transfer cost, in a few milliseconds.
+
+    Parameters
+    ----------
+    device : Device or str, optional
+        As for :meth:`Device.choose`.
+
+    Raises
+    ------
+    Error
+        ``self_test_failed`` (a wrong result).
+    """
+    return DeviceLatencies(*_core.measure_device_latencies(open_device(device)))

@@ -45,6 +45,10 @@ void bind_devices(nb::module_& m) {
     const DeviceRates rates = Call(nb::none()).run([&] { return measure_device_rates(device, wanted); });
     return nb::make_tuple(rates.copied_bytes, rates.operations);
   });
+  m.def("measure_device_latencies", [](const Device& device) {
+    const DeviceLatencies latencies = Call(nb::none()).run([&] { return measure_device_latencies(device); });
+    return nb::make_tuple(latencies.launch, latencies.transfer);
+  });
 }
 
 }  // namespace powercell::python

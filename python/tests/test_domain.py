@@ -72,6 +72,8 @@ def test_devices_and_their_rates():
     before = pc.kernel_builds()
     rates = pc.measure_device_rates(device)
     assert 1e6 < rates.copied_bytes < 1e14 and 1e6 < rates.operations < 1e15
+    latencies = pc.measure_device_latencies(device)
+    assert 0 < latencies.launch < 1 and 0 < latencies.transfer < 1
     after = pc.kernel_builds()
     assert after.seconds >= before.seconds and not after.running
     assert 0 <= device.build_seconds <= after.seconds

@@ -129,6 +129,12 @@ TEST_CASE("the devices of the machine are those of C++") {
   REQUIRE(pc_device_rates(shared_device(), PC_FLOAT32, &bytes, &operations) == PC_OK);
   CHECK(bytes > 0);
   CHECK(operations > 0);
+  double launch = 0, transfer = 0;
+  CHECK(pc_device_latencies(nullptr, &launch, &transfer) == PC_INVALID_ARGUMENT);
+  REQUIRE(pc_device_latencies(shared_device(), &launch, &transfer) == PC_OK);
+  CHECK(launch > 0);
+  CHECK(transfer > 0);
+  CHECK(pc_device_latencies(shared_device(), nullptr, nullptr) == PC_OK);
 }
 
 TEST_CASE("a domain tells what it is") {

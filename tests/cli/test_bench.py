@@ -55,6 +55,8 @@ class Bench(ToolTest):
         self.assertRegex(record["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
         for key in ("name", "driver_version", "opencl_c_version", "compute_units"):
             self.assertIn(key, record["devices"][0])
+        for key in ("launch_seconds", "transfer_seconds"):
+            self.assertTrue(0 < record["devices"][0][key] < 1)
         row = record["rows"][0]
         for kind in ("measures", "adjacency"):
             self.assertEqual(len(row[kind]["seconds"]), 2)
@@ -70,6 +72,7 @@ class Bench(ToolTest):
         device = self.report("devices")["devices"][0]
         out = self.good(*self.SMALL, "--device", device["device"]).stdout
         self.assertIn(device["name"], out)
+        self.assertRegex(out, r"a launch takes [\d.]+ us, a transfer [\d.]+ us\n")
         self.assertRegex(out, r"GB/s copied, [\d.]+ Gflop/s")
         self.assertRegex(out, r"square +float +1,000 +~?[\d,]+ +~?[\d,]+ +[\d.e-]+ % +[\d.e-]+ % ")
         lines = [line for line in out.splitlines() if not line.startswith(("note:", "      "))]  # a busy machine

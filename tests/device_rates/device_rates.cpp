@@ -32,6 +32,17 @@ TEST_CASE("the rates of every device are positive, and of the same order in a se
   }
 }
 
+TEST_CASE("a launch and a transfer take a time between that of a clock cycle and that of a second") {
+  for (const DeviceInfo& info : devices()) {
+    CAPTURE(info.name);
+    const DeviceLatencies latencies = measure_device_latencies(Device::choose(info.selector()));
+    for (const double seconds : {latencies.launch, latencies.transfer}) {
+      CHECK(seconds > 1e-9);
+      CHECK(seconds < 1);
+    }
+  }
+}
+
 TEST_CASE_TEMPLATE("wrong sums of the chains are detected", T, float, double) {
   const std::vector<T> start = chain_starts<T>(3000);
   for (const std::uint32_t rounds : {1u, 256u, most_chain_rounds}) {

@@ -74,6 +74,11 @@ POWERCELL_API pc_status pc_kernel_builds(int* running, double* seconds, double* 
 POWERCELL_API pc_status pc_device_rates(const pc_device* device, pc_precision precision, double* copied_bytes,
                                         double* operations);
 
+/** Measures, in a few milliseconds, what a call costs however small its work is: seconds on the host, the
+ * least of many. Any pointer may be NULL. \param launch    enqueuing a kernel of one work-item and waiting
+ * for it \param transfer  reading one number from device memory */
+POWERCELL_API pc_status pc_device_latencies(const pc_device* device, double* launch, double* transfer);
+
 #ifdef __cplusplus
 }
 #endif
