@@ -138,7 +138,7 @@ bool simulate(cl_context context, cl_command_queue queue, cl_program program, cl
             move = clCreateKernel(program, "move", nullptr);
   const cl_float conduction = 0.02F / static_cast<float>(n), motion = 1e-3F;  // of a step; stable
   for (int k = 0; k < steps; ++k) {
-    diagram.enqueue(positions.memory(), nullptr, n, measures.memory(), status.memory(), rows);
+    diagram.enqueue(positions.memory(), nullptr, n, {measures.memory(), status.memory(), rows});
     enqueue(queue, conduct, n, n, room, conduction, positions.memory(), measures.memory(), status.memory(),
             offset.memory(), neighbor.memory(), wall.memory(), (k % 2 == 0 ? even : odd).memory(),
             (k % 2 == 0 ? odd : even).memory(), trouble.memory());

@@ -35,8 +35,8 @@ typedef struct pc_device_diagram pc_device_diagram;
 
 /** Uploads the domain and builds the kernels; this waits. Periodic domains are PC_UNSUPPORTED.
  * \param device   of pc_device_from_queue()
- * \param options  NULL for the defaults. `precision` is that of the caller's arrays; `threads`,
- *   `progress`, `decisions` and `certify` are ignored */
+ * \param options  NULL for the defaults. `precision` is that of the caller's arrays; `threads` and `progress`
+ *   are those of pc_device_diagram_repair(); `decisions` and `certify` are ignored */
 POWERCELL_API pc_status pc_device_diagram_create(const pc_device* device, const pc_domain* domain,
                                                  const pc_options* options, pc_device_diagram** diagram);
 POWERCELL_API void pc_device_diagram_destroy(pc_device_diagram* diagram);
@@ -73,7 +73,8 @@ POWERCELL_API pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl
                                                   cl_uint wait_count, const cl_event* wait_list,
                                                   cl_event* done);
 
-/** The pairs of cells that share a wall, as compressed sparse rows in the caller's buffers. */
+/** The pairs of cells that share a wall, as compressed sparse rows in the caller's buffers. Which walls that
+ * rounding may have decided are kept is said at powercell::DeviceAdjacency. */
 typedef struct pc_device_adjacency {
   cl_mem offset;   /**< written: n + 1 cl_uint; right also where the next two are too small */
   cl_mem neighbor; /**< written: cl_uint each, ascending within a row */
@@ -81,11 +82,38 @@ typedef struct pc_device_adjacency {
                     buffers are not written, the others are whole */
 } pc_device_adjacency;
 
-/** The same with the adjacency, in the same pass. Which walls that rounding may have decided are kept is said
- * at powercell::DeviceDiagram::enqueue. */
-POWERCELL_API pc_status pc_device_diagram_enqueue_adjacency(
-    pc_device_diagram* diagram, cl_mem positions, cl_mem weights, uint32_t n, cl_mem measures, cl_mem status,
-    const pc_device_adjacency* adjacency, cl_uint wait_count, const cl_event* wait_list, cl_event* done);
+/** The seeds whose cells only the host can decide: those that are unfinished, and those of whose cells
+ * rounding may have decided the shape (powercell::DeviceUncertain). */
+typedef struct pc_device_uncertain {
+  cl_mem count; /**< written: one cl_uint, how many they are, also where they do not fit */
+  cl_mem seeds; /**< written: cl_uint each, their indices, ascending; as many as fit the buffer */
+} pc_device_uncertain;
+
+/** What a diagram writes, in buffers of the caller. */
+typedef struct pc_device_results {
+  cl_mem measures;               /**< as in pc_device_diagram_enqueue() */
+  cl_mem status;                 /**< the same */
+  pc_device_adjacency adjacency; /**< where it is wanted, in the same pass; else NULL each */
+  pc_device_uncertain uncertain; /**< where it is wanted; else NULL each */
+} pc_device_results;
+
+/** As pc_device_diagram_enqueue(), with all that is wanted. */
+POWERCELL_API pc_status pc_device_diagram_enqueue_results(pc_device_diagram* diagram, cl_mem positions,
+                                                          cl_mem weights, uint32_t n,
+                                                          const pc_device_results* results,
+                                                          cl_uint wait_count, const cl_event* wait_list,
+                                                          cl_event* done);
+
+/** Computes the cells of the list results->uncertain exactly, on the host where needed, and puts them into
+ * the results, which are then those of a pc_diagram with exact decisions (powercell::DeviceDiagram::repair).
+ * Waits for the queue. \param positions, weights, n  as given to pc_device_diagram_enqueue_results() before
+ * \param results  as written by that call, with the list
+ * \param computed  if not NULL: how many cells were computed
+ * \return PC_INVALID_ARGUMENT where the list was too small for all uncertain seeds, or the rows are for all
+ *   entries: pc_last_error() says how much room is needed; the results are unchanged */
+POWERCELL_API pc_status pc_device_diagram_repair(pc_device_diagram* diagram, cl_mem positions, cl_mem weights,
+                                                 uint32_t n, const pc_device_results* results,
+                                                 uint32_t* computed);
 
 #ifdef __cplusplus
 }

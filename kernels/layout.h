@@ -27,6 +27,7 @@
 #define SEED_DUPLICATE 2
 #define SEED_INVALID 3    /* not finite, or out of the range in which squares are finite */
 #define SEED_UNFINISHED 4 /* a piece fits no variant on the device, or no memory was set aside for it */
+#define SEED_MERGED 5     /* a duplicate in the device's numbers, but not in the caller's: reported as one */
 
 /* The frame of a scene in device memory: FRAME_SIZE reals (lib/domain/frame.hpp). */
 #define FRAME_CENTRE 0     /* 3: high parts of the centre */

@@ -30,6 +30,9 @@ enum class DeviceSeedStatus : std::uint32_t {
 
 /// The pairs of cells that share a wall inside the domain, as compressed sparse rows in buffers of the
 /// caller, of the context of the device. As Adjacency: j is in row i with the same measure as i in row j.
+/// The two sides of a wall are averaged; a wall that only one cell has is left out as rounding if it is small
+/// beside the largest wall of both (10^-9 in double precision, 10^-3 in single), else both cells have it.
+/// Only seeds whose status is ok have walls.
 struct DeviceAdjacency {
   /// Written: n + 1 cl_uint; row i is [offset[i], offset[i+1]). Right also where the next two are too small.
   cl_mem offset = nullptr;
@@ -39,6 +42,29 @@ struct DeviceAdjacency {
   cl_mem wall = nullptr;
 };
 
+/// The seeds whose cells only the host can decide, in buffers of the caller, of the context of the device:
+/// those that are unfinished, and those of whose cells rounding may have decided the shape. Every other cell
+/// is there or hidden as Decisions::exact has it, and has the neighbours that it has there, except that walls
+/// with cells of the list may be missing, or be there although they should not. Where numbers underflow,
+/// seeds that are different may be one to the device: those that it has set aside for that are on the list as
+/// well, and nothing is certain about the others.
+struct DeviceUncertain {
+  cl_mem count = nullptr;  ///< written: one cl_uint, how many they are, also where they do not fit
+  /// Written: cl_uint each, indices of seeds, ascending; as many as fit the buffer, from the first on.
+  cl_mem seeds = nullptr;
+};
+
+/// What a diagram writes, in buffers of the caller, of the context of the device.
+struct DeviceResults {
+  /// Written: n x (2 + d) reals, row-major: mass (length^d' for cells of dimension d'), centroid (d
+  /// coordinates; NaN without a cell), second moment about the seed (length^(d'+2)). 0, NaN..., 0 for hidden
+  /// and duplicate seeds; all NaN for invalid and unfinished ones.
+  cl_mem measures = nullptr;
+  cl_mem status = nullptr;         ///< written: n cl_uint, each a DeviceSeedStatus
+  DeviceAdjacency adjacency = {};  ///< where it is wanted, in the same pass; else null
+  DeviceUncertain uncertain = {};  ///< where it is wanted; else null
+};
+
 /// Power diagrams from device memory to device memory: seeds, measures and walls are cl_mem, and nothing is
 /// copied to the host in between. Calls enqueue on the queue of the device (device_from_queue) and return
 /// without waiting for it, with one exception (set_pair_capacity).
@@ -46,16 +72,18 @@ struct DeviceAdjacency {
 /// Scratch memory is kept from call to call and reused in the order of the queue. Not thread-safe; use one
 /// object per thread. Results do not depend on the sizes of work-groups and launches, bit for bit.
 ///
-/// The device does all the work, without the host as a last resort: a cell of more than about 128 faces
-/// within one region, or one whose cuts rounding has made contradictory (seen in single precision only), is
-/// reported as `unfinished` with NaN for measures, never as a part of the cell. Diagram computes those too.
-/// Decisions are those of Decisions::fast: a cell whose existence depends on rounding may be reported as
-/// present or as hidden, and measures differ by rounding.
+/// enqueue() has the device do all the work, without the host as a last resort: a cell of more than about 128
+/// faces within one region, or one whose cuts rounding has made contradictory (seen in single precision
+/// only), is reported as `unfinished` with NaN for measures, never as a part of the cell. Decisions are those
+/// of Decisions::fast: a cell whose existence depends on rounding may be reported as present or as hidden,
+/// and measures differ by rounding. DeviceUncertain lists all these cells, and repair() computes them
+/// exactly.
 class POWERCELL_API DeviceDiagram {
  public:
   /// Uploads the domain and builds the kernels; this waits.
   /// \param options  `precision` is that of the caller's arrays and of the computation; `chunk_pairs` is
-  ///   the most pairs of one kernel launch; `threads`, `progress`, `decisions` and `certify` are ignored
+  ///   the most pairs of one kernel launch; `threads` and `progress` are those of repair(); `decisions` and
+  ///   `certify` are ignored
   /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a periodic domain; a
   ///   domain whose size is not in the range of the precision); build_failed, opencl
   DeviceDiagram(Device device, Domain domain, Options options = {});
@@ -85,10 +113,7 @@ class POWERCELL_API DeviceDiagram {
   /// \param positions  read: n x d reals, row-major
   /// \param weights    read: n reals; null means all zero
   /// \param n          at most 2^30; with 0 the buffers may be null
-  /// \param measures   written: n x (2 + d) reals, row-major: mass (length^d' for cells of dimension d'),
-  ///   centroid (d coordinates; NaN without a cell), second moment about the seed (length^(d'+2)).
-  ///   0, NaN..., 0 for hidden and duplicate seeds; all NaN for invalid and unfinished ones
-  /// \param status     written: n cl_uint, each a DeviceSeedStatus
+  /// \param measures, status  written: as in DeviceResults
   /// \param wait_count, wait_list  events that must be complete before the first command runs
   /// \param done       if not null: the event of the last command, for the caller to release
   /// The queue is flushed. After an exception there is no event, commands may still be writing scratch memory
@@ -97,12 +122,28 @@ class POWERCELL_API DeviceDiagram {
   ///   out_of_device_memory, opencl
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                cl_uint wait_count = 0, const cl_event* wait_list = nullptr, cl_event* done = nullptr);
-  /// The same with the adjacency, in the same pass. The two sides of a wall are averaged; a wall that only
-  /// one cell has is left out as rounding if it is small beside the largest wall of both (10^-9 in double
-  /// precision, 10^-3 in single), else both cells have it. Only seeds whose status is ok have walls.
-  void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
-               const DeviceAdjacency& adjacency, cl_uint wait_count = 0, const cl_event* wait_list = nullptr,
-               cl_event* done = nullptr);
+  /// The same with all that is wanted.
+  void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
+               cl_uint wait_count = 0, const cl_event* wait_list = nullptr, cl_event* done = nullptr);
+
+  /// Computes the cells of the list results.uncertain as Diagram does with exact decisions, from all seeds,
+  /// and puts them into the caller's results. Then every status, and the adjacency where it is given, is that
+  /// of such a Diagram without the invalid seeds; measures of the listed cells are the Diagram's, rounded to
+  /// the precision, and those of the others differ from its by rounding. No cell is unfinished any more;
+  /// invalid seeds stay invalid.
+  ///
+  /// Waits for the queue, and works on the host: seeds, measures, statuses and rows are read, and results
+  /// are written back. Rows may change their lengths, so all rows are written anew, from `offset` on. The
+  /// Diagram is kept for the next call; where the positions are the same, so are its order and tree.
+  /// \param positions, weights, n  as given to enqueue() before
+  /// \param results  as written by that call, with the list
+  /// \return how many cells were computed: 0 where the list is empty, for which only its count is read; all
+  ///   valid ones where seeds that are different were one to the device
+  /// \throw Error invalid_argument (a buffer that is missing, too small or of another context; a list that is
+  ///   too small for all uncertain seeds, or rows for all entries, in which case enqueue() again with more
+  ///   room; a list that enqueue() has not written); out_of_device_memory, opencl, interrupted. Results are
+  ///   changed only if writing them fails, in the end: then enqueue() again.
+  std::uint32_t repair(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results);
 
   struct State;  ///< library-internal
 

@@ -9,32 +9,37 @@ static inline bool is_finished(uint status) {
   return piece == PIECE_DONE || piece == PIECE_EMPTY || piece == PIECE_FLAT;
 }
 
-/* Sums over the pairs of rank t, in their order. Returns the status of the seed. */
+/* Sums over the pairs of rank t, in their order, and tells whether rounding may have decided any of them.
+   Returns the status of the seed. */
 static inline uint sum_pairs(uint t, __global const ulong* offset, ulong capacity,
-                             __global const uint* pair_status, __global const stored_real* moments,
-                             real* sum) {
+                             __global const uint* pair_status, __global const stored_real* moments, real* sum,
+                             bool* uncertain) {
   for (int k = 0; k < MEASURES; ++k) sum[k] = 0;
   if (offset[t + 1] > capacity) return SEED_UNFINISHED;
   for (ulong pair = offset[t]; pair < offset[t + 1]; ++pair) {
     if (!is_finished(pair_status[pair])) return SEED_UNFINISHED;
+    *uncertain = *uncertain || (pair_status[pair] & PIECE_UNCERTAIN) != 0;
     for (int k = 0; k < MEASURES; ++k) sum[k] += moments[pair * MEASURES + (ulong)k];
   }
   return sum[0] > 0 ? SEED_OK : SEED_HIDDEN;
 }
 
-/* Writes row order[t] of measures (mass, centroid, second moment) and of status for rank t. */
+/* Writes row order[t] of measures (mass, centroid, second moment), of status, and of for_host, which is 1
+   where only the host can decide the cell, for rank t. */
 __kernel void write_measures(const uint count, __global const uint* order, __global const uint* state,
                              __global const ulong* offset, const ulong capacity,
                              __global const uint* pair_status, __global const stored_real* moments,
                              __global const stored_real* frame, __global const stored_real* positions,
-                             __global stored_real* measures, __global uint* status) {
+                             __global stored_real* measures, __global uint* status, __global uint* for_host) {
   const uint t = (uint)get_global_id(0);
   if (t >= count) return;
   const size_t i = order[t];
   const real unit = frame[FRAME_UNIT];
   real sum[MEASURES];
   uint result = state[t];
-  if (result == SEED_OK) result = sum_pairs(t, offset, capacity, pair_status, moments, sum);
+  bool uncertain = result == SEED_MERGED;
+  if (uncertain) result = SEED_DUPLICATE;
+  if (result == SEED_OK) result = sum_pairs(t, offset, capacity, pair_status, moments, sum, &uncertain);
 
   const bool known = result != SEED_INVALID && result != SEED_UNFINISHED, cell = result == SEED_OK;
   real scale = unit;
@@ -45,4 +50,5 @@ __kernel void write_measures(const uint count, __global const uint* order, __glo
       cell ? positions[i * DIMENSION + (size_t)k] + sum[1 + k] / sum[0] * unit : (real)NAN;
   row[1 + DIMENSION] = cell ? sum[1 + DIMENSION] * scale * unit * unit : known ? (real)0 : (real)NAN;
   status[i] = result;
+  for_host[i] = uncertain || result == SEED_UNFINISHED ? 1u : 0u;
 }

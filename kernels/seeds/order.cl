@@ -81,28 +81,45 @@ __kernel void number_seeds(const uint count, __global uint* order) {
   if (i < count) order[i] = i;
 }
 
-/* True if a seed before rank t is at the same position. Sorting has put the seeds of one position side
-   by side, the one to keep first; only other positions with the same hash may lie between. */
-static inline bool is_duplicate(uint t, const parts_t* p, __global const uint* order,
-                                __global const seed_t* points) {
+#define NO_SEED 0xffffffffu
+
+/* The last seed before rank t at the same position, or NO_SEED. Sorting has put the seeds of one position
+   side by side, the one to keep first; only other positions with the same hash may lie between. */
+static inline uint seed_before(uint t, const parts_t* p, __global const uint* order,
+                               __global const seed_t* points) {
   const ulong hash = position_hash(p);
   for (uint k = t; k > 0; --k) {
     const parts_t before = parts_of(points[order[k - 1]]);
-    if (same_position(&before, p)) return true;
-    if (position_hash(&before) != hash) return false;
+    if (same_position(&before, p)) return order[k - 1];
+    if (position_hash(&before) != hash) return NO_SEED;
   }
-  return false;
+  return NO_SEED;
 }
 
-/* Writes the seeds by rank, and their state: SEED_OK, _DUPLICATE or _INVALID. */
+/* Whether seed i is a duplicate of seed `kept` in the caller's numbers too, which have a larger range. */
+static inline bool is_duplicate(uint i, uint kept, __global const stored_real* positions,
+                                __global const stored_real* weights, int weighted) {
+  for (size_t k = 0; k < DIMENSION; ++k)
+    if (positions[(size_t)i * DIMENSION + k] != positions[(size_t)kept * DIMENSION + k]) return false;
+  if (!weighted || weights[i] == weights[kept]) return kept < i;
+  return weights[i] < weights[kept];
+}
+
+/* Writes the seeds by rank, and their state: SEED_OK, _DUPLICATE, _MERGED or _INVALID. */
 __kernel void place_seeds(const uint count, __global const uint* order, __global const seed_t* points,
-                          __global const uint* status, __global seed_t* placed, __global uint* state) {
+                          __global const uint* status, __global const stored_real* positions,
+                          __global const stored_real* weights, const int weighted, __global seed_t* placed,
+                          __global uint* state) {
   const uint t = (uint)get_global_id(0);
   if (t >= count) return;
   const uint i = order[t];
   parts_t p = parts_of(points[i]);
   uint result = status[i];
-  if (result == SEED_OK && is_duplicate(t, &p, order, points)) result = SEED_DUPLICATE;
+  if (result == SEED_OK) {
+    const uint kept = seed_before(t, &p, order, points);
+    if (kept != NO_SEED)
+      result = is_duplicate(i, kept, positions, weights, weighted) ? SEED_DUPLICATE : SEED_MERGED;
+  }
   if (result != SEED_OK) {
     p.high[3] = DEAD_WEIGHT;
     p.low[3] = 0;

@@ -22,6 +22,14 @@ const DeviceDiagram& diagram_in(const pc_device_diagram* handle) {
   return checked(handle, "diagram").diagram;
 }
 
+DeviceResults results_of(const pc_device_results* results) {
+  const auto& [measures, status, adjacency, uncertain] = checked(results, "results");
+  return {measures,
+          status,
+          {adjacency.offset, adjacency.neighbor, adjacency.wall},
+          {uncertain.count, uncertain.seeds}};
+}
+
 }  // namespace
 }  // namespace powercell::c_api
 
@@ -75,16 +83,22 @@ pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* diagram, uint32
   return guarded([&] { diagram_in(diagram).set_wall_capacity(walls); });
 }
 
-pc_status pc_device_diagram_enqueue_adjacency(pc_device_diagram* diagram, cl_mem positions, cl_mem weights,
-                                              uint32_t n, cl_mem measures, cl_mem status,
-                                              const pc_device_adjacency* adjacency, cl_uint wait_count,
-                                              const cl_event* wait_list, cl_event* done) {
+pc_status pc_device_diagram_enqueue_results(pc_device_diagram* diagram, cl_mem positions, cl_mem weights,
+                                            uint32_t n, const pc_device_results* results, cl_uint wait_count,
+                                            const cl_event* wait_list, cl_event* done) {
   return guarded([&] {
     DeviceDiagram& target = diagram_in(diagram);
-    const pc_device_adjacency& rows = checked(adjacency, "adjacency");
+    const DeviceResults wanted = results_of(results);
     require(wait_count == 0 || wait_list != nullptr, "wait_list is NULL");
-    target.enqueue(positions, weights, n, measures, status, {rows.offset, rows.neighbor, rows.wall},
-                   wait_count, wait_list, done);
+    target.enqueue(positions, weights, n, wanted, wait_count, wait_list, done);
+  });
+}
+
+pc_status pc_device_diagram_repair(pc_device_diagram* diagram, cl_mem positions, cl_mem weights, uint32_t n,
+                                   const pc_device_results* results, uint32_t* computed) {
+  return guarded([&] {
+    const uint32_t count = diagram_in(diagram).repair(positions, weights, n, results_of(results));
+    if (computed) *computed = count;
   });
 }
 

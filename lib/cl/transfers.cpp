@@ -48,10 +48,14 @@ Reads::~Reads() {
 }
 
 void Reads::add(const RawBuffer& from, void* to, std::size_t bytes) {
+  if (bytes > 0) from.require_inside(0, bytes);
+  add(from.handle(), to, bytes);
+}
+
+void Reads::add(cl_mem from, void* to, std::size_t bytes) {
   if (bytes == 0) return;
-  from.require_inside(0, bytes);
   cl_event done = nullptr;
-  check(clEnqueueReadBuffer(context_->queue(), from.handle(), CL_FALSE, 0, bytes, to, 0, nullptr, &done),
+  check(clEnqueueReadBuffer(context_->queue(), from, CL_FALSE, 0, bytes, to, 0, nullptr, &done),
         "reading " + std::to_string(bytes) + " bytes from " + context_->info().name);
   last_ = std::make_unique<const Event>(done);
 }

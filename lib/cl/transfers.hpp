@@ -47,6 +47,7 @@ class Reads {
 
   /// \param to  must stay until wait() or the end of this object. \throw Error opencl
   void add(const RawBuffer& from, void* to, std::size_t bytes);
+  void add(cl_mem from, void* to, std::size_t bytes);
   /// \throw Error opencl
   void wait();
 

@@ -53,8 +53,7 @@ void run_golden(DeviceDiagram::State& state, const Variant& variant) {
   cl::Buffer<std::uint32_t> status(state.device.context());
   measures.resize(n * columns);
   status.resize(n);
-  state.enqueue(positions.handle(), weights.handle(), n, measures.handle(), status.handle(), nullptr, 0,
-                nullptr);
+  state.enqueue(positions.handle(), weights.handle(), n, {measures.handle(), status.handle()}, {}, nullptr);
   const std::vector<Real> rows = measures.download();
   for (std::uint32_t i = 0; i < n; ++i)
     require_golden(*state.device.context(), clip_file, variant, seeds.input[i], rows[i * columns]);
@@ -92,6 +91,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       piece_status_(device.context()),
       list_(device.context()),
       found_(device.context()),
+      for_host_(device.context()),
       moments_(device.context()) {
   if (domain.is_solid())
     throw Error(
@@ -181,26 +181,31 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
   piece_status_.zero();
   clip_with(first_capacity, false, n);
   for (std::size_t capacity = first_capacity + 1; capacity < clip_.size(); ++capacity) {
-    compaction_.enqueue(piece_status_.handle(), pairs_.capacity, PIECE_FULL, list_.handle(), found_.handle());
+    compaction_.enqueue(piece_status_.handle(), pairs_.capacity, PIECE_FULL, list_.handle(), pairs_.capacity,
+                        found_.handle());
     clip_with(capacity, true, n);
   }
 }
 
-void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures,
-                                   cl_mem status, const DeviceAdjacency* adjacency, std::uint32_t room,
-                                   cl_event* done) {
+void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n,
+                                   const DeviceResults& results, Rooms rooms, cl_event* done) {
+  const bool rows = wants_rows(results), list = wants_list(results);
   seeds_.enqueue(frame_.handle(), positions, weights, n);
   tree_.enqueue(seeds_.points.handle(), seeds_.points.handle(), n);
   blocks_.enqueue(device_tree(n));
   pairs_.enqueue(seeds_, tree_, n, pair_capacity);
-  adjacency ? walls_.begin(stored_walls(), pairs_.capacity, n) : walls_.begin_without();
+  rows ? walls_.begin(stored_walls(), pairs_.capacity, n) : walls_.begin_without();
   clip(n);
-  if (adjacency) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, *adjacency);
+  if (rows) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, results.adjacency);
+  for_host_.resize(n);
   finish_
       .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,
-            frame_, positions, measures, status)
-      .submit(n, 0, adjacency ? nullptr : done);
-  if (adjacency) walls_.write(status, frame_.handle(), n, *adjacency, room, done);
+            frame_, positions, results.measures, results.status, for_host_)
+      .submit(n, 0, rows || list ? nullptr : done);
+  if (list)
+    compaction_.enqueue(for_host_.handle(), n, 1, results.uncertain.seeds, rooms.uncertain,
+                        results.uncertain.count, 0, rows ? nullptr : done);
+  if (rows) walls_.write(results.status, frame_.handle(), n, results.adjacency, rooms.rows, done);
 }
 
 }  // namespace powercell

@@ -2,8 +2,10 @@
 /// The pipeline of a DeviceDiagram, from device memory to device memory. Internal.
 #pragma once
 
+#include <optional>
 #include <powercell/opencl.hpp>
 
+#include "lib/diagram/device_repair.hpp"
 #include "lib/diagram/device_walls.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
 #include "lib/pairs/device_pairs.hpp"
@@ -16,18 +18,18 @@ struct DeviceDiagram::State {
 
   std::size_t real_bytes() const { return precision == Precision::float32 ? sizeof(float) : sizeof(double); }
 
-  /// \param adjacency  null where it is not wanted  \param room  of its rows, entries
-  void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
-               const DeviceAdjacency* adjacency, std::uint32_t room, cl_event* done);
+  void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results, Rooms rooms,
+               cl_event* done);
 
   Device device;
   Domain domain;
   Options options;
   Precision precision;
   DomainBuffers domain_buffers;
-  std::uint32_t pair_capacity = 0;  // 0: as many as needed
-  std::uint32_t wall_capacity = 0;  // of the store; 0: by the number of pairs
-  std::size_t first_capacity = 0;   // number of the smallest capacity to use
+  std::uint32_t pair_capacity = 0;     // 0: as many as needed
+  std::uint32_t wall_capacity = 0;     // of the store; 0: by the number of pairs
+  std::size_t first_capacity = 0;      // number of the smallest capacity to use
+  std::optional<DeviceRepair> repair;  // made on first use
 
  private:
   void upload_frame();
@@ -48,7 +50,7 @@ struct DeviceDiagram::State {
   Compaction compaction_;
   cl::Kernel finish_;
   std::vector<cl::Kernel> clip_;  // by number of the capacity
-  cl::Buffer<std::uint32_t> piece_status_, list_, found_;
+  cl::Buffer<std::uint32_t> piece_status_, list_, found_, for_host_;
   cl::RawBuffer moments_;
 };
 

@@ -31,65 +31,86 @@ void require_buffer(const cl::Context& context, cl_mem memory, std::size_t bytes
                                                  std::to_string(bytes));
 }
 
+/// How many values fit a buffer of the caller.
+std::size_t values_in(cl_mem memory, std::size_t bytes_each, const char* name) {
+  return memory_value<std::size_t>(memory, CL_MEM_SIZE, name) / bytes_each;
+}
+
+std::uint32_t in_32_bits(std::size_t count) {
+  return static_cast<std::uint32_t>(std::min<std::size_t>(count, 0xffffffffu));
+}
+
 /// The arguments of a call.
 struct Job {
   cl_mem positions, weights;
   std::uint32_t n;
-  cl_mem measures, status;
-  const DeviceAdjacency* adjacency;
+  DeviceResults results;
 };
 
-void require_buffers(const DeviceDiagram::State& s, const Job& job) {
-  const cl::Context& context = *s.device.context();
-  const std::size_t real = s.real_bytes();
-  const auto d = static_cast<std::size_t>(s.domain.dimension());
-  require_buffer(context, job.positions, job.n * d * real, "positions");
-  if (job.weights) require_buffer(context, job.weights, job.n * real, "weights");
-  require_buffer(context, job.measures, job.n * (2 + d) * real, "measures");
-  require_buffer(context, job.status, job.n * sizeof(cl_uint), "status");
-}
-
 /// The entries that the caller's rows have room for. \throw Error invalid_argument
-std::uint32_t room_of(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
+std::uint32_t room_for_rows(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
   const cl::Context& context = *s.device.context();
   const std::size_t real = s.real_bytes();
   require_buffer(context, rows.offset, (std::size_t{n} + 1) * sizeof(cl_uint), "offsets");
   if (n == 0) return 0;
   require_buffer(context, rows.neighbor, sizeof(cl_uint), "neighbors");
   require_buffer(context, rows.wall, real, "walls");
-  const std::size_t entries =
-      std::min(memory_value<std::size_t>(rows.neighbor, CL_MEM_SIZE, "neighbors") / sizeof(cl_uint),
-               memory_value<std::size_t>(rows.wall, CL_MEM_SIZE, "walls") / real);
-  return static_cast<std::uint32_t>(std::min<std::size_t>(entries, 0xffffffffu));
+  return in_32_bits(
+      std::min(values_in(rows.neighbor, sizeof(cl_uint), "neighbors"), values_in(rows.wall, real, "walls")));
+}
+
+/// The seeds that the caller's list has room for. \throw Error invalid_argument
+std::uint32_t room_for_list(const DeviceDiagram::State& s, std::uint32_t n, const DeviceUncertain& list) {
+  const cl::Context& context = *s.device.context();
+  require_buffer(context, list.count, sizeof(cl_uint), "the number of uncertain seeds");
+  if (n == 0) return 0;
+  require_buffer(context, list.seeds, sizeof(cl_uint), "uncertain seeds");
+  return in_32_bits(values_in(list.seeds, sizeof(cl_uint), "uncertain seeds"));
+}
+
+/// \throw Error invalid_argument
+Rooms checked(const DeviceDiagram::State& s, const Job& job) {
+  if (job.n > most_seeds_of_diagram)
+    throw Error(ErrorCode::invalid_argument, std::to_string(job.n) + " seeds are more than the " +
+                                                 std::to_string(most_seeds_of_diagram) +
+                                                 " that one diagram can have");
+  const DeviceResults& results = job.results;
+  if (job.n > 0) {
+    const cl::Context& context = *s.device.context();
+    const std::size_t real = s.real_bytes();
+    const auto d = static_cast<std::size_t>(s.domain.dimension());
+    require_buffer(context, job.positions, job.n * d * real, "positions");
+    if (job.weights) require_buffer(context, job.weights, job.n * real, "weights");
+    require_buffer(context, results.measures, job.n * (2 + d) * real, "measures");
+    require_buffer(context, results.status, job.n * sizeof(cl_uint), "status");
+  }
+  return {wants_rows(results) ? room_for_rows(s, job.n, results.adjacency) : 0,
+          wants_list(results) ? room_for_list(s, job.n, results.uncertain) : 0};
 }
 
 /// The diagram of no seeds.
-void enqueue_nothing(const cl::Context& context, const DeviceAdjacency* adjacency, cl_event* done) {
+void enqueue_nothing(const cl::Context& context, const DeviceResults& results, cl_event* done) {
   const cl_uint zero = 0;
-  if (adjacency)
-    cl::check(clEnqueueFillBuffer(context.queue(), adjacency->offset, &zero, sizeof zero, 0, sizeof zero, 0,
-                                  nullptr, nullptr),
-              "writing the offset of no rows");
+  for (const cl_mem memory : {results.adjacency.offset, results.uncertain.count})
+    if (memory)
+      cl::check(clEnqueueFillBuffer(context.queue(), memory, &zero, sizeof zero, 0, sizeof zero, 0, nullptr,
+                                    nullptr),
+                "writing the results of no seeds");
   if (done) cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
 }
 
 void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_event* wait_list,
          cl_event* done) {
   const cl::Context& context = *s.device.context();
-  if (job.n > most_seeds_of_diagram)
-    throw Error(ErrorCode::invalid_argument, std::to_string(job.n) + " seeds are more than the " +
-                                                 std::to_string(most_seeds_of_diagram) +
-                                                 " that one diagram can have");
-  if (job.n > 0) require_buffers(s, job);
-  const std::uint32_t room = job.adjacency ? room_of(s, job.n, *job.adjacency) : 0;
+  const Rooms rooms = checked(s, job);
   // The queue is in order, so all later commands wait for the caller's events too.
   if (wait_count > 0)
     cl::check(clEnqueueBarrierWithWaitList(context.queue(), wait_count, wait_list, nullptr),
               "enqueueing a barrier for the caller's events");
   if (job.n > 0)
-    s.enqueue(job.positions, job.weights, job.n, job.measures, job.status, job.adjacency, room, done);
+    s.enqueue(job.positions, job.weights, job.n, job.results, rooms, done);
   else
-    enqueue_nothing(context, job.adjacency, done);
+    enqueue_nothing(context, job.results, done);
   const cl_int flushed = clFlush(context.queue());
   if (flushed != CL_SUCCESS && done) {  // callers get no event with an exception
     clReleaseEvent(*done);
@@ -139,13 +160,27 @@ void DeviceDiagram::set_wall_capacity(std::uint32_t walls) {
 
 void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                             cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
-  run(*state_, {positions, weights, n, measures, status, nullptr}, wait_count, wait_list, done);
+  run(*state_, {positions, weights, n, {measures, status}}, wait_count, wait_list, done);
 }
 
-void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
-                            const DeviceAdjacency& adjacency, cl_uint wait_count, const cl_event* wait_list,
-                            cl_event* done) {
-  run(*state_, {positions, weights, n, measures, status, &adjacency}, wait_count, wait_list, done);
+void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
+                            cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
+  run(*state_, {positions, weights, n, results}, wait_count, wait_list, done);
+}
+
+std::uint32_t DeviceDiagram::repair(cl_mem positions, cl_mem weights, std::uint32_t n,
+                                    const DeviceResults& results) {
+  if (!wants_list(results))
+    throw Error(ErrorCode::invalid_argument,
+                "the results have no list of uncertain seeds; enqueue the diagram with one");
+  const Rooms rooms = checked(*state_, {positions, weights, n, results});
+  if (n == 0) return 0;
+  if (!state_->repair) {
+    Options options = state_->options;
+    options.precision = state_->precision;
+    state_->repair.emplace(state_->device, state_->domain, std::move(options));
+  }
+  return state_->repair->run(positions, weights, n, results, rooms);
 }
 
 }  // namespace powercell

@@ -66,7 +66,10 @@ void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::u
   sort_by(KEY_HASH, count, 32);
   sort_by(KEY_FINE, count, 63);
   sort_by(KEY_COARSE, count, 64);
-  place_.args(count, order, packed_, status_, points, state).submit(count);
+  place_
+      .args(count, order, packed_, status_, positions, weights ? weights : positions,
+            cl_int{weights != nullptr}, points, state)
+      .submit(count);
 }
 
 }  // namespace powercell

@@ -24,7 +24,7 @@ class DeviceSeeds {
 
   cl::RawBuffer points;             ///< seed_t by rank
   cl::Buffer<std::uint32_t> order;  ///< by rank: index of the seed as given
-  cl::Buffer<std::uint32_t> state;  ///< by rank: SEED_OK, SEED_DUPLICATE or SEED_INVALID
+  cl::Buffer<std::uint32_t> state;  ///< by rank: SEED_OK, _DUPLICATE, _MERGED or _INVALID
 
  private:
   void find_box(std::uint32_t count);

@@ -42,7 +42,7 @@ from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
 from ._outside import SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
-from ._queue import DeviceAdjacency, DeviceDiagram, DeviceMeasures, DeviceStatus  # noqa: E402
+from ._queue import DeviceAdjacency, DeviceDiagram, DeviceMeasures, DeviceStatus, DeviceUncertain  # noqa: E402
 from ._results import Adjacency, BoundaryWalls, Status  # noqa: E402
 from ._sampling import sample  # noqa: E402
 from ._saved import SavedDiagram  # noqa: E402
@@ -63,6 +63,7 @@ __all__ = [
     "DeviceLatencies",
     "DeviceRates",
     "DeviceStatus",
+    "DeviceUncertain",
     "Diagram",
     "Domain",
     "Error",

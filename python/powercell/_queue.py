@@ -26,7 +26,8 @@ class DeviceStatus(enum.IntEnum):
     INVALID = 3
     """NaN, infinity, or so large that its square is not finite; it does not affect the others."""
     UNFINISHED = 4
-    """Only the host can compute its cell: use :class:`Diagram`. The cells of the others are right."""
+    """Only the host can compute its cell: :meth:`DeviceDiagram.repair` has it done. The cells of the others are
+    right."""
 
 
 class DeviceAdjacency:
@@ -71,6 +72,43 @@ class DeviceAdjacency:
         return f"<powercell.DeviceAdjacency of {len(self.indptr) - 1} seeds, room for {len(self.indices)} entries>"
 
 
+class DeviceUncertain:
+    """The seeds of a :class:`DeviceDiagram` whose cells only the host can decide, in device memory: those that are
+    unfinished, and those of whose cells rounding may have decided the shape.
+
+    Attributes
+    ----------
+    count : (1,) pyopencl.array.Array of uint32
+        How many they are, also where they do not fit.
+    seeds : (room,) pyopencl.array.Array of uint32
+        Their indices, ascending; as many as there is room for.
+    """
+
+    def __init__(self, queue: Any, count: Any, seeds: Any) -> None:
+        self._queue = queue
+        self.count = count
+        self.seeds = seeds
+
+    def get(self) -> np.ndarray:
+        """Waits for the diagram, and copies the indices to the host.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` if they exceed the room (how many there are).
+        """
+        count = int(self.count.get(self._queue)[0])
+        if count > len(self.seeds):
+            raise Error(
+                f"{count} seeds are uncertain, and there is room for {len(self.seeds)}; give compute(uncertain={count})",
+                "invalid_argument",
+            )
+        return self.seeds[:count].get(self._queue) if count else np.empty(0, np.uint32)
+
+    def __repr__(self) -> str:
+        return f"<powercell.DeviceUncertain with room for {len(self.seeds)} seeds>"
+
+
 class DeviceMeasures:
     """The measures of a :class:`DeviceDiagram`, in device memory.
 
@@ -83,22 +121,41 @@ class DeviceMeasures:
         A :class:`DeviceStatus` of each seed.
     adjacency : DeviceAdjacency or None
         If :meth:`DeviceDiagram.compute` was asked for it.
+    uncertain : DeviceUncertain or None
+        The same.
     event : pyopencl.Event
         Of the last command.
     """
 
     def __init__(
-        self, queue: Any, measures: Any, status: Any, adjacency: Optional[DeviceAdjacency], event: Any
+        self,
+        queue: Any,
+        measures: Any,
+        status: Any,
+        adjacency: Optional[DeviceAdjacency],
+        uncertain: Optional[DeviceUncertain],
+        event: Any,
     ) -> None:
         self._queue = queue
         self.measures = measures
         self.status = status
         self.adjacency = adjacency
+        self.uncertain = uncertain
         self.event = event
         self._parts: dict[str, Any] = {}
 
     def __len__(self) -> int:
         return int(self.measures.shape[0])
+
+    def _arrays(self) -> list[Any]:
+        """All arrays in the order of the bindings; None for those that are not wanted."""
+        rows, listed = self.adjacency, self.uncertain
+        return [
+            self.measures,
+            self.status,
+            *((rows.indptr, rows.indices, rows.data) if rows else (None, None, None)),
+            *((listed.count, listed.seeds) if listed else (None, None)),
+        ]
 
     def _columns(self, name: str, first: int, shape: tuple[int, ...]) -> Any:
         """An array of some columns, copied on the device when first used."""
@@ -150,7 +207,7 @@ class DeviceMeasures:
         status = self.status.get(self._queue)
         for state, code, reason in (
             (DeviceStatus.INVALID, "invalid_seed", "NaN, infinite or too large"),
-            (DeviceStatus.UNFINISHED, "unsupported", "left to the host: compute this diagram with Diagram"),
+            (DeviceStatus.UNFINISHED, "unsupported", "left to the host: give compute(uncertain=True), and repair()"),
         ):
             seeds = np.flatnonzero(status == state)
             if len(seeds):
@@ -165,9 +222,9 @@ class DeviceDiagram:
     """Power diagrams from device memory to device memory, on a queue of the caller.
 
     Seeds, measures and statuses are arrays of pyopencl on the queue's device, and nothing is copied to the host.
-    The device does all the work: cells with more than some 128 faces in one region of the domain are reported as
-    :attr:`DeviceStatus.UNFINISHED`, with NaN for measures, and ties are decided by rounding. :class:`Diagram`
-    computes those too.
+    :meth:`compute` has the device do all the work: cells with more than some 128 faces in one region of the domain are
+    reported as :attr:`DeviceStatus.UNFINISHED`, with NaN for measures, and ties are decided by rounding.
+    :meth:`repair` computes those cells exactly.
 
     Parameters
     ----------
@@ -235,6 +292,7 @@ class DeviceDiagram:
         weights: Optional[Any] = None,
         *,
         adjacency: Union[bool, int] = False,
+        uncertain: Union[bool, int] = False,
         out: Optional[DeviceMeasures] = None,
     ) -> DeviceMeasures:
         """Enqueues the diagram of n seeds, and returns without waiting for it.
@@ -249,9 +307,12 @@ class DeviceDiagram:
         adjacency : bool or int
             Whether walls are wanted too, or the number of entries to make room for: two for each wall. True makes
             room for 8 a seed in the plane and on surfaces, 20 in space.
+        uncertain : bool or int
+            Whether the seeds that :meth:`repair` would compute are listed, or the number to make room for. True makes
+            room for all seeds.
         out : DeviceMeasures, optional
             Of an earlier call with as many seeds of this type: its arrays are written again, those of the adjacency
-            where it has one and ``adjacency`` is not False. Otherwise new ones come from the allocator of
+            and of the list where it has them and they are wanted. Otherwise new ones come from the allocator of
             ``positions``.
 
         Returns
@@ -267,39 +328,95 @@ class DeviceDiagram:
             ``invalid_argument`` for an array in another context, ``no_fp64``, ``out_of_device_memory``, ``opencl``.
         """
         cl, queue = _looks.package("pyopencl"), self.device.queue
-        d = self.domain.dimension
-        _check(positions, "positions", (None, d), None)
+        core, n, used, pointers = self._seeds(positions, weights)
+        results = DeviceMeasures(
+            queue,
+            *self._measures(n, positions, out),
+            self._rows(adjacency, n, positions, out),
+            self._list(uncertain, n, positions, out),
+            None,
+        )
+        written = results._arrays()
+        arrays = [array for array in written if array is not None]
+        events = [event.int_ptr for array in [*used, *arrays] for event in array.events]
+        results.event = cl.Event.from_int_ptr(core.enqueue(*pointers, _pointers(written), events), retain=False)
+        for array in arrays:
+            array.add_event(results.event)
+        return results
+
+    def repair(self, positions: Any, weights: Optional[Any] = None, *, out: DeviceMeasures) -> int:
+        """Computes the cells of the list ``out.uncertain`` exactly, and puts them into the results, which are then those
+        of a :class:`Diagram` without the invalid seeds: the statuses and, where there is one, the adjacency are exact.
+        Waits for the queue, and works on the host, with the Global Interpreter Lock released.
+
+        Parameters
+        ----------
+        positions, weights : pyopencl.array.Array
+            As given to :meth:`compute`.
+        out : DeviceMeasures
+            What that call returned, with ``uncertain``.
+
+        Returns
+        -------
+        int
+            How many cells were computed.
+
+        Raises
+        ------
+        ValueError
+            An array of the wrong shape, type or layout, by name; results without a list.
+        Error
+            ``invalid_argument`` if the list has no room for all uncertain seeds, or the adjacency for its entries (how
+            many there are): nothing is changed then. ``out_of_device_memory``, ``opencl``.
+        """
+        if out.uncertain is None:
+            raise ValueError("out has no list of uncertain seeds; give compute(uncertain=True)")
+        core, n, used, pointers = self._seeds(positions, weights)
+        self._measures(n, positions, out)
+        arrays = [array for array in out._arrays() if array is not None]
+        for array in [*used, *arrays]:
+            array.finish()
+        count = int(core.repair(*pointers, _pointers(out._arrays())))
+        out._parts.clear()
+        return count
+
+    def _seeds(self, positions: Any, weights: Optional[Any]) -> tuple[Any, int, list[Any], tuple[int, int, int]]:
+        """The diagram in the precision of the seeds, their number, their arrays, and positions, weights and number for
+        the bindings."""
+        _check(positions, "positions", (None, self.domain.dimension), None)
         n = int(positions.shape[0])
         if weights is not None:
             _check(weights, "weights", (n,), positions.dtype)
         core = self._core(PRECISIONS[positions.dtype.name])
+        used = [whole(array, self.device.queue) for array in (positions, weights) if array is not None]
+        return core, n, used, (_pointer(used[0]), _pointer(used[1]) if weights is not None else 0, n)
+
+    def _measures(self, n: int, positions: Any, out: Optional[DeviceMeasures]) -> tuple[Any, Any]:
+        """The memory of measures and statuses."""
+        queue, allocator, columns = self.device.queue, positions.allocator, 2 + self.domain.dimension
         if out is None:
-            allocator = positions.allocator
-            measures = _empty(queue, (n, 2 + d), positions.dtype, allocator)
-            status = _empty(queue, (n,), np.dtype(np.uint32), allocator)
-        else:
-            measures, status = out.measures, out.status
-            _check(measures, "out.measures", (n, 2 + d), positions.dtype)
-        rows = self._rows(adjacency, n, positions, out)
-        arrays = [rows.indptr, rows.indices, rows.data] if rows else []
-        used = [whole(array, queue) for array in (positions, weights) if array is not None]
-        events = [event.int_ptr for array in [*used, measures, status, *arrays] for event in array.events]
-        pointers = [_pointer(array) for array in used]
-        done = cl.Event.from_int_ptr(
-            core.enqueue(
-                pointers[0],
-                pointers[1] if weights is not None else 0,
-                n,
-                _pointer(measures),
-                _pointer(status),
-                [_pointer(array) for array in arrays],
-                events,
-            ),
-            retain=False,
+            return (
+                _empty(queue, (n, columns), positions.dtype, allocator),
+                _empty(queue, (n,), np.dtype(np.uint32), allocator),
+            )
+        _check(out.measures, "out.measures", (n, columns), positions.dtype)
+        return out.measures, out.status
+
+    def _list(
+        self, uncertain: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
+    ) -> Optional[DeviceUncertain]:
+        """The memory of the list of uncertain seeds, if it is wanted."""
+        if uncertain is False:
+            return None
+        if uncertain is not True and not (isinstance(uncertain, int) and 0 < uncertain < 2**32):
+            raise ValueError(f"uncertain is {uncertain!r}; True, False or a number of seeds from 1 to 2^32 - 1 is expected")
+        room = max(1, n) if uncertain is True else uncertain
+        if out is not None and out.uncertain is not None and room <= len(out.uncertain.seeds):
+            return out.uncertain
+        queue, allocator, unsigned = self.device.queue, positions.allocator, np.dtype(np.uint32)
+        return DeviceUncertain(
+            queue, _empty(queue, (1,), unsigned, allocator), _empty(queue, (room,), unsigned, allocator)
         )
-        for array in (measures, status, *arrays):
-            array.add_event(done)
-        return DeviceMeasures(queue, measures, status, rows, done)
 
     def _rows(
         self, adjacency: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
@@ -358,6 +475,10 @@ def _pointer(array: Any) -> int:
     if pointer is None:
         raise ValueError("an array is in shared virtual memory; buffers are expected")
     return int(pointer)
+
+
+def _pointers(arrays: list[Any]) -> list[int]:
+    return [0 if array is None else _pointer(array) for array in arrays]
 
 
 def _empty(queue: Any, shape: tuple[int, ...], dtype: np.dtype[Any], allocator: Any) -> Any:

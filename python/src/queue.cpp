@@ -32,31 +32,39 @@ class PyDeviceDiagram {
     diagram_.set_wall_capacity(walls);
   }
 
-  /// \param rows  empty, or the offsets, neighbours and walls of the adjacency
+  /// \param results  measures, statuses, then the offsets, neighbours and walls of the adjacency, and the
+  /// number
+  ///   and the list of uncertain seeds; 0 for what is not wanted
   /// \return the event of the last command, which the caller owns
-  Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, Pointer measures, Pointer status,
-                  const std::vector<Pointer>& rows, const std::vector<Pointer>& events) {
+  Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
+                  const std::vector<Pointer>& events) {
     std::vector<cl_event> wait_list;
     for (const Pointer event : events) wait_list.push_back(handle_of<cl_event>(event));
     return Call(nb::none()).run([&] {
       const std::scoped_lock lock(mutex_);
       cl_event done = nullptr;
-      const auto wait_count = static_cast<cl_uint>(wait_list.size());
-      if (rows.empty())
-        diagram_.enqueue(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n,
-                         handle_of<cl_mem>(measures), handle_of<cl_mem>(status), wait_count, wait_list.data(),
-                         &done);
-      else
-        diagram_.enqueue(
-            handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n, handle_of<cl_mem>(measures),
-            handle_of<cl_mem>(status),
-            {handle_of<cl_mem>(rows.at(0)), handle_of<cl_mem>(rows.at(1)), handle_of<cl_mem>(rows.at(2))},
-            wait_count, wait_list.data(), &done);
+      diagram_.enqueue(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n, results_of(results),
+                       static_cast<cl_uint>(wait_list.size()), wait_list.data(), &done);
       return reinterpret_cast<Pointer>(done);
     });
   }
 
+  /// \param results  as in enqueue()  \return how many cells were computed
+  std::uint32_t repair(Pointer positions, Pointer weights, std::uint32_t n,
+                       const std::vector<Pointer>& results) {
+    return Call(nb::none()).run([&] {
+      const std::scoped_lock lock(mutex_);
+      return diagram_.repair(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n,
+                             results_of(results));
+    });
+  }
+
  private:
+  static DeviceResults results_of(const std::vector<Pointer>& pointers) {
+    const auto memory = [&](std::size_t k) { return handle_of<cl_mem>(pointers.at(k)); };
+    return {memory(0), memory(1), {memory(2), memory(3), memory(4)}, {memory(5), memory(6)}};
+  }
+
   static DeviceDiagram made(const Device& device, const Domain& domain, const Options& options) {
     return Call(nb::none()).run([&] { return DeviceDiagram(device, domain, options); });
   }
@@ -75,8 +83,8 @@ void bind_queues(nb::module_& m) {
       .def(nb::init<const Device&, const Domain&, const nb::dict&>())
       .def("set_pair_capacity", &PyDeviceDiagram::set_pair_capacity)
       .def("set_wall_capacity", &PyDeviceDiagram::set_wall_capacity)
-      .def("enqueue", &PyDeviceDiagram::enqueue, "positions"_a, "weights"_a, "n"_a, "measures"_a, "status"_a,
-           "rows"_a, "events"_a);
+      .def("enqueue", &PyDeviceDiagram::enqueue, "positions"_a, "weights"_a, "n"_a, "results"_a, "events"_a)
+      .def("repair", &PyDeviceDiagram::repair, "positions"_a, "weights"_a, "n"_a, "results"_a);
 }
 
 }  // namespace powercell::python

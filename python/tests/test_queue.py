@@ -131,13 +131,53 @@ def test_cells_that_only_the_host_can_compute_are_reported(queue, square):
     assert found.status.get()[300] == pc.DeviceStatus.UNFINISHED and np.isnan(found.measures.get()[300]).all()
     want = pc.Diagram(square, p).mass
     assert found.mass.get()[:300] == pytest.approx(want[:300], rel=1e-9)
-    with pytest.raises(pc.Error, match="1 of 301 seeds are left to the host.*seed 300") as caught:
+    with pytest.raises(pc.Error, match="1 of 301 seeds are left to the host.*repair.*seed 300") as caught:
         found.check()
     assert caught.value.code == "unsupported"
     p[7] = np.nan
     with pytest.raises(pc.Error, match="seed 7") as caught:
         pc.DeviceDiagram(square, queue).compute(cl.array.to_device(queue, p)).check()
     assert caught.value.code == "invalid_seed"
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_repair_makes_results_exact(queue, square, dtype):
+    """A grid of which all cells tie, one of many faces, and invalid seeds between them."""
+    axis = (np.arange(8) + 0.5) / 8
+    grid = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2)
+    angle = np.linspace(0, 2 * np.pi, 301)[:-1]
+    p = np.vstack([grid, 0.5 + 0.04 * np.column_stack([np.cos(angle), np.sin(angle)]), [[0.5, 0.5]]]).astype(dtype)
+    want = pc.Diagram(square, p, precision="double" if dtype == np.float64 else "float")
+    bad = np.insert(p, [0, 40], np.nan, axis=0)
+    valid = np.isfinite(bad).all(axis=1)
+    diagram = pc.DeviceDiagram(square, queue)
+    seeds = cl.array.to_device(queue, bad)
+    found = diagram.compute(seeds, adjacency=True, uncertain=True)
+    assert found.count()[pc.DeviceStatus.UNFINISHED] == 1
+    assert np.isnan(found.mass.get()[-1])
+    listed = found.uncertain.get()
+    assert len(bad) - 1 in listed and np.all(np.diff(listed.astype(int)) > 0) and valid[listed].all()
+    assert diagram.repair(seeds, out=found) == len(listed)
+    assert np.array_equal(found.status.get()[valid], want.status)
+    assert (found.status.get()[~valid] == pc.DeviceStatus.INVALID).all()
+    assert found.mass.get()[valid] == pytest.approx(want.mass, rel=1e-4, abs=1e-9)
+    indptr, indices, data = found.adjacency.get()
+    walls = scipy.sparse.csr_array((data, indices, indptr), shape=(len(bad), len(bad))).tocsr()[valid][:, valid]
+    exact = want.adjacency.to_scipy()
+    assert abs(walls - walls.T).max() == 0
+    assert np.array_equal(walls.indptr, exact.indptr) and np.array_equal(walls.indices, exact.indices)
+    again = diagram.compute(seeds, adjacency=True, uncertain=True, out=found)
+    assert again.uncertain is found.uncertain and np.array_equal(again.uncertain.get(), listed)
+    few = diagram.compute(seeds, uncertain=3)
+    with pytest.raises(pc.Error, match=f"{len(listed)} seeds are uncertain, and there is room for 3"):
+        few.uncertain.get()
+    with pytest.raises(pc.Error, match=f"{len(listed)} seeds are uncertain, and their list has room for 3") as caught:
+        diagram.repair(seeds, out=few)
+    assert caught.value.code == "invalid_argument"
+    with pytest.raises(ValueError, match="out has no list"):
+        diagram.repair(seeds, out=diagram.compute(seeds))
+    none = diagram.compute(seeds[:0], uncertain=True)
+    assert len(none.uncertain.get()) == 0 and diagram.repair(seeds[:0], out=none) == 0
 
 
 def test_regions_beyond_the_room_are_unfinished(rng, queue):
@@ -165,6 +205,7 @@ def test_wrong_arguments_are_named(rng, queue, square):
         (r"weights has the shape \(3,\); \(4,\)", lambda: diagram.compute(good, device(np.zeros(3)))),
         ("weights has the type float32", lambda: diagram.compute(good, device(np.zeros(4, np.float32)))),
         ("adjacency is 0", lambda: diagram.compute(good, adjacency=0)),
+        ("uncertain is 0", lambda: diagram.compute(good, uncertain=0)),
         ("wall_capacity is -1", lambda: pc.DeviceDiagram(square, queue, wall_capacity=-1)),
         ("queue is a int", lambda: pc.DeviceDiagram(square, 3)),
         ("queue is a Device without", lambda: pc.DeviceDiagram(square, pc.devices()[0])),

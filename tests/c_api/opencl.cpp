@@ -85,11 +85,19 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
 
   const cl_mem offset = own.buffer(6 * sizeof(cl_uint)), neighbor = own.buffer(8 * sizeof(cl_uint)),
                wall = own.buffer(8 * sizeof(cl_float));
-  const pc_device_adjacency walls = {offset, neighbor, wall};
+  const cl_mem count = own.buffer(sizeof(cl_uint)), uncertain = own.buffer(5 * sizeof(cl_uint));
+  const pc_device_results results = {measures, status, {offset, neighbor, wall}, {count, uncertain}};
   REQUIRE(pc_device_diagram_set_wall_capacity(diagram.handle, 50) == PC_OK);
   CHECK(pc_device_diagram_set_wall_capacity(diagram.handle, 0x80000001u) == PC_INVALID_ARGUMENT);
-  REQUIRE(pc_device_diagram_enqueue_adjacency(diagram.handle, seeds, nullptr, 5, measures, status, &walls, 0,
-                                              nullptr, nullptr) == PC_OK);
+  REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 5, &results, 0, nullptr,
+                                            nullptr) == PC_OK);
+  uint32_t computed = 0;
+  REQUIRE(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 5, &results, &computed) == PC_OK);
+  CHECK(computed == 4);  // they meet in a point
+  cl_uint listed[4];
+  REQUIRE(clEnqueueReadBuffer(own.queue, uncertain, CL_TRUE, 0, sizeof listed, listed, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  for (cl_uint i = 0; i < 4; ++i) CHECK(listed[i] == i);
   cl_uint offsets[6], neighbors[8];
   cl_float lengths[8];
   REQUIRE(clEnqueueReadBuffer(own.queue, offset, CL_TRUE, 0, sizeof offsets, offsets, 0, nullptr, nullptr) ==
@@ -105,9 +113,15 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
     CHECK(neighbors[k] == expected_neighbors[k]);
     CHECK(lengths[k] == doctest::Approx(expected_lengths[k]).epsilon(1e-4));
   }
-  CHECK(pc_device_diagram_enqueue_adjacency(diagram.handle, seeds, nullptr, 5, measures, status, nullptr, 0,
-                                            nullptr, nullptr) == PC_INVALID_ARGUMENT);
-  for (const cl_mem memory : {offset, neighbor, wall}) clReleaseMemObject(memory);
+  CHECK(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 5, nullptr, 0, nullptr, nullptr) ==
+        PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 5, nullptr, nullptr) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_repair(nullptr, seeds, nullptr, 5, &results, nullptr) == PC_INVALID_ARGUMENT);
+  const pc_device_results no_list = {measures, status, {}, {}};
+  CHECK(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 5, &no_list, nullptr) ==
+        PC_INVALID_ARGUMENT);
+  CHECK(std::string(pc_last_error()).find("no list of uncertain seeds") != std::string::npos);
+  for (const cl_mem memory : {offset, neighbor, wall, count, uncertain}) clReleaseMemObject(memory);
 
   CHECK(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 500, measures, status, 0, nullptr,
                                   nullptr) == PC_INVALID_ARGUMENT);  // buffers too small

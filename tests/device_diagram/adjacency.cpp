@@ -14,54 +14,6 @@ using namespace powercell::test;
 
 namespace {
 
-/// Rows in device memory with room for `room` entries.
-class Rows {
- public:
-  Rows(Caller& caller, Precision precision, std::size_t n, std::size_t room)
-      : caller_(caller),
-        real_(precision == Precision::float32 ? sizeof(float) : sizeof(double)),
-        n_(n),
-        room_(room),
-        marks_(std::max<std::size_t>(room, 1), unwritten),
-        offset_(caller, (n + 1) * sizeof(cl_uint)),
-        neighbor_(caller, marks_.size() * sizeof(cl_uint), marks_.data()),
-        wall_(caller, marks_.size() * real_) {}
-
-  static constexpr cl_uint unwritten = 0xfffffff0u;
-  DeviceAdjacency handles() const { return {offset_.handle(), neighbor_.handle(), wall_.handle()}; }
-
-  /// Waits. Entries beyond the room are missing.
-  Adjacency read() const {
-    const std::vector<cl_uint> offset = values<cl_uint>(offset_, n_ + 1);
-    Adjacency rows;
-    rows.offset.assign(offset.begin(), offset.end());
-    const std::size_t written = std::min<std::size_t>(offset.back(), room_);
-    rows.neighbor = values<cl_uint>(neighbor_, written);
-    if (real_ == sizeof(double)) {
-      rows.wall = values<double>(wall_, written);
-    } else {
-      const std::vector<float> narrow = values<float>(wall_, written);
-      rows.wall.assign(narrow.begin(), narrow.end());
-    }
-    return rows;
-  }
-
- private:
-  template <class T>
-  std::vector<T> values(const Memory& memory, std::size_t count) const {
-    std::vector<T> to(count);
-    if (count > 0)
-      REQUIRE(clEnqueueReadBuffer(caller_.queue(), memory.handle(), CL_TRUE, 0, count * sizeof(T), to.data(),
-                                  0, nullptr, nullptr) == CL_SUCCESS);
-    return to;
-  }
-
-  Caller& caller_;
-  std::size_t real_, n_, room_;
-  std::vector<cl_uint> marks_;
-  Memory offset_, neighbor_, wall_;
-};
-
 struct Computed {
   Output output;
   Adjacency adjacency;
@@ -70,14 +22,8 @@ struct Computed {
 Computed compute(Caller& caller, DeviceDiagram& diagram, const SeedsView& seeds, std::size_t room) {
   const Job job(caller, diagram.precision(), seeds);
   const Rows rows(caller, diagram.precision(), seeds.size(), room);
-  job.enqueue(diagram, rows.handles());
+  job.enqueue(diagram, {rows.handles()});
   return {job.read(), rows.read()};
-}
-
-SeedArray rounded_seeds(SeedArray seeds, Precision precision) {
-  seeds.positions = rounded(seeds.positions, precision);
-  seeds.weights = rounded(seeds.weights, precision);
-  return seeds;
 }
 
 /// Rows are ascending and symmetric, and only cells have walls.
@@ -263,7 +209,7 @@ TEST_CASE("rows of no seeds, of hidden ones and of those left out") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const Rows none(caller, diagram.precision(), 0, 10);
-  diagram.enqueue(nullptr, nullptr, 0, nullptr, nullptr, none.handles());
+  diagram.enqueue(nullptr, nullptr, 0, {nullptr, nullptr, none.handles()});
   CHECK(none.read().offset == std::vector<std::uint64_t>{0});
   const double nan = std::nan("");
   const std::vector<double> positions = {0.25, 0.5, 0.75, 0.5, 0.75, 0.5, 0.3, 0.5, nan, 0.1};
@@ -285,15 +231,16 @@ TEST_CASE("buffers of walls that are too small or missing are refused before any
   const Rows rows(caller, diagram.precision(), 20, 200), small(caller, diagram.precision(), 10, 200);
   DeviceAdjacency wrong = rows.handles();
   wrong.offset = small.handles().offset;
-  CHECK_THROWS_WITH_AS(job.enqueue(diagram, wrong), doctest::Contains("offsets has 44 bytes; it needs 84"),
+  CHECK_THROWS_WITH_AS(job.enqueue(diagram, {wrong}), doctest::Contains("offsets has 44 bytes; it needs 84"),
                        Error);
   wrong = rows.handles();
   wrong.wall = nullptr;
-  CHECK_THROWS_WITH_AS(job.enqueue(diagram, wrong), doctest::Contains("the buffer of walls is null"), Error);
+  CHECK_THROWS_WITH_AS(job.enqueue(diagram, {wrong}), doctest::Contains("the buffer of walls is null"),
+                       Error);
   Caller other;
   const Rows foreign(other, diagram.precision(), 20, 200);
   wrong = rows.handles();
   wrong.neighbor = foreign.handles().neighbor;
-  CHECK_THROWS_WITH_AS(job.enqueue(diagram, wrong), doctest::Contains("belongs to another context"), Error);
+  CHECK_THROWS_WITH_AS(job.enqueue(diagram, {wrong}), doctest::Contains("belongs to another context"), Error);
   CHECK_THROWS_AS(diagram.set_wall_capacity(0x80000001u), Error);
 }

@@ -12,17 +12,10 @@ using namespace powercell::test;
 
 namespace {
 
-/// Relative to the mean mass and to the domain's size: the cells are cut in another order.
-double tolerance(Precision precision) {
-  return precision == Precision::float64 ? 1e-11 : 2e-4;
-}
-
 /// Compares all results to those of Diagram for the same seeds.
 void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray& exact) {
   const Precision precision = diagram.precision();
-  SeedArray seeds = exact;
-  seeds.positions = rounded(exact.positions, precision);
-  seeds.weights = rounded(exact.weights, precision);
+  const SeedArray seeds = rounded_seeds(exact, precision);
   Options options;
   options.precision = precision;
   const Measures expected = measure(caller.device(), diagram.domain(), seeds.view(), options);

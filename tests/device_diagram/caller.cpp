@@ -61,6 +61,31 @@ Memory::Memory(const Caller& caller, std::size_t bytes, const void* values) {
   REQUIRE(status == CL_SUCCESS);
 }
 
+Rows::Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room)
+    : caller_(caller),
+      real_(precision == Precision::float32 ? sizeof(float) : sizeof(double)),
+      n_(n),
+      room_(room),
+      marks_(std::max<std::size_t>(room, 1), unwritten),
+      offset_(caller, (n + 1) * sizeof(cl_uint)),
+      neighbor_(caller, marks_.size() * sizeof(cl_uint), marks_.data()),
+      wall_(caller, marks_.size() * real_) {}
+
+Adjacency Rows::read() const {
+  const std::vector<cl_uint> offset = offset_.values<cl_uint>(caller_.queue(), n_ + 1);
+  Adjacency rows;
+  rows.offset.assign(offset.begin(), offset.end());
+  const std::size_t written = std::min<std::size_t>(offset.back(), room_);
+  rows.neighbor = neighbor_.values<cl_uint>(caller_.queue(), written);
+  if (real_ == sizeof(double)) {
+    rows.wall = wall_.values<double>(caller_.queue(), written);
+  } else {
+    const std::vector<float> narrow = wall_.values<float>(caller_.queue(), written);
+    rows.wall.assign(narrow.begin(), narrow.end());
+  }
+  return rows;
+}
+
 double Output::total() const {
   return std::accumulate(mass.begin(), mass.end(), 0.0);
 }
@@ -88,9 +113,16 @@ void Job::enqueue(DeviceDiagram& diagram, cl_uint wait_count, const cl_event* wa
                   wait_list, done);
 }
 
-void Job::enqueue(DeviceDiagram& diagram, const DeviceAdjacency& adjacency) const {
+void Job::enqueue(DeviceDiagram& diagram, const Wanted& wanted) const {
   diagram.enqueue(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
-                  static_cast<std::uint32_t>(count_), measures_.handle(), status_.handle(), adjacency);
+                  static_cast<std::uint32_t>(count_),
+                  {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain});
+}
+
+std::uint32_t Job::repair(DeviceDiagram& diagram, const Wanted& wanted) const {
+  return diagram.repair(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
+                        static_cast<std::uint32_t>(count_),
+                        {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain});
 }
 
 Output Job::read() const {
@@ -128,6 +160,16 @@ std::vector<double> rounded(std::span<const double> values, Precision precision)
   if (precision == Precision::float32)
     for (double& x : result) x = static_cast<float>(x);
   return result;
+}
+
+SeedArray rounded_seeds(SeedArray seeds, Precision precision) {
+  seeds.positions = rounded(seeds.positions, precision);
+  seeds.weights = rounded(seeds.weights, precision);
+  return seeds;
+}
+
+double tolerance(Precision precision) {
+  return precision == Precision::float64 ? 1e-11 : 2e-4;
 }
 
 }  // namespace powercell::test

@@ -6,8 +6,11 @@
 
 #include <cstdint>
 #include <powercell/opencl.hpp>
+#include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
 #include <vector>
+
+#include "tests/support/generators.hpp"
 
 namespace powercell::test {
 
@@ -43,6 +46,15 @@ class Memory {
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
   cl_mem handle() const { return memory_; }
+  /// The first `count` values. Waits for the queue.
+  template <class T>
+  std::vector<T> values(cl_command_queue queue, std::size_t count) const {
+    std::vector<T> to(count);
+    if (count > 0)
+      REQUIRE(clEnqueueReadBuffer(queue, memory_, CL_TRUE, 0, count * sizeof(T), to.data(), 0, nullptr,
+                                  nullptr) == CL_SUCCESS);
+    return to;
+  }
 
  private:
   cl_mem memory_ = nullptr;
@@ -56,6 +68,46 @@ struct Output {
   std::size_t count(DeviceSeedStatus s) const;
 };
 
+/// Rows in device memory with room for `room` entries.
+class Rows {
+ public:
+  Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room);
+  static constexpr cl_uint unwritten = 0xfffffff0u;
+  DeviceAdjacency handles() const { return {offset_.handle(), neighbor_.handle(), wall_.handle()}; }
+  /// Waits. Entries beyond the room are missing.
+  Adjacency read() const;
+
+ private:
+  const Caller& caller_;
+  std::size_t real_, n_, room_;
+  std::vector<cl_uint> marks_;
+  Memory offset_, neighbor_, wall_;
+};
+
+/// A list of uncertain seeds in device memory.
+class List {
+ public:
+  List(const Caller& caller, std::size_t room)
+      : caller_(caller), count_(caller, sizeof(cl_uint)), seeds_(caller, room * sizeof(cl_uint)) {}
+  DeviceUncertain handles() const { return {count_.handle(), seeds_.handle()}; }
+  std::uint32_t count() const { return count_.values<cl_uint>(caller_.queue(), 1)[0]; }
+  /// The first `some` entries. Waits.
+  std::vector<std::uint32_t> read(std::size_t some) const {
+    return seeds_.values<cl_uint>(caller_.queue(), some);
+  }
+  std::vector<std::uint32_t> read() const { return read(count()); }
+
+ private:
+  const Caller& caller_;
+  Memory count_, seeds_;
+};
+
+/// What is wanted beside measures and statuses.
+struct Wanted {
+  DeviceAdjacency adjacency = {};
+  DeviceUncertain uncertain = {};
+};
+
 /// Seeds and results of one call in device memory.
 class Job {
  public:
@@ -63,7 +115,8 @@ class Job {
   Job(const Caller& caller, Precision precision, const SeedsView& seeds, bool weighted = true);
   void enqueue(DeviceDiagram& diagram, cl_uint wait_count = 0, const cl_event* wait_list = nullptr,
                cl_event* done = nullptr) const;
-  void enqueue(DeviceDiagram& diagram, const DeviceAdjacency& adjacency) const;
+  void enqueue(DeviceDiagram& diagram, const Wanted& wanted) const;
+  std::uint32_t repair(DeviceDiagram& diagram, const Wanted& wanted) const;
   /// Waits for the queue.
   Output read() const;
 
@@ -79,5 +132,9 @@ Output run(Caller& caller, DeviceDiagram& diagram, const SeedsView& seeds, bool 
 
 /// The values rounded to a precision.
 std::vector<double> rounded(std::span<const double> values, Precision precision);
+SeedArray rounded_seeds(SeedArray seeds, Precision precision);
+
+/// Relative to the mean mass and to the domain's size: the cells are cut in another order.
+double tolerance(Precision precision);
 
 }  // namespace powercell::test

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
+#include <powercell/diagram.hpp>
 
 #include "tests/device_diagram/caller.hpp"
 #include "tests/support/domains.hpp"
@@ -18,18 +20,26 @@ using namespace powercell::test;
 
 namespace {
 
-/// The least seconds of a few calls, after one that allocates.
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Of all threads, those of a device on the processor too.
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// The least seconds of a few calls, after one that allocates. \param now  a clock
 template <class Call>
-double least_seconds(const Caller& caller, const Call& call) {
+double least_seconds(const Caller& caller, const Call& call, double (*now)() = wall_seconds) {
   constexpr int runs = 4;
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < runs; ++run) {
     REQUIRE(clFinish(caller.queue()) == CL_SUCCESS);
-    const auto start = std::chrono::steady_clock::now();
+    const double start = now();
     call();
     REQUIRE(clFinish(caller.queue()) == CL_SUCCESS);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (run > 0) least = std::min(least, seconds);
+    if (run > 0) least = std::min(least, now() - start);
   }
   return least;
 }
@@ -54,7 +64,7 @@ void print_rates(Caller& caller, int dimension, WeightRange range, Precision pre
       neighbor(caller, walls * sizeof(cl_uint)), wall(caller, walls * real);
   const double alone = least_seconds(caller, [&] { job.enqueue(diagram); });
   const double with_walls = least_seconds(caller, [&] {
-    job.enqueue(diagram, {offset.handle(), neighbor.handle(), wall.handle()});
+    job.enqueue(diagram, {{offset.handle(), neighbor.handle(), wall.handle()}});
   });
   const Output output = job.read();
   CHECK(output.count(DeviceSeedStatus::unfinished) == 0);
@@ -72,4 +82,45 @@ TEST_CASE("rates from device memory to device memory" * doctest::skip()) {
   for (const int dimension : {3, 2})
     for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
       for (const Precision precision : precisions(caller)) print_rates(caller, dimension, range, precision);
+}
+
+TEST_CASE("rates of repair beside enqueue and Diagram" * doctest::skip()) {
+  Caller caller;
+  const std::uint32_t n = seed_count();
+  Random random(test_seed());
+  Options options;
+  options.precision = Precision::float32;
+  DeviceDiagram diagram(caller.device(), unit_box(3), options);
+  const auto white = [&] {
+    SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, n, 3, random);
+    seeds.positions = rounded(seeds.positions, Precision::float32);
+    return seeds;
+  };
+  const SeedArray seeds = white(), others = white();
+  const Job job(caller, Precision::float32, seeds.view()), other(caller, Precision::float32, others.view());
+  const List list(caller, n), other_list(caller, n);
+  const Rows rows(caller, Precision::float32, n, std::size_t{n} * 17),
+      other_rows(caller, Precision::float32, n, std::size_t{n} * 17);
+  for (const bool walls : {false, true}) {
+    const Wanted wanted{walls ? rows.handles() : DeviceAdjacency{}, list.handles()},
+        other_wanted{walls ? other_rows.handles() : DeviceAdjacency{}, other_list.handles()};
+    Diagram exact(caller.device(), unit_box(3), options);
+    const auto seconds = [&](const auto& call) { return least_seconds(caller, call, processor_seconds); };
+    const double enqueued = seconds([&] { job.enqueue(diagram, wanted); });
+    other.enqueue(diagram, other_wanted);
+    int turn = 0;
+    const double moved =
+        seconds([&] { ++turn % 2 ? job.repair(diagram, wanted) : other.repair(diagram, other_wanted); });
+    const double same = seconds([&] { job.repair(diagram, wanted); });
+    const double whole = seconds([&] {
+      exact.set_seeds(seeds.view());
+      exact.compute(walls, false);
+    });
+    std::printf(
+        "%u seeds%s: %u cells; processor seconds: enqueue %.3f, repair %.3f, at the same positions again "
+        "%.3f, "
+        "Diagram %.3f\n",
+        n, walls ? " with adjacency" : "", list.count(), enqueued, moved, same, whole);
+    std::fflush(stdout);
+  }
 }

@@ -19,6 +19,9 @@ std::vector<JobKind> jobs_on(const Setup& setup) {
     if (setup.options.neighbors == Neighbors::tree)
       jobs.push_back(device_diagram_job(setup, small.domain, small.seeds));
   }
+  const SeededDomain undecided = ties();
+  if (setup.options.neighbors == Neighbors::tree)
+    jobs.push_back(device_diagram_job(setup, undecided.domain, undecided.seeds));
   return jobs;
 }
 
@@ -76,8 +79,11 @@ TEST_CASE("calls of every entry point fail in every kind of run") {
 TEST_CASE("faults with a cell of more faces than the kernels' capacities") {
   const SeededDomain many = many_faces(300);
   for (const Setup& setup : main_setups()) {
-    const JobKind job = diagram_job(setup, many.domain, many.seeds);
-    report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
+    std::vector<JobKind> jobs{diagram_job(setup, many.domain, many.seeds)};
+    if (setup.options.neighbors == Neighbors::tree)
+      jobs.push_back(device_diagram_job(setup, many.domain, many.seeds));
+    for (const JobKind& job : jobs)
+      report(job, CL_OUT_OF_RESOURCES, fail_every_call(job, CL_OUT_OF_RESOURCES, all_entries(), 2));
   }
 }
 

@@ -140,9 +140,11 @@ class DeviceDiagramJob : public Job {
         status_(device_, n_ * sizeof(cl_uint)),
         offset_(device_, (n_ + 1) * sizeof(cl_uint)),
         neighbor_(device_, room * sizeof(cl_uint)),
-        wall_(device_, room * real_) {}
+        wall_(device_, room * real_),
+        uncertain_count_(device_, sizeof(cl_uint)),
+        uncertain_(device_, n_ * sizeof(cl_uint)) {}
 
-  std::size_t steps() const override { return 5; }
+  std::size_t steps() const override { return 7; }
   void step(std::size_t k) override {
     switch (k) {
       case 0:
@@ -158,16 +160,27 @@ class DeviceDiagramJob : public Job {
       case 3:
         results_ = {measures_.read(), status_.read()};
         return;
-      default:  // other weights in the same diagram, and walls
+      case 4:  // other weights in the same diagram, and walls
         write(weights_, other_weights(seeds_));
-        write(wall_, std::vector<double>(room));
-        neighbor_.write(std::vector<cl_uint>(room).data());
-        compute(true);
-        others_ = {measures_.read(), status_.read(), offset_.read(), neighbor_.read(), wall_.read()};
+        compute_all();
+        others_ = all_results();
+        return;
+      case 5:
+        compute_all();  // again in a repeated step: repair may have failed while it wrote
+        diagram_->repair(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_), wanted());
+        repaired_ = all_results();
+        return;
+      default:  // the weights from before, in the same Diagram
+        write(weights_, seeds_.weights);
+        compute_all();
+        diagram_->repair(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_), wanted());
+        repaired_again_ = all_results();
     }
   }
   std::string differences(const Job& other) const override {
     const auto& that = dynamic_cast<const DeviceDiagramJob&>(other);
+    if (repaired_ != that.repaired_ || repaired_again_ != that.repaired_again_)
+      return "repaired results differ";
     return results_ == that.results_ && others_ == that.others_ ? "" : "measures, statuses or walls differ";
   }
 
@@ -176,15 +189,30 @@ class DeviceDiagramJob : public Job {
     const std::vector<float> narrow(values.begin(), values.end());
     memory.write(float32_ ? static_cast<const void*>(narrow.data()) : values.data());
   }
-  void compute(bool walls = false) {
+  using Bytes = std::vector<std::vector<std::byte>>;
+
+  DeviceResults wanted() const {
+    return {measures_.handle(),
+            status_.handle(),
+            {offset_.handle(), neighbor_.handle(), wall_.handle()},
+            {uncertain_count_.handle(), uncertain_.handle()}};
+  }
+  Bytes all_results() const {
+    return {measures_.read(), status_.read(),          offset_.read(),   neighbor_.read(),
+            wall_.read(),     uncertain_count_.read(), uncertain_.read()};
+  }
+  void compute() { compute({measures_.handle(), status_.handle()}); }
+  /// With walls and the list, into memory without what was there before.
+  void compute_all() {
+    write(wall_, std::vector<double>(room));
+    neighbor_.write(std::vector<cl_uint>(room).data());
+    uncertain_.write(std::vector<cl_uint>(n_).data());
+    compute(wanted());
+  }
+  void compute(const DeviceResults& results) {
     cl_event done = nullptr;
-    const auto n = static_cast<std::uint32_t>(n_);
-    if (walls)
-      diagram_->enqueue(positions_.handle(), weights_.handle(), n, measures_.handle(), status_.handle(),
-                        {offset_.handle(), neighbor_.handle(), wall_.handle()}, 0, nullptr, &done);
-    else
-      diagram_->enqueue(positions_.handle(), weights_.handle(), n, measures_.handle(), status_.handle(), 0,
-                        nullptr, &done);
+    diagram_->enqueue(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_), results, 0,
+                      nullptr, &done);
     const cl_int status = clWaitForEvents(1, &done);
     clReleaseEvent(done);
     cl::check(status, "waiting for the diagram");
@@ -198,9 +226,9 @@ class DeviceDiagramJob : public Job {
   bool float32_;
   std::size_t real_, n_;
   SeedArray seeds_;
-  Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_;
+  Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_, uncertain_count_, uncertain_;
   std::optional<DeviceDiagram> diagram_;
-  std::vector<std::vector<std::byte>> results_, others_;
+  Bytes results_, others_, repaired_, repaired_again_;
 };
 
 }  // namespace
@@ -252,6 +280,12 @@ SeededDomain many_faces(std::size_t faces) {
   SeedArray seeds = cospherical(faces, 2);
   seeds.push({0.5, 0.5}, 0.01);
   return {{std::to_string(faces) + " faces", unit_box(2)}, seeds};
+}
+
+SeededDomain ties() {
+  SeedArray seeds = grid(4, 2);
+  seeds.weights[5] = 0.01;
+  return {{"ties", unit_box(2)}, seeds};
 }
 
 }  // namespace powercell::test

@@ -32,7 +32,8 @@ struct JobKind {
 
 /// Makes a Diagram, sets seeds, computes everything, sets weights and computes everything in another order.
 JobKind diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
-/// Computes a DeviceDiagram on the setup's device twice into buffers of the caller.
+/// Computes a DeviceDiagram on the setup's device into buffers of the caller, with walls too, and repairs it
+/// twice.
 JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 /// Only Device::choose.
 JobKind open_job(const Setup& setup);
@@ -44,5 +45,7 @@ JobKind device_job(const Setup& setup, const NamedDomain& domain, const SeedArra
 std::vector<SeededDomain> small_cases();
 /// A square with one cell of this many faces.
 SeededDomain many_faces(std::size_t faces);
+/// A square with a grid of seeds, of which all cells tie.
+SeededDomain ties();
 
 }  // namespace powercell::test

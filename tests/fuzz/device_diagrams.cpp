@@ -1,9 +1,11 @@
-// Any bits as seeds in device memory: each seed gets a status, and the others are as without the bad ones.
+// Any bits as seeds in device memory: each seed gets a status, the others are as without the bad ones, and
+// after repair they are those of an exact diagram.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
+#include <powercell/diagram.hpp>
 #include <powercell/opencl.hpp>
 
 #include "tests/fuzz/laws.hpp"
@@ -62,6 +64,16 @@ struct Memory {
   cl_mem handle = nullptr;
 };
 
+template <class T>
+std::vector<T> read(const Memory& memory, std::size_t count) {
+  std::vector<T> values(count);
+  if (count > 0)
+    succeed(clEnqueueReadBuffer(caller().queue, memory.handle, CL_TRUE, 0, count * sizeof(T), values.data(),
+                                0, nullptr, nullptr),
+            "reading results");
+  return values;
+}
+
 /// The rows of a diagram of n seeds, of which those with the status ok have walls. \throw Finding
 template <class Real>
 class Rows {
@@ -74,12 +86,14 @@ class Rows {
         wall_(room * sizeof(Real)) {}
   DeviceAdjacency handles() const { return {offset_.handle, neighbor_.handle, wall_.handle}; }
 
-  void check(const std::vector<cl_uint>& status) const {
+  /// \return the neighbours of each seed
+  std::vector<std::vector<cl_uint>> check(const std::vector<cl_uint>& status) const {
     const auto offset = read<cl_uint>(offset_, n_ + 1);
     require(offset[0] == 0 && std::is_sorted(offset.begin(), offset.end()) && offset[n_] <= room,
             "offsets of rows");
     const auto neighbor = read<cl_uint>(neighbor_, offset[n_]);
     const auto wall = read<Real>(wall_, offset[n_]);
+    std::vector<std::vector<cl_uint>> rows(n_);
     std::map<std::pair<cl_uint, cl_uint>, Real> found;
     for (cl_uint i = 0; i < n_; ++i)
       for (cl_uint k = offset[i]; k < offset[i + 1]; ++k) {
@@ -87,27 +101,47 @@ class Rows {
         require(j < n_ && j != i && status[i] == 0 && status[j] == 0 && wall[k] > 0, "a wall that cannot be");
         require(k == offset[i] || neighbor[k - 1] < j, "a row that does not ascend");
         found[{i, j}] = wall[k];
+        rows[i].push_back(j);
       }
     for (const auto& [pair, measure] : found) {
       const auto back = found.find({pair.second, pair.first});
       require(back != found.end() && back->second == measure, "a wall with one side");
     }
+    return rows;
   }
 
  private:
-  template <class T>
-  static std::vector<T> read(const Memory& memory, std::size_t count) {
-    std::vector<T> values(count);
-    if (count > 0)
-      succeed(clEnqueueReadBuffer(caller().queue, memory.handle, CL_TRUE, 0, count * sizeof(T), values.data(),
-                                  0, nullptr, nullptr),
-              "reading rows");
-    return values;
-  }
-
   std::size_t n_;
   Memory offset_, neighbor_, wall_;
 };
+
+/// Statuses and neighbours after repair are those of a Diagram without the invalid seeds. \throw Finding
+void check_repaired(const DeviceDiagram& diagram, const Options& options, const SeedInput& given,
+                    const std::vector<cl_uint>& before, const std::vector<cl_uint>& status,
+                    const std::vector<std::vector<cl_uint>>& neighbors) {
+  constexpr auto invalid = static_cast<cl_uint>(DeviceSeedStatus::invalid);
+  const auto d = static_cast<std::size_t>(diagram.domain().dimension());
+  SeedInput valid;
+  std::vector<cl_uint> number;  // of each valid seed
+  for (cl_uint i = 0; i < status.size(); ++i) {
+    require((before[i] == invalid) == (status[i] == invalid), "repair of an invalid seed");
+    if (status[i] == invalid) continue;
+    number.push_back(i);
+    valid.weights.push_back(given.weights[i]);
+    for (std::size_t k = 0; k < d; ++k) valid.positions.push_back(given.positions[i * d + k]);
+  }
+  Diagram exact(device(), diagram.domain(), options);
+  exact.set_seeds({diagram.domain().dimension(), valid.positions, valid.weights});
+  const Adjacency& rows = exact.adjacency();
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    const std::string seed = "repaired seed " + std::to_string(number[k]) + ": ";
+    require(status[number[k]] == static_cast<cl_uint>(exact.measures().status[k]), seed + "another status");
+    std::vector<cl_uint> row;
+    for (std::uint64_t at = rows.offset[k]; at < rows.offset[k + 1]; ++at)
+      row.push_back(number[rows.neighbor[at]]);
+    require(row == neighbors[number[k]], seed + "other neighbours");
+  }
+}
 
 template <class Real>
 void run(Input& input, const Domain& domain, Precision precision) {
@@ -115,26 +149,24 @@ void run(Input& input, const Domain& domain, Precision precision) {
   options.precision = precision;
   DeviceDiagram diagram(device(), domain, options);
   const std::size_t n = input.below(20), d = static_cast<std::size_t>(domain.dimension());
-  const SeedInput given = any_seeds(input, domain, n);
+  SeedInput given = any_seeds(input, domain, n);
   const std::vector<Real> positions(given.positions.begin(), given.positions.end());
   const std::vector<Real> weights(given.weights.begin(), given.weights.end());
+  given = {{positions.begin(), positions.end()}, {weights.begin(), weights.end()}};
   const Memory position_memory(positions.size() * sizeof(Real), positions.data());
   const Memory weight_memory(n * sizeof(Real), weights.data());
   const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
   const Rows<Real> adjacency(n);
-  diagram.enqueue(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n),
-                  measure_memory.handle, status_memory.handle, adjacency.handles());
-  std::vector<Real> rows(n * (2 + d));
-  std::vector<cl_uint> status(n);
-  if (n > 0) {
-    succeed(clEnqueueReadBuffer(caller().queue, measure_memory.handle, CL_TRUE, 0, rows.size() * sizeof(Real),
-                                rows.data(), 0, nullptr, nullptr),
-            "reading measures");
-    succeed(clEnqueueReadBuffer(caller().queue, status_memory.handle, CL_TRUE, 0, n * sizeof(cl_uint),
-                                status.data(), 0, nullptr, nullptr),
-            "reading statuses");
-  }
+  const Memory count(sizeof(cl_uint)), list(n * sizeof(cl_uint));
+  const DeviceResults results{
+      measure_memory.handle, status_memory.handle, adjacency.handles(), {count.handle, list.handle}};
+  diagram.enqueue(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n), results);
+  const auto rows = read<Real>(measure_memory, n * (2 + d));
+  const auto status = read<cl_uint>(status_memory, n);
   adjacency.check(status);
+  diagram.repair(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n), results);
+  const auto repaired = read<cl_uint>(status_memory, n);
+  check_repaired(diagram, options, given, status, repaired, adjacency.check(repaired));
 
   SeedInput valid;
   double total = 0;

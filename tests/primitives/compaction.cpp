@@ -23,12 +23,23 @@ TEST_CASE("the entries equal to the wanted value are listed in order") {
         input.upload(values);
         indices.resize(count);
         found.resize(1);
-        compaction.enqueue(input.handle(), count, wanted, indices.handle(), found.handle(), local);
+        compaction.enqueue(input.handle(), count, wanted, indices.handle(), count, found.handle(), local);
         REQUIRE(found.download()[0] == expected.size());
         std::vector<std::uint32_t> listed(expected.size());
         indices.download(std::span(listed));
         const bool equal = listed == expected;
         CHECK(equal);
+
+        constexpr std::uint32_t unwritten = 0xfffffff0u;
+        indices.upload(std::vector<std::uint32_t>(count, unwritten));
+        const auto room = static_cast<std::uint32_t>(expected.size() / 2);
+        compaction.enqueue(input.handle(), count, wanted, indices.handle(), room, found.handle(), local);
+        CHECK(found.download()[0] == expected.size());
+        std::vector<std::uint32_t> first = expected;
+        std::fill(first.begin() + room, first.end(), unwritten);
+        indices.download(std::span(listed));
+        const bool only_the_first = listed == first;
+        CHECK(only_the_first);
       }
     }
 }

@@ -1,0 +1,46 @@
+/// \file
+/// The repair of a DeviceDiagram: the cells that the device has left undecided. Internal.
+#pragma once
+
+#include <powercell/diagram.hpp>
+#include <powercell/opencl.hpp>
+#include <vector>
+
+namespace powercell {
+
+/// How much fits the caller's buffers.
+struct Rooms {
+  std::uint32_t rows = 0;       ///< entries of DeviceAdjacency
+  std::uint32_t uncertain = 0;  ///< seeds of DeviceUncertain
+};
+
+inline bool wants_rows(const DeviceResults& r) {
+  return r.adjacency.offset || r.adjacency.neighbor || r.adjacency.wall;
+}
+inline bool wants_list(const DeviceResults& r) {
+  return r.uncertain.count || r.uncertain.seeds;
+}
+
+/// Computes cells with a Diagram, which is kept, and so are its programs, its memory and, for seeds at the
+/// same positions, their order and tree.
+class DeviceRepair {
+ public:
+  /// \param options  of the DeviceDiagram, with the precision that it has chosen
+  DeviceRepair(const Device& device, const Domain& domain, Options options);
+
+  /// As DeviceDiagram::repair, of checked arguments. \pre n > 0
+  std::uint32_t run(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
+                    Rooms rooms);
+
+ private:
+  /// \return how many cells were computed
+  template <class Real>
+  std::uint32_t repair(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
+                       std::vector<std::uint32_t> list, std::uint32_t room);
+  void set_seeds(std::vector<double> positions, const std::vector<double>& weights);
+
+  Diagram diagram_;
+  std::vector<double> positions_;  // of the seeds that the diagram has
+};
+
+}  // namespace powercell

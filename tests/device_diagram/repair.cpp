@@ -1,0 +1,423 @@
+// The cells that a DeviceDiagram leaves to the host, and its results after repair().
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <powercell/diagram.hpp>
+
+#include "tests/device_diagram/caller.hpp"
+#include "tests/support/domains.hpp"
+#include "tests/support/generators.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+
+namespace {
+
+using Seeds = std::vector<std::uint32_t>;
+
+Options in_precision(Precision precision) {
+  Options options;
+  options.precision = precision;
+  return options;
+}
+
+/// A NaN equals a NaN.
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+double in_memory(double x, Precision precision) {
+  return precision == Precision::float32 ? static_cast<double>(static_cast<float>(x)) : x;
+}
+
+/// Row `k` of measures of the host has the bits of cell `i` in device memory.
+bool same_bits(const Output& found, std::size_t i, const Measures& host, std::size_t k, Precision precision) {
+  const auto d = static_cast<std::size_t>(host.dimension);
+  bool equal = same(found.mass[i], in_memory(host.mass[k], precision)) &&
+               same(found.second_moment[i], in_memory(host.second_moment[k], precision)) &&
+               static_cast<int>(found.status[i]) == static_cast<int>(host.status[k]);
+  for (std::size_t c = 0; c < d; ++c)
+    equal = equal && same(found.centroid[i * d + c], in_memory(host.centroid[k * d + c], precision));
+  return equal;
+}
+
+struct Repaired {
+  Output before, output;
+  Adjacency adjacency;
+  Seeds list;  ///< of the cells computed
+};
+
+Repaired repaired(Caller& caller, DeviceDiagram& diagram, const SeedsView& seeds, std::size_t room) {
+  const Job job(caller, diagram.precision(), seeds);
+  const Rows rows(caller, diagram.precision(), seeds.size(), room);
+  const List list(caller, seeds.size());
+  const Wanted wanted{rows.handles(), list.handles()};
+  job.enqueue(diagram, wanted);
+  Repaired result{job.read(), {}, {}, list.read()};
+  const std::uint32_t computed = job.repair(diagram, wanted);
+  result.output = job.read();
+  if (computed > result.list.size()) {  // all valid ones
+    result.list.clear();
+    for (std::uint32_t i = 0; i < seeds.size(); ++i)
+      if (result.output.status[i] != DeviceSeedStatus::invalid) result.list.push_back(i);
+  }
+  CHECK(computed == result.list.size());
+  result.adjacency = rows.read();
+  return result;
+}
+
+/// The list has all seeds that are unfinished, and the others have the status of the exact diagram.
+void check_list(const Repaired& found, const Measures& exact) {
+  CHECK(std::adjacent_find(found.list.begin(), found.list.end(), std::greater_equal<>()) == found.list.end());
+  std::size_t missing = 0;
+  for (std::uint32_t i = 0; i < found.before.status.size(); ++i)
+    missing += !std::binary_search(found.list.begin(), found.list.end(), i) &&
+               static_cast<int>(found.before.status[i]) != static_cast<int>(exact.status[i]);
+  CHECK(missing == 0);
+}
+
+void check_measures(const Repaired& found, const Measures& exact, Precision precision) {
+  const double error = tolerance(precision) * exact.domain_measure / static_cast<double>(exact.mass.size());
+  std::size_t wrong_status = 0, wrong_mass = 0, wrong_moment = 0, changed = 0;
+  for (std::uint32_t i = 0; i < exact.mass.size(); ++i) {
+    wrong_status += static_cast<int>(found.output.status[i]) != static_cast<int>(exact.status[i]);
+    wrong_mass += !(std::abs(found.output.mass[i] - exact.mass[i]) <= error);
+    wrong_moment += !(std::abs(found.output.second_moment[i] - exact.second_moment[i]) <=
+                      error + tolerance(precision) * exact.second_moment[i]);
+    changed += !std::binary_search(found.list.begin(), found.list.end(), i) &&
+               !same(found.output.mass[i], found.before.mass[i]);
+  }
+  CHECK(wrong_status == 0);
+  CHECK(wrong_mass == 0);
+  CHECK(wrong_moment == 0);
+  CHECK(changed == 0);
+}
+
+void check_adjacency(const Adjacency& found, const Adjacency& exact, double error) {
+  CHECK(found.offset == exact.offset);
+  REQUIRE(found.neighbor == exact.neighbor);
+  std::size_t wrong = 0, one_sided = 0;
+  for (std::uint32_t i = 0; i + 1 < found.offset.size(); ++i)
+    for (std::uint64_t k = found.offset[i]; k < found.offset[i + 1]; ++k) {
+      wrong += !(std::abs(found.wall[k] - exact.wall[k]) <= error);
+      const std::uint32_t j = found.neighbor[k];
+      const auto row = found.neighbor.begin() + static_cast<std::ptrdiff_t>(found.offset[j]);
+      const auto back =
+          std::lower_bound(row, found.neighbor.begin() + static_cast<std::ptrdiff_t>(found.offset[j + 1]), i);
+      one_sided += found.wall[static_cast<std::size_t>(back - found.neighbor.begin())] != found.wall[k];
+    }
+  CHECK(wrong == 0);
+  CHECK(one_sided == 0);
+}
+
+/// Repaired cells are those of a Diagram of them alone, bit by bit.
+void check_bits(const Repaired& found, Diagram& exact) {
+  exact.select(found.list);
+  const Measures& some = exact.measures();
+  std::size_t different = 0;
+  for (std::size_t k = 0; k < found.list.size(); ++k)
+    different += !same_bits(found.output, found.list[k], some, k, exact.precision());
+  CHECK(different == 0);
+}
+
+/// Compares everything to Diagram. \return how many cells were repaired
+std::size_t check_repaired(Caller& caller, DeviceDiagram& diagram, const SeedArray& given) {
+  const Precision precision = diagram.precision();
+  const SeedArray seeds = rounded_seeds(given, precision);
+  Diagram exact(caller.device(), diagram.domain(), in_precision(precision));
+  exact.set_seeds(seeds.view());
+  const std::size_t room = 2 * exact.adjacency().neighbor.size() + 1000;
+  const Repaired found = repaired(caller, diagram, seeds.view(), room);
+  check_list(found, exact.measures());
+  check_measures(found, exact.measures(), precision);
+  const int d = diagram.domain().cell_dimension();
+  const double size = std::pow(diagram.domain().measure(), (d - 1.0) / d);
+  check_adjacency(found.adjacency, exact.adjacency(), size * (precision == Precision::float64 ? 1e-9 : 1e-3));
+  check_bits(found, exact);
+  return found.list.size();
+}
+
+}  // namespace
+
+TEST_CASE("after repair, everything in a box is that of an exact Diagram") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller))
+    for (const int dimension : {2, 3}) {
+      std::size_t computed = 0;
+      DeviceDiagram diagram(caller.device(), unit_box(dimension), in_precision(precision));
+      for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
+        for (const Distribution distribution : {Distribution::white, Distribution::cluster}) {
+          CAPTURE(dimension);
+          CAPTURE(name(weights));
+          CAPTURE(name(distribution));
+          CAPTURE(static_cast<int>(precision));
+          computed +=
+              check_repaired(caller, diagram, random_seeds(distribution, weights, 3000, dimension, random));
+        }
+      MESSAGE(dimension, "D, precision ", static_cast<int>(precision), ": ", computed, " of 18000 cells");
+    }
+}
+
+TEST_CASE("after repair, everything in domains of several regions is that of an exact Diagram") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller))
+    for (const auto& family : {polygon_domains(), surface_domains(), volume_domains(), box_domains()})
+      for (const NamedDomain& domain : family) {
+        DeviceDiagram diagram(caller.device(), domain.domain, in_precision(precision));
+        for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
+          for (const std::size_t n : {3u, 400u}) {
+            CAPTURE(domain.name);
+            CAPTURE(n);
+            CAPTURE(name(weights));
+            CAPTURE(static_cast<int>(precision));
+            check_repaired(caller, diagram,
+                           seeds_for(domain.domain, Distribution::white, weights, n, random));
+          }
+      }
+}
+
+TEST_CASE("repair of seeds that tie") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller)) {
+    CAPTURE(static_cast<int>(precision));
+    for (const int dimension : {2, 3}) {
+      CAPTURE(dimension);
+      DeviceDiagram diagram(caller.device(), unit_box(dimension), in_precision(precision));
+      SeedArray lattice = grid(6, dimension);
+      CHECK(check_repaired(caller, diagram, lattice) == lattice.size());
+      for (double& w : lattice.weights) w = 0.25 * static_cast<double>(random.index(3)) / 36;
+      CHECK(check_repaired(caller, diagram, lattice) > 0);
+      check_repaired(caller, diagram, cospherical(60, dimension));
+      // One cell ties, the others do not.
+      SeedArray one = random_seeds(Distribution::white, WeightRange::W0, 300, dimension, random);
+      one.push({0.25, 0.5, 0.5}, 0);
+      one.positions.resize(301 * static_cast<std::size_t>(dimension));
+      one.push({0.25, 0.5, 0.5}, 0);
+      one.positions.resize(302 * static_cast<std::size_t>(dimension));
+      check_repaired(caller, diagram, one);
+    }
+    // Bisectors in facets of the domain and between its regions; cells that are flat.
+    DeviceDiagram cube(caller.device(), volume_of(cube_tetrahedra(4, 0, random)), in_precision(precision));
+    for (const int side : {4, 5}) CHECK(check_repaired(caller, cube, grid(side, 3)) > 0);
+    DeviceDiagram square(caller.device(), Domain::polygon(letter_u()), in_precision(precision));
+    for (const int side : {4, 5, 8}) check_repaired(caller, square, grid(side, 2));
+    for (const double place : {0.375, 0.5, 0.625}) {
+      DeviceDiagram box(caller.device(), unit_box(2), in_precision(precision));
+      const SeedArray flat{
+          2, {0.25, 0.5, 0.75, 0.5, place, 0.5}, {0, 0, (place - 0.5) * (place - 0.5) - 0.0625}};
+      check_repaired(caller, box, flat);
+    }
+  }
+}
+
+TEST_CASE("repair of a cell with more faces than the device's capacities") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller))
+    for (const int dimension : {2, 3}) {
+      CAPTURE(dimension);
+      DeviceDiagram diagram(caller.device(), unit_box(dimension), in_precision(precision));
+      SeedArray seeds = cospherical(600, dimension);
+      for (double& x : seeds.positions) x += random.uniform(-1e-4, 1e-4);
+      seeds.positions.insert(seeds.positions.end(), static_cast<std::size_t>(dimension), 0.5);
+      seeds.weights.push_back(0);
+      const Output output = run(caller, diagram, rounded_seeds(seeds, precision).view());
+      REQUIRE(output.status.back() == DeviceSeedStatus::unfinished);
+      CHECK(check_repaired(caller, diagram, seeds) > 0);
+    }
+}
+
+TEST_CASE("repair where pairs and walls exceed their room") {
+  Caller caller;
+  Random random(1);
+  const Domain domain = Domain::polygon(square_with_holes());
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 1000, 2, random);
+  DeviceDiagram diagram(caller.device(), domain);
+  diagram.set_pair_capacity(500);
+  CHECK(check_repaired(caller, diagram, seeds) > 100);
+  diagram.set_pair_capacity(0);
+  diagram.set_wall_capacity(2000);
+  CHECK(check_repaired(caller, diagram, seeds) > 100);
+}
+
+TEST_CASE("repair leaves invalid seeds out, and duplicates as they are") {
+  Caller caller;
+  Random random(test_seed());
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  for (const Precision precision : precisions(caller)) {
+    DeviceDiagram diagram(caller.device(), unit_box(2), in_precision(precision));
+    const SeedArray good = rounded_seeds(grid(7, 2), precision);
+    SeedArray bad{2, {nan, 0.5, 0.5, inf}, {0, 0}};  // before the good ones, between and behind them
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      bad.push({good.coordinate(i, 0), good.coordinate(i, 1)}, 0);
+      if (i % 5 == 0) bad.push({0.3, 0.3}, i % 2 == 0 ? nan : inf);
+      if (i % 7 == 0) bad.push({good.coordinate(i, 0), good.coordinate(i, 1)}, i % 2 == 0 ? 0 : -1);
+    }
+    bad.push({-inf, nan}, nan);
+    Diagram exact(caller.device(), unit_box(2), in_precision(precision));
+    exact.set_seeds(good.view());
+    const Repaired found = repaired(caller, diagram, bad.view(), 1000);
+    CHECK(found.list.size() == good.size());
+    std::vector<std::uint32_t> number;
+    for (std::uint32_t i = 0; i < bad.size(); ++i) {
+      CHECK((found.before.status[i] == DeviceSeedStatus::invalid) ==
+            (found.output.status[i] == DeviceSeedStatus::invalid));
+      CHECK(std::isnan(found.output.mass[i]) == (found.output.status[i] == DeviceSeedStatus::invalid));
+      if (found.output.status[i] == DeviceSeedStatus::ok) number.push_back(i);
+    }
+    CHECK(found.output.count(DeviceSeedStatus::duplicate) == 7);
+    REQUIRE(number.size() == good.size());
+    for (std::size_t k = 0; k < number.size(); ++k) {
+      const std::uint32_t i = number[k];
+      CHECK(same_bits(found.output, i, exact.measures(), k, precision));
+      Seeds expected;
+      for (std::uint64_t w = exact.adjacency().offset[k]; w < exact.adjacency().offset[k + 1]; ++w)
+        expected.push_back(number[exact.adjacency().neighbor[w]]);
+      CHECK(Seeds(found.adjacency.neighbor.begin() + static_cast<std::ptrdiff_t>(found.adjacency.offset[i]),
+                  found.adjacency.neighbor.begin() +
+                      static_cast<std::ptrdiff_t>(found.adjacency.offset[i + 1])) == expected);
+    }
+    const SeedArray none{2, {nan, nan, inf, 0}, {0, 0}};
+    const Repaired nothing = repaired(caller, diagram, none.view(), 10);
+    CHECK(nothing.list.empty());
+    CHECK(nothing.output.count(DeviceSeedStatus::invalid) == 2);
+  }
+}
+
+TEST_CASE("repair of seeds that differ less than the device can tell") {
+  Caller caller;
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  for (const Precision precision : precisions(caller)) {
+    CAPTURE(static_cast<int>(precision));
+    const double least = precision == Precision::float64 ? tiny : 0x1p-149;
+    const double low[] = {0, 0}, high[] = {3, 3};
+    DeviceDiagram diagram(caller.device(), Domain::box(low, high), in_precision(precision));
+    // Different positions, and weights of seeds at one position, which underflow: all cells are computed.
+    CHECK(check_repaired(caller, diagram, {2, {0, least, least, least, least, 0, 2, 1}, {0, 0, 0, 0}}) == 4);
+    CHECK(check_repaired(caller, diagram, {2, {1, 1, 1, 1, 2, 1, 1, 1}, {0, least, 0, 2 * least}}) == 4);
+  }
+}
+
+TEST_CASE("a list that is too small says how many seeds there are, and is not repaired") {
+  Caller caller;
+  DeviceDiagram diagram(caller.device(), unit_box(2));
+  const SeedArray seeds = grid(6, 2);
+  const Job job(caller, diagram.precision(), seeds.view());
+  const List small(caller, 10), large(caller, 36);
+  job.enqueue(diagram, {{}, large.handles()});
+  const Seeds all = large.read();
+  REQUIRE(all.size() == 36);
+  job.enqueue(diagram, {{}, small.handles()});
+  CHECK(small.count() == 36);
+  CHECK(small.read(10) == Seeds(all.begin(), all.begin() + 10));
+  CHECK_THROWS_WITH_AS(job.repair(diagram, {{}, small.handles()}),
+                       doctest::Contains("36 seeds are uncertain, and their list has room for 10"), Error);
+  job.enqueue(diagram, {{}, large.handles()});
+  CHECK(job.repair(diagram, {{}, large.handles()}) == 36);
+  CHECK(job.repair(diagram, {{}, large.handles()}) == 36);  // once more changes nothing
+  CHECK(job.read().mass[0] == doctest::Approx(1.0 / 36).epsilon(1e-5));
+}
+
+TEST_CASE("rows that do not fit are refused, with the room that they need") {
+  Caller caller;
+  DeviceDiagram diagram(caller.device(), unit_box(2));
+  SeedArray seeds = cospherical(300, 2);
+  seeds.push({0.5, 0.5}, 0);  // unfinished, and so without walls until it is repaired
+  const Job job(caller, diagram.precision(), seeds.view());
+  const List list(caller, 301);
+  const auto rows_of = [&](std::size_t room) { return Rows(caller, diagram.precision(), 301, room); };
+  const Rows small = rows_of(50), large = rows_of(2000);
+  job.enqueue(diagram, {small.handles(), list.handles()});
+  CHECK_THROWS_WITH_AS(job.repair(diagram, {small.handles(), list.handles()}),
+                       doctest::Contains("have room for 50, so that some rows were not written"), Error);
+  job.enqueue(diagram, {large.handles(), list.handles()});
+  const std::size_t before = large.read().neighbor.size();
+  job.repair(diagram, {large.handles(), list.handles()});
+  const std::size_t needed = large.read().neighbor.size();
+  REQUIRE(needed >= before + 600);
+
+  const Rows tight = rows_of(needed - 1), exact = rows_of(needed);
+  job.enqueue(diagram, {tight.handles(), list.handles()});
+  const std::string message =
+      "has " + std::to_string(needed) + " entries, and the buffers of neighbors and walls have room for";
+  CHECK_THROWS_WITH_AS(job.repair(diagram, {tight.handles(), list.handles()}),
+                       doctest::Contains(message.c_str()), Error);
+  CHECK(job.read().count(DeviceSeedStatus::unfinished) == 1);  // nothing is changed
+  CHECK(tight.read().neighbor.size() == before);
+  job.enqueue(diagram, {exact.handles(), list.handles()});
+  job.repair(diagram, {exact.handles(), list.handles()});
+  CHECK(exact.read().neighbor == large.read().neighbor);
+  CHECK(exact.read().wall == large.read().wall);
+}
+
+TEST_CASE("the list of no seeds, of seeds that are certain, and no list") {
+  Caller caller;
+  DeviceDiagram diagram(caller.device(), unit_box(2));
+  const List list(caller, 10);
+  diagram.enqueue(nullptr, nullptr, 0, {nullptr, nullptr, {}, list.handles()});
+  CHECK(list.count() == 0);
+  CHECK(diagram.repair(nullptr, nullptr, 0, {nullptr, nullptr, {}, list.handles()}) == 0);
+  const SeedArray seeds{2, {0.21, 0.32, 0.73, 0.44, 0.55, 0.86}, {0, 0, 0}};
+  const Job job(caller, diagram.precision(), seeds.view());
+  job.enqueue(diagram, {{}, list.handles()});
+  CHECK(list.count() == 0);
+  CHECK(job.repair(diagram, {{}, list.handles()}) == 0);
+  CHECK_THROWS_WITH_AS(job.repair(diagram, {}), doctest::Contains("no list of uncertain seeds"), Error);
+  DeviceUncertain wrong = list.handles();
+  wrong.seeds = nullptr;
+  CHECK_THROWS_WITH_AS(job.enqueue(diagram, {{}, wrong}), doctest::Contains("uncertain seeds is null"),
+                       Error);
+  wrong = list.handles();
+  wrong.count = nullptr;
+  CHECK_THROWS_WITH_AS(job.enqueue(diagram, {{}, wrong}), doctest::Contains("uncertain seeds is null"),
+                       Error);
+}
+
+TEST_CASE("repair after new weights and places, and the same again") {
+  INFO(replay_hint());
+  Caller caller;
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller)) {
+    DeviceDiagram diagram(caller.device(), unit_box(3), in_precision(precision));
+    SeedArray seeds = grid(5, 3);
+    for (int round = 0; round < 3; ++round) {
+      check_repaired(caller, diagram, seeds);
+      for (double& w : seeds.weights) w = 0.01 * static_cast<double>(random.index(2));
+    }
+    translate(seeds, {0.03125, 0, 0});
+    check_repaired(caller, diagram, seeds);
+    check_repaired(caller, diagram, grid(4, 3));
+    seeds.positions.insert(seeds.positions.end(), {0.1, 0.1, std::nan("")});
+    seeds.weights.push_back(0);
+    CHECK(repaired(caller, diagram, seeds.view(), 4000).output.count(DeviceSeedStatus::invalid) == 1);
+    seeds.positions.resize(375);
+    seeds.weights.resize(125);
+    check_repaired(caller, diagram, seeds);
+  }
+}
+
+TEST_CASE("entries of a list that enqueue() has not written are refused") {
+  Caller caller;
+  DeviceDiagram diagram(caller.device(), unit_box(2));
+  const SeedArray seeds{2, {0.2, 0.3, 0.7, 0.4, std::nan(""), 0}, {0, 0, 0}};
+  const Job job(caller, diagram.precision(), seeds.view());
+  job.enqueue(diagram, {});
+  const cl_uint one = 1;
+  const Memory count(caller, sizeof one, &one);
+  for (const auto& [entry, message] :
+       {std::pair(3u, "there are 3 seeds"), std::pair(2u, "seed 2 of the list")}) {
+    const cl_uint value = entry;
+    const Memory list(caller, sizeof value, &value);
+    CHECK_THROWS_WITH_AS(job.repair(diagram, {{}, {count.handle(), list.handle()}}),
+                         doctest::Contains(message), Error);
+  }
+}
