@@ -41,6 +41,20 @@ cl::Buffer<Real> uploaded(const Device& device, const std::vector<double>& value
   return buffer;
 }
 
+template <class Real>
+void write_frame(const Frame& frame, cl::RawBuffer& to) {
+  std::array<Real, FRAME_SIZE> numbers{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Real high = static_cast<Real>(frame.centre[k]);
+    numbers[FRAME_CENTRE + k] = high;
+    numbers[FRAME_CENTRE_LOW + k] = static_cast<Real>(frame.centre[k] - static_cast<double>(high));
+  }
+  numbers[FRAME_SCALE] = static_cast<Real>(frame.scale);
+  numbers[FRAME_UNIT] = static_cast<Real>(1 / frame.scale);
+  to.reserve(sizeof numbers);
+  to.write(numbers.data(), sizeof numbers);
+}
+
 /// Computes the golden diagram (lib/clip/golden.hpp) in device memory. \throw Error self_test_failed
 template <class Real>
 void run_golden(DeviceDiagram::State& state, const Variant& variant) {
@@ -118,23 +132,7 @@ void DeviceDiagram::State::upload_frame() {
     throw Error(ErrorCode::unsupported,
                 "the size or measure of the domain is outside the range of single precision; choose "
                 "Precision::float64");
-  std::array<double, FRAME_SIZE> numbers{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double high = frame.split ? static_cast<float>(frame.centre[k]) : frame.centre[k];
-    numbers[FRAME_CENTRE + k] = high;
-    numbers[FRAME_CENTRE_LOW + k] = frame.centre[k] - high;
-  }
-  numbers[FRAME_SCALE] = frame.scale;
-  numbers[FRAME_UNIT] = 1 / frame.scale;
-  if (!frame.split) {
-    frame_.reserve(sizeof numbers);
-    frame_.write(numbers.data(), sizeof numbers);
-    return;
-  }
-  std::array<float, FRAME_SIZE> narrow{};
-  std::copy(numbers.begin(), numbers.end(), narrow.begin());
-  frame_.reserve(sizeof narrow);
-  frame_.write(narrow.data(), sizeof narrow);
+  frame.split ? write_frame<float>(frame, frame_) : write_frame<double>(frame, frame_);
 }
 
 TreeBlocks::Tree DeviceDiagram::State::device_tree(std::uint32_t n) const {

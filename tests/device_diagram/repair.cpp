@@ -307,6 +307,20 @@ TEST_CASE("repair of seeds that differ less than the device can tell") {
   }
 }
 
+// The frame is centred in two parts. The low one was once 0, so that seeds moved by a rounding error of the
+// centre.
+TEST_CASE("a domain far from the origin") {
+  Caller caller;
+  Random random(test_seed());
+  const double low[] = {1e14, 1e14}, high[] = {1.00001e14, 1.00001e14};
+  for (const Precision precision : precisions(caller)) {
+    DeviceDiagram diagram(caller.device(), Domain::box(low, high), in_precision(precision));
+    check_repaired(caller, diagram,
+                   random_seeds(Distribution::white, WeightRange::W1, 200, 2, random,
+                                {{1e14, 1e14, 0}, {1.00001e14, 1.00001e14, 0}}));
+  }
+}
+
 TEST_CASE("a list that is too small says how many seeds there are, and is not repaired") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
