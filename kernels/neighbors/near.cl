@@ -109,6 +109,9 @@ static inline uint find_near(tree_t tree, blocks_t blocks, uint leaf, __global u
     *bound = REAL_MAX / 4;
     return 1;
   }
+  const parts_t first = parts_of(tree.node_low[leaf]);
+  *bound = -REAL_MAX;
+  if (is_dead(&first)) return 0; /* nobody asks, and to it leaves that do not exist would be near */
   const home_t home = home_of(tree, blocks, leaf);
   const real extent = extent_around(tree, blocks, leaf, &home.origin) * NEAR_SPREAD;
   const real heaviest =
@@ -116,7 +119,8 @@ static inline uint find_near(tree_t tree, blocks_t blocks, uint leaf, __global u
   const uint least = min((uint)NEAR_LEAST, tree.level_offset[1]);
   real low = -heaviest, high = low, d = extent * extent;
   bool too_many = false;
-  for (int k = 0; k < NEAR_TRIES && d > low; ++k) {
+  /* Not up to NOBODY, or leaves that do not exist would be near. */
+  for (int k = 0; k < NEAR_TRIES && d > low && d < -NOBODY / 2; ++k) {
     const uint found = (uint)collect_near(tree, blocks, &home, d, list);
     if (found >= least && found <= NEAR_MOST) {
       *bound = d;

@@ -223,6 +223,24 @@ TEST_CASE("seeds that are not finite are reported and do not change the others")
   }
 }
 
+// An invalid seed has so low a weight that its leaf is near at bounds near the largest number only, which a
+// far seed makes the search try. Leaves that do not exist then seemed near too, and were read.
+TEST_CASE("an invalid seed and one far away do not disturb the search") {
+  Caller caller;
+  Options options;
+  options.precision = Precision::float32;
+  DeviceDiagram diagram(caller.device(), unit_box(2), options);
+  const SeedArray seeds{
+      2,
+      {-1.09375,  0.5,          -1.078125, -1.109375,   0.296875,  -1.09375,  1,         0.5,      -0.140625,
+       -1.078125, std::nan(""), 0.15625,   -1.125,      -0.953125, -0.3125,   -1.078125, 1.171875, -1.109375,
+       -1.09375,  -1.09375,     0.8125,    -1.03648e17, -1.125,    2.015625,  1.296875,  1.375,    0.953125,
+       1.53125,   -0.421875,    -1.109375, 2.0625,      -1.109375, -1.109375, 2},
+      {-1.578125, 1.46875, 1.234375, -0.53125, 1.46875, -0.890625, -1.625, 1.15625, -0.8125, -2, 125000000,
+       -0.859375, 0.453125, -1.625, 0.875, -1.625, 1.015625}};
+  CHECK(run(caller, diagram, seeds.view()).count(DeviceSeedStatus::ok) == 5);
+}
+
 TEST_CASE("a cell of many faces is clipped with the larger capacity") {
   Caller caller;
   DeviceDiagram diagram(caller.device(), unit_box(2));
