@@ -71,7 +71,9 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
   }
 }
 
-TEST_CASE("every variant computes the golden diagram with lanes as on other kinds of devices") {
+// Those of the smallest capacity give the same bits in the test `determinism`, whose kernels take as long to
+// compile.
+TEST_CASE("every variant of more room computes the golden diagram with lanes as on other kinds of devices") {
   const auto context = test_context();
   const int own = cl::lane_width(context->settings(), 3);
   for (const int width : {1, 4, 8}) {
@@ -82,6 +84,7 @@ TEST_CASE("every variant computes the golden diagram with lanes as on other kind
     for (const bool float32 : {false, true}) {
       if (!float32 && !context->info().fp64) continue;
       for (const Variant& variant : all_variants(float32, width)) {
+        if (capacity_of(variant) == 0) continue;
         CAPTURE(width);
         CAPTURE(variant.dimension);
         CAPTURE(variant.cell_dimension);
