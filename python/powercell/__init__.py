@@ -35,6 +35,7 @@ from ._device import (  # noqa: E402
     measure_device_latencies,
     measure_device_rates,
 )
+from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceStatus, DeviceUncertain  # noqa: E402
 from ._diagram import Diagram, regular_triangulation  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
@@ -42,7 +43,7 @@ from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
 from ._outside import SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
-from ._queue import DeviceAdjacency, DeviceDiagram, DeviceMeasures, DeviceStatus, DeviceUncertain  # noqa: E402
+from ._queue import DeviceDiagram  # noqa: E402
 from ._results import Adjacency, BoundaryWalls, Status  # noqa: E402
 from ._sampling import sample  # noqa: E402
 from ._saved import SavedDiagram  # noqa: E402

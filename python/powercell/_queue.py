@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -10,212 +9,11 @@ import numpy as np
 from . import _core, _looks
 from ._arrays import is_pyopencl
 from ._device import Device
+from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceUncertain, empty
 from ._domain import Domain
-from ._errors import Error
 from ._options import diagram_options
 
 PRECISIONS = {"float64": "double", "float32": "float"}
-
-
-class DeviceStatus(enum.IntEnum):
-    """State of a seed of a :class:`DeviceDiagram`: those of :class:`Status`, and two more."""
-
-    OK = 0
-    HIDDEN = 1
-    DUPLICATE = 2
-    INVALID = 3
-    """NaN, infinity, or so large that its square is not finite; it does not affect the others."""
-    UNFINISHED = 4
-    """Only the host can compute its cell: :meth:`DeviceDiagram.repair` has it done. The cells of the others are
-    right."""
-
-
-class DeviceAdjacency:
-    """The walls of a :class:`DeviceDiagram`, as compressed sparse rows in device memory.
-
-    Attributes
-    ----------
-    indptr : (n + 1,) pyopencl.array.Array of uint32
-        Row i is ``indices[indptr[i]:indptr[i + 1]]``. Right also where the other arrays are too short.
-    indices : (room,) pyopencl.array.Array of uint32
-        Neighbours, ascending within a row. Rows that end beyond the room are not written, the others are whole.
-    data : (room,) pyopencl.array.Array
-        The length or area of each wall, the same from both sides.
-    """
-
-    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any) -> None:
-        self._queue = queue
-        self.indptr = indptr
-        self.indices = indices
-        self.data = data
-
-    def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
-
-        Raises
-        ------
-        Error
-            ``invalid_argument`` if the walls exceed the room (how many there are).
-        """
-        indptr = self.indptr.get(self._queue)
-        count = int(indptr[-1])
-        if count > len(self.indices):
-            raise Error(
-                f"there are {count} entries, and room for {len(self.indices)}; give compute(adjacency={count})",
-                "invalid_argument",
-            )
-        if count == 0:
-            return indptr, np.empty(0, np.uint32), np.empty(0, self.data.dtype)
-        return indptr, self.indices[:count].get(self._queue), self.data[:count].get(self._queue)
-
-    def __repr__(self) -> str:
-        return f"<powercell.DeviceAdjacency of {len(self.indptr) - 1} seeds, room for {len(self.indices)} entries>"
-
-
-class DeviceUncertain:
-    """The seeds of a :class:`DeviceDiagram` whose cells only the host can decide, in device memory: those that are
-    unfinished, and those of whose cells rounding may have decided the shape.
-
-    Attributes
-    ----------
-    count : (1,) pyopencl.array.Array of uint32
-        How many they are, also where they do not fit.
-    seeds : (room,) pyopencl.array.Array of uint32
-        Their indices, ascending; as many as there is room for.
-    """
-
-    def __init__(self, queue: Any, count: Any, seeds: Any) -> None:
-        self._queue = queue
-        self.count = count
-        self.seeds = seeds
-
-    def get(self) -> np.ndarray:
-        """Waits for the diagram, and copies the indices to the host.
-
-        Raises
-        ------
-        Error
-            ``invalid_argument`` if they exceed the room (how many there are).
-        """
-        count = int(self.count.get(self._queue)[0])
-        if count > len(self.seeds):
-            raise Error(
-                f"{count} seeds are uncertain, and there is room for {len(self.seeds)}; give compute(uncertain={count})",
-                "invalid_argument",
-            )
-        return self.seeds[:count].get(self._queue) if count else np.empty(0, np.uint32)
-
-    def __repr__(self) -> str:
-        return f"<powercell.DeviceUncertain with room for {len(self.seeds)} seeds>"
-
-
-class DeviceMeasures:
-    """The measures of a :class:`DeviceDiagram`, in device memory.
-
-    Attributes
-    ----------
-    measures : (n, 2 + d) pyopencl.array.Array
-        Rows of mass, centroid and second moment. 0, NaN..., 0 where the cell is empty; all NaN for seeds that
-        are invalid or unfinished.
-    status : (n,) pyopencl.array.Array of uint32
-        A :class:`DeviceStatus` of each seed.
-    adjacency : DeviceAdjacency or None
-        If :meth:`DeviceDiagram.compute` was asked for it.
-    uncertain : DeviceUncertain or None
-        The same.
-    event : pyopencl.Event
-        Of the last command.
-    """
-
-    def __init__(
-        self,
-        queue: Any,
-        measures: Any,
-        status: Any,
-        adjacency: Optional[DeviceAdjacency],
-        uncertain: Optional[DeviceUncertain],
-        event: Any,
-    ) -> None:
-        self._queue = queue
-        self.measures = measures
-        self.status = status
-        self.adjacency = adjacency
-        self.uncertain = uncertain
-        self.event = event
-        self._parts: dict[str, Any] = {}
-
-    def __len__(self) -> int:
-        return int(self.measures.shape[0])
-
-    def _arrays(self) -> list[Any]:
-        """All arrays in the order of the bindings; None for those that are not wanted."""
-        rows, listed = self.adjacency, self.uncertain
-        return [
-            self.measures,
-            self.status,
-            *((rows.indptr, rows.indices, rows.data) if rows else (None, None, None)),
-            *((listed.count, listed.seeds) if listed else (None, None)),
-        ]
-
-    def _columns(self, name: str, first: int, shape: tuple[int, ...]) -> Any:
-        """An array of some columns, copied on the device when first used."""
-        if name not in self._parts:
-            cl = _looks.package("pyopencl")
-            whole = self.measures
-            part = _empty(self._queue, shape, whole.dtype, whole.allocator)
-            if len(self):
-                size, row = whole.dtype.itemsize, whole.strides[0]
-                width = size * (shape[1] if len(shape) > 1 else 1)
-                done = cl.enqueue_copy(
-                    self._queue, part.base_data, whole.base_data,
-                    src_origin=(first * size, 0, 0), dst_origin=(0, 0, 0), region=(width, len(self), 1),
-                    src_pitches=(row, row * len(self)), dst_pitches=(width, width * len(self)),
-                )  # fmt: skip
-                part.add_event(done)
-            self._parts[name] = part
-        return self._parts[name]
-
-    @property
-    def mass(self) -> Any:
-        """(n,): area or volume of each cell."""
-        return self._columns("mass", 0, (len(self),))
-
-    @property
-    def centroid(self) -> Any:
-        """(n, d)"""
-        d = self.measures.shape[1] - 2
-        return self._columns("centroid", 1, (len(self), d))
-
-    @property
-    def second_moment(self) -> Any:
-        """(n,): integral of ``|x - p_i|^2`` over each cell."""
-        return self._columns("second_moment", self.measures.shape[1] - 1, (len(self),))
-
-    def count(self) -> dict[DeviceStatus, int]:
-        """How many seeds have each status. Waits for the diagram and reads the statuses."""
-        numbers = np.bincount(self.status.get(self._queue).ravel(), minlength=len(DeviceStatus))
-        return {state: int(numbers[state]) for state in DeviceStatus}
-
-    def check(self) -> DeviceMeasures:
-        """Waits for the diagram, and makes sure that each seed has its cell.
-
-        Raises
-        ------
-        Error
-            ``invalid_seed`` or ``unsupported`` if seeds are invalid or unfinished (how many, and the first).
-        """
-        status = self.status.get(self._queue)
-        for state, code, reason in (
-            (DeviceStatus.INVALID, "invalid_seed", "NaN, infinite or too large"),
-            (DeviceStatus.UNFINISHED, "unsupported", "left to the host: give compute(uncertain=True), and repair()"),
-        ):
-            seeds = np.flatnonzero(status == state)
-            if len(seeds):
-                raise Error(f"{len(seeds)} of {len(status)} seeds are {reason}; the first is seed {seeds[0]}", code)
-        return self
-
-    def __repr__(self) -> str:
-        return f"<powercell.DeviceMeasures of {len(self)} seeds>"
 
 
 class DeviceDiagram:
@@ -396,8 +194,8 @@ class DeviceDiagram:
         queue, allocator, columns = self.device.queue, positions.allocator, 2 + self.domain.dimension
         if out is None:
             return (
-                _empty(queue, (n, columns), positions.dtype, allocator),
-                _empty(queue, (n,), np.dtype(np.uint32), allocator),
+                empty(queue, (n, columns), positions.dtype, allocator),
+                empty(queue, (n,), np.dtype(np.uint32), allocator),
             )
         _check(out.measures, "out.measures", (n, columns), positions.dtype)
         return out.measures, out.status
@@ -415,7 +213,7 @@ class DeviceDiagram:
             return out.uncertain
         queue, allocator, unsigned = self.device.queue, positions.allocator, np.dtype(np.uint32)
         return DeviceUncertain(
-            queue, _empty(queue, (1,), unsigned, allocator), _empty(queue, (room,), unsigned, allocator)
+            queue, empty(queue, (1,), unsigned, allocator), empty(queue, (room,), unsigned, allocator)
         )
 
     def _rows(
@@ -438,9 +236,9 @@ class DeviceDiagram:
         unsigned = np.dtype(np.uint32)
         return DeviceAdjacency(
             queue,
-            _empty(queue, (n + 1,), unsigned, allocator),
-            _empty(queue, (room,), unsigned, allocator),
-            _empty(queue, (room,), positions.dtype, allocator),
+            empty(queue, (n + 1,), unsigned, allocator),
+            empty(queue, (room,), unsigned, allocator),
+            empty(queue, (room,), positions.dtype, allocator),
         )
 
     def __repr__(self) -> str:
@@ -479,7 +277,3 @@ def _pointer(array: Any) -> int:
 
 def _pointers(arrays: list[Any]) -> list[int]:
     return [0 if array is None else _pointer(array) for array in arrays]
-
-
-def _empty(queue: Any, shape: tuple[int, ...], dtype: np.dtype[Any], allocator: Any) -> Any:
-    return _looks.package("pyopencl.array").empty(queue, shape, dtype, allocator=allocator)
