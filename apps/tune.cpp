@@ -20,7 +20,7 @@ using nlohmann::json;
 
 std::string value_text(const TuneStep& step, const Trial& trial) {
   if (step.setting != "all") return with_commas(trial.value);
-  return trial.value == 0 ? "defaults" : "chosen";
+  return trial.value == 0 ? "before" : "chosen";
 }
 
 std::string verdict(const TuneStep& step, std::size_t k) {
@@ -80,6 +80,7 @@ json as_json(const TuneRecord& record, const std::string& file, bool written) {
           {"file", file},
           {"written", written},
           {"defaults", settings_json(record.defaults)},
+          {"before", settings_json(record.before)},
           {"chosen", settings_json(record.chosen)},
           {"steps", steps}};
 }
@@ -99,23 +100,31 @@ int reset(const TuneArguments& arguments) {
   return 0;
 }
 
-// Keeps what was measured. Returns whether a file was written.
-bool keep(const TuneRecord& record) {
-  if (record.chosen == record.defaults) {
-    remove_settings(record.device);
-    return false;
-  }
+struct Kept {
+  bool written = false, removed = false;
+};
+
+// Keeps what was measured: the defaults need no file.
+Kept keep(const TuneRecord& record) {
+  if (record.chosen == record.defaults) return {false, remove_settings(record.device)};
   save_settings(record.device, record.chosen);
-  return true;
+  return {true, false};
 }
 
-std::string conclusion(const TuneRecord& record, const std::string& file, bool dry_run) {
-  if (record.chosen == record.defaults)
-    return "no setting is faster than the defaults by more than the runs scatter; the defaults stand";
+std::string conclusion(const TuneRecord& record, const std::string& file, const Kept& kept, bool dry_run) {
+  const bool all = record.before == record.defaults;
   std::string changes;
+  if (record.chosen == record.before)
+    changes = fmt::format("no setting is faster than the {} by more than the runs scatter; {} stand",
+                          all ? "defaults" : "settings in use", all ? "the defaults" : "these");
+  if (record.chosen == record.defaults)
+    return changes + (kept.removed ? fmt::format("; removed {}, which had others", file) : "");
+  if (!changes.empty()) changes += ": ";
+  const std::size_t start = changes.size();
   for (const Setting& one : all_settings())
     if (one.get(record.chosen) != one.get(record.defaults))
-      changes += fmt::format("{}{} = {}", changes.empty() ? "" : ", ", one.name, one.get(record.chosen));
+      changes +=
+          fmt::format("{}{} = {}", changes.size() == start ? "" : ", ", one.name, one.get(record.chosen));
   return fmt::format("{}; {} {}", changes, dry_run ? "not written because of --dry-run:" : "written to",
                      file);
 }
@@ -146,12 +155,14 @@ int run(const TuneArguments& arguments) {
     print_step(step);
   });
   const std::string file = settings_file(record.device);
-  bool written = false;
-  compute([&] { written = !arguments.dry_run && keep(record); });
-  if (arguments.json) fmt::print("{}\n", json_text(as_json(record, file, written)));
+  Kept kept;
+  compute([&] {
+    if (!arguments.dry_run) kept = keep(record);
+  });
+  if (arguments.json) fmt::print("{}\n", json_text(as_json(record, file, kept.written)));
   if (!arguments.silent())
     fmt::print("\n{}{}: {}\n", scatter_note(record), record.device.name,
-               conclusion(record, file, arguments.dry_run));
+               conclusion(record, file, kept, arguments.dry_run));
   return 0;
 }
 
@@ -159,8 +170,8 @@ constexpr const char* tune_examples =
     R"(Each block of the table is a setting, each line a value of it, the one in use first: for each job the
 seconds of the best run, how much longer the median took, and the ratio to the first line. A value is
 chosen where it is faster by more than both scatter (and 3 %) in some job, and slower by as much in none;
-otherwise the one in use is kept. At the end the result is timed against the defaults once more. Every
-value must give the same bits. The file is read whenever the device is opened, until its driver or
+otherwise the one in use is kept. At the end the result is timed against where it began once more: the
+defaults, or with --only the settings in use. Every value must give the same bits. The file is read whenever the device is opened, until its driver or
 powercell changes. Let the machine do nothing else meanwhile. See docs/devices.md.
 Examples:
   powercell tune --dry-run

@@ -29,8 +29,11 @@ class Tuner {
  public:
   Tuner(const TuneArguments& arguments, const std::function<void(const TuneStep&)>& said)
       : arguments_(arguments), said_(said), progress_({{"measuring", 1}}, arguments.silent()) {
-    record_.device = open_device(arguments).info();
-    record_.defaults = record_.chosen = default_settings(record_.device);
+    const Device device = open_device(arguments);
+    record_.device = device.info();
+    record_.defaults = default_settings(record_.device);
+    // What is not measured stays as it was.
+    record_.before = record_.chosen = arguments.only.empty() ? record_.defaults : settings_of(device);
   }
 
   TuneRecord run() {
@@ -42,7 +45,7 @@ class Tuner {
       tune_one(one);
     }
     progress_.part(1 - 1 / steps, 1);
-    if (record_.chosen != record_.defaults) confirm();
+    if (record_.chosen != record_.before) confirm();
     progress_.finish();
     return std::move(record_);
   }
@@ -119,9 +122,9 @@ class Tuner {
   void confirm() {
     std::vector<TuneJob*> jobs;
     for (TuneJob& job : jobs_) jobs.push_back(&job);
-    TuneStep step = measure("all", {0, 1}, {record_.defaults, record_.chosen}, jobs);
+    TuneStep step = measure("all", {0, 1}, {record_.before, record_.chosen}, jobs);
     step.chosen = best_trial(step.trials);
-    if (step.chosen == 0) record_.chosen = record_.defaults;
+    if (step.chosen == 0) record_.chosen = record_.before;
     finish(std::move(step));
   }
 

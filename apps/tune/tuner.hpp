@@ -21,7 +21,7 @@ struct TuneArguments : CommonOptions {
 
 /// A setting with the values that were tried, the one in use first.
 struct TuneStep {
-  std::string setting;  ///< or "all": the defaults, then what was chosen, once more
+  std::string setting;  ///< or "all": where it began, then what was chosen, once more
   std::vector<std::string> jobs;
   std::vector<std::size_t> seeds;  ///< of each job
   std::vector<Trial> trials;
@@ -30,12 +30,14 @@ struct TuneStep {
 
 struct TuneRecord {
   DeviceInfo device;
-  DeviceSettings defaults, chosen;
+  DeviceSettings defaults;
+  DeviceSettings before;  ///< where it began: the defaults, or with `only` those in use
+  DeviceSettings chosen;
   std::vector<TuneStep> steps;
 };
 
 /// Changes one setting after the other where that is faster beyond the scatter of the runs, and at the end
-/// times the result against the defaults once more. \param said  called after each step \throw Error
+/// times the result against where it began once more. \param said  called after each step \throw Error
 /// interrupted; internal if results depend on a setting, which they must not
 TuneRecord tune(const TuneArguments& arguments, const std::function<void(const TuneStep&)>& said);
 

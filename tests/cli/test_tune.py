@@ -52,6 +52,7 @@ class Tune(ToolTest):
             for run in trial["runs"]:
                 self.assertEqual((run["n"], len(run["seconds"])), (300, 2))
                 self.assertGreater(min(run["seconds"]), 0)
+        self.assertEqual(record["before"], record["defaults"])
         changed = record["chosen"] != record["defaults"]
         self.assertEqual(record["written"], changed)
         self.assertEqual([str(file) for file in self.files()], [record["file"]] if changed else [])
@@ -80,6 +81,15 @@ class Tune(ToolTest):
         self.assertIn(f"removed {file}", self.good("tune", "--reset", env=self.env).stdout)
         self.assertEqual(self.files(), [])
         self.assertIn("the defaults are used already", self.good("tune", "--reset", env=self.env).stdout)
+
+    def test_settings_that_are_not_measured_stay(self):
+        file = pathlib.Path(self.keep_by_hand(polygon_lanes=4))
+        kept = file.read_text()
+        record = self.report(*SMALL, "--dry-run", env=self.env)
+        self.assertEqual((record["before"]["polygon_lanes"], record["chosen"]["polygon_lanes"]), (4, 4))
+        self.assertEqual(file.read_text(), kept)
+        self.good(*SMALL, env=self.env)
+        self.assertIn("\npolygon_lanes 4\n", file.read_text())
 
     def test_interrupt_leaves_no_file(self):
         process = subprocess.Popen([TOOL, "tune", "--only", "chunk_pairs", "--n", "20000", "--repeat", "100"],
