@@ -19,6 +19,15 @@ struct Launch {
   std::string what;
 };
 
+Launch launch_of(cl_kernel kernel, const Context& context, const std::string& name) {
+  return {kernel,
+          context.queue(),
+          context.device(),
+          context.info(),
+          context.settings().group_size,
+          "running the kernel " + name + " on " + context.info().name};
+}
+
 template <class T>
 T group_value(const Launch& launch, cl_kernel_work_group_info which) {
   T value{};
@@ -139,12 +148,7 @@ Kernel::~Kernel() {
 void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
   if (global == 0) return;
   require_all_arguments();
-  const Launch launch = {kernel_,
-                         context_->queue(),
-                         context_->device(),
-                         context_->info(),
-                         context_->settings().group_size,
-                         "running the kernel " + name_ + " on " + context_->info().name};
+  const Launch launch = launch_of(kernel_, *context_, name_);
   if (local == 0) local = choose_group_size(launch);
   global = (global + local - 1) / local * local;
   const bool profiling = profiles(launch.queue);
@@ -165,12 +169,7 @@ void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
 void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
   if (global == 0) return;
   require_all_arguments();
-  const Launch launch = {kernel_,
-                         context_->queue(),
-                         context_->device(),
-                         context_->info(),
-                         context_->settings().group_size,
-                         "running the kernel " + name_ + " on " + context_->info().name};
+  const Launch launch = launch_of(kernel_, *context_, name_);
   if (local == 0) local = choose_group_size(launch);
   global = (global + local - 1) / local * local;
   // Nothing holds back a queue of the library's own, so the compilation can be waited for, and counted.
