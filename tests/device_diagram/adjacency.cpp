@@ -80,10 +80,7 @@ void check_walls_against_host(Caller& caller, DeviceDiagram& diagram, const Seed
   check_form(found);
   // Unfinished cells, of which there are few in single precision alone, have no walls here.
   if (found.output.count(DeviceSeedStatus::unfinished) > 0) return;
-  const double scale = std::pow(diagram.domain().measure(), (diagram.domain().cell_dimension() - 1.0) /
-                                                                diagram.domain().cell_dimension());
-  CHECK(differences(found.adjacency, expected,
-                    scale * (diagram.precision() == Precision::float64 ? 1e-9 : 1e-3)) == 0);
+  CHECK(differences(found.adjacency, expected, wall_tolerance(diagram.domain(), diagram.precision())) == 0);
   if (diagram.precision() == Precision::float64 && seeds.size() > 100) {
     const auto walls = static_cast<double>(expected.neighbor.size());
     CHECK(std::abs(static_cast<double>(found.adjacency.neighbor.size()) - walls) <= 0.001 * walls);

@@ -238,7 +238,14 @@ TEST_CASE("an invalid seed and one far away do not disturb the search") {
        1.53125,   -0.421875,    -1.109375, 2.0625,      -1.109375, -1.109375, 2},
       {-1.578125, 1.46875, 1.234375, -0.53125, 1.46875, -0.890625, -1.625, 1.15625, -0.8125, -2, 125000000,
        -0.859375, 0.453125, -1.625, 0.875, -1.625, 1.015625}};
-  CHECK(run(caller, diagram, seeds.view()).count(DeviceSeedStatus::ok) == 5);
+  SeedArray valid = seeds;
+  valid.positions.erase(valid.positions.begin() + 10, valid.positions.begin() + 12);
+  valid.weights.erase(valid.weights.begin() + 5);
+  const Measures exact = measure(caller.device(), unit_box(2), valid.view());
+  const Output found = run(caller, diagram, seeds.view());
+  CHECK(found.status[5] == DeviceSeedStatus::invalid);
+  for (std::size_t i = 0; i < valid.size(); ++i)
+    CHECK(static_cast<int>(found.status[i < 5 ? i : i + 1]) == static_cast<int>(exact.status[i]));
 }
 
 TEST_CASE("a cell of many faces is clipped with the larger capacity") {

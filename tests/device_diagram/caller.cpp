@@ -1,6 +1,7 @@
 #include "tests/device_diagram/caller.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <powercell/opencl.hpp>
 
@@ -170,6 +171,11 @@ SeedArray rounded_seeds(SeedArray seeds, Precision precision) {
 
 double tolerance(Precision precision) {
   return precision == Precision::float64 ? 1e-11 : 2e-4;
+}
+
+double wall_tolerance(const Domain& domain, Precision precision) {
+  const int d = domain.cell_dimension();
+  return std::pow(domain.measure(), (d - 1.0) / d) * (precision == Precision::float64 ? 1e-9 : 1e-3);
 }
 
 }  // namespace powercell::test

@@ -136,5 +136,7 @@ SeedArray rounded_seeds(SeedArray seeds, Precision precision);
 
 /// Relative to the mean mass and to the domain's size: the cells are cut in another order.
 double tolerance(Precision precision);
+/// Of the measure of a wall, in the units of the domain.
+double wall_tolerance(const Domain& domain, Precision precision);
 
 }  // namespace powercell::test

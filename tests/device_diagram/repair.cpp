@@ -132,9 +132,7 @@ std::size_t check_repaired(Caller& caller, DeviceDiagram& diagram, const SeedArr
   const Repaired found = repaired(caller, diagram, seeds.view(), room);
   check_list(found, exact.measures());
   check_measures(found, exact.measures(), precision);
-  const int d = diagram.domain().cell_dimension();
-  const double size = std::pow(diagram.domain().measure(), (d - 1.0) / d);
-  check_adjacency(found.adjacency, exact.adjacency(), size * (precision == Precision::float64 ? 1e-9 : 1e-3));
+  check_adjacency(found.adjacency, exact.adjacency(), wall_tolerance(diagram.domain(), precision));
   check_bits(found, exact);
   return found.list.size();
 }
