@@ -171,8 +171,9 @@ constexpr const char* tune_examples =
 seconds of the best run, how much longer the median took, and the ratio to the first line. A value is
 chosen where it is faster by more than both scatter (and 3 %) in some job, and slower by as much in none;
 otherwise the one in use is kept. At the end the result is timed against where it began once more: the
-defaults, or with --only the settings in use. Every value must give the same bits. The file is read whenever the device is opened, until its driver or
-powercell changes. Let the machine do nothing else meanwhile. See docs/devices.md.
+defaults, or with --only the settings in use. Every value must give the same bits. The file is read
+whenever the device is opened, until its driver or powercell changes. Let the machine do nothing else
+meanwhile. See docs/devices.md.
 Examples:
   powercell tune --dry-run
   powercell tune --device nvidia
