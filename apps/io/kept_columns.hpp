@@ -29,7 +29,9 @@ class KeptColumns {
               std::initializer_list<std::string_view> results);
 
   bool empty() const { return columns_.empty(); }
-  const std::vector<KeptColumn>& columns() const { return columns_; }
+  const std::vector<KeptColumn>& columns() const& { return columns_; }
+  // They would end with the object while a loop goes over them.
+  void columns() const&& = delete;
   std::string_view field(std::size_t row, const KeptColumn& column) const;
   char mark() const { return table_ != nullptr ? table_->text.mark : '.'; }  ///< of decimals
   char separator() const { return table_ != nullptr ? table_->text.separator : ','; }

@@ -199,10 +199,12 @@ std::string colour_name(const DiagramOutput& output) {
       return "weight";
     case ColourBy::What::neighbors:
       return "neighbors";
-    case ColourBy::What::column:
-      for (const KeptColumn& column : page_columns(output).columns())
+    case ColourBy::What::column: {
+      const KeptColumns kept = page_columns(output);
+      for (const KeptColumn& column : kept.columns())
         if (is_chosen(column, colours)) return column.name;
       break;
+    }
     case ColourBy::What::hues:
       break;
   }
