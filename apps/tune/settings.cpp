@@ -36,17 +36,17 @@ Values other_pairs(std::uint64_t now) {
 
 const std::vector<Setting>& all_settings() {
   static const std::vector<Setting> all = {
-      {"polygon_lanes", 2, false,
+      {"polygon_lanes", 2, UsedBy::both,
        [](const DeviceSettings& s) { return static_cast<std::uint64_t>(s.polygon_lanes); },
        [](DeviceSettings& s, std::uint64_t n) { s.polygon_lanes = static_cast<int>(n); }, other_lanes},
-      {"polyhedron_lanes", 3, false,
+      {"polyhedron_lanes", 3, UsedBy::both,
        [](const DeviceSettings& s) { return static_cast<std::uint64_t>(s.polyhedron_lanes); },
        [](DeviceSettings& s, std::uint64_t n) { s.polyhedron_lanes = static_cast<int>(n); }, other_lanes},
-      {"group_size", 0, false, [](const DeviceSettings& s) -> std::uint64_t { return s.group_size; },
+      {"group_size", 0, UsedBy::both, [](const DeviceSettings& s) -> std::uint64_t { return s.group_size; },
        [](DeviceSettings& s, std::uint64_t n) { s.group_size = n; }, other_groups},
-      {"chunk_pairs", 0, false, [](const DeviceSettings& s) { return s.chunk_pairs; },
+      {"chunk_pairs", 0, UsedBy::diagram, [](const DeviceSettings& s) { return s.chunk_pairs; },
        [](DeviceSettings& s, std::uint64_t n) { s.chunk_pairs = n; }, other_pairs},
-      {"launch_pairs", 0, true, [](const DeviceSettings& s) { return s.launch_pairs; },
+      {"launch_pairs", 0, UsedBy::device_diagram, [](const DeviceSettings& s) { return s.launch_pairs; },
        [](DeviceSettings& s, std::uint64_t n) { s.launch_pairs = n; }, other_pairs},
   };
   return all;

@@ -9,10 +9,12 @@
 
 namespace powercell::app {
 
+enum class UsedBy { diagram, device_diagram, both };
+
 struct Setting {
   const char* name;
-  int cell_dimension;     ///< of the cells that it concerns; 0: any
-  bool in_device_memory;  ///< concerns DeviceDiagram, else Diagram
+  int cell_dimension;  ///< of the cells that it concerns; 0: any
+  UsedBy used_by;
   std::uint64_t (*get)(const DeviceSettings&);
   void (*set)(DeviceSettings&, std::uint64_t);
   std::vector<std::uint64_t> (*values)(std::uint64_t now);  ///< to try beside `now`

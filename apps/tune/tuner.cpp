@@ -37,7 +37,7 @@ class Tuner {
   }
 
   TuneRecord run() {
-    for (const Setting& one : wanted()) add_jobs(one);
+    add_jobs();
     const double steps = static_cast<double>(wanted().size()) + 1;
     for (const Setting& one : wanted()) {
       const double done = static_cast<double>(record_.steps.size());
@@ -61,22 +61,23 @@ class Tuner {
   }
 
   static bool concerns(const Setting& one, const TuneJob& job) {
-    return one.in_device_memory == job.in_device_memory &&
-           (one.cell_dimension == 0 || one.cell_dimension == job.cell_dimension());
+    const UsedBy other = job.in_device_memory ? UsedBy::diagram : UsedBy::device_diagram;
+    return one.used_by != other && (one.cell_dimension == 0 || one.cell_dimension == job.cell_dimension());
   }
 
-  // Those that are missing yet.
-  void add_jobs(const Setting& one) {
-    for (const char* shape : {"square", "cube"})
-      for (const Precision precision : {Precision::float64, Precision::float32}) {
-        if (precision == Precision::float64 && !record_.device.fp64) continue;
-        TuneJob job{fmt::format("{} in {}{}", shape, precision_name(precision),
-                                one.in_device_memory ? " on the device" : ""),
-                    io::read_domain(shape).domain, precision, one.in_device_memory};
-        const auto same = [&](const TuneJob& other) { return other.name == job.name; };
-        if (concerns(one, job) && std::none_of(jobs_.begin(), jobs_.end(), same))
-          jobs_.push_back(std::move(job));
-      }
+  // Those that some setting concerns.
+  void add_jobs() {
+    const std::vector<Setting> settings = wanted();
+    for (const bool in_device_memory : {false, true})
+      for (const char* shape : {"square", "cube"})
+        for (const Precision precision : {Precision::float64, Precision::float32}) {
+          if (precision == Precision::float64 && !record_.device.fp64) continue;
+          TuneJob job{fmt::format("{} in {}{}", shape, precision_name(precision),
+                                  in_device_memory ? " on the device" : ""),
+                      io::read_domain(shape).domain, precision, in_device_memory};
+          const auto concerned = [&](const Setting& one) { return concerns(one, job); };
+          if (std::any_of(settings.begin(), settings.end(), concerned)) jobs_.push_back(std::move(job));
+        }
   }
 
   // A device of its own for each value, since kernels keep what they were built with.
