@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
+#include <regex>
 #include <thread>
 
 #include "lib/cl/program_source.hpp"
@@ -40,8 +41,9 @@ TEST_CASE("a kernel that does not build is reported with place, device, options 
   CHECK(contains(message, context.info().name));
   CHECK(contains(message, "-cl-std=CL1.2 -w -DTEST=1"));
   CHECK(contains(message, "missing"));
-  CHECK((contains(message, "bad.cl:3") ||
-         contains(message, ":3:")));  // through #line, if drivers show the file
+  // Drivers that do not heed #line tell the line of the whole source.
+  CHECK(std::regex_search(message, std::regex(R"((bad\.cl|:\d+):\d+)")));
+  if (contains(message, "bad.cl:")) CHECK(contains(message, "bad.cl:3"));
 }
 
 TEST_CASE("a log of any length is cut to something readable") {
@@ -66,7 +68,9 @@ TEST_CASE("the cache key depends on source and options") {
   CHECK(key == cl::cache_key(context, test_request(triple)));
   request.options += " -DMORE=1";
   CHECK_FALSE(key == cl::cache_key(context, request));
-  CHECK_FALSE(key == cl::cache_key(context, test_request(std::string(triple) + " ")));
+  std::string other = triple;
+  other += ' ';
+  CHECK_FALSE(key == cl::cache_key(context, test_request(other)));
 }
 
 TEST_CASE("a program comes from disk the second time, and is compiled again after damage") {
