@@ -23,7 +23,7 @@ void check_moved_grid(const MovedGrid& moved, int dimension, TransportOptions op
 
 }  // namespace
 
-TEST_CASE("the weights of a grid moved and scaled within the domain, 1,000 and 10,000 seeds") {
+TEST_CASE("the weights of a grid moved and scaled within the domain, 1,000 to 2,500 seeds") {
   TransportOptions options = transport_options();
   options.tolerance = 1e-9;
   for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::multilevel}) {
@@ -33,8 +33,8 @@ TEST_CASE("the weights of a grid moved and scaled within the domain, 1,000 and 1
     check_moved_grid(MovedGrid(10, 3, 0.7, 0.03), 3, options, 1e-10, 1e-10);
   }
   options.linear = LinearSolver::automatic;
-  check_moved_grid(MovedGrid(100, 2, 0.7, 0.03), 2, options, 1e-10, 1e-10);
-  check_moved_grid(MovedGrid(22, 3, 0.8, 0.02), 3, options, 1e-10, 1e-10);
+  check_moved_grid(MovedGrid(50, 2, 0.7, 0.03), 2, options, 1e-10, 1e-10);
+  check_moved_grid(MovedGrid(13, 3, 0.8, 0.02), 3, options, 1e-10, 1e-10);
 }
 
 TEST_CASE("the weights of a grid moved out of the domain") {

@@ -104,12 +104,12 @@ TEST_CASE("gaps: seeds on a line have strips whose centroids follow from running
   }
 }
 
-TEST_CASE("gaps: a small square beside a large one, 3,000 seeds") {
+TEST_CASE("gaps: a small square beside a large one, 1,000 seeds") {
   INFO(replay_hint());
   Random random(test_seed());
   Case two;
   two.boxes = {{0, 0, 0, 1, 1, 0}, {1.5, 0, 0, 1.7, 0.2, 0}};
-  two.draw(random, 3000, 0);
+  two.draw(random, 1000, 0);
   check(two.solve(), 30);
 }
 
