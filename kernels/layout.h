@@ -36,6 +36,48 @@
 #define FRAME_UNIT 7       /* 1 / scale */
 #define FRAME_SIZE 8
 
+/* The lattice of a periodic domain in integers (lib/domain/period_grid.hpp): PERIOD_SIZE 64-bit numbers.
+   Lengths are in quanta, of which each coordinate has its own. c: coordinate, k: vector. */
+#define PERIOD_COUNT 0   /* vectors */
+#define PERIOD_IS_BOX 1  /* 1: each vector is along an axis */
+#define PERIOD_ROUNDED 2 /* c: 1 if seeds are wrapped and rounded along it */
+#define PERIOD_QUANTUM 5 /* c: exponent of the quantum, a power of two */
+#define PERIOD_ORIGIN 8  /* c: of the part that seeds are wrapped into, a whole number */
+#define PERIOD_RANGE 11  /* c: coordinates of seeds that are not too far are below 2^this */
+#define PERIOD_VECTOR 14 /* 3k + c */
+#define PERIOD_DUAL \
+  23 /* 3k + c: in units in which coordinates are below 2^PERIOD_WORD, as a fixed point number */
+#define PERIOD_BITS                                                                                          \
+  32                    /* k: of a coordinate along vector k, behind the point, in products with PERIOD_DUAL \
+                         */
+#define PERIOD_GIVEN 35 /* 3k + c: the vector in those given by the user */
+#define PERIOD_CENTRE 44 /* c: centre of the frame, in halves of a quantum */
+#define PERIOD_UNIT 47   /* c: exponent of half a quantum in the frame */
+#define PERIOD_SIZE 50
+#define PERIOD_WORD \
+  61 /* bits of a coordinate: the sum of three products with PERIOD_DUAL has no more than 64 */
+#define PERIOD_FINE 26        /* more bits of a coordinate near the origin */
+#define PERIOD_SLACK_BITS 30  /* images within 2^-this of a border of the part may be on either side */
+#define PERIOD_MOST (1 << 28) /* vectors from the origin to a seed */
+
+/* The same in reals of the frame: EXTENT_SIZE. */
+#define EXTENT_SPACING 0 /* k: between planes of the lattice along vector k */
+#define EXTENT_REACH                                                                                         \
+  3                      /* k: seeds whose difference is larger along vector k share no wall (Period::reach) \
+                          */
+#define EXTENT_MEASURE 6 /* of the domain */
+#define EXTENT_SIZE 7
+
+/* The images that are made: MARGIN_SIZE reals (kernels/periodic/margin.cl). */
+#define MARGIN_WIDTH 0
+#define MARGIN_WEIGHT 1 /* the largest weight of a seed */
+#define MARGIN_SIZE 2
+
+/* Shifts of images, from -SHIFT_MOST to SHIFT_MOST along each vector, and how many they are. */
+#define SHIFT_MOST 3
+#define SHIFT_SIDE (2 * SHIFT_MOST + 1)
+#define SHIFT_COUNT (SHIFT_SIDE * SHIFT_SIDE * SHIFT_SIDE)
+
 /* What seeds are sorted by, the least significant first. */
 #define KEY_WEIGHT 0 /* the largest first */
 #define KEY_HASH 1   /* brings equal positions together */

@@ -12,11 +12,8 @@
 namespace powercell {
 namespace {
 
-constexpr double most_ratio = 1e6;                          ///< of the lengths of a reduced basis
-constexpr double most_vectors = 0x1p28;                     ///< from the origin to a seed
-constexpr std::int64_t most_given = std::int64_t{1} << 29;  ///< the same, in the vectors as given
-constexpr double dependent = 0x1p-46;       ///< length of a reduced vector relative to those given
-constexpr double fraction_rounding = 1e-9;  ///< more than the rounding of a fraction
+constexpr double most_ratio = 1e6;     ///< of the lengths of a reduced basis
+constexpr double dependent = 0x1p-46;  ///< length of a reduced vector relative to those given
 
 [[noreturn]] void refuse_period(const std::string& what) {
   throw Error(ErrorCode::invalid_domain, what);
@@ -29,12 +26,6 @@ void check_lengths(double shortest, double longest, const std::string& what) {
       "the periods of the " + what + " are " + digits(shortest) + " and " + digits(longest) +
       " long, more than a factor of 10^6 apart; scale the long direction down, or make the short one a "
       "bounded axis of a periodic box");
-}
-
-/// The nearest multiple of a power of two; |x| below 2^62 times that.
-double rounded(long double x, double quantum) {
-  constexpr long double to_whole = 0x1.8p63L;  // a sum with it has no digits below 1
-  return static_cast<double>((x / quantum + to_whole) - to_whole) * quantum;
 }
 
 double length(const Period::Row& v) {
@@ -69,6 +60,7 @@ Period Period::of_box(std::span<const double> low, std::span<const double> high,
   period.set_dual();
   period.measure_ = 1;
   for (std::size_t k = 0; k < low.size(); ++k) period.measure_ *= high[k] - low[k];
+  period.set_grid();
   return period;
 }
 
@@ -109,7 +101,12 @@ Period Period::of_lattice(std::span<const double> vectors, std::span<const doubl
   const Row extent = extent_of_voronoi_cell(basis, period.dual_);
   for (std::size_t k = 0; k < d; ++k) period.reach_[k] = 2 * extent[k];
   period.set_room();
+  period.set_grid();
   return period;
+}
+
+void Period::set_grid() {
+  grid_ = PeriodGrid({count_, is_box_, vector_, dual_, origin_, quantum_, of_given_});
 }
 
 /// The quantum of a coordinate is at most 2^-51 of the largest that an image may have.
@@ -196,67 +193,12 @@ Period::Row Period::sum_given(const Shift& shift) const {
   return sum;
 }
 
-/// Moves a position that rounding has left beyond a border, exactly. \return the shift applied
-Shift Period::settle_in_box(Row& position) const {
-  Shift by{};
-  for (int k = 0; k < count_; ++k)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double size = vector(k)[c];
-      if (size == 0) continue;
-      const double low = std::ceil(origin_[c] / quantum_[c]) * quantum_[c];
-      if (position[c] < low) by[at(k)] = 1;
-      if (position[c] >= low + size) by[at(k)] = -1;
-      position[c] += by[at(k)] * size;
-    }
-  return by;
-}
-
-/// Of the images near the border, which rounding may have put on either side, takes the one first in the
-/// order of coordinates: so equal images are wrapped to equal positions. \return the shift applied
-Shift Period::settle_in_lattice(Row& position) const {
-  const Row first = position, f = fraction(first.data());
-  Shift best{}, v;
-  bool found = false;
-  const auto near = [&](int k, int by) {
-    return k < count_ ? std::fabs(f[at(k)] + by - 0.5) <= 0.5 + fraction_rounding : by == 0;
-  };
-  for (v[0] = -1; v[0] <= 1; ++v[0])
-    for (v[1] = -1; v[1] <= 1 && near(0, v[0]); ++v[1])
-      for (v[2] = -1; v[2] <= 1 && near(1, v[1]); ++v[2]) {
-        if (!near(2, v[2])) continue;
-        const Row candidate = moved(first.data(), v);
-        if (found && !(candidate < position)) continue;
-        found = true;
-        position = candidate;
-        best = v;
-      }
-  return best;
-}
-
 Period::Wrapped Period::wrap(const double* x) const {
-  Wrapped result{{}, {}, false};
-  const auto d = static_cast<std::size_t>(dimension_);
-  const Row far = fraction(x);
-  Shift shift{};  // in the reduced basis
-  for (int k = 0; k < count_; ++k) {
-    if (!(std::fabs(far[at(k)]) < most_vectors)) {
-      result.is_far = true;
-      return result;
-    }
-    shift[at(k)] = static_cast<std::int32_t>(std::floor(far[at(k)]));
-  }
-  for (std::size_t c = 0; c < d; ++c) {
-    long double rest = x[c];
-    for (int k = 0; k < count_; ++k) rest -= static_cast<long double>(shift[at(k)]) * vector(k)[c];
-    result.position[c] = quantum_[c] > 0 ? rounded(rest, quantum_[c]) : x[c];
-  }
-  const Shift by = is_box_ ? settle_in_box(result.position) : settle_in_lattice(result.position);
-  for (std::size_t k = 0; k < 3; ++k) shift[k] -= by[k];
-  const std::array<std::int64_t, 3> given = as_given(shift);
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.is_far = result.is_far || std::llabs(given[k]) > most_given;
-    result.shift[k] = static_cast<std::int32_t>(given[k]);
-  }
+  const PeriodGrid::Place place = grid_.wrap(x);
+  Wrapped result{{}, {}, place.is_far};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension_); ++c)
+    result.position[c] = quantum_[c] > 0 ? static_cast<double>(place.at[c]) * quantum_[c] : x[c];
+  for (std::size_t k = 0; k < 3; ++k) result.shift[k] = static_cast<std::int32_t>(place.shift[k]);
   return result;
 }
 

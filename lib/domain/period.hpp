@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "lib/domain/period_grid.hpp"
+
 namespace powercell {
 
 /// A combination of translations with integer factors.
@@ -54,11 +56,13 @@ class Period {
     bool is_far;   ///< the point is more than 2^28 vectors away; the rest is then not good
   };
   Wrapped wrap(const double* x) const;
+  /// The same in integers, for devices.
+  const PeriodGrid& grid() const { return grid_; }
+  const Row& quantum() const { return quantum_; }  ///< 0 for coordinates that are not rounded
 
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
-  Shift settle_in_box(Row& position) const;
-  Shift settle_in_lattice(Row& position) const;
+  void set_grid();
   void set_quanta();
   void set_room();
   void set_dual();
@@ -71,6 +75,7 @@ class Period {
   std::array<std::array<std::int64_t, 3>, 3> of_given_{};  ///< per vector of the reduced basis
   Row origin_{}, quantum_{}, spacing_{}, reach_{}, room_low_{}, room_high_{};
   double measure_ = 0;
+  PeriodGrid grid_;
 };
 
 /// \throw Error invalid_seed: Wrapped::is_far of seed `index`
