@@ -33,7 +33,7 @@ typedef enum pc_device_seed_status {
  * says which cells are left to the host. */
 typedef struct pc_device_diagram pc_device_diagram;
 
-/** Uploads the domain and builds the kernels; this waits. Periodic domains are PC_UNSUPPORTED.
+/** Uploads the domain and builds the kernels; this waits.
  * \param device   of pc_device_from_queue()
  * \param options  NULL for the defaults. `precision` is that of the caller's arrays; `threads` and `progress`
  *   are those of pc_device_diagram_repair(); `decisions` and `certify` are ignored */
@@ -50,13 +50,20 @@ POWERCELL_API pc_status pc_device_diagram_device(const pc_device_diagram* diagra
 
 /** For domains of several convex regions: the room for candidate pairs of a seed and a region. Seeds whose
  * pairs exceed it are unfinished. With 0, the default, there is room for all, and pc_device_diagram_enqueue()
- * waits for the queue once to read their number. It waits in no other case. */
+ * waits for the queue once to read their number. It waits only for that, and as
+ * pc_device_diagram_set_image_capacity() says. */
 POWERCELL_API pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32_t pairs);
 
 /** The room for walls while rows are made of them; at most 2^31. Cells whose walls do not fit are unfinished;
  * which these are may change from call to call. With 0, the default, there is room for more walls than random
  * seeds have (powercell::DeviceDiagram). */
 POWERCELL_API pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* diagram, uint32_t walls);
+
+/** For periodic domains: the room for images of seeds behind the borders. If there are more, all cells are
+ * unfinished but those that are hidden without them; how many there are for random seeds is said at
+ * powercell::DeviceDiagram. With 0, the default, there is room for all, and pc_device_diagram_enqueue() waits
+ * for the queue once to read their number. */
+POWERCELL_API pc_status pc_device_diagram_set_image_capacity(pc_device_diagram* diagram, uint32_t images);
 
 /** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context
  * of the device and must not change between the wait list and `done`.

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 # Stages of the core, each above those before it.
 core="base report cl primitives domain regions seeds periodic scene neighbors clip pairs solid integrate collect update verify diagram"
-kernels="base cell seeds neighbors clip pairs integrate diagram"
+kernels="base cell seeds periodic neighbors clip pairs integrate diagram"
 applications="linear density transport sampling remeshing treemap c_api"
 
 bad=0

@@ -24,7 +24,9 @@ enum class DeviceSeedStatus : std::uint32_t {
   ok = 0,         ///< the cell has a positive measure
   hidden = 1,     ///< the cell restricted to the domain is empty
   duplicate = 2,  ///< another seed at the same position has a larger weight, or the same and a lower index
-  invalid = 3,    ///< NaN, infinity, or so large that its square is not finite; it does not affect the others
+  /// NaN, infinity, or so large that its square is not finite; in a periodic domain also more than 2^28
+  /// periods outside. It does not affect the others.
+  invalid = 3,
   unfinished = 4,  ///< only the host can compute its cell (see DeviceDiagram); the others are right
 };
 
@@ -67,7 +69,7 @@ struct DeviceResults {
 
 /// Power diagrams from device memory to device memory: seeds, measures and walls are cl_mem, and nothing is
 /// copied to the host in between. Calls enqueue on the queue of the device (device_from_queue) and return
-/// without waiting for it, with one exception (set_pair_capacity).
+/// without waiting for it, with two exceptions (set_pair_capacity, set_image_capacity).
 ///
 /// Scratch memory is kept from call to call and reused in the order of the queue. Not thread-safe; use one
 /// object per thread. Results do not depend on the sizes of work-groups and launches, bit for bit.
@@ -78,14 +80,19 @@ struct DeviceResults {
 /// of Decisions::fast: a cell whose existence depends on rounding may be reported as present or as hidden,
 /// and measures differ by rounding. DeviceUncertain lists all these cells, and repair() computes them
 /// exactly.
+///
+/// In periodic domains seeds are wrapped to the positions that Diagram computes with (Domain::wrapped), and
+/// those at the same position are duplicates. Centroids are near the seeds as given. A cell that reaches
+/// farther than those of random seeds do may need images that were not made: it is `unfinished`, and on the
+/// list.
 class POWERCELL_API DeviceDiagram {
  public:
   /// Uploads the domain and builds the kernels; this waits.
   /// \param options  `precision` is that of the caller's arrays and of the computation; `chunk_pairs` is
   ///   the most pairs of one kernel launch; `threads` and `progress` are those of repair(); `decisions` and
   ///   `certify` are ignored
-  /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a periodic domain; a
-  ///   domain whose size is not in the range of the precision); build_failed, opencl
+  /// \throw Error no_fp64; unsupported (Neighbors::flann, which works on the host; a domain whose size is not
+  ///   in the range of the precision); build_failed, opencl
   DeviceDiagram(Device device, Domain domain, Options options = {});
   DeviceDiagram(DeviceDiagram&&) noexcept;
   DeviceDiagram& operator=(DeviceDiagram&&) noexcept;
@@ -98,9 +105,17 @@ class POWERCELL_API DeviceDiagram {
   /// For domains of several convex regions (Domain::region_count): the room for candidate pairs of a seed and
   /// a region, 20 bytes and 2 + d reals each. Seeds whose pairs exceed it are `unfinished`. A few pairs for
   /// each seed and each region suffice in most cases. With 0, the default, enqueue() makes room for all
-  /// pairs: it reads their number, 8 bytes, and for that waits for the queue and the wait list. It waits in
-  /// no other case.
+  /// pairs: it reads their number, 8 bytes, and for that waits for the queue and the wait list.
   void set_pair_capacity(std::uint32_t pairs);
+
+  /// For periodic domains: the room for images of seeds behind the borders, about 170 bytes each. If there
+  /// are more, all cells are `unfinished` but those that are hidden without them. Images are made of all
+  /// seeds within a margin around the domain, which is twice the reach of the largest random cells, and up
+  /// to 1.4 times that where weights differ: with s = (measure / n)^(1/d), 2 s cbrt((log n + 6) / 4.19) in
+  /// space and 2 s sqrt((log n + 6) / 3.14) in the plane. Of even seeds in a cube 10^5 have some 0.5 each and
+  /// 10^6 some 0.2. With 0, the default, enqueue() makes room for all: it reads their number, 8 bytes, and
+  /// for that waits for the queue and the wait list. It waits in no other case.
+  void set_image_capacity(std::uint32_t images);
 
   /// The room for walls while rows are made of them, 12 bytes and 2 reals each; at most 2^31. Cells whose
   /// walls do not fit are `unfinished`; which these are may change from call to call. With 0, the default,

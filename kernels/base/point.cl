@@ -18,6 +18,9 @@ typedef struct {
 #define MOST_WEIGHT 1.0e280
 #define LEAST_EXPONENT (-900)
 #define WEIGHT_KEY_BITS 64
+#define FRACTION_BITS 52 /* of a number in memory */
+#define EXPONENT_FIELD 0x7ff
+#define EXPONENT_BIAS 1075
 
 static inline parts_t parts_of(seed_t p) {
   const parts_t parts = {{p.x, p.y, p.z, p.w}, {0, 0, 0, 0}};
@@ -34,6 +37,9 @@ static inline ulong bits_of(real x) {
 #define MOST_WEIGHT 1.0e34f
 #define LEAST_EXPONENT (-90)
 #define WEIGHT_KEY_BITS 32
+#define FRACTION_BITS 23
+#define EXPONENT_FIELD 0xff
+#define EXPONENT_BIAS 150
 
 static inline parts_t parts_of(seed_t p) {
   const parts_t parts = {{p.high.x, p.high.y, p.high.z, p.high.w}, {p.low.x, p.low.y, p.low.z, p.low.w}};
@@ -54,6 +60,22 @@ static inline ulong bits_of(real x) {
 static inline ulong ordered_bits(real x) {
   const ulong sign = (ulong)1 << (WEIGHT_KEY_BITS - 1), bits = bits_of(x == 0 ? (real)0 : x);
   return (bits & sign) != 0 ? 2 * sign - 1 - bits : bits | sign;
+}
+
+/* |x| = mantissa * 2^exponent. */
+typedef struct {
+  ulong mantissa;
+  int exponent;
+  bool negative, finite;
+} digits_t;
+
+static inline digits_t digits_of(real x) {
+  const ulong bits = bits_of(x), fraction = bits & (((ulong)1 << FRACTION_BITS) - 1);
+  const int field = (int)(bits >> FRACTION_BITS) & EXPONENT_FIELD;
+  const digits_t digits = {field > 0 ? fraction | (ulong)1 << FRACTION_BITS : fraction,
+                           max(field, 1) - EXPONENT_BIAS, ((bits >> (WEIGHT_KEY_BITS - 1)) & 1) != 0,
+                           field != EXPONENT_FIELD};
+  return digits;
 }
 
 /* a - b as high + low, without error unless it underflows. */

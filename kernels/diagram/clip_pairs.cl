@@ -27,25 +27,34 @@ static inline bool store_walls(cell_t* cell, wall_store_t store, uint pair) {
 }
 
 /* Work-item t takes entry first + t of the pairs, or of `list` where `listed`, if it is below `end` and
-   below their number: offset[seed_count] pairs, found[0] listed ones. Writes status and moments by
-   pair, and walls where `wall_capacity` is not 0. */
-__kernel void clip_pairs(const uint first, const uint end, __global const ulong* offset, const int listed,
-                         __global const uint* list, __global const uint* found,
-                         __global const uint* pair_seed, __global const uint* pair_region,
-                         __global const uint* state, __global const seed_t* corners,
-                         __global const uint* region_offset, __global const uint* region_vertex,
-                         __global const int* behind, __global const region_shape_t* shape,
-                         __global uint* status, __global stored_real* moments, const uint wall_capacity,
+   below their number: offset[count] pairs of the first `count` seeds, found[0] listed ones. Writes status and
+   moments by pair, walls where `wall_capacity` is not 0, and the reach of cells where `with_reach`. */
+__kernel void clip_pairs(const uint first, const uint end, const uint count, const int with_reach,
+                         __global const ulong* offset, const int listed, __global const uint* list,
+                         __global const uint* found, __global const uint* pair_seed,
+                         __global const uint* pair_region, __global const uint* state,
+                         __global const seed_t* corners, __global const uint* region_offset,
+                         __global const uint* region_vertex, __global const int* behind,
+                         __global const region_shape_t* shape, __global uint* status,
+                         __global stored_real* moments, __global stored_real* reach, const uint wall_capacity,
                          volatile __global uint* used, __global uint* piece_first, __global uint* piece_size,
                          __global int* border, __global stored_real* wall, TREE_ARGUMENTS) {
   const uint entry = first + (uint)get_global_id(0);
-  if (entry >= end || entry >= (listed ? (ulong)found[0] : offset[seed_count])) return;
+  if (entry >= end || entry >= (listed ? (ulong)found[0] : offset[count])) return;
   const uint pair = listed ? list[entry] : entry, i = pair_seed[pair];
   const tree_t tree = TREE_OF_ARGUMENTS;
   const blocks_t blocks = BLOCKS_OF_ARGUMENTS;
   const wall_store_t store = {wall_capacity, used, piece_first, piece_size, border, wall};
   const output_t out = {
-      OUTPUT_MOMENTS | (wall_capacity > 0 ? OUTPUT_SIDES : 0), moments, 0, 0, 0, 0, 0, 0, 0};
+      OUTPUT_MOMENTS | (wall_capacity > 0 ? OUTPUT_SIDES : 0) | (with_reach ? OUTPUT_REACH : 0),
+      moments,
+      0,
+      0,
+      0,
+      0,
+      0,
+      0,
+      reach};
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   cell_t cell;
   int result = PIECE_EMPTY;
@@ -53,7 +62,7 @@ __kernel void clip_pairs(const uint first, const uint end, __global const ulong*
     result = clip_by_tree(&cell, regions, tree, blocks, i, pair_region[pair]);
   else
     cell.at.gap = 1; /* not even started, and certainly empty */
-  result = write_piece(&cell, out, result, pair, 0);
+  result = write_piece(&cell, out, result, pair, pair);
   if (wall_capacity > 0) {
     const int piece = result & ~PIECE_UNCERTAIN;
     if (piece != PIECE_DONE && piece != PIECE_FLAT)

@@ -96,11 +96,15 @@ static inline uint seed_before(uint t, const parts_t* p, __global const uint* or
   return NO_SEED;
 }
 
-/* Whether seed i is a duplicate of seed `kept` in the caller's numbers too, which have a larger range. */
+/* Whether seed i is a duplicate of seed `kept` in the numbers that the host has too, which have a larger
+   range or more digits: in those of `place` if `wrapped` (wrap.cl), else in the caller's. */
 static inline bool is_duplicate(uint i, uint kept, __global const stored_real* positions,
-                                __global const stored_real* weights, int weighted) {
-  for (size_t k = 0; k < DIMENSION; ++k)
-    if (positions[(size_t)i * DIMENSION + k] != positions[(size_t)kept * DIMENSION + k]) return false;
+                                __global const stored_real* weights, int weighted, int wrapped,
+                                __global const long* place) {
+  for (size_t k = 0; k < DIMENSION; ++k) {
+    const size_t a = (size_t)i * DIMENSION + k, b = (size_t)kept * DIMENSION + k;
+    if (wrapped ? place[a] != place[b] : positions[a] != positions[b]) return false;
+  }
   if (!weighted || weights[i] == weights[kept]) return kept < i;
   return weights[i] < weights[kept];
 }
@@ -108,8 +112,8 @@ static inline bool is_duplicate(uint i, uint kept, __global const stored_real* p
 /* Writes the seeds by rank, and their state: SEED_OK, _DUPLICATE, _MERGED or _INVALID. */
 __kernel void place_seeds(const uint count, __global const uint* order, __global const seed_t* points,
                           __global const uint* status, __global const stored_real* positions,
-                          __global const stored_real* weights, const int weighted, __global seed_t* placed,
-                          __global uint* state) {
+                          __global const stored_real* weights, const int weighted, const int wrapped,
+                          __global const long* place, __global seed_t* placed, __global uint* state) {
   const uint t = (uint)get_global_id(0);
   if (t >= count) return;
   const uint i = order[t];
@@ -118,7 +122,8 @@ __kernel void place_seeds(const uint count, __global const uint* order, __global
   if (result == SEED_OK) {
     const uint kept = seed_before(t, &p, order, points);
     if (kept != NO_SEED)
-      result = is_duplicate(i, kept, positions, weights, weighted) ? SEED_DUPLICATE : SEED_MERGED;
+      result =
+          is_duplicate(i, kept, positions, weights, weighted, wrapped, place) ? SEED_DUPLICATE : SEED_MERGED;
   }
   if (result != SEED_OK) {
     p.high[3] = DEAD_WEIGHT;

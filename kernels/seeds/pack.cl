@@ -1,14 +1,5 @@
 /* Transforms the caller's seeds to the device's frame, and finds the box around them. */
-#include "base/point.cl"
-
-/* Coordinate x of axis k in the frame, as high + low. */
-static inline void to_frame(__global const stored_real* frame, real x, int k, real* high, real* low) {
-  *high = exact_difference(x, frame[FRAME_CENTRE + k], low);
-  *low -= frame[FRAME_CENTRE_LOW + k];
-  normalize_parts(high, low);
-  *high *= frame[FRAME_SCALE];
-  *low *= frame[FRAME_SCALE];
-}
+#include "seeds/frame.cl"
 
 /* positions: count x DIMENSION, weights: count (not read unless `weighted`). Writes points and their
    status: SEED_OK or SEED_INVALID, with a finite stand-in for the point. */
@@ -23,16 +14,7 @@ __kernel void pack_seeds(const uint count, __global const stored_real* frame,
     to_frame(frame, positions[(size_t)i * DIMENSION + (size_t)k], k, &p.high[k], &p.low[k]);
     valid = valid && fabs(p.high[k]) <= MOST_COORDINATE;
   }
-  if (weighted) {
-    p.high[3] = weights[i] * frame[FRAME_SCALE] * frame[FRAME_SCALE];
-    valid = valid && fabs(p.high[3]) <= MOST_WEIGHT;
-  }
-  if (!valid) {
-    for (int k = 0; k < 4; ++k) p.high[k] = p.low[k] = 0;
-    p.high[3] = DEAD_WEIGHT;
-  }
-  points[i] = seed_of(p);
-  status[i] = valid ? SEED_OK : SEED_INVALID;
+  write_seed(i, p, valid, frame, weights, weighted, points, status);
 }
 
 /* Box of the valid seeds of tile t: rows of DIMENSION lows and DIMENSION highs. */

@@ -90,9 +90,11 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       domain(std::move(domain_in)),
       options(std::move(options_in)),
       precision(choose_precision(device, options.precision)),
-      domain_buffers(device.context(), domain.mesh(), precision == Precision::float32),
+      room(domain.is_periodic() ? clip_mesh_of(domain) : nullptr),
+      domain_buffers(device.context(), room ? *room : domain.mesh(), precision == Precision::float32),
       frame_(device.context()),
-      seeds_(device.context(), plain_defines(device, domain, precision), precision == Precision::float32),
+      seeds_(device.context(), plain_defines(device, domain, precision), precision == Precision::float32,
+             domain.mesh().period.get(), domain_buffers.frame()),
       tree_(device.context(), plain_defines(device, domain, precision)),
       blocks_(device.context(), variant(device, domain, precision, {1, 1}),
               std::make_shared<BlockBuffers>(device.context())),
@@ -106,12 +108,16 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       list_(device.context()),
       found_(device.context()),
       for_host_(device.context()),
-      moments_(device.context()) {
+      moments_(device.context()),
+      reach_(device.context()) {
   if (domain.is_solid())
     throw Error(
         ErrorCode::unsupported,
         "a diagram in device memory needs regions, which a solid does not have; give a tetrahedral mesh "
         "of the solid (Domain::volume)");
+  if (domain.is_periodic())
+    images_.emplace(device.context(), plain_defines(device, domain, precision), *domain.mesh().period,
+                    domain_buffers.frame());
   upload_frame();
   for (std::size_t capacity = 0; capacity < capacities(domain.cell_dimension()).size(); ++capacity)
     add_capacity(capacity);
@@ -135,12 +141,12 @@ void DeviceDiagram::State::upload_frame() {
   frame.split ? write_frame<float>(frame, frame_) : write_frame<double>(frame, frame_);
 }
 
-TreeBlocks::Tree DeviceDiagram::State::device_tree(std::uint32_t n) const {
-  return {seeds_.points.handle(),
+TreeBlocks::Tree DeviceDiagram::State::device_tree() const {
+  return {points_,
           tree_.node_low.handle(),
           tree_.node_high.handle(),
           tree_.level_offset.handle(),
-          n,
+          points_count_,
           tree_.node_count(),
           tree_.levels()};
 }
@@ -151,12 +157,12 @@ void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uin
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
-    clip_[capacity].args(first, end, pairs_.offset, cl_int{listed}, list_, found_, pairs_.seed, pairs_.region,
-                         seeds_.state, domain_buffers.corners, domain_buffers.region_offset,
-                         domain_buffers.region_vertex, domain_buffers.behind, domain_buffers.shape,
-                         piece_status_, moments_);
+    clip_[capacity].args(first, end, n, cl_int{images_.has_value()}, pairs_.offset, cl_int{listed}, list_,
+                         found_, pairs_.seed, pairs_.region, seeds_.state, domain_buffers.corners,
+                         domain_buffers.region_offset, domain_buffers.region_vertex, domain_buffers.behind,
+                         domain_buffers.shape, piece_status_, moments_, reach_);
     walls_.append_store(clip_[capacity]);
-    blocks_.append_arguments(clip_[capacity], device_tree(n));
+    blocks_.append_arguments(clip_[capacity], device_tree());
     clip_[capacity].submit(end - first);
   }
 }
@@ -164,7 +170,7 @@ void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uin
 std::uint32_t DeviceDiagram::State::stored_walls() const {
   if (wall_capacity > 0) return wall_capacity;
   // More than pieces have on average; a cell in several pieces has a row besides.
-  const bool volume = domain.cell_dimension() == 3, whole = domain.region_count() == 1;
+  const bool volume = domain.cell_dimension() == 3, whole = domain_buffers.mesh().region_count() == 1;
   const std::uint64_t each = volume ? (whole ? 20 : 16) : (whole ? 8 : 6);
   return static_cast<std::uint32_t>(
       std::clamp<std::uint64_t>(each * pairs_.capacity, 4096, DeviceWalls::most_entries));
@@ -176,6 +182,7 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
   list_.resize(pairs_.capacity);
   found_.resize(1);
   moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real_bytes());
+  reach_.reserve(images_ ? n * real_bytes() : 0);
   piece_status_.zero();
   clip_with(first_capacity, false, n);
   for (std::size_t capacity = first_capacity + 1; capacity < clip_.size(); ++capacity) {
@@ -183,14 +190,22 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
                         found_.handle());
     clip_with(capacity, true, n);
   }
+  if (images_) images_->prove(seeds_, n, reach_.handle(), piece_status_.handle());
+}
+
+void DeviceDiagram::State::order_seeds(cl_mem positions, cl_mem weights, std::uint32_t n) {
+  seeds_.enqueue(frame_.handle(), positions, weights, n);
+  if (images_) images_->enqueue(seeds_, n, image_capacity);
+  points_ = images_ ? images_->points.handle() : seeds_.points.handle();
+  points_count_ = images_ ? images_->total : n;
 }
 
 void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n,
                                    const DeviceResults& results, Rooms rooms, cl_event* done) {
   const bool rows = wants_rows(results), list = wants_list(results);
-  seeds_.enqueue(frame_.handle(), positions, weights, n);
-  tree_.enqueue(seeds_.points.handle(), seeds_.points.handle(), n);
-  blocks_.enqueue(device_tree(n));
+  order_seeds(positions, weights, n);
+  tree_.enqueue(points_, points_, points_count_);
+  blocks_.enqueue(device_tree(), n);
   pairs_.enqueue(seeds_, tree_, n, pair_capacity);
   rows ? walls_.begin(stored_walls(), pairs_.capacity, n) : walls_.begin_without();
   clip(n);

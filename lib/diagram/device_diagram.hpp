@@ -9,6 +9,7 @@
 #include "lib/diagram/device_walls.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
 #include "lib/pairs/device_pairs.hpp"
+#include "lib/periodic/device_images.hpp"
 #include "lib/primitives/compaction.hpp"
 
 namespace powercell {
@@ -25,9 +26,11 @@ struct DeviceDiagram::State {
   Domain domain;
   Options options;
   Precision precision;
+  std::shared_ptr<const RegionMesh> room;  // of a periodic domain: the region of all cells; else null
   DomainBuffers domain_buffers;
   std::uint32_t pair_capacity = 0;     // 0: as many as needed
   std::uint32_t wall_capacity = 0;     // of the store; 0: by the number of pairs
+  std::uint32_t image_capacity = 0;    // 0: as many as needed
   std::size_t first_capacity = 0;      // number of the smallest capacity to use
   std::optional<DeviceRepair> repair;  // made on first use
 
@@ -35,7 +38,9 @@ struct DeviceDiagram::State {
   void upload_frame();
   /// Builds the program of a capacity, tested with the golden diagram before its first use.
   void add_capacity(std::size_t capacity);
-  TreeBlocks::Tree device_tree(std::uint32_t n) const;
+  /// Orders the seeds, and in a periodic domain their images behind them.
+  void order_seeds(cl_mem positions, cl_mem weights, std::uint32_t n);
+  TreeBlocks::Tree device_tree() const;
   std::uint32_t stored_walls() const;
   void clip(std::uint32_t n);
   /// Launches one capacity over all pairs, or over those in list_.
@@ -43,6 +48,9 @@ struct DeviceDiagram::State {
 
   cl::RawBuffer frame_;
   DeviceSeeds seeds_;
+  std::optional<DeviceImages> images_;  // in a periodic domain
+  cl_mem points_ = nullptr;             // by rank, with images
+  std::uint32_t points_count_ = 0;
   DeviceTree tree_;
   TreeBlocks blocks_;
   DevicePairs pairs_;
@@ -51,7 +59,7 @@ struct DeviceDiagram::State {
   cl::Kernel finish_;
   std::vector<cl::Kernel> clip_;  // by number of the capacity
   cl::Buffer<std::uint32_t> piece_status_, list_, found_, for_host_;
-  cl::RawBuffer moments_;
+  cl::RawBuffer moments_, reach_;
 };
 
 }  // namespace powercell

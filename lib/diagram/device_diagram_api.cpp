@@ -51,6 +51,9 @@ struct Job {
 std::uint32_t room_for_rows(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
   const cl::Context& context = *s.device.context();
   const std::size_t real = s.real_bytes();
+  if (s.domain.is_periodic())
+    throw Error(ErrorCode::unsupported,
+                "a diagram in device memory has no adjacency in periodic domains; use Diagram");
   require_buffer(context, rows.offset, (std::size_t{n} + 1) * sizeof(cl_uint), "offsets");
   if (n == 0) return 0;
   require_buffer(context, rows.neighbor, sizeof(cl_uint), "neighbors");
@@ -122,11 +125,6 @@ void run(DeviceDiagram::State& s, const Job& job, cl_uint wait_count, const cl_e
 }  // namespace
 
 DeviceDiagram::DeviceDiagram(Device device, Domain domain, Options options) {
-  if (domain.is_periodic())
-    throw Error(
-        ErrorCode::unsupported,
-        "a diagram in device memory has no periodic domain, because the images of seeds are found on the "
-        "host; use Diagram");
   if (options.neighbors == Neighbors::flann)
     throw Error(ErrorCode::unsupported,
                 "FLANN makes neighbour lists on the host, so a diagram in device memory cannot use them; use "
@@ -149,6 +147,10 @@ Precision DeviceDiagram::precision() const {
 
 void DeviceDiagram::set_pair_capacity(std::uint32_t pairs) {
   state_->pair_capacity = pairs;
+}
+
+void DeviceDiagram::set_image_capacity(std::uint32_t images) {
+  state_->image_capacity = images;
 }
 
 void DeviceDiagram::set_wall_capacity(std::uint32_t walls) {

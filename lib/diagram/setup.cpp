@@ -65,6 +65,12 @@ bool goes_by_boundary(const Setup& setup) {
 
 }  // namespace
 
+std::shared_ptr<const RegionMesh> clip_mesh_of(const Domain& domain) {
+  const RegionMesh& mesh = domain.mesh();
+  return mesh.kept.get<RegionMesh>(
+      [&] { return std::make_shared<RegionMesh>(make_clip_mesh(mesh, powercell::has_inside(mesh))); });
+}
+
 Setup::Setup(Device device_in, Domain domain_in, Options options_in)
     : device(std::move(device_in)),
       domain(std::move(domain_in)),
@@ -74,8 +80,7 @@ Setup::Setup(Device device_in, Domain domain_in, Options options_in)
       neighbors(choose_neighbors(options.neighbors)),
       threads(thread_count(options.threads)),
       has_inside(powercell::has_inside(domain.mesh())),
-      kept_clip_mesh(domain.mesh().kept.get<RegionMesh>(
-          [&] { return std::make_shared<RegionMesh>(make_clip_mesh(domain.mesh(), has_inside)); })),
+      kept_clip_mesh(clip_mesh_of(domain)),
       clip_mesh(*kept_clip_mesh),
       on_device(device.context(), has_inside || period() ? clip_mesh : domain.mesh(),
                 precision == Precision::float32),

@@ -17,6 +17,10 @@ namespace powercell {
 /// Resolves Precision::automatic for a device. \throw Error no_fp64
 Precision choose_precision(const Device& device, Precision asked);
 
+/// The mesh that cells are clipped by where it is not the domain's, kept with the domain: with a container
+/// for cells inside it; of a periodic domain, the room around all cells of wrapped seeds. Else it is empty.
+std::shared_ptr<const RegionMesh> clip_mesh_of(const Domain& domain);
+
 struct Setup {
   Device device;
   Domain domain;
@@ -26,9 +30,7 @@ struct Setup {
   Neighbors neighbors;  ///< not automatic
   int threads;
   bool has_inside;  ///< whether a cell inside the domain can meet several of its regions
-  /// Kept with the domain. If has_inside, the regions, then the container; of a periodic domain, the room
-  /// around all cells of wrapped seeds.
-  std::shared_ptr<const RegionMesh> kept_clip_mesh;
+  std::shared_ptr<const RegionMesh> kept_clip_mesh;  ///< clip_mesh_of() the domain
   const RegionMesh& clip_mesh;
   DomainBuffers on_device;  ///< of `clip_mesh`, or of the domain
   PairFinder pairs;

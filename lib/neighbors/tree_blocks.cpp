@@ -12,8 +12,9 @@ namespace {
 
 constexpr const char* file = "neighbors/build_blocks.cl";
 
-std::uint32_t leaf_count(const TreeBlocks::Tree& tree) {
-  return (tree.seed_count - 1) / PackedTree::fan + 1;
+/// \pre seeds > 0
+std::uint32_t leaf_count(std::uint32_t seeds) {
+  return (seeds - 1) / PackedTree::fan + 1;
 }
 
 }  // namespace
@@ -28,7 +29,7 @@ TreeBlocks::TreeBlocks(const std::shared_ptr<cl::Context>& context, const Varian
       buffers_(std::move(buffers)) {}
 
 void TreeBlocks::pack(const Tree& tree) {
-  const std::uint32_t leaves = leaf_count(tree), above = tree.node_count - leaves;
+  const std::uint32_t leaves = leaf_count(tree.seed_count), above = tree.node_count - leaves;
   buffers_->seed_block.reserve(std::size_t{leaves} * (dimension_ + 1) * row_bytes_);
   buffers_->node_block.reserve(std::size_t{above} * (2 * dimension_ + 1) * row_bytes_);
   pack_
@@ -37,8 +38,8 @@ void TreeBlocks::pack(const Tree& tree) {
       .submit(leaves);
 }
 
-void TreeBlocks::list(const Tree& tree) {
-  const std::uint32_t leaves = leaf_count(tree);
+void TreeBlocks::list(const Tree& tree, std::uint32_t cells) {
+  const std::uint32_t leaves = leaf_count(cells);
   buffers_->near_bound.reserve(std::size_t{leaves} * bound_bytes_);
   buffers_->near_leaves.resize(std::size_t{leaves} * NEAR_MOST);
   buffers_->near_count.resize(leaves);

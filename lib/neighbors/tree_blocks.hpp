@@ -27,13 +27,15 @@ class TreeBlocks {
     std::uint32_t seed_count, node_count;
     int levels;
   };
-  /// Enqueues both steps, without waiting.
-  void enqueue(const Tree& tree) {
+  /// Enqueues both steps, without waiting. \param cells  only these first seeds have cells; by default all
+  void enqueue(const Tree& tree) { enqueue(tree, tree.seed_count); }
+  void enqueue(const Tree& tree, std::uint32_t cells) {
     pack(tree);
-    list(tree);
+    list(tree, cells);
   }
   void pack(const Tree& tree);  ///< the blocks
-  void list(const Tree& tree);  ///< the near leaves, from the blocks
+  void list(const Tree& tree) { list(tree, tree.seed_count); }
+  void list(const Tree& tree, std::uint32_t cells);  ///< the near leaves, from the blocks
   /// Allocates the buffers, for kernels that take the arguments but do not search.
   void allocate();
 

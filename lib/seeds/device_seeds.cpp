@@ -15,7 +15,7 @@ constexpr std::uint32_t most_box_tiles = 1024, smallest_box_tile = 64;
 }  // namespace
 
 DeviceSeeds::DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
-                         bool float32)
+                         bool float32, const Period* period, const Frame& host_frame)
     : points(context),
       order(context),
       state(context),
@@ -31,7 +31,9 @@ DeviceSeeds::DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std:
       boxes_(context),
       grid_box_(context),
       keys_(context),
-      status_(context) {}
+      status_(context) {
+  if (period) wrap.emplace(context, defines, *period, host_frame);
+}
 
 void DeviceSeeds::find_box(std::uint32_t count) {
   const std::uint32_t wanted = std::clamp(count / smallest_box_tile, 1u, most_box_tiles);
@@ -48,6 +50,17 @@ void DeviceSeeds::sort_by(int kind, std::uint32_t count, unsigned bits) {
   sort_.enqueue(keys_.handle(), order.handle(), count, bits);
 }
 
+void DeviceSeeds::pack(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count) {
+  if (wrap) {
+    wrap->enqueue(frame, positions, weights, count, packed_.handle(), status_.handle());
+    return;
+  }
+  pack_
+      .args(count, frame, positions, weights ? weights : positions, cl_int{weights != nullptr}, packed_,
+            status_)
+      .submit(count);
+}
+
 void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count) {
   packed_.reserve(count * Frame::point_bytes);
   points.reserve(count * Frame::point_bytes);
@@ -55,10 +68,7 @@ void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::u
   status_.resize(count);
   state.resize(count);
   order.resize(count);
-  pack_
-      .args(count, frame, positions, weights ? weights : positions, cl_int{weights != nullptr}, packed_,
-            status_)
-      .submit(count);
+  pack(frame, positions, weights, count);
   find_box(count);
   number_.args(count, order).submit(count);
   // From the least significant key to the most; each sort is stable.
@@ -68,7 +78,8 @@ void DeviceSeeds::enqueue(cl_mem frame, cl_mem positions, cl_mem weights, std::u
   sort_by(KEY_COARSE, count, 64);
   place_
       .args(count, order, packed_, status_, positions, weights ? weights : positions,
-            cl_int{weights != nullptr}, points, state)
+            cl_int{weights != nullptr}, cl_int{wrap.has_value()}, wrap ? wrap->place.handle() : positions,
+            points, state)
       .submit(count);
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lib/primitives/radix_sort.hpp"
+#include "lib/seeds/device_wrap.hpp"
 
 namespace powercell {
 
@@ -14,8 +16,10 @@ namespace powercell {
 class DeviceSeeds {
  public:
   /// Builds the kernels. \param defines  Variant::defines() for the precision and dimension
+  /// \param period  of a periodic domain, into which seeds are wrapped; else null  \param host_frame  as
+  /// `frame`
   DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
-              bool float32);
+              bool float32, const Period* period, const Frame& host_frame);
 
   /// \param frame      FRAME_SIZE reals (kernels/layout.h)
   /// \param positions  count x d reals  \param count  at least 1
@@ -25,8 +29,10 @@ class DeviceSeeds {
   cl::RawBuffer points;             ///< seed_t by rank
   cl::Buffer<std::uint32_t> order;  ///< by rank: index of the seed as given
   cl::Buffer<std::uint32_t> state;  ///< by rank: SEED_OK, _DUPLICATE, _MERGED or _INVALID
+  std::optional<DeviceWrap> wrap;   ///< in a periodic domain
 
  private:
+  void pack(cl_mem frame, cl_mem positions, cl_mem weights, std::uint32_t count);
   void find_box(std::uint32_t count);
   void sort_by(int kind, std::uint32_t count, unsigned bits);
 

@@ -27,13 +27,17 @@ class DeviceDiagram:
     Parameters
     ----------
     domain : Domain
-        Not periodic, and no solid.
+        No solid.
     queue : pyopencl.CommandQueue or Device
         An in-order queue, or the device that :meth:`Device.from_queue` made of one.
     pair_capacity : int
         For domains of several regions, the room for pairs of a seed and a region; seeds beyond it are
         unfinished. With 0 there is room for all, and :meth:`compute` waits for the queue once to read their
-        number. It waits in no other case.
+        number.
+    image_capacity : int
+        For periodic domains, the room for images of seeds behind the borders; if there are more, cells are
+        unfinished. Even seeds have 0.5 each if they are 10^5 in a cube, 0.2 if 10^6. With 0 there is room for
+        all, and :meth:`compute` waits for the queue once to read their number. It waits in no other case.
     wall_capacity : int
         The room for walls while the rows of an adjacency are made of them. Cells whose walls do not fit are
         unfinished; which these are may change from call to call. With 0 there is room for more walls than random
@@ -44,7 +48,7 @@ class DeviceDiagram:
     Raises
     ------
     Error
-        ``unsupported`` for a periodic domain or a solid, ``invalid_argument`` for an out-of-order queue.
+        ``unsupported`` for a solid, ``invalid_argument`` for an out-of-order queue.
     ValueError
         ``queue`` is something else.
     """
@@ -55,6 +59,7 @@ class DeviceDiagram:
         queue: Union[Device, Any],
         *,
         pair_capacity: int = 0,
+        image_capacity: int = 0,
         wall_capacity: int = 0,
         chunk_pairs: int = 0,
     ) -> None:
@@ -65,10 +70,13 @@ class DeviceDiagram:
             raise ValueError("queue is a Device without a queue of pyopencl; make it with Device.from_queue")
         if not 0 <= pair_capacity < 2**32:
             raise ValueError(f"pair_capacity is {pair_capacity}; 0 (room for all) to 2^32 - 1 are expected")
+        if not 0 <= image_capacity < 2**32:
+            raise ValueError(f"image_capacity is {image_capacity}; 0 (room for all) to 2^32 - 1 are expected")
         if not 0 <= wall_capacity <= 2**31:
             raise ValueError(f"wall_capacity is {wall_capacity}; 0 (enough for most) to 2^31 are expected")
         self.domain = domain
         self._pair_capacity = pair_capacity
+        self._image_capacity = image_capacity
         self._wall_capacity = wall_capacity
         self._chunk_pairs = chunk_pairs
         self._cores: dict[str, Any] = {}
@@ -80,6 +88,7 @@ class DeviceDiagram:
             options = diagram_options(precision, chunk_pairs=self._chunk_pairs)
             core = _core.DeviceDiagram(self.device._open(), self.domain._core, options)
             core.set_pair_capacity(self._pair_capacity)
+            core.set_image_capacity(self._image_capacity)
             core.set_wall_capacity(self._wall_capacity)
             self._cores[precision] = core
         return self._cores[precision]

@@ -32,9 +32,13 @@ class PyDeviceDiagram {
     diagram_.set_wall_capacity(walls);
   }
 
+  void set_image_capacity(std::uint32_t images) {
+    const std::scoped_lock lock(mutex_);
+    diagram_.set_image_capacity(images);
+  }
+
   /// \param results  measures, statuses, then the offsets, neighbours and walls of the adjacency, and the
-  /// number
-  ///   and the list of uncertain seeds; 0 for what is not wanted
+  ///   number and the list of uncertain seeds; 0 for what is not wanted
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
                   const std::vector<Pointer>& events) {
@@ -83,6 +87,7 @@ void bind_queues(nb::module_& m) {
       .def(nb::init<const Device&, const Domain&, const nb::dict&>())
       .def("set_pair_capacity", &PyDeviceDiagram::set_pair_capacity)
       .def("set_wall_capacity", &PyDeviceDiagram::set_wall_capacity)
+      .def("set_image_capacity", &PyDeviceDiagram::set_image_capacity)
       .def("enqueue", &PyDeviceDiagram::enqueue, "positions"_a, "weights"_a, "n"_a, "results"_a, "events"_a)
       .def("repair", &PyDeviceDiagram::repair, "positions"_a, "weights"_a, "n"_a, "results"_a);
 }

@@ -145,11 +145,11 @@ TEST_CASE("queues and diagrams that cannot be used are refused") {
   Domain periodic;
   REQUIRE(pc_domain_periodic_box(low, high, nullptr, 2, &periodic.handle) == PC_OK);
   pc_device_diagram* none = nullptr;
-  CHECK(pc_device_diagram_create(device.handle, periodic.handle, nullptr, &none) == PC_UNSUPPORTED);
   CHECK(pc_device_diagram_create(nullptr, periodic.handle, nullptr, &none) == PC_INVALID_ARGUMENT);
   CHECK(pc_device_diagram_create(device.handle, nullptr, nullptr, &none) == PC_INVALID_ARGUMENT);
   CHECK(none == nullptr);
   CHECK(pc_device_diagram_set_pair_capacity(nullptr, 1) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_set_image_capacity(nullptr, 1) == PC_INVALID_ARGUMENT);
   CHECK(pc_device_diagram_precision(nullptr, nullptr) == PC_INVALID_ARGUMENT);
   CHECK(pc_device_diagram_domain(nullptr, nullptr) == PC_INVALID_ARGUMENT);
   CHECK(pc_device_diagram_device(nullptr, nullptr) == PC_INVALID_ARGUMENT);

@@ -45,13 +45,15 @@ bool same(const Output& a, const Output& b) {
 }
 
 /// Enqueues with an event that only this thread completes: a call that waited would not return.
-void check_gate(cl_command_queue_properties properties, const Domain& domain, std::uint32_t pair_capacity) {
+void check_gate(cl_command_queue_properties properties, const Domain& domain, std::uint32_t pair_capacity,
+                std::uint32_t image_capacity = 0) {
   Caller caller(properties);
   Random random(test_seed());
   const int d = domain.dimension();
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 2000, d, random);
   DeviceDiagram diagram(caller.device(), domain);
   diagram.set_pair_capacity(pair_capacity);
+  diagram.set_image_capacity(image_capacity);
   cl_int status = CL_SUCCESS;
   cl_event gate = clCreateUserEvent(caller.context(), &status);
   REQUIRE(status == CL_SUCCESS);
@@ -82,6 +84,8 @@ TEST_CASE("a call returns before its wait list is complete, and its work runs af
        {cl_command_queue_properties{0}, cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE}}) {
     check_gate(properties, unit_box(2), 0);
     check_gate(properties, Domain::polygon(square_with_holes()), 60000);
+    const double low[] = {0, 0}, high[] = {1, 1};
+    check_gate(properties, Domain::periodic_box(low, high), 0, 20000);
   }
 }
 

@@ -30,7 +30,7 @@ struct Fixture {
   explicit Fixture(int dimension)
       : defines(Variant{dimension, dimension, false, {1, 1}}.defines()),
         frame(caller.device().context()),
-        seeds(caller.device().context(), defines, false),
+        seeds(caller.device().context(), defines, false, nullptr, {}),
         tree(caller.device().context(), defines) {
     std::array<double, FRAME_SIZE> numbers{};
     numbers[FRAME_SCALE] = numbers[FRAME_UNIT] = 1;

@@ -124,3 +124,30 @@ TEST_CASE("rates of repair beside enqueue and Diagram" * doctest::skip()) {
     std::fflush(stdout);
   }
 }
+
+TEST_CASE("rates of a periodic box beside the same without periods" * doctest::skip()) {
+  Caller caller;
+  const std::uint32_t n = seed_count();
+  for (const int dimension : {3, 2})
+    for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
+      for (const Precision precision : precisions(caller)) {
+        Random random(test_seed());
+        const SeedArray seeds = random_seeds(Distribution::white, range, n, dimension, random);
+        Options options;
+        options.precision = precision;
+        const std::vector<double> low(static_cast<std::size_t>(dimension), 0.0), high(low.size(), 1.0);
+        DeviceDiagram bounded(caller.device(), Domain::box(low, high), options),
+            periodic(caller.device(), Domain::periodic_box(low, high), options);
+        const Job job(caller, precision, seeds.view());
+        const double alone = least_seconds(caller, [&] { job.enqueue(bounded); });
+        const double waiting = least_seconds(caller, [&] { job.enqueue(periodic); });
+        periodic.set_image_capacity(n);
+        const double with_room = least_seconds(caller, [&] { job.enqueue(periodic); });
+        std::printf(
+            "%dD W%d %s, %u seeds: bounded %.4f s, periodic %.4f s, with room for an image each %.4f s, "
+            "%zu cells unfinished\n",
+            dimension, static_cast<int>(range), precision == Precision::float32 ? "float" : "double", n,
+            alone, waiting, with_room, job.read().count(DeviceSeedStatus::unfinished));
+        std::fflush(stdout);
+      }
+}

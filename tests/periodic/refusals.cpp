@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <limits>
-#include <powercell/opencl.hpp>
 
 #include "tests/periodic/brute_force.hpp"
 #include "tests/support/same_bits.hpp"
@@ -62,7 +61,6 @@ TEST_CASE("periodic diagrams refuse seeds that are too far and diagrams in devic
   diagram.set_seeds({2, good, {}});
   CHECK(diagram.measures().total() == doctest::Approx(1));
   CHECK(diagram.measures().centroid[2] == doctest::Approx(-1e6 - 0.25));
-  CHECK_THROWS_AS(DeviceDiagram(setup.device, domain), Error);
 }
 
 TEST_CASE("no seeds in a periodic box") {

@@ -1,8 +1,10 @@
 #include "tests/support/domains.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "lib/domain/region_mesh.hpp"
 
@@ -98,6 +100,24 @@ std::vector<NamedDomain> volume_domains() {
 
 std::vector<NamedDomain> box_domains() {
   return {{"box2", unit_box(2)}, {"box3", unit_box(3)}};
+}
+
+std::vector<NamedDomain> periodic_domains() {
+  const auto box = [](std::vector<double> low, std::vector<double> high, std::array<bool, 3> axes) {
+    return Domain::periodic_box(low, high, std::span(axes).first(low.size()));
+  };
+  const auto lattice = [](std::vector<double> vectors, std::vector<double> origin) {
+    return Domain::lattice(vectors, origin);
+  };
+  return {{"periodic_xy", box({-1, 2}, {2, 4}, {true, true, false})},
+          {"periodic_x", box({-1, 2}, {2, 4}, {true, false, false})},
+          {"hexagonal", lattice({1, 0, 0.5, 0.8}, {})},
+          {"skew", lattice({1, 0.1, 3.3, 1.2}, {-5, 0.3})},
+          {"periodic_xyz", box({0, 0, -1}, {1, 2, 0.5}, {true, true, true})},
+          {"periodic_xz", box({0, 0, -1}, {1, 2, 0.5}, {true, false, true})},
+          {"periodic_z", box({0, 0, -1}, {1, 2, 0.5}, {false, false, true})},
+          {"triclinic", lattice({1, 0, 0, 0.3, 0.9, 0, -0.2, 0.4, 1.1}, {0.5, 0, -2})},
+          {"face_centred", lattice({0, 1, 1, 1, 0, 1, 1, 2, 1}, {})}};
 }
 
 std::vector<NamedDomain> one_of_each() {

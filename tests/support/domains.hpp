@@ -32,6 +32,8 @@ std::vector<NamedDomain> polygon_domains();
 std::vector<NamedDomain> surface_domains();
 std::vector<NamedDomain> volume_domains();
 std::vector<NamedDomain> box_domains();
+/// Boxes with one to three periodic axes, and lattices with and without a reduced basis, in plane and space.
+std::vector<NamedDomain> periodic_domains();
 /// Polygon, surface, volume, square and cube.
 std::vector<NamedDomain> one_of_each();
 
