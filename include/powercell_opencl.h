@@ -85,8 +85,10 @@ POWERCELL_API pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl
 typedef struct pc_device_adjacency {
   cl_mem offset;   /**< written: n + 1 cl_uint; right also where the next two are too small */
   cl_mem neighbor; /**< written: cl_uint each, ascending within a row */
-  cl_mem wall; /**< written: a real each, the length or area. Rows that end beyond the entries that fit both
-                    buffers are not written, the others are whole */
+  cl_mem wall;  /**< written: a real each, the length or area. Rows that end beyond the entries that fit all
+                     buffers are not written, the others are whole */
+  cl_mem shift; /**< in a periodic domain, else NULL; written: 3 cl_int an entry, the image of the neighbour,
+                   as in pc_adjacency */
 } pc_device_adjacency;
 
 /** The seeds whose cells only the host can decide: those that are unfinished, and those of whose cells

@@ -31,17 +31,21 @@ enum class DeviceSeedStatus : std::uint32_t {
 };
 
 /// The pairs of cells that share a wall inside the domain, as compressed sparse rows in buffers of the
-/// caller, of the context of the device. As Adjacency: j is in row i with the same measure as i in row j.
-/// The two sides of a wall are averaged; a wall that only one cell has is left out as rounding if it is small
-/// beside the largest wall of both (10^-9 in double precision, 10^-3 in single), else both cells have it.
-/// Only seeds whose status is ok have walls.
+/// caller, of the context of the device. As Adjacency: j is in row i with the same measure as i in row j, in
+/// a periodic domain with the opposite shift. The two sides of a wall are averaged; a wall that only one cell
+/// has is left out as rounding if it is small beside the largest wall of both (10^-9 in double precision,
+/// 10^-3 in single), else both cells have it. Only seeds whose status is ok have walls.
 struct DeviceAdjacency {
   /// Written: n + 1 cl_uint; row i is [offset[i], offset[i+1]). Right also where the next two are too small.
   cl_mem offset = nullptr;
   cl_mem neighbor = nullptr;  ///< written: cl_uint each, ascending within a row
   /// Written: a real each, the length (polygon, surface) or area (volume) of the wall. There is room for as
-  /// many entries as fit both buffers. Rows that end beyond it are not written, the others are whole.
+  /// many entries as fit all buffers. Rows that end beyond it are not written, the others are whole.
   cl_mem wall = nullptr;
+  /// In a periodic domain, where it is needed; else null. Written: 3 cl_int an entry, the image of the
+  /// neighbour in periods of the domain, as Adjacency::shift. A seed may occur several times in a row, with
+  /// ascending shifts, and so may the row's own seed.
+  cl_mem shift = nullptr;
 };
 
 /// The seeds whose cells only the host can decide, in buffers of the caller, of the context of the device:
@@ -117,10 +121,10 @@ class POWERCELL_API DeviceDiagram {
   /// for that waits for the queue and the wait list. It waits in no other case.
   void set_image_capacity(std::uint32_t images);
 
-  /// The room for walls while rows are made of them, 12 bytes and 2 reals each; at most 2^31. Cells whose
-  /// walls do not fit are `unfinished`; which these are may change from call to call. With 0, the default,
-  /// there is room for 8 walls a seed (cells of dimension 2) or 20 (3) in a domain of one region, else for 6
-  /// or 16 a pair. Cells of random seeds have 6 and 15.5 on average.
+  /// The room for walls while rows are made of them, 12 bytes (in a periodic domain 16) and 2 reals each; at
+  /// most 2^31. Cells whose walls do not fit are `unfinished`; which these are may change from call to call.
+  /// With 0, the default, there is room for 8 walls a seed (cells of dimension 2) or 20 (3) in a domain of
+  /// one region, else for 6 or 16 a pair. Cells of random seeds have 6 and 15.5 on average.
   void set_wall_capacity(std::uint32_t walls);
 
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the

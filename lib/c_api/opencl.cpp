@@ -26,7 +26,7 @@ DeviceResults results_of(const pc_device_results* results) {
   const auto& [measures, status, adjacency, uncertain] = checked(results, "results");
   return {measures,
           status,
-          {adjacency.offset, adjacency.neighbor, adjacency.wall},
+          {adjacency.offset, adjacency.neighbor, adjacency.wall, adjacency.shift},
           {uncertain.count, uncertain.seeds}};
 }
 

@@ -207,7 +207,8 @@ void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32
   tree_.enqueue(points_, points_, points_count_);
   blocks_.enqueue(device_tree(), n);
   pairs_.enqueue(seeds_, tree_, n, pair_capacity);
-  rows ? walls_.begin(stored_walls(), pairs_.capacity, n) : walls_.begin_without();
+  rows ? walls_.begin(stored_walls(), pairs_.capacity, n, images_ ? &*images_ : nullptr)
+       : walls_.begin_without();
   clip(n);
   if (rows) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, results.adjacency);
   for_host_.resize(n);
@@ -218,7 +219,7 @@ void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32
   if (list)
     compaction_.enqueue(for_host_.handle(), n, 1, results.uncertain.seeds, rooms.uncertain,
                         results.uncertain.count, 0, rows ? nullptr : done);
-  if (rows) walls_.write(results.status, frame_.handle(), n, results.adjacency, rooms.rows, done);
+  if (rows) walls_.write(seeds_, results.status, frame_.handle(), n, results.adjacency, rooms.rows, done);
 }
 
 }  // namespace powercell

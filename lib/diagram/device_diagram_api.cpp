@@ -7,6 +7,8 @@
 namespace powercell {
 namespace {
 
+constexpr std::size_t shift_bytes = 3 * sizeof(cl_int);
+
 template <class T>
 T memory_value(cl_mem memory, cl_mem_info which, const char* name) {
   T value{};
@@ -51,15 +53,18 @@ struct Job {
 std::uint32_t room_for_rows(const DeviceDiagram::State& s, std::uint32_t n, const DeviceAdjacency& rows) {
   const cl::Context& context = *s.device.context();
   const std::size_t real = s.real_bytes();
-  if (s.domain.is_periodic())
-    throw Error(ErrorCode::unsupported,
-                "a diagram in device memory has no adjacency in periodic domains; use Diagram");
+  if (rows.shift && !s.domain.is_periodic())
+    throw Error(ErrorCode::invalid_argument,
+                "walls have shifts in periodic domains only; pass no buffer of shifts for this one");
   require_buffer(context, rows.offset, (std::size_t{n} + 1) * sizeof(cl_uint), "offsets");
   if (n == 0) return 0;
   require_buffer(context, rows.neighbor, sizeof(cl_uint), "neighbors");
   require_buffer(context, rows.wall, real, "walls");
-  return in_32_bits(
-      std::min(values_in(rows.neighbor, sizeof(cl_uint), "neighbors"), values_in(rows.wall, real, "walls")));
+  const std::size_t room =
+      std::min(values_in(rows.neighbor, sizeof(cl_uint), "neighbors"), values_in(rows.wall, real, "walls"));
+  if (!s.domain.is_periodic()) return in_32_bits(room);
+  require_buffer(context, rows.shift, shift_bytes, "shifts");
+  return in_32_bits(std::min(room, values_in(rows.shift, shift_bytes, "shifts")));
 }
 
 /// The seeds that the caller's list has room for. \throw Error invalid_argument

@@ -105,10 +105,13 @@ DeviceRows<Real> read_rows(const std::shared_ptr<cl::Context>& context, const De
   rows.offset.resize(std::size_t{n} + 1);
   rows.neighbor.resize(entries);
   rows.wall.resize(entries);
+  rows.has_shifts = from.shift != nullptr;
+  if (rows.has_shifts) rows.shift.resize(entries);
   cl::Reads reads(context);
   reads.add(from.offset, rows.offset.data(), rows.offset.size() * sizeof(cl_uint));
   reads.add(from.neighbor, rows.neighbor.data(), entries * sizeof(cl_uint));
   reads.add(from.wall, rows.wall.data(), entries * sizeof(Real));
+  if (rows.has_shifts) reads.add(from.shift, rows.shift.data(), entries * sizeof(Shift));
   reads.wait();
   return rows;
 }
@@ -191,6 +194,7 @@ std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32
     write(*context, results.adjacency.offset, rows.offset);
     write(*context, results.adjacency.neighbor, rows.neighbor);
     write(*context, results.adjacency.wall, rows.wall);
+    if (rows.has_shifts) write(*context, results.adjacency.shift, rows.shift);
   }
   return static_cast<std::uint32_t>(list.size());
 }

@@ -15,7 +15,7 @@ struct Rooms {
 };
 
 inline bool wants_rows(const DeviceResults& r) {
-  return r.adjacency.offset || r.adjacency.neighbor || r.adjacency.wall;
+  return r.adjacency.offset || r.adjacency.neighbor || r.adjacency.wall || r.adjacency.shift;
 }
 inline bool wants_list(const DeviceResults& r) {
   return r.uncertain.count || r.uncertain.seeds;

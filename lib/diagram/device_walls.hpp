@@ -5,6 +5,7 @@
 #include <powercell/opencl.hpp>
 
 #include "lib/pairs/device_pairs.hpp"
+#include "lib/periodic/device_images.hpp"
 #include "lib/primitives/scan.hpp"
 
 namespace powercell {
@@ -22,7 +23,8 @@ class DeviceWalls {
               std::size_t real_bytes);
 
   /// Makes room for `entries` walls of `pairs` pieces of n seeds, and empties the store.
-  void begin(std::uint32_t entries, std::uint32_t pairs, std::uint32_t n);
+  /// \param images  of a periodic domain, kept until the next call; else null
+  void begin(std::uint32_t entries, std::uint32_t pairs, std::uint32_t n, const DeviceImages* images);
   /// Makes room for none: the clip kernel then computes none.
   void begin_without();
   /// Those of the clip kernel (kernels/diagram/clip_pairs.cl).
@@ -33,17 +35,19 @@ class DeviceWalls {
               const DeviceAdjacency& to);
   /// Combines both sides of each wall, and writes the rows to the caller's memory with room for `capacity`
   /// entries. \param status  final, of each seed in input order
-  void write(cl_mem status, cl_mem frame, std::uint32_t n, const DeviceAdjacency& to, std::uint32_t capacity,
-             cl_event* done);
+  void write(const DeviceSeeds& seeds, cl_mem status, cl_mem frame, std::uint32_t n,
+             const DeviceAdjacency& to, std::uint32_t capacity, cl_event* done);
 
  private:
   std::size_t real_bytes_;
   std::uint32_t entries_ = 0;
+  const DeviceImages* images_ = nullptr;
   cl::Kernel gather_, match_, write_;
   ExclusiveScan scan_;
   cl::Buffer<std::uint32_t> used_, piece_first_, piece_size_;    // the store, by pair
   cl::Buffer<std::uint32_t> neighbor_, from_, next_;             // by entry
-  cl::RawBuffer wall_, matched_;                                 // the same
+  cl::Buffer<std::int32_t> image_;                               // the same, where there are images
+  cl::RawBuffer wall_, matched_;                                 // by entry
   cl::Buffer<std::uint32_t> row_first_, row_size_, last_extra_;  // by seed
 };
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "lib/domain/period.hpp"
+
 namespace powercell {
 
 /// An adjacency as DeviceDiagram writes it.
@@ -14,6 +16,8 @@ template <class Real>
 struct DeviceRows {
   std::vector<std::uint32_t> offset, neighbor;
   std::vector<Real> wall;
+  bool has_shifts = false;   ///< of a periodic domain
+  std::vector<Shift> shift;  ///< per entry, where there are any
 };
 
 /// Replaces all walls of some cells. Another cell keeps its walls with its like, and has those walls with the

@@ -134,6 +134,47 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
   for (cl_mem memory : {seeds, measures, status}) clReleaseMemObject(memory);
 }
 
+TEST_CASE("walls across the borders of a periodic box in device memory") {
+  const Queue own;
+  Device device;
+  Domain periodic;
+  DeviceDiagram diagram;
+  REQUIRE(pc_device_from_queue(own.queue, &device.handle) == PC_OK);
+  REQUIRE(pc_domain_periodic_box(low, high, nullptr, 2, &periodic.handle) == PC_OK);
+  pc_options options;
+  REQUIRE(pc_options_init(&options, sizeof options) == PC_OK);
+  options.precision = PC_FLOAT32;
+  REQUIRE(pc_device_diagram_create(device.handle, periodic.handle, &options, &diagram.handle) == PC_OK);
+  REQUIRE(pc_device_diagram_set_image_capacity(diagram.handle, 100) == PC_OK);
+  const cl_float position[2] = {0.5F, 0.25F};
+  const cl_mem seed = own.buffer(sizeof position), measures = own.buffer(4 * sizeof(cl_float)),
+               status = own.buffer(sizeof(cl_uint)), offset = own.buffer(2 * sizeof(cl_uint)),
+               neighbor = own.buffer(8 * sizeof(cl_uint)), wall = own.buffer(8 * sizeof(cl_float)),
+               shift = own.buffer(8 * 3 * sizeof(cl_int)), count = own.buffer(sizeof(cl_uint)),
+               uncertain = own.buffer(sizeof(cl_uint));
+  REQUIRE(clEnqueueWriteBuffer(own.queue, seed, CL_TRUE, 0, sizeof position, position, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  const pc_device_results results = {measures, status, {offset, neighbor, wall, shift}, {count, uncertain}};
+  REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seed, nullptr, 1, &results, 0, nullptr,
+                                            nullptr) == PC_OK);
+  REQUIRE(pc_device_diagram_repair(diagram.handle, seed, nullptr, 1, &results, nullptr) == PC_OK);
+  cl_uint offsets[2];
+  cl_int shifts[12];
+  REQUIRE(clEnqueueReadBuffer(own.queue, offset, CL_TRUE, 0, sizeof offsets, offsets, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  REQUIRE(offsets[1] == 4);  // the cell is the box, and borders itself
+  REQUIRE(clEnqueueReadBuffer(own.queue, shift, CL_TRUE, 0, sizeof shifts, shifts, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  const cl_int expected[12] = {-1, 0, 0, 0, -1, 0, 0, 1, 0, 1, 0, 0};
+  for (int k = 0; k < 12; ++k) CHECK(shifts[k] == expected[k]);
+  const pc_device_results no_shift = {
+      measures, status, {offset, neighbor, wall, nullptr}, {count, uncertain}};
+  CHECK(pc_device_diagram_enqueue_results(diagram.handle, seed, nullptr, 1, &no_shift, 0, nullptr, nullptr) ==
+        PC_INVALID_ARGUMENT);
+  for (const cl_mem memory : {seed, measures, status, offset, neighbor, wall, shift, count, uncertain})
+    clReleaseMemObject(memory);
+}
+
 TEST_CASE("queues and diagrams that cannot be used are refused") {
   const Queue own;
   Device device;

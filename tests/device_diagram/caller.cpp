@@ -62,15 +62,17 @@ Memory::Memory(const Caller& caller, std::size_t bytes, const void* values) {
   REQUIRE(status == CL_SUCCESS);
 }
 
-Rows::Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room)
+Rows::Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room, bool periodic)
     : caller_(caller),
       real_(precision == Precision::float32 ? sizeof(float) : sizeof(double)),
       n_(n),
       room_(room),
+      periodic_(periodic),
       marks_(std::max<std::size_t>(room, 1), unwritten),
       offset_(caller, (n + 1) * sizeof(cl_uint)),
       neighbor_(caller, marks_.size() * sizeof(cl_uint), marks_.data()),
-      wall_(caller, marks_.size() * real_) {}
+      wall_(caller, marks_.size() * real_),
+      shift_(caller, marks_.size() * 3 * sizeof(cl_int)) {}
 
 Adjacency Rows::read() const {
   const std::vector<cl_uint> offset = offset_.values<cl_uint>(caller_.queue(), n_ + 1);
@@ -84,6 +86,7 @@ Adjacency Rows::read() const {
     const std::vector<float> narrow = wall_.values<float>(caller_.queue(), written);
     rows.wall.assign(narrow.begin(), narrow.end());
   }
+  if (periodic_) rows.shift = shift_.values<std::array<std::int32_t, 3>>(caller_.queue(), written);
   return rows;
 }
 

@@ -71,17 +71,21 @@ struct Output {
 /// Rows in device memory with room for `room` entries.
 class Rows {
  public:
-  Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room);
+  /// \param periodic  with shifts
+  Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room, bool periodic = false);
   static constexpr cl_uint unwritten = 0xfffffff0u;
-  DeviceAdjacency handles() const { return {offset_.handle(), neighbor_.handle(), wall_.handle()}; }
+  DeviceAdjacency handles() const {
+    return {offset_.handle(), neighbor_.handle(), wall_.handle(), periodic_ ? shift_.handle() : nullptr};
+  }
   /// Waits. Entries beyond the room are missing.
   Adjacency read() const;
 
  private:
   const Caller& caller_;
   std::size_t real_, n_, room_;
+  bool periodic_;
   std::vector<cl_uint> marks_;
-  Memory offset_, neighbor_, wall_;
+  Memory offset_, neighbor_, wall_, shift_;
 };
 
 /// A list of uncertain seeds in device memory.

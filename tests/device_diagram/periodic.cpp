@@ -1,6 +1,7 @@
 // Periodic domains in device memory: boxes and lattices against an exact Diagram.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -209,4 +210,53 @@ TEST_CASE("clustered seeds of a periodic domain") {
       for (double& x : corner.positions) x *= 0.01;
       check_repaired(caller, diagram, corner);
     }
+}
+
+TEST_CASE("periodic rows need shifts, others have none, and short ones are not written") {
+  Caller& caller = caller_of_all();
+  Random random(test_seed());
+  DeviceDiagram periodic(caller.device(), torus_box(2)), bounded(caller.device(), unit_box(2));
+  const SeedArray seeds =
+      rounded_seeds(random_seeds(Distribution::white, WeightRange::W1, 200, 2, random), periodic.precision());
+  const Job job(caller, periodic.precision(), seeds.view());
+  const Rows with(caller, periodic.precision(), 200, 2000, true),
+      without(caller, periodic.precision(), 200, 2000);
+  CHECK_THROWS_WITH_AS(job.enqueue(periodic, {without.handles(), {}}),
+                       doctest::Contains("the buffer of shifts is null"), Error);
+  CHECK_THROWS_WITH_AS(job.enqueue(bounded, {with.handles(), {}}),
+                       doctest::Contains("shifts in periodic domains only"), Error);
+  job.enqueue(periodic, {with.handles(), {}});
+  const Adjacency whole = with.read();
+  const Memory shifts(caller, 300 * 3 * sizeof(cl_int));
+  DeviceAdjacency few = with.handles();
+  few.shift = shifts.handle();
+  job.enqueue(periodic, {few, {}});
+  CHECK(with.read().offset == whole.offset);
+  const auto found = shifts.values<std::array<std::int32_t, 3>>(caller.queue(), 300);
+  for (std::size_t i = 0; whole.offset[i + 1] <= 300; ++i)
+    for (std::uint64_t k = whole.offset[i]; k < whole.offset[i + 1]; ++k) CHECK(found[k] == whole.shift[k]);
+}
+
+TEST_CASE("periodic rows do not depend on the size of launches, bit for bit") {
+  INFO(replay_hint());
+  Caller& caller = caller_of_all();
+  Random random(test_seed());
+  for (const Precision precision : precisions(caller)) {
+    const SeedArray seeds =
+        rounded_seeds(random_seeds(Distribution::white, WeightRange::W1, 400, 3, random), precision);
+    const Job job(caller, precision, seeds.view());
+    const Rows rows(caller, precision, 400, 10000, true);
+    std::vector<Adjacency> found;
+    for (const std::size_t chunk : {0u, 37u}) {
+      Options options = in_precision(precision);
+      options.chunk_pairs = chunk;
+      DeviceDiagram diagram(caller.device(), torus_box(3), options);
+      job.enqueue(diagram, {rows.handles(), {}});
+      found.push_back(rows.read());
+    }
+    CHECK(found[0].neighbor.size() > 5000);
+    CHECK(found[0].neighbor == found[1].neighbor);
+    CHECK(found[0].wall == found[1].wall);
+    CHECK(found[0].shift == found[1].shift);
+  }
 }

@@ -39,10 +39,9 @@ bool same_bits(const Output& found, std::size_t i, const Measures& host, std::si
 
 Repaired repaired(Caller& caller, DeviceDiagram& diagram, const SeedsView& seeds, std::size_t room) {
   const Job job(caller, diagram.precision(), seeds);
-  const Rows rows(caller, diagram.precision(), seeds.size(), room);
+  const Rows rows(caller, diagram.precision(), seeds.size(), room, diagram.domain().is_periodic());
   const List list(caller, seeds.size());
-  const bool with_rows = !diagram.domain().is_periodic();
-  const Wanted wanted{with_rows ? rows.handles() : DeviceAdjacency{}, list.handles()};
+  const Wanted wanted{rows.handles(), list.handles()};
   job.enqueue(diagram, wanted);
   Repaired result{job.read(), {}, {}, list.read()};
   const std::uint32_t computed = job.repair(diagram, wanted);
@@ -53,7 +52,7 @@ Repaired repaired(Caller& caller, DeviceDiagram& diagram, const SeedsView& seeds
       if (result.output.status[i] != DeviceSeedStatus::invalid) result.list.push_back(i);
   }
   CHECK(computed == result.list.size());
-  if (with_rows) result.adjacency = rows.read();
+  result.adjacency = rows.read();
   return result;
 }
 
@@ -86,18 +85,28 @@ void check_measures(const Repaired& found, const Measures& exact, Precision prec
   CHECK(changed == 0);
 }
 
+/// The entry of the other side of entry k of row i, or the number of entries.
+std::size_t other_side(const Adjacency& rows, std::uint32_t i, std::uint64_t k) {
+  const std::uint32_t j = rows.neighbor[k];
+  for (std::uint64_t back = rows.offset[j]; back < rows.offset[j + 1]; ++back) {
+    bool opposite = rows.neighbor[back] == i;
+    for (std::size_t m = 0; m < 3 && !rows.shift.empty(); ++m)
+      opposite = opposite && rows.shift[back][m] == -rows.shift[k][m];
+    if (opposite) return back;
+  }
+  return rows.neighbor.size();
+}
+
 void check_adjacency(const Adjacency& found, const Adjacency& exact, double error) {
   CHECK(found.offset == exact.offset);
   REQUIRE(found.neighbor == exact.neighbor);
+  CHECK(found.shift == exact.shift);
   std::size_t wrong = 0, one_sided = 0;
   for (std::uint32_t i = 0; i + 1 < found.offset.size(); ++i)
     for (std::uint64_t k = found.offset[i]; k < found.offset[i + 1]; ++k) {
       wrong += !(std::abs(found.wall[k] - exact.wall[k]) <= error);
-      const std::uint32_t j = found.neighbor[k];
-      const auto row = found.neighbor.begin() + static_cast<std::ptrdiff_t>(found.offset[j]);
-      const auto back =
-          std::lower_bound(row, found.neighbor.begin() + static_cast<std::ptrdiff_t>(found.offset[j + 1]), i);
-      one_sided += found.wall[static_cast<std::size_t>(back - found.neighbor.begin())] != found.wall[k];
+      const std::size_t back = other_side(found, i, k);
+      one_sided += back == found.wall.size() || found.wall[back] != found.wall[k];
     }
   CHECK(wrong == 0);
   CHECK(one_sided == 0);
@@ -124,8 +133,7 @@ std::size_t check_repaired(Caller& caller, DeviceDiagram& diagram, const SeedArr
   const Repaired found = repaired(caller, diagram, seeds.view(), room);
   check_list(found, exact.measures());
   check_measures(found, exact.measures(), precision);
-  if (!diagram.domain().is_periodic())
-    check_adjacency(found.adjacency, exact.adjacency(), wall_tolerance(diagram.domain(), precision));
+  check_adjacency(found.adjacency, exact.adjacency(), wall_tolerance(diagram.domain(), precision));
   Diagram alone(caller.device(), diagram.domain(), in_precision(precision));
   alone.set_seeds(seeds.view());
   check_bits(found, alone);

@@ -20,8 +20,11 @@ std::vector<JobKind> jobs_on(const Setup& setup) {
       jobs.push_back(device_diagram_job(setup, small.domain, small.seeds));
   }
   const SeededDomain undecided = ties();
-  if (setup.options.neighbors == Neighbors::tree)
+  const SeededDomain periodic = periodic_ties();
+  if (setup.options.neighbors == Neighbors::tree) {
     jobs.push_back(device_diagram_job(setup, undecided.domain, undecided.seeds));
+    jobs.push_back(device_diagram_job(setup, periodic.domain, periodic.seeds));
+  }
   return jobs;
 }
 

@@ -141,6 +141,7 @@ class DeviceDiagramJob : public Job {
         offset_(device_, (n_ + 1) * sizeof(cl_uint)),
         neighbor_(device_, room * sizeof(cl_uint)),
         wall_(device_, room * real_),
+        shift_(device_, room * 3 * sizeof(cl_int)),
         uncertain_count_(device_, sizeof(cl_uint)),
         uncertain_(device_, n_ * sizeof(cl_uint)) {}
 
@@ -194,18 +195,20 @@ class DeviceDiagramJob : public Job {
   DeviceResults wanted() const {
     return {measures_.handle(),
             status_.handle(),
-            {offset_.handle(), neighbor_.handle(), wall_.handle()},
+            {offset_.handle(), neighbor_.handle(), wall_.handle(),
+             domain_.is_periodic() ? shift_.handle() : nullptr},
             {uncertain_count_.handle(), uncertain_.handle()}};
   }
   Bytes all_results() const {
-    return {measures_.read(), status_.read(),          offset_.read(),   neighbor_.read(),
-            wall_.read(),     uncertain_count_.read(), uncertain_.read()};
+    return {measures_.read(), status_.read(), offset_.read(),          neighbor_.read(),
+            wall_.read(),     shift_.read(),  uncertain_count_.read(), uncertain_.read()};
   }
   void compute() { compute({measures_.handle(), status_.handle()}); }
   /// With walls and the list, into memory without what was there before.
   void compute_all() {
     write(wall_, std::vector<double>(room));
     neighbor_.write(std::vector<cl_uint>(room).data());
+    shift_.write(std::vector<cl_int>(3 * room).data());
     uncertain_.write(std::vector<cl_uint>(n_).data());
     compute(wanted());
   }
@@ -226,7 +229,8 @@ class DeviceDiagramJob : public Job {
   bool float32_;
   std::size_t real_, n_;
   SeedArray seeds_;
-  Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_, uncertain_count_, uncertain_;
+  Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_, shift_, uncertain_count_,
+      uncertain_;
   std::optional<DeviceDiagram> diagram_;
   Bytes results_, others_, repaired_, repaired_again_;
 };
@@ -286,6 +290,11 @@ SeededDomain ties() {
   SeedArray seeds = grid(4, 2);
   seeds.weights[5] = 0.01;
   return {{"ties", unit_box(2)}, seeds};
+}
+
+SeededDomain periodic_ties() {
+  const double low[] = {0, 0}, high[] = {1, 1};
+  return {{"periodic ties", Domain::periodic_box(low, high)}, ties().seeds};
 }
 
 }  // namespace powercell::test

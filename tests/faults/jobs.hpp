@@ -47,5 +47,7 @@ std::vector<SeededDomain> small_cases();
 SeededDomain many_faces(std::size_t faces);
 /// A square with a grid of seeds, of which all cells tie.
 SeededDomain ties();
+/// The same in a periodic square.
+SeededDomain periodic_ties();
 
 }  // namespace powercell::test

@@ -1,12 +1,15 @@
 // Any bits as seeds in device memory: each seed gets a status, the others are as without the bad ones, and
 // after repair they are those of an exact diagram.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <compare>
 #include <cstring>
 #include <map>
 #include <memory>
 #include <powercell/diagram.hpp>
 #include <powercell/opencl.hpp>
+#include <span>
 
 #include "tests/fuzz/laws.hpp"
 #include "tests/fuzz/refusals.hpp"
@@ -74,37 +77,54 @@ std::vector<T> read(const Memory& memory, std::size_t count) {
   return values;
 }
 
+/// A wall of a row: the neighbour and, in a periodic domain, its image.
+struct Wall {
+  cl_uint neighbor;
+  std::array<std::int32_t, 3> shift;
+  auto operator<=>(const Wall&) const = default;
+};
+
 /// The rows of a diagram of n seeds, of which those with the status ok have walls. \throw Finding
 template <class Real>
 class Rows {
  public:
   static constexpr std::size_t room = 4096;  // more than 20 seeds can need
-  explicit Rows(std::size_t n)
+  Rows(std::size_t n, bool periodic)
       : n_(n),
+        periodic_(periodic),
         offset_((n + 1) * sizeof(cl_uint)),
         neighbor_(room * sizeof(cl_uint)),
-        wall_(room * sizeof(Real)) {}
-  DeviceAdjacency handles() const { return {offset_.handle, neighbor_.handle, wall_.handle}; }
+        wall_(room * sizeof(Real)),
+        shift_(room * sizeof(Wall::shift)) {}
+  DeviceAdjacency handles() const {
+    return {offset_.handle, neighbor_.handle, wall_.handle, periodic_ ? shift_.handle : nullptr};
+  }
 
-  /// \return the neighbours of each seed
-  std::vector<std::vector<cl_uint>> check(const std::vector<cl_uint>& status) const {
+  /// \return the walls of each seed
+  std::vector<std::vector<Wall>> check(const std::vector<cl_uint>& status) const {
     const auto offset = read<cl_uint>(offset_, n_ + 1);
     require(offset[0] == 0 && std::is_sorted(offset.begin(), offset.end()) && offset[n_] <= room,
             "offsets of rows");
     const auto neighbor = read<cl_uint>(neighbor_, offset[n_]);
     const auto wall = read<Real>(wall_, offset[n_]);
-    std::vector<std::vector<cl_uint>> rows(n_);
-    std::map<std::pair<cl_uint, cl_uint>, Real> found;
+    std::vector<std::array<std::int32_t, 3>> shift(offset[n_]);
+    if (periodic_) shift = read<std::array<std::int32_t, 3>>(shift_, offset[n_]);
+    std::vector<std::vector<Wall>> rows(n_);
+    std::map<std::pair<cl_uint, Wall>, Real> found;
     for (cl_uint i = 0; i < n_; ++i)
       for (cl_uint k = offset[i]; k < offset[i + 1]; ++k) {
         const cl_uint j = neighbor[k];
-        require(j < n_ && j != i && status[i] == 0 && status[j] == 0 && wall[k] > 0, "a wall that cannot be");
-        require(k == offset[i] || neighbor[k - 1] < j, "a row that does not ascend");
-        found[{i, j}] = wall[k];
-        rows[i].push_back(j);
+        const Wall here{j, shift[k]};
+        require(j < n_ && here != Wall{i, {}} && status[i] == 0 && status[j] == 0 && wall[k] > 0,
+                "a wall that cannot be");
+        require(rows[i].empty() || rows[i].back() < here, "a row that does not ascend");
+        found[{i, here}] = wall[k];
+        rows[i].push_back(here);
       }
-    for (const auto& [pair, measure] : found) {
-      const auto back = found.find({pair.second, pair.first});
+    for (const auto& [side, measure] : found) {
+      const auto& [i, there] = side;
+      const auto back =
+          found.find({there.neighbor, {i, {-there.shift[0], -there.shift[1], -there.shift[2]}}});
       require(back != found.end() && back->second == measure, "a wall with one side");
     }
     return rows;
@@ -112,13 +132,14 @@ class Rows {
 
  private:
   std::size_t n_;
-  Memory offset_, neighbor_, wall_;
+  bool periodic_;
+  Memory offset_, neighbor_, wall_, shift_;
 };
 
 /// Statuses and neighbours after repair are those of a Diagram without the invalid seeds. \throw Finding
 void check_repaired(const DeviceDiagram& diagram, const Options& options, const SeedInput& given,
                     const std::vector<cl_uint>& before, const std::vector<cl_uint>& status,
-                    const std::vector<std::vector<cl_uint>>& neighbors) {
+                    const std::vector<std::vector<Wall>>& walls) {
   constexpr auto invalid = static_cast<cl_uint>(DeviceSeedStatus::invalid);
   const auto d = static_cast<std::size_t>(diagram.domain().dimension());
   SeedInput valid;
@@ -136,10 +157,11 @@ void check_repaired(const DeviceDiagram& diagram, const Options& options, const 
   for (std::size_t k = 0; k < number.size(); ++k) {
     const std::string seed = "repaired seed " + std::to_string(number[k]) + ": ";
     require(status[number[k]] == static_cast<cl_uint>(exact.measures().status[k]), seed + "another status");
-    std::vector<cl_uint> row;
+    std::vector<Wall> row;
     for (std::uint64_t at = rows.offset[k]; at < rows.offset[k + 1]; ++at)
-      row.push_back(number[rows.neighbor[at]]);
-    require(row == neighbors[number[k]], seed + "other neighbours");
+      row.push_back(
+          {number[rows.neighbor[at]], rows.shift.empty() ? std::array<std::int32_t, 3>{} : rows.shift[at]});
+    require(row == walls[number[k]], seed + "other neighbours");
   }
 }
 
@@ -156,7 +178,7 @@ void run(Input& input, const Domain& domain, Precision precision) {
   const Memory position_memory(positions.size() * sizeof(Real), positions.data());
   const Memory weight_memory(n * sizeof(Real), weights.data());
   const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
-  const Rows<Real> adjacency(n);
+  const Rows<Real> adjacency(n, domain.is_periodic());
   const Memory count(sizeof(cl_uint)), list(n * sizeof(cl_uint));
   const DeviceResults results{
       measure_memory.handle, status_memory.handle, adjacency.handles(), {count.handle, list.handle}};
@@ -203,13 +225,27 @@ void run(Input& input, const Domain& domain, Precision precision) {
   throw Finding(what);
 }
 
+/// A box with some periodic axes, or a lattice, from any numbers.
+Domain periodic_domain(Input& input, bool lattice) {
+  const std::size_t d = input.flag() ? 3 : 2;
+  if (lattice) return Domain::lattice(input.numbers(d * d), input.numbers(d));
+  const std::size_t axes = input.byte();
+  const bool periodic[] = {(axes & 1) != 0, (axes & 2) != 0, (axes & 4) != 0};
+  const std::vector<double> low = input.numbers(d), size = input.numbers(d);
+  std::vector<double> high;
+  for (std::size_t k = 0; k < d; ++k) high.push_back(low[k] + std::fabs(size[k]));
+  return Domain::periodic_box(low, high, std::span(periodic).first(d));
+}
+
 }  // namespace
 
 void device_diagrams(Bytes bytes) {
   Input input(bytes);
   accepted({ErrorCode::invalid_domain, ErrorCode::unsupported}, [&] {
     const bool single = input.flag() || !shared_device().info().fp64;
-    const Domain domain = make(input.below(4) == 3 ? any_domain(input) : good_domain(input));
+    const std::size_t kind = input.below(6);
+    const Domain domain = kind >= 4 ? periodic_domain(input, kind == 5)
+                                    : make(kind == 3 ? any_domain(input) : good_domain(input));
     if (single)
       run<float>(input, domain, Precision::float32);
     else
