@@ -35,13 +35,16 @@ class DeviceAdjacency:
         Neighbours, ascending within a row. Rows that end beyond the room are not written, the others are whole.
     data : (room,) pyopencl.array.Array
         The length or area of each wall, the same from both sides.
+    shift : (room, 3) pyopencl.array.Array of int32, or None
+        In a periodic domain the image of each neighbour, as :attr:`Adjacency.shift`, with 0 behind the dimension.
     """
 
-    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any) -> None:
+    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any, shift: Optional[Any] = None) -> None:
         self._queue = queue
         self.indptr = indptr
         self.indices = indices
         self.data = data
+        self.shift = shift
 
     def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
@@ -52,15 +55,33 @@ class DeviceAdjacency:
             ``invalid_argument`` if the walls exceed the room (how many there are).
         """
         indptr = self.indptr.get(self._queue)
+        count = self._count(indptr)
+        if count == 0:
+            return indptr, np.empty(0, np.uint32), np.empty(0, self.data.dtype)
+        return indptr, self.indices[:count].get(self._queue), self.data[:count].get(self._queue)
+
+    def get_shift(self) -> Optional[np.ndarray]:
+        """Waits for the diagram, and copies the shifts to the host, without unused room; None where there are none.
+
+        Raises
+        ------
+        Error
+            As :meth:`get`.
+        """
+        if self.shift is None:
+            return None
+        count = self._count(self.indptr.get(self._queue))
+        return self.shift[:count].get(self._queue) if count else np.empty((0, 3), np.int32)
+
+    def _count(self, indptr: np.ndarray) -> int:
+        """How many entries there are, if there is room for them."""
         count = int(indptr[-1])
         if count > len(self.indices):
             raise Error(
                 f"there are {count} entries, and room for {len(self.indices)}; give compute(adjacency={count})",
                 "invalid_argument",
             )
-        if count == 0:
-            return indptr, np.empty(0, np.uint32), np.empty(0, self.data.dtype)
-        return indptr, self.indices[:count].get(self._queue), self.data[:count].get(self._queue)
+        return count
 
     def __repr__(self) -> str:
         return f"<powercell.DeviceAdjacency of {len(self.indptr) - 1} seeds, room for {len(self.indices)} entries>"
@@ -147,7 +168,7 @@ class DeviceMeasures:
         return [
             self.measures,
             self.status,
-            *((rows.indptr, rows.indices, rows.data) if rows else (None, None, None)),
+            *((rows.indptr, rows.indices, rows.data, rows.shift) if rows else (None,) * 4),
             *((listed.count, listed.seeds) if listed else (None, None)),
         ]
 

@@ -248,6 +248,7 @@ class DeviceDiagram:
             empty(queue, (n + 1,), unsigned, allocator),
             empty(queue, (room,), unsigned, allocator),
             empty(queue, (room,), positions.dtype, allocator),
+            empty(queue, (room, 3), np.dtype(np.int32), allocator) if self.domain.is_periodic else None,
         )
 
     def __repr__(self) -> str:

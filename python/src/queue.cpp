@@ -37,7 +37,8 @@ class PyDeviceDiagram {
     diagram_.set_image_capacity(images);
   }
 
-  /// \param results  measures, statuses, then the offsets, neighbours and walls of the adjacency, and the
+  /// \param results  measures, statuses, then the offsets, neighbours, walls and shifts of the adjacency, and
+  /// the
   ///   number and the list of uncertain seeds; 0 for what is not wanted
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
@@ -66,7 +67,7 @@ class PyDeviceDiagram {
  private:
   static DeviceResults results_of(const std::vector<Pointer>& pointers) {
     const auto memory = [&](std::size_t k) { return handle_of<cl_mem>(pointers.at(k)); };
-    return {memory(0), memory(1), {memory(2), memory(3), memory(4)}, {memory(5), memory(6)}};
+    return {memory(0), memory(1), {memory(2), memory(3), memory(4), memory(5)}, {memory(6), memory(7)}};
   }
 
   static DeviceDiagram made(const Device& device, const Domain& domain, const Options& options) {

@@ -180,6 +180,24 @@ def test_repair_makes_results_exact(queue, square, dtype):
     assert len(none.uncertain.get()) == 0 and diagram.repair(seeds[:0], out=none) == 0
 
 
+def test_periodic_domains(rng, queue):
+    box = pc.Domain.box([0, 0, 0], [1, 1, 1], periodic=True)
+    p = rng.random((500, 3)) * 3 - 1
+    want = pc.Diagram(box, p)
+    seeds = cl.array.to_device(queue, p)
+    diagram = pc.DeviceDiagram(box, queue, image_capacity=5000)
+    found = diagram.compute(seeds, adjacency=True, uncertain=True)
+    diagram.repair(seeds, out=found)
+    assert found.mass.get() == pytest.approx(want.mass, abs=1e-10)
+    assert found.centroid.get() == pytest.approx(want.centroid, abs=1e-8)
+    indptr, indices, data = found.adjacency.get()
+    assert np.array_equal(indptr, want.adjacency.indptr) and np.array_equal(indices, want.adjacency.indices)
+    assert np.array_equal(found.adjacency.get_shift(), want.adjacency.shift)
+    assert diagram.compute(seeds, adjacency=True, out=found).adjacency is found.adjacency
+    few = pc.DeviceDiagram(box, queue, image_capacity=10).compute(seeds)
+    assert few.count()[pc.DeviceStatus.UNFINISHED] == 500
+
+
 def test_regions_beyond_the_room_are_unfinished(rng, queue):
     ball = pc.Domain.volume(*pc.ball(4))
     p = rng.uniform(-1, 1, (100, 3))
