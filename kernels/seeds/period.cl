@@ -36,9 +36,11 @@ static inline bool is_rounded_up(ulong mantissa, long by, bool odd) {
 /* The coordinate of a point near the origin along vector k, times one_fraction(). */
 static inline long fraction_along(const long* at, __global const long* period, int k) {
   long sum = 0;
-  UNROLL for (int c = 0; c < DIMENSION; ++c) sum +=
-      mul_hi(period[PERIOD_DUAL + 3 * k + c],
-             scaled(at[c] - period[PERIOD_ORIGIN + c], PERIOD_WORD + PERIOD_FINE - period[PERIOD_RANGE + c]));
+  UNROLL for (int c = 0; c < DIMENSION; ++c) {
+    if (period[PERIOD_ROUNDED + c] == 0) continue;
+    const long unit = PERIOD_WORD + PERIOD_FINE - period[PERIOD_RANGE + c];
+    sum += mul_hi(period[PERIOD_DUAL + 3 * k + c], scaled(at[c] - period[PERIOD_ORIGIN + c], unit));
+  }
   return sum;
 }
 
@@ -46,11 +48,11 @@ static inline long one_fraction(__global const long* period, int k) {
   return scaled(1, period[PERIOD_BITS + k] + PERIOD_FINE);
 }
 
-/* Coordinate c of the sum of `by[k]` times vector k. */
+/* Coordinate c of the sum of `by[k]` times vector k, modulo 2^64. */
 static inline long sum_of_vectors(const long* by, __global const long* period, int c) {
-  long sum = 0;
-  UNROLL for (int k = 0; k < DIMENSION; ++k) sum += by[k] * period[PERIOD_VECTOR + 3 * k + c];
-  return sum;
+  ulong sum = 0;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) sum += (ulong)by[k] * (ulong)period[PERIOD_VECTOR + 3 * k + c];
+  return (long)sum;
 }
 
 /* Moves a point that the estimate has left beyond a border, and subtracts that from the shift. */

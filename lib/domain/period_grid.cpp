@@ -100,10 +100,11 @@ PeriodGrid::PeriodGrid(const PeriodVectors& lattice) {
 /// The coordinate of a point near the origin along vector k, times 2^(PERIOD_BITS + PERIOD_FINE).
 std::int64_t PeriodGrid::fraction(const Point& at, std::size_t k) const {
   std::int64_t sum = 0;
-  for (std::size_t c = 0; c < 3; ++c)
-    sum += high_product(
-        number(PERIOD_DUAL, 3 * k + c),
-        scaled(at[c] - number(PERIOD_ORIGIN, c), PERIOD_WORD + PERIOD_FINE - number(PERIOD_RANGE, c)));
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (number(PERIOD_ROUNDED, c) == 0) continue;
+    const std::int64_t unit = PERIOD_WORD + PERIOD_FINE - number(PERIOD_RANGE, c);
+    sum += high_product(number(PERIOD_DUAL, 3 * k + c), scaled(at[c] - number(PERIOD_ORIGIN, c), unit));
+  }
   return sum;
 }
 
@@ -177,11 +178,13 @@ PeriodGrid::Place PeriodGrid::wrap(const double* x) const {
   if (place.is_far) return place;
   for (std::size_t c = 0; c < 3; ++c) {
     if (number(PERIOD_ROUNDED, c) == 0) continue;
-    std::int64_t there = 0;
-    for (std::size_t k = 0; k < 3; ++k) there += shift[k] * number(PERIOD_VECTOR, 3 * k + c);
     // Modulo 2^64, of which the difference is a small part.
+    std::uint64_t there = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      there +=
+          static_cast<std::uint64_t>(shift[k]) * static_cast<std::uint64_t>(number(PERIOD_VECTOR, 3 * k + c));
     const std::uint64_t size = whole(digits[c].mantissa, digits[c].exponent),
-                        rest = (digits[c].negative ? 0 - size : size) - static_cast<std::uint64_t>(there);
+                        rest = (digits[c].negative ? 0 - size : size) - there;
     const bool up = is_rounded_up(digits[c].mantissa, digits[c].exponent, (rest & 1) != 0);
     place.at[c] = static_cast<std::int64_t>(rest) + (up ? (digits[c].negative ? -1 : 1) : 0);
   }
