@@ -74,7 +74,12 @@ Ring clean(const Ring& ring, std::uint32_t part, std::uint32_t hole) {
 }  // namespace
 
 std::string place(double x, double y) {
-  return "(" + digits(x) + ", " + digits(y) + ")";
+  std::string text = "(";
+  text += digits(x);
+  text += ", ";
+  text += digits(y);
+  text += ')';
+  return text;
 }
 
 std::string ring_name(std::uint32_t part, std::uint32_t hole) {

@@ -86,7 +86,7 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
   const cl_mem offset = own.buffer(6 * sizeof(cl_uint)), neighbor = own.buffer(8 * sizeof(cl_uint)),
                wall = own.buffer(8 * sizeof(cl_float));
   const cl_mem count = own.buffer(sizeof(cl_uint)), uncertain = own.buffer(5 * sizeof(cl_uint));
-  const pc_device_results results = {measures, status, {offset, neighbor, wall}, {count, uncertain}};
+  const pc_device_results results = {measures, status, {offset, neighbor, wall, nullptr}, {count, uncertain}};
   REQUIRE(pc_device_diagram_set_wall_capacity(diagram.handle, 50) == PC_OK);
   CHECK(pc_device_diagram_set_wall_capacity(diagram.handle, 0x80000001u) == PC_INVALID_ARGUMENT);
   REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 5, &results, 0, nullptr,

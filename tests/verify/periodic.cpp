@@ -14,7 +14,7 @@ using namespace powercell::test;
 
 namespace {
 
-std::vector<NamedDomain> periodic_domains() {
+std::vector<NamedDomain> domains_of_laws() {
   const std::array<bool, 3> along_xz{true, false, true};
   const std::array<double, 3> low{0, 0, 0}, high{1, 1, 1};
   return {{"square", Domain::periodic_box(std::span(low).first(2), std::span(high).first(2))},
@@ -41,7 +41,7 @@ void expect_periodic_laws(const Setup& setup, const Domain& domain, const SeedsV
 
 TEST_CASE("periodic diagrams obey the laws") {
   INFO(replay_hint());
-  for (const NamedDomain& named : periodic_domains()) {
+  for (const NamedDomain& named : domains_of_laws()) {
     INFO(named.name);
     for (const Setup& setup : all_setups()) {
       Random random(test_seed());
@@ -59,7 +59,7 @@ TEST_CASE("periodic diagrams obey the laws") {
 }
 
 TEST_CASE("in periodic diagrams each law finds its fault") {
-  for (const NamedDomain& named : periodic_domains()) {
+  for (const NamedDomain& named : domains_of_laws()) {
     INFO(named.name);
     Setup setup = main_setups().front();
     Random random(test_seed());
