@@ -155,7 +155,14 @@ void Period::set_dual() {
     for (int k = 0; k < count_; ++k)
       for (std::size_t x = 0; x < 3; ++x) dual_[at(k)][x] = static_cast<double>(rows[k][x]);
   }
-  for (int k = 0; k < count_; ++k) spacing_[at(k)] = 1 / length(dual_[at(k)]);
+  for (int k = 0; k < count_; ++k) {
+    const Row& row = dual_[at(k)];
+    if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
+      refuse_period(
+          "the periods are so short that their reciprocals are outside the range of numbers; give "
+          "lengths in a smaller unit");
+    spacing_[at(k)] = 1 / length(row);
+  }
 }
 
 Period::Row Period::fraction(const double* x) const {

@@ -38,6 +38,12 @@ TEST_CASE("lattices that are none are refused") {
   CHECK(has(refusal_of_lattice({1, 0, inf, 1}), "finite"));
   CHECK(has(refusal_of_lattice({1, 0, 0}), "coordinates"));
   CHECK(has(refusal_of_lattice({1, 0, 0, 1}, {0, 0, 0}), "coordinates"));
+  for (const double tiny : {1e-308, 1e-315, 5e-324}) {
+    CAPTURE(tiny);
+    CHECK(!refusal_of_lattice({tiny, 0, 0, tiny}).empty());
+    CHECK(!refusal_of_lattice({tiny, 0, 0, 0, tiny, 0, 0, 0, tiny}).empty());
+  }
+  CHECK(!refusal_of_lattice({1e160, 0, 0, 1e160}).empty());
   CHECK(refusal_of_lattice({1, 0, 5e5, 1}).empty());  // skew, not thin
   CHECK(Domain::lattice(std::vector<double>{1, 0, 5e5, 1}).measure() == doctest::Approx(1));
 }
