@@ -12,8 +12,9 @@
 namespace powercell {
 namespace {
 
-constexpr double most_ratio = 1e6;     ///< of the lengths of a reduced basis
-constexpr double dependent = 0x1p-46;  ///< length of a reduced vector relative to those given
+constexpr double most_ratio = 1e6;       ///< of the lengths of a reduced basis
+constexpr double dependent = 0x1p-46;    ///< length of a reduced vector relative to those given
+constexpr double most_change = 0x1p-12;  ///< of a vector when it is rounded, relative to the shortest one
 
 [[noreturn]] void refuse_period(const std::string& what) {
   throw Error(ErrorCode::invalid_domain, what);
@@ -110,7 +111,10 @@ void Period::set_grid() {
 }
 
 /// The quantum of a coordinate is at most 2^-51 of the largest that an image may have.
+/// \throw Error invalid_domain if rounding to it changes the lattice
 void Period::set_quanta() {
+  double shortest = length(vector(0)), change = 0;
+  for (int k = 1; k < count_; ++k) shortest = std::min(shortest, length(vector(k)));
   for (std::size_t c = 0; c < 3; ++c) {
     quantum_[c] = 0;
     if (!rounded_[c]) continue;
@@ -119,9 +123,16 @@ void Period::set_quanta() {
     int exponent = 0;
     std::frexp(most, &exponent);
     quantum_[c] = std::ldexp(1.0, exponent - 52);
-    for (int k = 0; k < count_; ++k)
-      vector_[at(k)][c] = std::nearbyint(vector(k)[c] / quantum_[c]) * quantum_[c];
+    for (int k = 0; k < count_; ++k) {
+      const double exact = vector(k)[c];
+      vector_[at(k)][c] = std::nearbyint(exact / quantum_[c]) * quantum_[c];
+      change = std::max(change, std::fabs(vector(k)[c] - exact));
+    }
   }
+  if (!(change <= most_change * shortest))
+    refuse_period(
+        "the periodic domain lies so far from the origin that coordinates there are too coarse for its "
+        "periods; move it, and the seeds with it, nearer to the origin");
 }
 
 /// Cells reach less than the sum of the vectors beyond those parts of the lattice that seeds are wrapped
@@ -155,14 +166,7 @@ void Period::set_dual() {
     for (int k = 0; k < count_; ++k)
       for (std::size_t x = 0; x < 3; ++x) dual_[at(k)][x] = static_cast<double>(rows[k][x]);
   }
-  for (int k = 0; k < count_; ++k) {
-    const Row& row = dual_[at(k)];
-    if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
-      refuse_period(
-          "the periods are so short that their reciprocals are outside the range of numbers; give "
-          "lengths in a smaller unit");
-    spacing_[at(k)] = 1 / length(row);
-  }
+  for (int k = 0; k < count_; ++k) spacing_[at(k)] = 1 / length(dual_[at(k)]);
 }
 
 Period::Row Period::fraction(const double* x) const {
