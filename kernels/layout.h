@@ -45,26 +45,21 @@
 #define PERIOD_ORIGIN 8  /* c: of the part that seeds are wrapped into, a whole number */
 #define PERIOD_RANGE 11  /* c: coordinates of seeds that are not too far are below 2^this */
 #define PERIOD_VECTOR 14 /* 3k + c */
-#define PERIOD_DUAL \
-  23 /* 3k + c: in units in which coordinates are below 2^PERIOD_WORD, as a fixed point number */
-#define PERIOD_BITS                                                                                          \
-  32                    /* k: of a coordinate along vector k, behind the point, in products with PERIOD_DUAL \
-                         */
-#define PERIOD_GIVEN 35 /* 3k + c: the vector in those given by the user */
+/* 3k + c: the dual vectors, for coordinates below 2^PERIOD_WORD; k: fractional bits of products with them. */
+#define PERIOD_DUAL 23
+#define PERIOD_BITS 32
+#define PERIOD_GIVEN 35  /* 3k + c: the vector in those given by the user */
 #define PERIOD_CENTRE 44 /* c: centre of the frame, in halves of a quantum */
 #define PERIOD_UNIT 47   /* c: exponent of half a quantum in the frame */
 #define PERIOD_SIZE 50
-#define PERIOD_WORD \
-  61 /* bits of a coordinate: the sum of three products with PERIOD_DUAL has no more than 64 */
+#define PERIOD_WORD 61        /* bits of a coordinate: a sum of three products has no more than 64 */
 #define PERIOD_FINE 26        /* more bits of a coordinate near the origin */
 #define PERIOD_SLACK_BITS 30  /* images within 2^-this of a border of the part may be on either side */
 #define PERIOD_MOST (1 << 28) /* vectors from the origin to a seed */
 
 /* The same in reals of the frame: EXTENT_SIZE. */
 #define EXTENT_SPACING 0 /* k: between planes of the lattice along vector k */
-#define EXTENT_REACH                                                                                         \
-  3                      /* k: seeds whose difference is larger along vector k share no wall (Period::reach) \
-                          */
+#define EXTENT_REACH 3   /* k: Period::reach() */
 #define EXTENT_MEASURE 6 /* of the domain */
 #define EXTENT_SIZE 7
 

@@ -12,7 +12,7 @@ typedef struct {
 
 /* x * 2^by, rounded down. */
 static inline long scaled(long x, long by) {
-  return by >= 0 ? x << by : x >> -by;
+  return by >= 0 ? (long)((ulong)x << by) : x >> -by;
 }
 
 /* Whether mantissa * 2^by >= 2^range. */

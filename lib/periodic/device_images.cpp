@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/layout.h"
+#include "lib/primitives/tiles.hpp"
 
 namespace powercell {
 namespace {
@@ -120,11 +121,10 @@ DeviceImages::DeviceImages(const std::shared_ptr<cl::Context>& context,
 }
 
 void DeviceImages::find_margin(const DeviceSeeds& seeds, std::uint32_t count) {
-  const std::uint32_t wanted = std::clamp(count / smallest_weight_tile, 1u, most_weight_tiles);
-  const std::uint32_t tile = (count - 1) / wanted + 1, tiles = (count - 1) / tile + 1;
-  of_tile_.reserve(std::size_t{tiles} * numbers_of_tile * sizeof(double));
-  weights_.args(tiles, tile, count, seeds.points, seeds.state, of_tile_).submit(tiles);
-  margin_kernel_.args(tiles, of_tile_, extent_, margin_).submit(1);
+  const Tiles tiles = tiles_of(count, smallest_weight_tile, most_weight_tiles);
+  of_tile_.reserve(std::size_t{tiles.count} * numbers_of_tile * sizeof(double));
+  weights_.args(tiles.count, tiles.size, count, seeds.points, seeds.state, of_tile_).submit(tiles.count);
+  margin_kernel_.args(tiles.count, of_tile_, extent_, margin_).submit(1);
 }
 
 std::uint32_t DeviceImages::read_number(std::uint32_t count) const {

@@ -18,9 +18,8 @@ class DeviceImages {
                const Period& period, const Frame& frame);
 
   /// Enqueues the search. \param seeds  of `count`, in order; at least one
-  /// \param most  number of images to make room for, beyond which they are dropped; 0 to read the number,
-  /// which
-  ///              waits for the queue
+  /// \param most  images to make room for, beyond which they are dropped; 0 to read how many there are, which
+  ///   waits for the queue
   /// \throw Error opencl; out_of_device_memory, also if there are too many seeds and images
   void enqueue(const DeviceSeeds& seeds, std::uint32_t count, std::uint32_t most);
 
@@ -31,8 +30,8 @@ class DeviceImages {
   std::uint32_t total = 0;               ///< seeds and places for images
   cl::RawBuffer points;                  ///< seed_t by rank: seeds, images, and places that no image takes
   cl::Buffer<std::uint32_t> image_seed;  ///< per image: rank of its seed
-  cl::Buffer<std::int32_t>
-      image_shift;  ///< per image: the number of its shift, minus that of the opposite one
+  /// Per image: the number of its shift, minus that of the opposite one.
+  cl::Buffer<std::int32_t> image_shift;
   /// Per number, from the least on: the shift in the vectors as given. Numbers are in the order of these.
   cl::Buffer<std::int32_t> shift_given;
 

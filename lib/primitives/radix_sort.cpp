@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "lib/primitives/tiles.hpp"
+
 namespace powercell {
 namespace {
 
@@ -40,8 +42,7 @@ void RadixSort::enqueue(cl_mem keys, cl_mem values, std::uint32_t count, unsigne
   if (count < 2 || bits == 0) return;
   const bool gpu = keys_.context()->info().type == DeviceInfo::Type::gpu;
   const std::uint32_t smallest = gpu ? smallest_tile_gpu : smallest_tile_cpu;
-  const std::uint32_t wanted = std::clamp(count / smallest, 1u, shape_.tiles);
-  const std::uint32_t tile = (count - 1) / wanted + 1, tiles = (count - 1) / tile + 1;
+  const auto [tile, tiles] = tiles_of(count, smallest, shape_.tiles);
   const std::uint32_t counters = tiles << shape_.digit_bits;
   keys_.reserve(std::size_t{count} * sizeof(cl_ulong));
   values_.reserve(std::size_t{count} * sizeof(cl_uint));

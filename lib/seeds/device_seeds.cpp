@@ -1,9 +1,8 @@
 #include "lib/seeds/device_seeds.hpp"
 
-#include <algorithm>
-
 #include "kernels/layout.h"
 #include "lib/domain/frame.hpp"
+#include "lib/primitives/tiles.hpp"
 
 namespace powercell {
 namespace {
@@ -36,12 +35,11 @@ DeviceSeeds::DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std:
 }
 
 void DeviceSeeds::find_box(std::uint32_t count) {
-  const std::uint32_t wanted = std::clamp(count / smallest_box_tile, 1u, most_box_tiles);
-  const std::uint32_t tile = (count - 1) / wanted + 1, tiles = (count - 1) / tile + 1;
-  boxes_.reserve(std::size_t{tiles} * 6 * sizeof(double));
+  const Tiles tiles = tiles_of(count, smallest_box_tile, most_box_tiles);
+  boxes_.reserve(std::size_t{tiles.count} * 6 * sizeof(double));
   grid_box_.reserve(4 * sizeof(double));
-  box_.args(tiles, tile, count, packed_, status_, boxes_).submit(tiles);
-  grid_.args(tiles, boxes_, grid_box_).submit(1);
+  box_.args(tiles.count, tiles.size, count, packed_, status_, boxes_).submit(tiles.count);
+  grid_.args(tiles.count, boxes_, grid_box_).submit(1);
 }
 
 void DeviceSeeds::sort_by(int kind, std::uint32_t count, unsigned bits) {

@@ -16,8 +16,8 @@ namespace powercell {
 class DeviceSeeds {
  public:
   /// Builds the kernels. \param defines  Variant::defines() for the precision and dimension
-  /// \param period  of a periodic domain, into which seeds are wrapped; else null  \param host_frame  as
-  /// `frame`
+  /// \param period      of a periodic domain, into which seeds are wrapped; else null
+  /// \param host_frame  the numbers of `frame` below
   DeviceSeeds(const std::shared_ptr<cl::Context>& context, const std::vector<std::string>& defines,
               bool float32, const Period* period, const Frame& host_frame);
 

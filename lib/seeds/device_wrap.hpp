@@ -23,8 +23,8 @@ class DeviceWrap {
 
   cl::Buffer<std::int64_t> period;  ///< PERIOD_... of kernels/layout.h
   cl::Buffer<std::int64_t> place;   ///< by seed as given: its coordinates as integers (kernels/seeds/wrap.cl)
-  cl::Buffer<std::int32_t>
-      shift;  ///< by seed as given, 3 each: from the wrapped seed, in the vectors as given
+  /// By seed as given, 3 each: from the wrapped seed, in the vectors as given.
+  cl::Buffer<std::int32_t> shift;
 
  private:
   std::size_t dimension_;

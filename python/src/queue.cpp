@@ -37,9 +37,9 @@ class PyDeviceDiagram {
     diagram_.set_image_capacity(images);
   }
 
-  /// \param results  measures, statuses, then the offsets, neighbours, walls and shifts of the adjacency, and
-  /// the
-  ///   number and the list of uncertain seeds; 0 for what is not wanted
+  /// \param results  measures and statuses; offsets, neighbours, walls and shifts of the adjacency; number
+  /// and
+  ///   list of uncertain seeds; 0 for what is not wanted
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
                   const std::vector<Pointer>& events) {
