@@ -33,6 +33,7 @@ CHECKED = {
     "neighbors/build_blocks.cl": ("float 3D", "double 3D"),
     "neighbors/hidden.cl": ("float 3D", "double 3D"),
 }
+KERNELS_LINE = "# SHA-256 of the kernels and their variants: "
 CODE_SLACK = 1.05  # a rise of the code size that --check lets pass
 # Programs that no diagram uses.
 TESTS = ("base/", "device_rates/")
@@ -114,6 +115,12 @@ def recorded(jobs):
 def checked(jobs):
     """Of those, what --check compiles: the first capacities."""
     return [job for job in recorded(jobs) if job.space in CHECKED.get(job.program, ()) and job.capacity < 100]
+
+
+def digest(jobs):
+    """Of all that the costs of these depend on, but for the compilers."""
+    text = json.dumps([[dataclasses.astuple(job), with_includes(job.program)] for job in jobs])
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 class Compiler:
@@ -198,15 +205,21 @@ def resident_warps(registers):
 
 def read_table():
     if not TABLE.exists():
-        return {}, []
+        return {}, ""
     lines = TABLE.read_text().splitlines()
     rows = csv.DictReader(line for line in lines if not line.startswith("#"))
     return {tuple(row[key] for key in KEYS): {cost: int(row[cost]) for cost in COSTS} for row in rows}, lines[0]
 
 
-def write_table(rows, versions):
+def is_of_today(jobs):
+    """Whether the table was written from the kernels and variants of today."""
+    return TABLE.exists() and TABLE.read_text().split("\n", 2)[1] == KERNELS_LINE + digest(jobs)
+
+
+def write_table(rows, versions, jobs):
     with TABLE.open("w") as file:
         file.write(f"# clang {versions[0]}, ptxas {versions[1]}; written by tools/gpu_costs.sh --record\n")
+        file.write(KERNELS_LINE + digest(jobs) + "\n")
         writer = csv.DictWriter(file, KEYS + COSTS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
@@ -268,16 +281,19 @@ def check(rows, versions):
 def main():
     parser = argparse.ArgumentParser()
     for name in ("--clang", "--libclc", "--ptxas"):
-        parser.add_argument(name, required=True)
+        parser.add_argument(name)
     parser.add_argument("--work", required=True, type=pathlib.Path)
     parser.add_argument("--check", nargs="?", const="some", choices=("some", "all"))
     parser.add_argument("--record", action="store_true")
+    parser.add_argument("--is-of-today", action="store_true", help="compile nothing; exit status 1: the table is older")
     parser.add_argument("programs", nargs="*")
     arguments = parser.parse_args()
     listed = variants(arguments.work / "variants.txt")
     jobs = [Job(program, of_maker[maker], target) for program, kind in programs()
             for of_maker in (dict(zip(MAKERS, both)) for both in zip(*(listed[maker, kind] for maker in MAKERS)))
             for target, maker in (("nvidia", "NVIDIA"), ("gfx90a", "AMD"), ("gfx1100", "AMD"))]
+    if arguments.is_of_today:
+        sys.exit(not is_of_today(recorded(jobs)))
     if arguments.programs:
         jobs = [job for job in jobs if job.program in arguments.programs]
     else:
@@ -292,7 +308,7 @@ def main():
     if arguments.check:
         check(rows, compiler.versions)
     elif arguments.record:
-        write_table(rows, compiler.versions)
+        write_table(rows, compiler.versions, jobs)
         write_page(rows, compiler.versions)
     else:
         writer = csv.DictWriter(sys.stdout, KEYS + COSTS, lineterminator="\n")

@@ -72,6 +72,13 @@ class Demo(TerminalTest):
             cls.out = out.read()
         cls.lines = test.check_bar(cls.shown)
         cls.page = Page((cls.made / "index.html").read_text())
+        # Another one, with the kernels that are there, beside the documents.
+        test.folder = cls.elsewhere = cls.home / "elsewhere"
+        (cls.elsewhere / "docs").mkdir(parents=True)
+        cls.documents = {path.name: path.read_text() for path in (DATA.parents[1] / "docs").glob("*.md")}
+        for name in ["README.md"] + [f"docs/{name}" for name in cls.documents]:
+            (cls.elsewhere / name).write_text("")
+        cls.again = test.report("demo", "-o", os.fsdecode(b"\xff"))
 
     def test_what_is_printed(self):
         for name in PICTURES:
@@ -87,14 +94,8 @@ class Demo(TerminalTest):
         self.assertEqual(told, sorted(told))
         self.assertEqual({whole for _, whole in told}, {told[-1][1]})
         # As many as there are: known before, and counted when all are compiled.
-        report = self.report("demo", "-o", os.fsdecode(b"\xff"))
-        self.assertEqual(report["programs"], told[-1][1])
-        self.assertGreater(told[-1][0], report["programs"] / 2)
-        self.assertEqual([picture["name"] for picture in report["pictures"]], PICTURES)
-        self.assertTrue(report["open"].startswith("\ufffd"))
-        for name in PICTURES:  # the same every time
-            self.assertEqual((self.folder / os.fsdecode(b"\xff") / f"{name}.png").read_bytes(),
-                             (self.made / f"{name}.png").read_bytes())
+        self.assertEqual(self.again["programs"], told[-1][1])
+        self.assertGreater(told[-1][0], self.again["programs"] / 2)
 
     def test_the_inputs_are_those_of_the_examples(self):
         for name in FILES:
@@ -132,22 +133,23 @@ class Demo(TerminalTest):
                     self.assertIn(f"{report['cells']} cells, {report['hidden']} hidden", line)
                     self.assertGreater(report["hidden"], 0)
 
+    def test_the_same_again(self):
+        self.assertEqual([picture["name"] for picture in self.again["pictures"]], PICTURES)
+        self.assertTrue(self.again["open"].startswith("\ufffd"))
+        for name in PICTURES:
+            self.assertEqual((self.elsewhere / os.fsdecode(b"\xff") / f"{name}.png").read_bytes(),
+                             (self.made / f"{name}.png").read_bytes())
+
     def test_links_to_the_documents_where_they_are(self):
         self.assertNotIn("docs/guide.md", (self.made / "index.html").read_text())
-        (self.folder / "docs").mkdir()
-        root = DATA.parents[1]
-        documents = {path.name: path.read_text() for path in (root / "docs").glob("*.md")}
-        for name in documents:
-            self.write(f"docs/{name}", "")
-        self.write("README.md", "")
-        self.good("demo", "--quiet")
-        links = [link for link in Page((self.folder / "powercell-demo/index.html").read_text()).links if ".md" in link]
+        folder = self.elsewhere / os.fsdecode(b"\xff")
+        links = [link for link in Page((folder / "index.html").read_text()).links if ".md" in link]
         self.assertGreater(len(links), 8)
         for link in links:
             path, _, section = link.partition("#")
-            self.assertTrue((self.folder / "powercell-demo" / path).exists(), link)
+            self.assertTrue((folder / path).exists(), link)
             headings = [re.sub(r"[^\w -]", "", h).strip().lower().replace(" ", "-")
-                        for h in re.findall(r"(?m)^#+ (.*)$", documents.get(pathlib.Path(path).name, ""))]
+                        for h in re.findall(r"(?m)^#+ (.*)$", self.documents.get(pathlib.Path(path).name, ""))]
             if section:
                 self.assertIn(section, headings)
 

@@ -96,7 +96,7 @@ class Tune(ToolTest):
                                    cwd=self.folder, text=True, env={**os.environ, **self.env},
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         interrupt(process, 1)
-        error = process.communicate(timeout=60)[1]
+        error = process.communicate(timeout=300)[1]
         self.assertEqual(process.returncode, 130, error)
         self.assertTrue(error.endswith("powercell: error: interrupted\n"), error)
         self.assertEqual(self.files(), [])

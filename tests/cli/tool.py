@@ -21,6 +21,7 @@ import zlib
 
 TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 DATA = pathlib.Path(__file__).resolve().parents[2] / "examples" / "data"
+ALL_INPUTS = "POWERCELL_TEST_ALL" in os.environ  # tests/README.md, "Time"
 SHAPES = {"italy.geojson": 2, "pretzel.off": 3, "bracket.mesh": 3}
 
 

@@ -104,8 +104,9 @@ TEST_CASE("walls in device memory equal those of Diagram") {
           CAPTURE(name(weights));
           CAPTURE(name(distribution));
           CAPTURE(static_cast<int>(precision));
-          check_walls_against_host(caller, diagram,
-                                   random_seeds(distribution, weights, 2000, dimension, random));
+          check_walls_against_host(
+              caller, diagram,
+              random_seeds(distribution, weights, number_of_inputs(800u, 2000u), dimension, random));
         }
     }
 }

@@ -20,6 +20,7 @@ TEST_CASE("after repair, everything in a box is that of an exact Diagram") {
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
       std::size_t computed = 0;
+      const std::size_t n = number_of_inputs(1000u, 3000u);
       DeviceDiagram diagram(caller.device(), unit_box(dimension), in_precision(precision));
       for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
         for (const Distribution distribution : {Distribution::white, Distribution::cluster}) {
@@ -28,9 +29,10 @@ TEST_CASE("after repair, everything in a box is that of an exact Diagram") {
           CAPTURE(name(distribution));
           CAPTURE(static_cast<int>(precision));
           computed +=
-              check_repaired(caller, diagram, random_seeds(distribution, weights, 3000, dimension, random));
+              check_repaired(caller, diagram, random_seeds(distribution, weights, n, dimension, random));
         }
-      MESSAGE(dimension, "D, precision ", static_cast<int>(precision), ": ", computed, " of 18000 cells");
+      MESSAGE(dimension, "D, precision ", static_cast<int>(precision), ": ", computed, " of ", 6 * n,
+              " cells");
     }
 }
 
@@ -43,7 +45,7 @@ TEST_CASE("after repair, everything in domains of several regions is that of an 
       for (const NamedDomain& domain : family) {
         DeviceDiagram diagram(caller.device(), domain.domain, in_precision(precision));
         for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
-          for (const std::size_t n : {3u, 400u}) {
+          for (const std::size_t n : {3u, number_of_inputs(150u, 400u)}) {
             CAPTURE(domain.name);
             CAPTURE(n);
             CAPTURE(name(weights));

@@ -16,7 +16,7 @@ TEST_CASE("diagrams of boxes agree with CGAL and voro++") {
   Random random(test_seed());
   for (const int d : {2, 3})
     for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
-      const std::size_t n = 3000;
+      const std::size_t n = number_of_inputs(1200u, 3000u);
       const SeedArray seeds = random_seeds(Distribution::white, range, n, d, random);
       const RegularTriangulation cgal = regular_triangulation(seeds.view());
       const ReferenceDiagram reference =

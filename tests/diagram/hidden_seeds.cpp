@@ -20,7 +20,8 @@ TEST_CASE("hidden seeds: setting them aside does not change the diagram") {
                                             {"tetrahedra", volume_of(cube_tetrahedra(2, 0.15, shape))}};
   for (const NamedDomain& named : domains) {
     Random random(test_seed());
-    SeedArray seeds = seeds_for(named.domain, Distribution::white, WeightRange::W2, 2500, random);
+    SeedArray seeds =
+        seeds_for(named.domain, Distribution::white, WeightRange::W2, number_of_inputs(1000u, 2500u), random);
     const RegularTriangulation dual = regular_triangulation(seeds.view());
     const ReferenceDiagram reference =
         cut_by_candidates(named.domain.mesh(), seeds.view(), dual.offset, dual.neighbor, dual.hidden);

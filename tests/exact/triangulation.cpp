@@ -47,7 +47,8 @@ TEST_CASE("random seeds: CGAL's triangulation, simplex by simplex") {
   for (const int dimension : {2, 3})
     for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
       for (const Distribution distribution : {Distribution::white, Distribution::cluster})
-        for (const std::size_t n : {std::size_t{5}, std::size_t{60}, std::size_t{1000}}) {
+        for (const std::size_t n :
+             {std::size_t{5}, std::size_t{60}, std::size_t{number_of_inputs(300u, 1000u)}}) {
           CAPTURE(dimension);
           CAPTURE(name(weights));
           CAPTURE(n);

@@ -132,7 +132,7 @@ TEST_CASE("no pair is lost and few are superfluous: random seeds and weights") {
     Random random(test_seed());
     double worst = 0;
     for (const WeightRange range : {WeightRange::W0, WeightRange::W1, WeightRange::W2})
-      for (const std::size_t n : {3, 20, 200}) {
+      for (const std::size_t n : {3, 20, number_of_inputs(60, 200)}) {
         INFO(m.name, " ", std::string(name(range)), " n = ", n);
         const SeedArray seeds = random_seeds(Distribution::white, range, n, m.mesh.dimension, random);
         const double ratio = check(m.mesh, seeds);
@@ -181,7 +181,8 @@ TEST_CASE(
                            Change{1e-160, 0, 0}, Change{1e160, 0, 0}}) {
       INFO(m.name, " scaled by ", c.scale, ", moved by ", c.by, ", weights plus ", c.weight);
       Random random(test_seed());
-      SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 100, m.mesh.dimension, random);
+      SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, number_of_inputs(50u, 100u),
+                                     m.mesh.dimension, random);
       scale(seeds, c.scale);
       if (c.scale > 1e100) seeds.weights.assign(seeds.size(), 0.0);  // they would overflow
       for (double& x : seeds.positions) x += c.by;

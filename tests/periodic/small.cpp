@@ -59,6 +59,7 @@ TEST_CASE("flat periodic boxes") {
   INFO(replay_hint());
   Random random(test_seed());
   for (const std::size_t n : {1u, 3u, 8u}) {
+    if (n != 3 && !all_inputs()) continue;
     PeriodicSpace plane = periodic_box_space(2, {{0, 0, 0}, {1, 1e-2, 0}}, {true, true, false}, 2);
     plane.most[1] = 220;  // beyond the length of the box
     check_all(plane, n, random);

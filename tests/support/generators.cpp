@@ -40,6 +40,10 @@ std::uint64_t test_seed() {
   return text && *text ? std::strtoull(text, nullptr, 0) : 1;
 }
 
+bool all_inputs() {
+  return std::getenv("POWERCELL_TEST_ALL") != nullptr;
+}
+
 std::string replay_hint() {
   return "replay with POWERCELL_TEST_SEED=" + std::to_string(test_seed());
 }

@@ -27,6 +27,14 @@ class Random {
 
 /// The random seed of this run: POWERCELL_TEST_SEED if set, else 1.
 std::uint64_t test_seed();
+/// Whether tests take all of their inputs: POWERCELL_TEST_ALL is set. Else those that are many, or need
+/// kernels that take long to compile, take some (tests/README.md, "Time").
+bool all_inputs();
+/// The number of inputs of a test: `all`, or `some` of them.
+template <class Number>
+Number number_of_inputs(Number some, Number all) {
+  return all_inputs() ? all : some;
+}
 /// How to run a failed case again, for doctest's INFO.
 std::string replay_hint();
 

@@ -87,7 +87,7 @@ TEST_CASE("bisectors nearly parallel to facets, edges and triangles of the domai
         Options options = setup.options;
         options.certify = true;
         Diagram diagram(setup.device, named.domain, options);
-        for (int trial = 0; trial < 60; ++trial) {
+        for (int trial = 0; trial < number_of_inputs(15, 60); ++trial) {
           const double angle = std::pow(10, random.uniform(-14, -1));
           const SeedArray seeds = seeds_at(any_place(named.domain, random), angle, named.domain, random);
           INFO(setup.name << ", domain " << named.name << ", trial " << trial << ", angle " << angle);
