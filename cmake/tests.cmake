@@ -8,7 +8,8 @@ include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
 set_source_files_properties(diagram/cells_at_boundary.cpp solid/both_ways.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # -O3 compiles tests half as long again as -O1, and most of a test's time is in the libraries and helpers, which keep theirs.
-set(test_options -Wall -Wextra $<$<CONFIG:Release>:-O1>)
+# Under the sanitizers -O0 halves what clang needs for the checks that they add.
+set(test_options -Wall -Wextra $<$<CONFIG:Release>:-O1> $<$<BOOL:${POWERCELL_SANITIZE}>:-O0>)
 
 # doctest's main function and the headers that most tests begin with, both compiled once for all.
 add_library(powercell_test_main OBJECT ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
