@@ -4,6 +4,7 @@
 #include <cmath>
 #include <powercell/error.hpp>
 #include <string>
+#include <utility>
 
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
@@ -11,17 +12,16 @@
 namespace powercell {
 namespace {
 
-[[noreturn]] void refuse(std::size_t seed, const std::string& what, double value, bool float32) {
-  throw Error(ErrorCode::invalid_seed,
-              "seed " + std::to_string(seed) + ": " + what + " is " + digits(value) +
-                  ", too large relative to the domain for " + (float32 ? "single" : "double") +
-                  " precision, in which its square would overflow; remove this seed" +
-                  (float32 ? " or use double precision" : ""));
+SeedFault too_large(std::size_t seed, const std::string& what, double value, bool float32) {
+  return {seed, what + " is " + digits(value) + ", too large relative to the domain for " +
+                    (float32 ? "single" : "double") +
+                    " precision, in which its square would overflow; remove this seed" +
+                    (float32 ? " or use double precision" : "")};
 }
 
 /// Squares of distances must be finite. In units of the domain's size, coordinates may be up to 1e140 and
 /// weights up to 1e280, in single precision 1e17 and 1e34 (as in kernels/base/point.cl).
-void require_in_range(const Setup& setup, const SeedsView& seeds) {
+std::optional<InputFault> first_out_of_range(const Setup& setup, const SeedsView& seeds) {
   const Frame& frame = setup.on_device.frame();
   const auto d = static_cast<std::size_t>(seeds.dimension);
   const auto bad_position = [&](std::size_t at) {
@@ -33,10 +33,16 @@ void require_in_range(const Setup& setup, const SeedsView& seeds) {
   };
   const std::size_t position = first_of(seeds.positions.size(), setup.threads, bad_position);
   if (position < seeds.positions.size())
-    refuse(position / d, std::string("coordinate ") + "xyz"[position % d], seeds.positions[position],
-           frame.split);
+    return InputFault{1, too_large(position / d, std::string("coordinate ") + "xyz"[position % d],
+                                   seeds.positions[position], frame.split)};
   const std::size_t weight = first_of(seeds.weights.size(), setup.threads, bad_weight);
-  if (weight < seeds.weights.size()) refuse(weight, "weight", seeds.weights[weight], frame.split);
+  if (weight < seeds.weights.size())
+    return InputFault{2, too_large(weight, "weight", seeds.weights[weight], frame.split)};
+  return {};
+}
+
+void require_in_range(const Setup& setup, const SeedsView& seeds) {
+  if (const auto found = first_out_of_range(setup, seeds)) refuse_seed(found->fault.seed, found->fault.why);
 }
 
 SeedRows with_room(std::size_t d, std::size_t count) {
@@ -87,6 +93,12 @@ SeedRows Input::given() const {
     copy_row(d, duplicates.positions.data(), duplicates.weights.data(), k, rows, seeds.duplicate[k]);
   if (unwrapped) rows.positions = unwrapped->positions;
   return rows;
+}
+
+std::optional<InputFault> first_fault(const Setup& setup, const SeedsView& seeds) {
+  if (std::optional<SeedFault> fault = first_not_finite(seeds, setup.threads))
+    return InputFault{0, std::move(*fault)};
+  return first_out_of_range(setup, seeds);
 }
 
 Input make_input(const Setup& setup, const SeedsView& view) {

@@ -39,6 +39,15 @@ struct Input {
 ///        periods outside; names seed and value)
 Input make_input(const Setup& setup, const SeedsView& seeds);
 
+/// The first seed that make_input() refuses in a domain that is not periodic, in the order in which it looks
+/// for them: all that are not finite come before all positions, and these before all weights, that are too
+/// large.
+struct InputFault {
+  int order = 0;  ///< of its kind
+  SeedFault fault;
+};
+std::optional<InputFault> first_fault(const Setup& setup, const SeedsView& seeds);
+
 /// The same seeds with new weights, in the caller's order.
 /// \throw Error invalid_argument (size), invalid_seed; `input` is then unchanged
 Input with_weights(const Setup& setup, Input&& input, std::span<const double> weights);

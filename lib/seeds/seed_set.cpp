@@ -16,30 +16,8 @@ namespace {
 static_assert(most_seeds_of_diagram <= BORDER_PLANE, "ranks of neighbours are borders below BORDER_PLANE");
 
 /// Index of the first value that is NaN or infinite, or values.size().
-std::size_t first_not_finite(std::span<const double> values, int threads) {
+std::size_t first_bad(std::span<const double> values, int threads) {
   return first_of(values.size(), threads, [&](std::size_t k) { return !std::isfinite(values[k]); });
-}
-
-void check_sizes(const SeedsView& seeds, int dimension) {
-  if (dimension != 2 && dimension != 3)
-    throw Error(ErrorCode::invalid_argument, "dimension must be 2 or 3, not " + std::to_string(dimension));
-  if (seeds.dimension != dimension)
-    throw Error(ErrorCode::invalid_argument,
-                "seeds have " + std::to_string(seeds.dimension) + " coordinates each, the domain has " +
-                    std::to_string(dimension) + "; give seeds of the domain's dimension");
-  const std::size_t d = static_cast<std::size_t>(dimension);
-  if (seeds.positions.size() % d != 0)
-    throw Error(ErrorCode::invalid_argument,
-                "the number of coordinates, " + std::to_string(seeds.positions.size()) +
-                    ", is not a multiple of the dimension " + std::to_string(dimension));
-  if (!seeds.weights.empty() && seeds.weights.size() != seeds.size())
-    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.weights.size()) + " weights for " +
-                                                 std::to_string(seeds.size()) +
-                                                 " seeds; give one for each seed, or none for all zero");
-  if (seeds.size() > most_seeds_of_diagram)
-    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.size()) +
-                                                 " seeds are more than the limit of " +
-                                                 std::to_string(most_seeds_of_diagram) + " for one diagram");
 }
 
 std::string spelled(double value) {
@@ -47,10 +25,8 @@ std::string spelled(double value) {
   return value > 0 ? "infinity" : "-infinity";
 }
 
-[[noreturn]] void refuse_weight(std::span<const double> weights, std::size_t seed) {
-  throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(seed) + ": weight is " +
-                                           spelled(weights[seed]) +
-                                           "; weights must be finite: correct or remove this seed");
+std::string weight_fault(double weight) {
+  return "weight is " + spelled(weight) + "; weights must be finite: correct or remove this seed";
 }
 
 /// Positions and weights in the order of `set.input`.
@@ -107,19 +83,50 @@ std::vector<std::uint32_t> drop_duplicates(const SeedsView& seeds, std::vector<s
 
 }  // namespace
 
-void check_seeds(const SeedsView& seeds, int dimension, int threads) {
-  check_sizes(seeds, dimension);
+void check_sizes(const SeedsView& seeds, int dimension) {
+  if (dimension != 2 && dimension != 3)
+    throw Error(ErrorCode::invalid_argument, "dimension must be 2 or 3, not " + std::to_string(dimension));
+  if (seeds.dimension != dimension)
+    throw Error(ErrorCode::invalid_argument,
+                "seeds have " + std::to_string(seeds.dimension) + " coordinates each, the domain has " +
+                    std::to_string(dimension) + "; give seeds of the domain's dimension");
   const std::size_t d = static_cast<std::size_t>(dimension);
-  const std::size_t position = first_not_finite(seeds.positions, threads);
-  const std::size_t weight = first_not_finite(seeds.weights, threads);
+  if (seeds.positions.size() % d != 0)
+    throw Error(ErrorCode::invalid_argument,
+                "the number of coordinates, " + std::to_string(seeds.positions.size()) +
+                    ", is not a multiple of the dimension " + std::to_string(dimension));
+  if (!seeds.weights.empty() && seeds.weights.size() != seeds.size())
+    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.weights.size()) + " weights for " +
+                                                 std::to_string(seeds.size()) +
+                                                 " seeds; give one for each seed, or none for all zero");
+  if (seeds.size() > most_seeds_of_diagram)
+    throw Error(ErrorCode::invalid_argument, std::to_string(seeds.size()) +
+                                                 " seeds are more than the limit of " +
+                                                 std::to_string(most_seeds_of_diagram) + " for one diagram");
+}
+
+std::optional<SeedFault> first_not_finite(const SeedsView& seeds, int threads) {
+  const std::size_t d = static_cast<std::size_t>(seeds.dimension);
+  const std::size_t position = first_bad(seeds.positions, threads);
+  const std::size_t weight = first_bad(seeds.weights, threads);
   const bool bad_position = position < seeds.positions.size();
   const bool bad_weight = weight < seeds.weights.size();
   if (bad_position && (!bad_weight || position / d <= weight))
-    throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(position / d) + ": coordinate " +
-                                             "xyz"[position % d] + " is " +
-                                             spelled(seeds.positions[position]) +
-                                             "; coordinates must be finite: correct or remove this seed");
-  if (bad_weight) refuse_weight(seeds.weights, weight);
+    return SeedFault{position / d, std::string("coordinate ") + "xyz"[position % d] + " is " +
+                                       spelled(seeds.positions[position]) +
+                                       "; coordinates must be finite: correct or remove this seed"};
+  if (bad_weight) return SeedFault{weight, weight_fault(seeds.weights[weight])};
+  return {};
+}
+
+void refuse_seed(std::uint64_t name, const std::string& why) {
+  throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(name) + ": " + why);
+}
+
+void check_seeds(const SeedsView& seeds, int dimension, int threads) {
+  check_sizes(seeds, dimension);
+  if (const std::optional<SeedFault> fault = first_not_finite(seeds, threads))
+    refuse_seed(fault->seed, fault->why);
 }
 
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads) {
@@ -139,8 +146,8 @@ SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads) {
 }
 
 void check_weights(std::span<const double> weights, int threads) {
-  const std::size_t seed = first_not_finite(weights, threads);
-  if (seed < weights.size()) refuse_weight(weights, seed);
+  const std::size_t seed = first_bad(weights, threads);
+  if (seed < weights.size()) refuse_seed(seed, weight_fault(weights[seed]));
 }
 
 }  // namespace powercell

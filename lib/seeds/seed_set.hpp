@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <powercell/seeds.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace powercell {
@@ -26,6 +28,19 @@ struct SeedSet {
 /// equal keys are ordered by position, then index, so the order does not depend on the number of threads.
 /// \throw Error invalid_argument (dimension, sizes), invalid_seed (the first seed with a NaN or infinity)
 SeedSet make_seed_set(const SeedsView& seeds, int dimension, int threads);
+
+/// Why a diagram refuses a seed.
+struct SeedFault {
+  std::size_t seed = 0;
+  std::string why;
+};
+/// The first seed with a NaN or infinity.
+std::optional<SeedFault> first_not_finite(const SeedsView& seeds, int threads);
+/// \param name  of the seed: its number \throw Error invalid_seed
+[[noreturn]] void refuse_seed(std::uint64_t name, const std::string& why);
+
+/// \throw Error invalid_argument (dimension, sizes)
+void check_sizes(const SeedsView& seeds, int dimension);
 
 /// \throw Error invalid_argument (dimension, sizes), invalid_seed (the first seed with a NaN or infinity)
 void check_seeds(const SeedsView& seeds, int dimension, int threads);
