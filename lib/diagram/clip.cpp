@@ -116,6 +116,7 @@ class Pass {
   void collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region);
   /// Lists the cells that reach beyond the margin.
   void prove_reach(const PieceSet& pieces);
+  void keep_reach(const PieceSet& pieces);
   /// Removes what was collected of some rows.
   void discard(std::span<const std::uint32_t> rows);
   void set_chunk_rows(ClipChunk& chunk, std::uint64_t begin, std::uint64_t end) const;
@@ -150,6 +151,7 @@ class Pass {
   std::optional<SelectedWalls> selected_walls_;
   std::vector<std::uint32_t> beyond_;  // ascending: rows of cells that reach too far
   double margin_ = 0;                  // that these need
+  std::vector<double> reach_;          // by row of the results
   ClipStatistics done_;                // of finished chunks
   Candidates* candidates_ = nullptr;
   std::uint64_t total_ = 0;  // pairs
@@ -222,6 +224,7 @@ void Pass::collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_r
     for (std::size_t k = 0; k < now_->pair_row.size(); ++k)
       if (pieces.status[k] == PIECE_FLAT) flat_.push_back(now_->pair_row[k]);
   if (proof_) prove_reach(pieces);
+  if (want_.reach) keep_reach(pieces);
   if (selected_walls_)
     selected_walls_->add(now_->pair_row, now_->pair_seed, pieces);
   else if (periodic_walls_)
@@ -229,6 +232,16 @@ void Pass::collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_r
   else if (collects_walls() && !plan_.selected)
     walls_.add(now_->pair_seed, pieces);
   if (want_.cells) geometry_.add(now_->pair_seed, pair_region, pieces);
+}
+
+void Pass::keep_reach(const PieceSet& pieces) {
+  const double unit = setup_.on_device.frame().unit(1);
+  reach_.resize(row_seeds().input_count);
+  for (std::size_t k = 0; k < now_->pair_row.size(); ++k) {
+    if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
+    double& reach = reach_[row_seeds().input[now_->pair_row[k]]];
+    reach = std::max(reach, pieces.reach[k] * unit);
+  }
 }
 
 void Pass::prove_reach(const PieceSet& pieces) {
@@ -319,7 +332,7 @@ void Pass::in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timing
 
 Clipper Pass::make_clipper(std::optional<ClipMemory> memory) const {
   return Clipper(active_.scene(), *candidates_,
-                 outputs_of(want_, collects_walls()) | (proof_ ? OUTPUT_REACH : 0),
+                 outputs_of(want_, collects_walls()) | (proof_ || want_.reach ? OUTPUT_REACH : 0),
                  ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total_}, std::move(memory));
 }
 
@@ -395,6 +408,10 @@ Clipped Pass::finish() {
     results.cells =
         geometry_.finish(measures.status, seeds, plan_.selected ? &plan_.selected->rank : nullptr);
   if (placement_) place_centroids(measures);
+  if (want_.reach) {
+    reach_.resize(row_seeds().input_count);
+    results.reach = std::move(reach_);
+  }
   results.measures = std::move(measures);
   return results;
 }

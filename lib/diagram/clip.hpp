@@ -16,6 +16,7 @@ namespace powercell {
 struct Wanted {
   bool adjacency = false;
   bool cells = false;  ///< the geometry: of a solid the joined cells
+  bool reach = false;  ///< how far each cell reaches, of a selection
 };
 
 /// The outcome of a pass: results, or ranks because of which it must be repeated.
@@ -24,6 +25,9 @@ struct Clipped {
   std::optional<Adjacency> adjacency;
   std::optional<Cells> cells;
   std::optional<SolidGeometry> solid;  ///< in place of cells
+  /// By row of the results: the distance of the farthest vertex from the seed, as accurate as vertices are; 0
+  /// where the cell is empty.
+  std::optional<std::vector<double>> reach;
   std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
   std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
 };

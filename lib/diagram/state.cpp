@@ -136,6 +136,7 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       if (!results->measures) results->measures = std::move(clipped.measures);
       if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
       if (clipped.cells) results->cells = std::move(clipped.cells);
+      if (clipped.reach) results->reach = std::move(clipped.reach);
       if (clipped.solid) {
         results->joined = std::move(clipped.solid->joined);
         results->simplices = std::move(clipped.solid->simplices);
@@ -205,7 +206,8 @@ bool Diagram::State::compute_from_mesh(Wanted want) {
 void Diagram::State::compute(Wanted want) {
   want.adjacency = want.adjacency && !results->adjacency;
   want.cells = want.cells && !results->cells && !(setup.domain.is_solid() && results->joined);
-  if (results->measures && !want.adjacency && !want.cells) return;
+  want.reach = want.reach && !results->reach;
+  if (results->measures && !want.adjacency && !want.cells && !want.reach) return;
   if (!input) throw Error(ErrorCode::invalid_argument, "the diagram has no seeds yet; call set_seeds first");
   const double built_before = setup.device.build_seconds();
   const double prepared = timings.prepare;  // by set_seeds or set_weights

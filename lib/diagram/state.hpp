@@ -27,6 +27,7 @@ struct Diagram::State {
     std::optional<std::vector<std::uint32_t>> simplices;  ///< of a solid (SolidGeometry)
     std::optional<Dual> dual;
     std::optional<BoundaryWalls> boundary_walls;
+    std::optional<std::vector<double>> reach;  ///< Clipped::reach
   };
   /// Shared with callers who hold the results while the seeds change: replaced then, not cleared.
   std::shared_ptr<Results> results = std::make_shared<Results>();
