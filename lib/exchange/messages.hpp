@@ -1,0 +1,47 @@
+/// \file
+/// What shards tell each other: plain arrays of numbers, for any transport. Internal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace powercell::exchange {
+
+/// Bytes of an array.
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+/// Vertices of cells, with the question which seeds of another shard could cut them off.
+struct Request {
+  /// Rows of the cells' seeds: position, weight, and the distance of the farthest vertex.
+  std::vector<double> cell;
+  std::vector<std::uint32_t> end;  ///< per cell: the end of its vertices
+  std::vector<float> vertex;       ///< rows of coordinates, from the seed, in units of that distance
+
+  std::size_t cells() const { return end.size(); }
+  std::size_t bytes() const { return bytes_of(cell) + bytes_of(end) + bytes_of(vertex); }
+};
+
+/// Seeds that cut the cells of a request, or touch them, and that have not been sent before.
+struct Reply {
+  std::vector<std::uint64_t> id;
+  std::vector<double> seed;  ///< rows of position and weight
+  /// Per vertex of the request: 1 if a seed sent now could cut it off, 0 if no seed but those sent before
+  /// could.
+  std::vector<std::uint8_t> found;
+
+  std::size_t bytes() const { return bytes_of(id) + bytes_of(seed) + bytes_of(found); }
+};
+
+/// Hidden seeds, with the question which of them are duplicates.
+struct Twins {
+  std::vector<std::uint64_t> id;
+  std::vector<double> seed;  ///< rows of position and weight
+
+  std::size_t bytes() const { return bytes_of(id) + bytes_of(seed); }
+};
+
+}  // namespace powercell::exchange

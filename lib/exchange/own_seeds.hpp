@@ -1,0 +1,85 @@
+/// \file
+/// The seeds that a shard owns, and its answers to others. Internal.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <powercell/seeds.hpp>
+#include <span>
+#include <vector>
+
+#include "lib/exchange/cut_test.hpp"
+#include "lib/exchange/messages.hpp"
+#include "lib/seeds/packed_tree.hpp"
+#include "lib/seeds/seed_set.hpp"
+
+namespace powercell::exchange {
+
+/// Seeds in ascending order of their ids, with a tree of those that are no duplicates of each other.
+class OwnSeeds {
+ public:
+  /// \param ids  of the seeds, each once \throw Error invalid_argument (sizes; an id that is there twice),
+  /// invalid_seed
+  OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads);
+
+  std::size_t size() const { return id_.size(); }
+  std::uint64_t id(std::size_t i) const { return id_[i]; }
+  /// The place of seed i among those given.
+  std::size_t given(std::size_t i) const { return given_[i]; }
+  /// Rows of position and weight.
+  const double* row(std::size_t i) const { return &rows_[i * width_]; }
+  const PackedTree& tree() const { return tree_; }
+
+  /// A seed without a cell: it cuts no other, and is not sent any more.
+  void set_hidden(std::size_t i) { hidden_[i] = 1; }
+  bool is_hidden(std::size_t i) const { return hidden_[i] != 0; }
+
+  /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex.
+  /// \param asker  the number of the shard that asks
+  Reply answer(int asker, const Request& request);
+  /// Ids of hidden seeds that were sent to `asker`, each once.
+  std::vector<std::uint64_t> take_hidden(int asker);
+  /// Per seed of the question: 1 if a seed here at the same position is heavier, or as heavy with a lower id.
+  std::vector<std::uint8_t> better_twins(const Twins& twins) const;
+  /// Seeds sent to all others, counted once for each.
+  std::uint64_t sent() const { return sent_count_; }
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  using Sent = std::vector<std::uint8_t>;  // by rank
+
+  /// What is asked about the cells of a request.
+  struct Search {
+    const Sent& sent;
+    std::vector<std::uint32_t> leaves;  ///< that could cut the present cell
+    bool few = false;                   ///< whether these are all; else the tree is searched
+  };
+
+  void find_leaves(const CutTest& cell, Search& search) const;
+  /// The rank of least power at a point, of seeds that may cut it and were not sent before, or none.
+  std::uint32_t least(const CutTest& point, const Search& search) const;
+  /// Appends the ranks that a vertex is answered with. \return whether there are any
+  bool find_first(CutTest& point, const Search& search, std::vector<std::uint32_t>& ranks) const;
+  /// Answers the vertices of a cell. \param ranks  receives those to send
+  void answer_cell(const Request& request, std::size_t cell, Search& search, std::vector<std::uint8_t>& found,
+                   std::vector<std::uint32_t>& ranks) const;
+  bool may_send(std::uint32_t rank, const Sent& sent) const {
+    return sent[rank] == 0 && hidden_[set_.input[rank]] == 0;
+  }
+  const double* position(std::uint32_t rank) const {
+    return &set_.positions[rank * static_cast<std::size_t>(set_.dimension)];
+  }
+
+  int threads_;
+  std::size_t width_;  // of a row
+  std::vector<std::uint64_t> id_;
+  std::vector<std::size_t> given_;
+  std::vector<double> rows_;
+  std::vector<std::uint8_t> hidden_;
+  SeedSet set_;
+  PackedTree tree_;
+  std::map<int, Sent> sent_;  // by asker: 1 if sent, 2 if it was told too that the seed is hidden
+  std::uint64_t sent_count_ = 0;
+};
+
+}  // namespace powercell::exchange

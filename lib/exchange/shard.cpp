@@ -1,0 +1,286 @@
+#include "lib/exchange/shard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_set>
+
+namespace powercell::exchange {
+namespace {
+
+constexpr std::size_t far_vertices = 6;  // that are asked about at a time
+/// Seeds of a shard in the plane and in space.
+constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 50000};
+
+}  // namespace
+
+Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension,
+             int threads)
+    : number_(number),
+      width_(static_cast<std::size_t>(dimension) + 1),
+      own_(ids, seeds, dimension, threads),
+      open_(own_.size()),
+      rows_(own_.size()) {
+  std::iota(open_.begin(), open_.end(), Handle{0});
+  measures_.dimension = dimension;
+  measures_.mass.resize(own_.size());
+  measures_.centroid.resize(own_.size() * (width_ - 1), std::numeric_limits<double>::quiet_NaN());
+  measures_.second_moment.resize(own_.size());
+  measures_.status.resize(own_.size(), SeedStatus::hidden);
+}
+
+std::vector<Handle> Shard::at_hand(bool all) const {
+  std::vector<Handle> handles;
+  const auto count = static_cast<Handle>(own_.size() + foreign_id_.size());
+  if (all) {
+    for (Handle h = 0; h < count; ++h)
+      if (round_ == 0 || !is_gone(h)) handles.push_back(h);
+  } else {
+    std::vector<bool> needed(count);
+    for (const Handle cell : open_) {
+      needed[cell] = true;
+      for (std::size_t k = rows_[cell].begin; k < rows_[cell].begin + rows_[cell].count; ++k)
+        needed[neighbor_[k]] = true;
+    }
+    for (Handle h = 0; h < count; ++h)
+      if (needed[h] || h >= own_.size() + foreign_clipped_) handles.push_back(h);
+  }
+  // The lower id wins between duplicates, as the lower index does in a diagram.
+  std::sort(handles.begin(), handles.end(), [this](Handle a, Handle b) { return id_of(a) < id_of(b); });
+  return handles;
+}
+
+std::map<int, Request> Shard::clip(Diagram::State& diagram) {
+  std::map<int, Request> requests;
+  if (open_.empty()) return requests;
+  // Where the domain is convex, a cell is determined by its walls and the seeds that came since.
+  const std::vector<Handle> handles = at_hand(all_needed_ || diagram.setup.domain.region_count() > 1);
+  std::vector<double> positions, weights;
+  for (const Handle h : handles) {
+    const double* const row = row_of(h);
+    positions.insert(positions.end(), row, row + width_ - 1);
+    weights.push_back(row[width_ - 1]);
+  }
+  diagram.set_seeds({static_cast<int>(width_) - 1, positions, weights});
+  // Of a large shard most cells are far from all others, so that their geometry is not needed.
+  if (round_ == 0 && own_.size() >= least_with_far_cells[width_ - 3]) {
+    compute(diagram, handles, {.adjacency = true, .reach = true});
+    close_far_cells(*diagram.results->reach);
+  }
+  if (!open_.empty()) {
+    compute(diagram, handles, {.adjacency = true, .cells = true});
+    NearBoxes near(outlines_, number_);
+    for (std::size_t k = 0; k < open_.size(); ++k)
+      if (measures_.status[open_[k]] == SeedStatus::ok)
+        ask(*diagram.results->cells, k, handles, near, requests);
+  }
+  foreign_clipped_ = foreign_id_.size();
+  all_needed_ = false;
+  ++round_;
+  return requests;
+}
+
+void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want) {
+  const std::size_t d = width_ - 1;
+  std::vector<std::uint32_t> index(own_.size()), selected;
+  for (std::uint32_t k = 0; k < handle.size(); ++k)
+    if (is_own(handle[k])) index[handle[k]] = k;
+  for (const Handle cell : open_) selected.push_back(index[cell]);
+  clipped_ += selected.size();
+  diagram.select(selected);
+  diagram.compute(want);
+  const Measures& from = *diagram.results->measures;
+  const Adjacency& adjacency = *diagram.results->adjacency;
+  for (std::size_t k = 0; k < open_.size(); ++k) {
+    const Handle cell = open_[k];
+    measures_.mass[cell] = from.mass[k];
+    std::copy_n(&from.centroid[k * d], d, &measures_.centroid[cell * d]);
+    measures_.second_moment[cell] = from.second_moment[k];
+    measures_.status[cell] = from.status[k];
+    if (from.status[k] != SeedStatus::ok) own_.set_hidden(cell);
+    rows_[cell] = {neighbor_.size(), adjacency.offset[k + 1] - adjacency.offset[k]};
+    for (std::uint64_t w = adjacency.offset[k]; w < adjacency.offset[k + 1]; ++w) {
+      neighbor_.push_back(handle[adjacency.neighbor[w]]);
+      wall_.push_back(adjacency.wall[w]);
+    }
+  }
+}
+
+void Shard::close_far_cells(const std::vector<double>& reach) {
+  NearBoxes near(outlines_, number_);
+  std::vector<Handle> left;
+  for (std::size_t k = 0; k < open_.size(); ++k) {
+    const Handle cell = open_[k];
+    if (measures_.status[cell] != SeedStatus::ok) continue;
+    near.set(CutTest(own_.row(cell), std::max(reach[k], least_radius), measures_.dimension));
+    if (!near.empty()) left.push_back(cell);
+  }
+  open_ = std::move(left);
+}
+
+bool Shard::keep_nearest(CutTest& test, const Point& vertex) {
+  if (round_ > 0 || asked_.size() < 2) return true;
+  const std::size_t all = asked_.size();
+  for (double along = 0.5; asked_.size() > 1 && along > 1e-3; along /= 2) {
+    test.move_to({along * vertex[0], along * vertex[1], along * vertex[2]});
+    std::vector<int> nearer;
+    for (const int shard : asked_)
+      if (may_cut((*outlines_)[static_cast<std::size_t>(shard)], test)) nearer.push_back(shard);
+    if (nearer.empty()) break;
+    asked_ = std::move(nearer);
+  }
+  return asked_.size() == all;
+}
+
+void Shard::add_vertex(Handle cell, double radius, const Point& vertex, Request& request) const {
+  const double* const row = own_.row(cell);
+  // Vertices of a cell are one after the other.
+  const auto last = request.cell.end() - (request.cell.empty() ? 0 : static_cast<std::ptrdiff_t>(width_) + 1);
+  if (last == request.cell.end() || !std::equal(row, row + width_, last)) {
+    request.cell.insert(request.cell.end(), row, row + width_);
+    request.cell.push_back(radius);
+    request.end.push_back(request.end.empty() ? 0 : request.end.back());
+  }
+  for (std::size_t k = 0; k + 1 < width_; ++k)
+    request.vertex.push_back(static_cast<float>(vertex[k] / radius));
+  ++request.end.back();
+}
+
+void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,
+                std::map<int, Request>& requests) {
+  const Handle self = open_[row];
+  const double radius = radius_of(cells, row, own_.row(self));
+  CutTest test(own_.row(self), radius, measures_.dimension);
+  near.set(test);
+  if (near.empty()) return;
+  cell_vertices_.set(cells, row, own_.row(self), self, handle);
+  // Of a cell that reaches far, most vertices are cut off by what others are answered with.
+  const std::size_t most = near.few() ? cell_vertices_.size() : far_vertices, before = waiting_for_.size();
+  bool postponed = false;
+  for (std::size_t v = 0; v < cell_vertices_.size(); ++v) {
+    const Point& at = cell_vertices_.offset(v);
+    test.move_to(at);
+    near.shards_at(test, asked_);
+    if (asked_.empty()) continue;
+    Vertex& vertex = vertices_[cell_vertices_.name(v)];
+    if (vertex.settled) continue;
+    postponed = waiting_for_.size() - before == most;
+    if (postponed) break;
+    if (vertex.round <= round_) {
+      vertex = {round_ + 1, keep_nearest(test, at), false, false};
+      questions_.push_back(&vertex);
+      for (const int shard : asked_) {
+        add_vertex(self, radius, at, requests[shard]);
+        asked_of_[shard].push_back(&vertex);
+      }
+    }
+    waiting_for_.push_back(&vertex);
+  }
+  if (waiting_for_.size() > before) waiting_.push_back({self, waiting_for_.size(), postponed});
+}
+
+void Shard::take(int from, const Reply& reply) {
+  foreign_id_.insert(foreign_id_.end(), reply.id.begin(), reply.id.end());
+  foreign_rows_.insert(foreign_rows_.end(), reply.seed.begin(), reply.seed.end());
+  foreign_hidden_.resize(foreign_id_.size());
+  const std::vector<Vertex*>& asked = asked_of_.at(from);
+  for (std::size_t v = 0; v < asked.size(); ++v)
+    if (reply.found[v] != 0) asked[v]->found = true;
+}
+
+void Shard::settle() {
+  for (Vertex* const vertex : questions_) vertex->settled = vertex->all_asked && !vertex->found;
+  open_.clear();
+  std::size_t begin = 0;
+  for (const Waiting& cell : waiting_) {
+    const auto first = waiting_for_.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = waiting_for_.begin() + static_cast<std::ptrdiff_t>(cell.end);
+    begin = cell.end;
+    if (cell.postponed || !std::all_of(first, last, [](const Vertex* vertex) { return vertex->settled; }))
+      open_.push_back(cell.cell);
+  }
+  waiting_.clear();
+  waiting_for_.clear();
+  questions_.clear();
+  asked_of_.clear();
+}
+
+void Shard::forget(const std::vector<std::uint64_t>& ids) {
+  if (ids.empty()) return;
+  const std::unordered_set<std::uint64_t> gone(ids.begin(), ids.end());
+  for (std::size_t k = 0; k < foreign_id_.size(); ++k)
+    if (gone.contains(foreign_id_[k])) foreign_hidden_[k] = 1;
+}
+
+void Shard::reopen() {
+  for (Handle cell = 0; cell < own_.size(); ++cell) {
+    if (measures_.status[cell] != SeedStatus::ok) continue;
+    const auto first = neighbor_.begin() + static_cast<std::ptrdiff_t>(rows_[cell].begin);
+    if (std::any_of(first, first + static_cast<std::ptrdiff_t>(rows_[cell].count),
+                    [this](Handle h) { return is_gone(h); }))
+      open_.push_back(cell);
+  }
+  all_needed_ = !open_.empty();
+}
+
+std::map<int, Twins> Shard::twins() const {
+  std::map<int, Twins> questions;
+  for (Handle cell = 0; cell < own_.size(); ++cell) {
+    if (measures_.status[cell] != SeedStatus::hidden) continue;
+    const double* const row = own_.row(cell);
+    for (std::size_t s = 0; s < outlines_->size(); ++s) {
+      if (static_cast<int>(s) == number_ || !may_contain((*outlines_)[s], row)) continue;
+      Twins& twins = questions[static_cast<int>(s)];
+      twins.id.push_back(own_.id(cell));
+      twins.seed.insert(twins.seed.end(), row, row + width_);
+    }
+  }
+  return questions;
+}
+
+void Shard::mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>& better) {
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < better.size(); ++k) {
+    while (own_.id(at) != asked.id[k]) ++at;
+    if (better[k] != 0) measures_.status[at] = SeedStatus::duplicate;
+  }
+}
+
+ShardCells Shard::cells(double domain_measure) const {
+  const std::size_t d = width_ - 1;
+  std::vector<Handle> at(own_.size());
+  for (Handle i = 0; i < own_.size(); ++i) at[own_.given(i)] = i;
+  ShardCells cells;
+  cells.measures.dimension = measures_.dimension;
+  cells.measures.domain_measure = domain_measure;
+  cells.offset.push_back(0);
+  std::vector<std::pair<std::uint64_t, double>> row;
+  for (const Handle i : at) {
+    cells.measures.mass.push_back(measures_.mass[i]);
+    cells.measures.second_moment.push_back(measures_.second_moment[i]);
+    cells.measures.status.push_back(measures_.status[i]);
+    cells.measures.centroid.insert(cells.measures.centroid.end(), &measures_.centroid[i * d],
+                                   &measures_.centroid[i * d] + d);
+    row.clear();
+    for (std::size_t k = rows_[i].begin; k < rows_[i].begin + rows_[i].count; ++k)
+      row.emplace_back(id_of(neighbor_[k]), wall_[k]);
+    std::sort(row.begin(), row.end());
+    for (const auto& [id, wall] : row) {
+      cells.neighbor.push_back(id);
+      cells.wall.push_back(wall);
+    }
+    cells.offset.push_back(cells.neighbor.size());
+  }
+  return cells;
+}
+
+std::size_t Shard::foreign_neighbors() const {
+  std::unordered_set<Handle> found;
+  for (Handle cell = 0; cell < own_.size(); ++cell)
+    for (std::size_t k = rows_[cell].begin; k < rows_[cell].begin + rows_[cell].count; ++k)
+      if (!is_own(neighbor_[k])) found.insert(neighbor_[k]);
+  return found.size();
+}
+
+}  // namespace powercell::exchange

@@ -1,0 +1,133 @@
+/// \file
+/// One shard of the seeds of a power diagram: computes the cells of its own seeds, with those of others that
+/// it asks for (docs/scale.md). Internal.
+#pragma once
+
+#include <powercell/diagram.hpp>
+#include <unordered_map>
+#include <utility>
+
+#include "lib/diagram/state.hpp"
+#include "lib/exchange/cell_vertices.hpp"
+#include "lib/exchange/outline.hpp"
+#include "lib/exchange/own_seeds.hpp"
+
+namespace powercell::exchange {
+
+/// The cells of a shard, in the order in which its seeds were given.
+struct ShardCells {
+  Measures measures;
+  std::vector<std::uint64_t> offset;    ///< as in Adjacency
+  std::vector<std::uint64_t> neighbor;  ///< ids, ascending within a row
+  std::vector<double> wall;             ///< as seen from the cell of the row
+};
+
+/// All shards take the same steps, one after the other or each on a machine of its own:
+///
+///     meet() the outlines of the seeds of all
+///     while some shard has open cells:
+///       while some shard has: clip(); send the requests, answer() them, take() the replies; settle()
+///       send take_hidden(), forget() what comes; reopen()
+///     send twins(), answer them by better_twins(), mark_duplicates(); cells()
+class Shard {
+ public:
+  /// \param number  among all shards \throw Error as OwnSeeds
+  Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads);
+
+  OwnSeeds& own() { return own_; }
+  const OwnSeeds& own() const { return own_; }
+  std::size_t open_cells() const { return open_.size(); }
+  std::uint64_t clipped_cells() const { return clipped_; }  ///< counted each time
+  void meet(Outlines outlines) { outlines_ = std::move(outlines); }
+
+  /// Clips the open cells among all seeds at hand. \return requests to the shards of some numbers
+  /// \param diagram  in the domain; its seeds and selection are replaced \throw Error as Diagram
+  std::map<int, Request> clip(Diagram::State& diagram);
+  void take(int from, const Reply& reply);
+  /// Closes the cells of which no vertex can be cut off any more.
+  void settle();
+
+  /// Seeds of others turned out to be hidden.
+  void forget(const std::vector<std::uint64_t>& ids);
+  /// Opens the cells again that have a wall with a hidden seed: one whose cell is flat.
+  void reopen();
+
+  /// Hidden seeds that may have twins in the shards of some numbers.
+  std::map<int, Twins> twins() const;
+  void mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>& better);
+
+  ShardCells cells(double domain_measure) const;
+  std::size_t foreign_seeds() const { return foreign_id_.size(); }  ///< fetched in all
+  std::size_t foreign_neighbors() const;                            ///< of these, with a wall in the end
+
+ private:
+  /// A vertex that another shard could cut off.
+  struct Vertex {
+    int round = 0;          ///< in which it was asked about
+    bool all_asked = true;  ///< whether all shards were asked that could cut it off
+    bool found = false;
+    bool settled = false;  ///< whether no seed can cut it off but those that are known
+  };
+  /// A cell that waits for answers.
+  struct Waiting {
+    Handle cell;
+    std::size_t end;  ///< of its vertices in waiting_for_
+    bool postponed;   ///< whether other vertices are left for later
+  };
+  struct Row {
+    std::size_t begin = 0, count = 0;  ///< in neighbor_ and wall_
+  };
+
+  bool is_own(Handle h) const { return h < own_.size(); }
+  std::uint64_t id_of(Handle h) const { return is_own(h) ? own_.id(h) : foreign_id_[h - own_.size()]; }
+  const double* row_of(Handle h) const {
+    return is_own(h) ? own_.row(h) : &foreign_rows_[(h - own_.size()) * width_];
+  }
+  bool is_gone(Handle h) const {
+    return is_own(h) ? own_.is_hidden(h) : foreign_hidden_[h - own_.size()] != 0;
+  }
+  /// Seeds to clip the open cells among, by ascending id: all known ones but hidden ones, or those with a
+  /// wall of an open cell and those that came since, which leaves out none that matters to a convex cell.
+  std::vector<Handle> at_hand(bool all) const;
+  /// Clips the open cells and keeps their results.
+  void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
+  /// The open cells that other shards may cut, by what is known of how far they reach; the others are closed.
+  void close_far_cells(const std::vector<double>& reach);
+  /// Adds the vertices of a cell to the requests that no shard was asked about yet.
+  void ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,
+           std::map<int, Request>& requests);
+  /// Adds a vertex to the request to a shard.
+  void add_vertex(Handle cell, double radius, const Point& vertex, Request& request) const;
+  /// Cells reach far at first: leaves those shards in asked_ that may cut off more than the vertex, nearer to
+  /// the seed. The others are asked later, if they still matter. \return whether none was removed
+  bool keep_nearest(CutTest& test, const Point& vertex);
+
+  int number_;
+  std::size_t width_;  // of a row of position and weight
+  OwnSeeds own_;
+  Outlines outlines_;
+
+  std::vector<std::uint64_t> foreign_id_;
+  std::vector<double> foreign_rows_;
+  std::vector<std::uint8_t> foreign_hidden_;
+  std::size_t foreign_clipped_ = 0;  // those before were at hand when the open cells were clipped last
+
+  int round_ = 0;
+  std::uint64_t clipped_ = 0;
+  bool all_needed_ = true;    // cells are open whose walls may be missing
+  std::vector<Handle> open_;  // ascending
+  std::vector<Waiting> waiting_;
+  std::vector<Vertex*> waiting_for_;
+  std::unordered_map<VertexName, Vertex, VertexHash> vertices_;
+  std::vector<Vertex*> questions_;                // of this round
+  std::map<int, std::vector<Vertex*>> asked_of_;  // by shard: the vertices of its request
+  CellVertices cell_vertices_;
+  std::vector<int> asked_;
+
+  Measures measures_;  // of own seeds
+  std::vector<Row> rows_;
+  std::vector<Handle> neighbor_;
+  std::vector<double> wall_;
+};
+
+}  // namespace powercell::exchange

@@ -1,0 +1,107 @@
+/// \file
+/// Seeds in shards, and their cells against those of one diagram.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <powercell/diagram.hpp>
+#include <string>
+#include <vector>
+
+#include "lib/exchange/sharded.hpp"
+#include "lib/seeds/hilbert.hpp"
+#include "tests/support/domains.hpp"
+#include "tests/support/setups.hpp"
+
+namespace powercell::test {
+
+/// Seeds shared out: seed i of all, which is its id, is in the shard of its number.
+struct Shares {
+  int dimension;
+  std::vector<std::vector<std::uint64_t>> ids;
+  std::vector<std::vector<double>> positions, weights;
+
+  Shares(const SeedArray& seeds, const std::vector<std::size_t>& shard, std::size_t count)
+      : dimension(seeds.dimension), ids(count), positions(count), weights(count) {
+    const auto d = static_cast<std::size_t>(dimension);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      ids[shard[i]].push_back(i);
+      for (std::size_t k = 0; k < d; ++k) positions[shard[i]].push_back(seeds.positions[i * d + k]);
+      weights[shard[i]].push_back(seeds.weights[i]);
+    }
+  }
+  std::vector<exchange::ShardSeeds> view() const {
+    std::vector<exchange::ShardSeeds> shards;
+    for (std::size_t s = 0; s < ids.size(); ++s)
+      shards.push_back({ids[s], {dimension, positions[s], weights[s]}});
+    return shards;
+  }
+};
+
+inline Shares along_curve(const SeedArray& seeds, std::size_t count) {
+  std::vector<std::size_t> shard(seeds.size());
+  const std::vector<std::uint32_t> order = hilbert_order(seeds.positions, seeds.dimension, 1);
+  for (std::size_t k = 0; k < order.size(); ++k) shard[order[k]] = k * count / order.size();
+  return {seeds, shard, count};
+}
+
+inline Shares at_random(const SeedArray& seeds, std::size_t count, Random& random) {
+  std::vector<std::size_t> shard(seeds.size());
+  for (std::size_t& s : shard) s = random.index(count);
+  return {seeds, shard, count};
+}
+
+/// What the measure of a cell may be off by: its surface, about, moved by the rounding of its vertices. These
+/// are cut from a region as large as the domain, and more of them in another order.
+inline double measure_error(const Domain& domain, double measure) {
+  const auto d = static_cast<double>(domain.dimension());
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, domain.high()[k] - domain.low()[k]);
+  return 2e-16 * extent * 2 * d * std::pow(measure, (d - 1) / d);
+}
+
+/// The neighbours, statuses and measures of all cells in shards are those of one diagram. Measures differ by
+/// rounding, because the order of cuts depends on the tree of the seeds at hand.
+inline exchange::ExchangeReport check_shares(Diagram& diagram, const Shares& shares) {
+  const exchange::ShardedDiagram sharded =
+      exchange::compute_shards(diagram.device(), diagram.domain(), shares.view());
+  const Measures& measures = diagram.measures();
+  const Adjacency& adjacency = diagram.adjacency();
+  const double mean = measures.domain_measure / static_cast<double>(std::max<std::size_t>(diagram.size(), 1));
+  const double most_wall =
+      adjacency.wall.empty() ? 0 : *std::max_element(adjacency.wall.begin(), adjacency.wall.end());
+  REQUIRE(sharded.shards.size() == shares.ids.size());
+  for (std::size_t s = 0; s < shares.ids.size(); ++s) {
+    const exchange::ShardCells& cells = sharded.shards[s];
+    REQUIRE(cells.measures.mass.size() == shares.ids[s].size());
+    for (std::size_t k = 0; k < shares.ids[s].size(); ++k) {
+      const std::size_t i = shares.ids[s][k];
+      CAPTURE(i);
+      CHECK(cells.measures.status[k] == measures.status[i]);
+      CHECK(std::abs(cells.measures.mass[k] - measures.mass[i]) <=
+            measure_error(diagram.domain(), std::max(mean, measures.mass[i])));
+      const std::size_t count = adjacency.offset[i + 1] - adjacency.offset[i];
+      REQUIRE(cells.offset[k + 1] - cells.offset[k] == count);
+      for (std::size_t w = 0; w < count; ++w) {
+        CHECK(cells.neighbor[cells.offset[k] + w] == adjacency.neighbor[adjacency.offset[i] + w]);
+        CHECK(std::abs(cells.wall[cells.offset[k] + w] - adjacency.wall[adjacency.offset[i] + w]) <=
+              1e-12 * most_wall);
+      }
+    }
+  }
+  CHECK(sharded.report.fetched >= sharded.report.neighbors);
+  return sharded.report;
+}
+
+/// A diagram of all seeds.
+inline Diagram diagram_of(const Domain& domain, const SeedArray& seeds) {
+  Diagram diagram(test_device(), domain);
+  diagram.set_seeds(seeds.view());
+  diagram.compute(true, false);
+  return diagram;
+}
+
+}  // namespace powercell::test
