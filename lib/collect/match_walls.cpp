@@ -25,7 +25,7 @@ static_assert(WallRow::lanes == 8);
   for (std::uint32_t block = 0; block < count; block += WallRow::lanes, here += WallRow::lanes) {
     Vector neighbor;
     std::memcpy(&neighbor, row.neighbors() + block, sizeof neighbor);
-    place |= (neighbor == i) & (here <= count) ? here : Vector{};
+    place |= ((neighbor == i) & (here <= count)) ? here : Vector{};
   }
   std::uint32_t found = 0;
   for (std::uint32_t lane = 0; lane < WallRow::lanes; ++lane) found |= place[lane];
