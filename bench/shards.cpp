@@ -2,14 +2,13 @@
 // distribution and range of weights: rounds, seeds fetched, those of them with a wall, bytes, processor time;
 // and compares the two. Exits 1 if adjacency, statuses or measures differ.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include "bench/clocks.hpp"
-#include "lib/exchange/sharded.hpp"
-#include "lib/seeds/hilbert.hpp"
 #include "tests/support/domains.hpp"
+#include "tests/support/shares.hpp"
 
 using namespace powercell;
 using namespace powercell::bench;
@@ -17,29 +16,6 @@ using namespace powercell::exchange;
 using namespace powercell::test;
 
 namespace {
-
-/// Seeds in shards: consecutive ones along a Hilbert curve.
-struct Shares {
-  std::vector<std::vector<std::uint64_t>> ids;
-  std::vector<std::vector<double>> positions, weights;
-
-  Shares(const SeedArray& seeds, std::size_t count) : ids(count), positions(count), weights(count) {
-    const std::vector<std::uint32_t> order = hilbert_order(seeds.positions, seeds.dimension, 0);
-    const auto d = static_cast<std::size_t>(seeds.dimension);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const std::size_t shard = k * count / order.size(), i = order[k];
-      ids[shard].push_back(i);
-      positions[shard].insert(positions[shard].end(), &seeds.positions[i * d], &seeds.positions[i * d] + d);
-      weights[shard].push_back(seeds.weights[i]);
-    }
-  }
-  std::vector<ShardSeeds> view(int dimension) const {
-    std::vector<ShardSeeds> shards;
-    for (std::size_t s = 0; s < ids.size(); ++s)
-      shards.push_back({ids[s], {dimension, positions[s], weights[s]}});
-    return shards;
-  }
-};
 
 /// The number of seeds whose status or neighbours differ, and the largest difference of measures over the
 /// mean.
@@ -92,8 +68,8 @@ bool run(const Device& device, const Work& work, std::size_t count) {
   const double before = processor_seconds();
   compute();
   const double alone = processor_seconds() - before;
-  const Shares shares(seeds, count);
-  const std::vector<ShardSeeds> view = shares.view(seeds.dimension);
+  const Shares shares = along_curve(seeds, count);
+  const std::vector<ShardSeeds> view = shares.view();
   const double start = processor_seconds();
   const ShardedDiagram sharded = compute_shards(device, domain, view);
   const double spent = processor_seconds() - start;

@@ -37,6 +37,7 @@ TEST_CASE("cells in a periodic box are those among copies") {
   for (const int d : {2, 3})
     for (const Distribution distribution : {Distribution::white, Distribution::cluster})
       for (const WeightRange range : {WeightRange::W0, WeightRange::W2}) {
+        // White seeds without weights and clusters with hidden seeds, or all four pairs.
         if ((distribution == Distribution::white) == (range == WeightRange::W2) && !all_inputs()) continue;
         const std::size_t n = d == 2 ? 3000 : 1500;
         const SeedArray seeds = random_seeds(distribution, range, n, d, random);
