@@ -42,14 +42,7 @@ bool node_may_cut(const PackedTree& outline, std::uint32_t node, const CutTest& 
 }  // namespace
 
 bool may_cut(const PackedTree& outline, const CutTest& point) {
-  bool found = false;
-  visit_leaves(
-      outline, [&](std::uint32_t node) { return node_may_cut(outline, node, point); },
-      [&](std::uint32_t) {
-        found = true;
-        return false;
-      });
-  return found;
+  return has_open_leaf(outline, [&](std::uint32_t node) { return node_may_cut(outline, node, point); });
 }
 
 void NearBoxes::set(const CutTest& cell) {
@@ -92,14 +85,7 @@ void NearBoxes::shards_at(const CutTest& point, std::vector<int>& shards) const 
 }
 
 bool may_contain(const PackedTree& outline, const double* position) {
-  bool found = false;
-  visit_leaves(
-      outline, [&](std::uint32_t node) { return contains(outline, node, position); },
-      [&](std::uint32_t) {
-        found = true;
-        return false;
-      });
-  return found;
+  return has_open_leaf(outline, [&](std::uint32_t node) { return contains(outline, node, position); });
 }
 
 }  // namespace powercell::exchange

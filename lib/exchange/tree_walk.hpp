@@ -73,6 +73,17 @@ void visit_leaves(const PackedTree& tree, const Open& open, const Use& use) {
   }
 }
 
+/// Whether a node of the lowest level, with all nodes above it, is open(number).
+template <class Open>
+bool has_open_leaf(const PackedTree& tree, const Open& open) {
+  bool found = false;
+  visit_leaves(tree, open, [&](std::uint32_t) {
+    found = true;
+    return false;
+  });
+  return found;
+}
+
 /// Calls use(k) for the nodes k of the lowest level with key(number) at most `limit`, which `use` may lower:
 /// those of lower keys first. The key of a node must be no larger than those below it.
 template <class Key, class Use>
