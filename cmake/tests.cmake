@@ -7,9 +7,9 @@ include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
 # They see the library's Setup besides that of the tests.
 set_source_files_properties(diagram/cells_at_boundary.cpp solid/both_ways.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
-# -O3 compiles tests half as long again as -O1, and most of a test's time is in the libraries and helpers, which keep theirs.
-# Under the sanitizers -O0 halves what clang needs for the checks that they add.
-set(test_options -Wall -Wextra $<$<CONFIG:Release>:-O1> $<$<BOOL:${POWERCELL_SANITIZE}>:-O0>)
+# Without optimisation tests compile twice as fast as with -O1. Most of a test's time is in the libraries and helpers, which
+# keep theirs.
+set(test_options -Wall -Wextra -O0)
 
 # doctest's main function and the headers that most tests begin with, both compiled once for all.
 add_library(powercell_test_main OBJECT ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
