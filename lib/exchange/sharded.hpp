@@ -7,28 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "lib/exchange/shard.hpp"
+#include "lib/exchange/steps.hpp"
 
 namespace powercell::exchange {
-
-/// The seeds of a shard; the caller owns the arrays, which must last for the call.
-struct ShardSeeds {
-  std::span<const std::uint64_t> ids;  ///< of the seeds, unlike all others of all shards
-  SeedsView seeds;
-};
-
-/// What was sent, and what it took.
-struct ExchangeReport {
-  int rounds = 0;               ///< in which some cell was clipped
-  std::uint64_t fetched = 0;    ///< seeds sent to other shards, once for each
-  std::uint64_t neighbors = 0;  ///< of these, with a wall in the end
-  std::uint64_t clipped = 0;    ///< cells, counted each time
-  std::uint64_t vertices = 0;   ///< that other shards were asked about
-  std::uint64_t outlines = 0;   ///< bytes
-  std::uint64_t requests = 0;   ///< bytes
-  std::uint64_t replies = 0;    ///< bytes
-  std::uint64_t ending = 0;     ///< bytes of the messages about hidden seeds
-};
 
 struct ShardedDiagram {
   std::vector<ShardCells> shards;

@@ -1,0 +1,135 @@
+#include "lib/exchange/checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <powercell/error.hpp>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "lib/base/random.hpp"
+#include "lib/diagram/input.hpp"
+
+namespace powercell::exchange {
+namespace {
+
+/// The first fault of a shard's seeds in ascending order of their ids, with the id. \pre there is one
+InputFault first_by_id(const Setup& setup, const ShardSeeds& shard) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t k = 0; k < shard.ids.size(); ++k) order.emplace_back(shard.ids[k], k);
+  std::sort(order.begin(), order.end());
+  const auto d = static_cast<std::size_t>(shard.seeds.dimension);
+  std::vector<double> positions, weights;
+  for (const auto& [id, k] : order) {
+    positions.insert(positions.end(), &shard.seeds.positions[k * d], &shard.seeds.positions[k * d] + d);
+    if (!shard.seeds.weights.empty()) weights.push_back(shard.seeds.weights[k]);
+  }
+  InputFault found = first_fault(setup, {shard.seeds.dimension, positions, weights}).value();
+  found.fault.seed = order[found.fault.seed].first;
+  return found;
+}
+
+void require_sizes(const Setup& setup, const ShardSeeds& shard) {
+  if (shard.ids.size() != shard.seeds.size())
+    throw Error(ErrorCode::invalid_argument, std::to_string(shard.ids.size()) + " ids for " +
+                                                 std::to_string(shard.seeds.size()) + " seeds of a shard");
+  check_sizes(shard.seeds, setup.domain.dimension());
+}
+
+/// An id that is there twice, and the shards that have it.
+using Twice = std::array<std::uint64_t, 3>;
+
+/// The lowest id that occurs twice among letters. \return empty if none does
+std::vector<Twice> lowest_twice(const Post::Letters& letters) {
+  std::vector<std::pair<std::uint64_t, int>> ids;
+  std::vector<std::uint64_t> of_shard;
+  for (const auto& [from, letter] : letters) {
+    unpack(letter, of_shard);
+    for (const std::uint64_t id : of_shard) ids.emplace_back(id, from);
+  }
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end(),
+                                        [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice == ids.end()) return {};
+  const auto shard = [](const auto& entry) { return static_cast<std::uint64_t>(entry.second); };
+  return {{twice->first, shard(*twice), shard(*(twice + 1))}};
+}
+
+/// Each id goes to a shard that depends on the id alone, so that equal ones meet there.
+void require_once(std::span<const ShardSeeds> here, Post& post) {
+  const auto count = static_cast<std::uint64_t>(post.shards());
+  std::vector<Post::Letters> letters(here.size());
+  for (std::size_t s = 0; s < here.size(); ++s) {
+    std::vector<std::vector<std::uint64_t>> to(count);
+    for (const std::uint64_t id : here[s].ids) to[mixed_bits(id) % count].push_back(id);
+    for (std::size_t t = 0; t < to.size(); ++t)
+      if (!to[t].empty()) letters[s][static_cast<int>(t)] = packed(to[t]);
+  }
+  std::vector<Bytes> found;
+  for (const Post::Letters& to_shard : post.deliver(std::move(letters)))
+    found.push_back(packed(lowest_twice(to_shard)));
+  std::optional<Twice> first;
+  std::vector<Twice> twice;
+  for (const Bytes& of_shard : post.share(std::move(found))) {
+    unpack(of_shard, twice);
+    if (!twice.empty() && (!first || twice[0] < *first)) first = twice[0];
+  }
+  if (!first) return;
+  const auto [id, a, b] = *first;
+  const std::string noun = post.noun(),
+                    where = a == b ? "both of " + noun + " " + std::to_string(a)
+                                   : "of " + noun + "s " + std::to_string(a) + " and " + std::to_string(b);
+  throw Error(ErrorCode::invalid_argument, "two seeds have the id " + std::to_string(id) + ", " + where +
+                                               "; give each seed of all " + noun + "s an id of its own");
+}
+
+/// Refuses the seed that a diagram of all seeds would refuse first.
+void require_no_fault(const Setup& setup, std::span<const ShardSeeds> here, Post& post) {
+  std::vector<Bytes> found;
+  for (const ShardSeeds& shard : here) {
+    std::vector<std::uint64_t> key;
+    std::vector<char> why;
+    if (first_fault(setup, shard.seeds)) {
+      const InputFault fault = first_by_id(setup, shard);
+      key = {static_cast<std::uint64_t>(fault.order), fault.fault.seed};
+      why.assign(fault.fault.why.begin(), fault.fault.why.end());
+    }
+    found.push_back(packed(key, why));
+  }
+  std::vector<std::uint64_t> least, key;
+  std::vector<char> reason, why;
+  for (const Bytes& of_shard : post.share(std::move(found))) {
+    unpack(of_shard, key, why);
+    if (key.empty() || (!least.empty() && !(key < least))) continue;
+    std::tie(least, reason) = std::pair(key, why);
+  }
+  if (!least.empty()) refuse_seed(least[1], {reason.begin(), reason.end()});
+}
+
+}  // namespace
+
+void require_supported(const Domain& domain, const Options& options) {
+  if (domain.kind() == DomainKind::surface || domain.is_solid() || domain.is_periodic())
+    throw Error(
+        ErrorCode::unsupported,
+        "seeds in shards need a polygon, a box or a volume of tetrahedra as domain, neither a surface nor a "
+        "solid nor a periodic domain");
+  if (options.decisions != Decisions::exact)
+    throw Error(ErrorCode::unsupported,
+                "seeds in shards need exact decisions, which do not depend on the shards");
+  if (options.certify)
+    throw Error(
+        ErrorCode::unsupported,
+        "the laws that Options::certify checks are those of one diagram; turn it off for seeds in shards");
+}
+
+void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post) {
+  if (setup.float32()) throw Error(ErrorCode::unsupported, "seeds in shards need double precision");
+  for (const ShardSeeds& shard : here) require_sizes(setup, shard);
+  require_once(here, post);
+  require_no_fault(setup, here, post);
+}
+
+}  // namespace powercell::exchange

@@ -1,0 +1,30 @@
+/// \file
+/// What shards are refused for, with the same error wherever they are. Internal.
+#pragma once
+
+#include <cstdint>
+#include <powercell/domain.hpp>
+#include <powercell/options.hpp>
+#include <powercell/seeds.hpp>
+#include <span>
+
+#include "lib/diagram/setup.hpp"
+#include "lib/exchange/post.hpp"
+
+namespace powercell::exchange {
+
+/// The seeds of a shard; the caller owns the arrays, which must last for the call.
+struct ShardSeeds {
+  std::span<const std::uint64_t> ids;  ///< of the seeds, unlike all others of all shards
+  SeedsView seeds;
+};
+
+/// \throw Error unsupported
+void require_supported(const Domain& domain, const Options& options);
+
+/// \param here  the seeds of each shard that is here
+/// \throw Error unsupported (single precision), invalid_argument (sizes of the seeds here, an id that is
+/// there twice among all), invalid_seed (the one that a diagram of all would name, by its id)
+void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post);
+
+}  // namespace powercell::exchange

@@ -1,0 +1,151 @@
+#include "lib/exchange/steps.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace powercell::exchange {
+namespace {
+
+/// Nodes of an outline's lowest level.
+constexpr std::size_t outline_nodes = 512;
+
+Bytes packed_outline(const PackedTree& outline) {
+  const std::vector<std::uint64_t> sizes{static_cast<std::uint64_t>(outline.dimension), outline.seeds};
+  return packed(sizes, outline.level_offset, outline.low, outline.high, outline.weight);
+}
+
+PackedTree outline_from(const Bytes& bytes) {
+  PackedTree outline;
+  std::vector<std::uint64_t> sizes;
+  unpack(bytes, sizes, outline.level_offset, outline.low, outline.high, outline.weight);
+  outline.dimension = static_cast<int>(sizes.at(0));
+  outline.seeds = sizes.at(1);
+  return outline;
+}
+
+}  // namespace
+
+Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post)
+    : diagram_(diagram), post_(post) {
+  const int first = post.first(), dimension = diagram.setup.domain.dimension();
+  std::vector<Bytes> own;
+  for (const ShardSeeds& seeds : here) {
+    const Shard& shard = shards_.emplace_back(first + static_cast<int>(shards_.size()), seeds.ids,
+                                              seeds.seeds, dimension, diagram.setup.options.threads);
+    const PackedTree outline = outline_of(shard.own().tree(), outline_nodes);
+    report_.outlines += outline_bytes(outline) * (static_cast<std::size_t>(post.shards()) - 1);
+    own.push_back(packed_outline(outline));
+  }
+  const auto outlines = std::make_shared<std::vector<PackedTree>>();
+  for (const Bytes& of_shard : post.share(std::move(own))) outlines->push_back(outline_from(of_shard));
+  for (Shard& shard : shards_) shard.meet(outlines);
+}
+
+std::vector<ShardCells> Steps::run() {
+  while (any_open()) {
+    do round();
+    while (any_open());
+    end_hidden();
+  }
+  mark_duplicates();
+  std::vector<ShardCells> cells;
+  for (const Shard& shard : shards_) {
+    cells.push_back(shard.cells(diagram_.setup.domain.measure()));
+    report_.clipped += shard.clipped_cells();
+    report_.fetched += shard.foreign_seeds();
+    report_.neighbors += shard.foreign_neighbors();
+  }
+  return cells;
+}
+
+bool Steps::any_open() {
+  std::vector<std::vector<std::uint64_t>> open;
+  for (const Shard& shard : shards_) open.push_back({shard.open_cells()});
+  const std::vector<std::uint64_t> sum = post_.sums(open);
+  return !sum.empty() && sum[0] > 0;
+}
+
+Post::Letters Steps::answers(std::size_t s, Post::Letters requests) {
+  Post::Letters replies;
+  for (auto& [from, letter] : requests) {
+    Request request;
+    unpack(std::exchange(letter, {}), request.cell, request.end, request.vertex);
+    const Reply reply = shards_[s].own().answer(from, request);
+    report_.vertices += reply.found.size();
+    report_.requests += request.bytes();
+    report_.replies += reply.bytes();
+    replies[from] = packed(reply.id, reply.seed, reply.found);
+  }
+  return replies;
+}
+
+void Steps::round() {
+  ++report_.rounds;
+  std::vector<Post::Letters> letters(shards_.size());
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (const auto& [to, request] : shards_[s].clip(diagram_))
+      letters[s][to] = packed(request.cell, request.end, request.vertex);
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s) letters[s] = answers(s, std::move(letters[s]));
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s) {
+    for (const auto& [from, letter] : letters[s]) {
+      Reply reply;
+      unpack(letter, reply.id, reply.seed, reply.found);
+      shards_[s].take(from, reply);
+    }
+    shards_[s].settle();
+  }
+}
+
+void Steps::end_hidden() {
+  std::vector<Post::Letters> letters(shards_.size());
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (int to = 0; to < post_.shards(); ++to) {
+      if (to == post_.first() + static_cast<int>(s)) continue;
+      const std::vector<std::uint64_t> hidden = shards_[s].own().take_hidden(to);
+      if (hidden.empty()) continue;
+      report_.ending += bytes_of(hidden);
+      letters[s][to] = packed(hidden);
+    }
+  letters = post_.deliver(std::move(letters));
+  std::vector<std::uint64_t> hidden;
+  for (std::size_t s = 0; s < shards_.size(); ++s) {
+    for (const auto& [from, letter] : letters[s]) {
+      unpack(letter, hidden);
+      shards_[s].forget(hidden);
+    }
+    shards_[s].reopen();
+  }
+}
+
+void Steps::mark_duplicates() {
+  std::vector<std::map<int, Twins>> questions;
+  std::vector<Post::Letters> letters;
+  for (const Shard& shard : shards_) {
+    questions.push_back(shard.twins());
+    Post::Letters& of_shard = letters.emplace_back();
+    for (const auto& [to, twins] : questions.back()) {
+      report_.ending += twins.bytes();
+      of_shard[to] = packed(twins.id, twins.seed);
+    }
+  }
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (auto& [from, letter] : letters[s]) {
+      Twins twins;
+      unpack(letter, twins.id, twins.seed);
+      const std::vector<std::uint8_t> better = shards_[s].own().better_twins(twins);
+      report_.ending += bytes_of(better);
+      letter = packed(better);
+    }
+  letters = post_.deliver(std::move(letters));
+  std::vector<std::uint8_t> better;
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (const auto& [from, letter] : letters[s]) {
+      unpack(letter, better);
+      shards_[s].mark_duplicates(questions[s].at(from), better);
+    }
+}
+
+}  // namespace powercell::exchange
