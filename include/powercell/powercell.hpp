@@ -2,11 +2,13 @@
 /// The whole C++ interface except opencl.hpp.
 #pragma once
 
+#include <powercell/communicator.hpp>
 #include <powercell/density.hpp>
 #include <powercell/device.hpp>
 #include <powercell/device_rates.hpp>
 #include <powercell/device_settings.hpp>
 #include <powercell/diagram.hpp>
+#include <powercell/distributed.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/error.hpp>
 #include <powercell/log.hpp>

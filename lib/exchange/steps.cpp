@@ -65,7 +65,7 @@ bool Steps::any_open() {
   return !sum.empty() && sum[0] > 0;
 }
 
-Post::Letters Steps::answers(std::size_t s, Post::Letters requests) {
+Post::Letters Steps::answers(std::size_t s, Post::Letters& requests) {
   Post::Letters replies;
   for (auto& [from, letter] : requests) {
     Request request;
@@ -86,7 +86,7 @@ void Steps::round() {
     for (const auto& [to, request] : shards_[s].clip(diagram_))
       letters[s][to] = packed(request.cell, request.end, request.vertex);
   letters = post_.deliver(std::move(letters));
-  for (std::size_t s = 0; s < shards_.size(); ++s) letters[s] = answers(s, std::move(letters[s]));
+  for (std::size_t s = 0; s < shards_.size(); ++s) letters[s] = answers(s, letters[s]);
   letters = post_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s) {
     for (const auto& [from, letter] : letters[s]) {

@@ -2,7 +2,7 @@
 /// The steps of the shards that are here, in time with those elsewhere. Internal.
 #pragma once
 
-#include <cstdint>
+#include <powercell/distributed.hpp>
 #include <span>
 #include <vector>
 
@@ -12,18 +12,7 @@
 
 namespace powercell::exchange {
 
-/// What was sent, and what it took.
-struct ExchangeReport {
-  int rounds = 0;               ///< in which some cell was clipped
-  std::uint64_t fetched = 0;    ///< seeds sent to other shards, once for each
-  std::uint64_t neighbors = 0;  ///< of these, with a wall in the end
-  std::uint64_t clipped = 0;    ///< cells, counted each time
-  std::uint64_t vertices = 0;   ///< that other shards were asked about
-  std::uint64_t outlines = 0;   ///< bytes
-  std::uint64_t requests = 0;   ///< bytes
-  std::uint64_t replies = 0;    ///< bytes
-  std::uint64_t ending = 0;     ///< bytes of the messages about hidden seeds
-};
+using powercell::ExchangeReport;
 
 /// Takes the steps of Shard for all shards here, one after the other.
 class Steps {
@@ -44,8 +33,8 @@ class Steps {
   /// Tells shards which seeds that they were sent are hidden. Cells with a wall of one are opened again.
   void end_hidden();
   void mark_duplicates();
-  /// Of shard `s` here to the requests of others.
-  Post::Letters answers(std::size_t s, Post::Letters requests);
+  /// Of shard `s` here to the requests of others, whose letters are emptied on the way.
+  Post::Letters answers(std::size_t s, Post::Letters& requests);
 
   Diagram::State& diagram_;
   Post& post_;

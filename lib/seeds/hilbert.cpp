@@ -137,11 +137,39 @@ class Orderer {
   std::vector<KeyedIndex> records_, scratch_;
 };
 
+template <int D>
+std::vector<std::uint64_t> keys_in(std::span<const double> points, const Bounds<D>& box, int threads) {
+  const Grid<D> grid(box);
+  std::vector<std::uint64_t> keys(points.size() / D);
+  if (!(grid.side > 0)) return keys;
+  parallel_for(threads_for(keys.size(), threads, least_shared), keys.size(),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) keys[i] = grid.key(&points[i * D]);
+               });
+  return keys;
+}
+
+template <int D>
+Bounds<D> bounds_from(std::span<const double> low, std::span<const double> high) {
+  Bounds<D> box;
+  std::copy_n(low.begin(), D, box.low.begin());
+  std::copy_n(high.begin(), D, box.high.begin());
+  return box;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> hilbert_order(std::span<const double> points, int dimension, int threads) {
   if (points.empty()) return {};
   return dimension == 2 ? Orderer<2>(points, threads).order() : Orderer<3>(points, threads).order();
+}
+
+std::vector<std::uint64_t> hilbert_keys(std::span<const double> points, int dimension,
+                                        std::span<const double> low, std::span<const double> high,
+                                        int threads) {
+  if (points.empty()) return {};
+  return dimension == 2 ? keys_in(points, bounds_from<2>(low, high), threads)
+                        : keys_in(points, bounds_from<3>(low, high), threads);
 }
 
 }  // namespace powercell

@@ -32,35 +32,40 @@ inline double measure_error(const Domain& domain, double measure) {
   return 2e-16 * extent * 2 * d * std::pow(measure, (d - 1) / d);
 }
 
-/// The neighbours, statuses and measures of all cells in shards are those of one diagram. Measures differ by
+/// The neighbours, statuses and measures of cells are those of a diagram of all seeds. Measures differ by
 /// rounding, because the order of cuts depends on the tree of the seeds at hand.
-inline exchange::ExchangeReport check_shares(Diagram& diagram, const Shares& shares) {
-  const exchange::ShardedDiagram sharded =
-      exchange::compute_shards(diagram.device(), diagram.domain(), shares.view());
+/// \param ids  of the cells' seeds: their indices in the diagram \param cells  of shards, or distributed
+template <class CellsOfSome>
+void check_cells(Diagram& diagram, const std::vector<std::uint64_t>& ids, const CellsOfSome& cells) {
   const Measures& measures = diagram.measures();
   const Adjacency& adjacency = diagram.adjacency();
   const double mean = measures.domain_measure / static_cast<double>(std::max<std::size_t>(diagram.size(), 1));
   const double most_wall =
       adjacency.wall.empty() ? 0 : *std::max_element(adjacency.wall.begin(), adjacency.wall.end());
-  REQUIRE(sharded.shards.size() == shares.ids.size());
-  for (std::size_t s = 0; s < shares.ids.size(); ++s) {
-    const exchange::ShardCells& cells = sharded.shards[s];
-    REQUIRE(cells.measures.mass.size() == shares.ids[s].size());
-    for (std::size_t k = 0; k < shares.ids[s].size(); ++k) {
-      const std::size_t i = shares.ids[s][k];
-      CAPTURE(i);
-      CHECK(cells.measures.status[k] == measures.status[i]);
-      CHECK(std::abs(cells.measures.mass[k] - measures.mass[i]) <=
-            measure_error(diagram.domain(), std::max(mean, measures.mass[i])));
-      const std::size_t count = adjacency.offset[i + 1] - adjacency.offset[i];
-      REQUIRE(cells.offset[k + 1] - cells.offset[k] == count);
-      for (std::size_t w = 0; w < count; ++w) {
-        CHECK(cells.neighbor[cells.offset[k] + w] == adjacency.neighbor[adjacency.offset[i] + w]);
-        CHECK(std::abs(cells.wall[cells.offset[k] + w] - adjacency.wall[adjacency.offset[i] + w]) <=
-              1e-12 * most_wall);
-      }
+  REQUIRE(cells.measures.mass.size() == ids.size());
+  REQUIRE(cells.offset.size() == ids.size() + 1);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::size_t i = ids[k];
+    CAPTURE(i);
+    CHECK(cells.measures.status[k] == measures.status[i]);
+    CHECK(std::abs(cells.measures.mass[k] - measures.mass[i]) <=
+          measure_error(diagram.domain(), std::max(mean, measures.mass[i])));
+    const std::size_t count = adjacency.offset[i + 1] - adjacency.offset[i];
+    REQUIRE(cells.offset[k + 1] - cells.offset[k] == count);
+    for (std::size_t w = 0; w < count; ++w) {
+      CHECK(cells.neighbor[cells.offset[k] + w] == adjacency.neighbor[adjacency.offset[i] + w]);
+      CHECK(std::abs(cells.wall[cells.offset[k] + w] - adjacency.wall[adjacency.offset[i] + w]) <=
+            1e-12 * most_wall);
     }
   }
+}
+
+/// The cells of all shards are those of one diagram.
+inline exchange::ExchangeReport check_shares(Diagram& diagram, const Shares& shares) {
+  const exchange::ShardedDiagram sharded =
+      exchange::compute_shards(diagram.device(), diagram.domain(), shares.view());
+  REQUIRE(sharded.shards.size() == shares.ids.size());
+  for (std::size_t s = 0; s < shares.ids.size(); ++s) check_cells(diagram, shares.ids[s], sharded.shards[s]);
   CHECK(sharded.report.fetched >= sharded.report.neighbors);
   return sharded.report;
 }

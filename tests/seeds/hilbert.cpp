@@ -80,6 +80,31 @@ TEST_CASE("the order is a permutation and does not depend on the number of threa
   }
 }
 
+TEST_CASE("keys ascend along the order of points in the same box") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const int dimension : {2, 3}) {
+    SeedArray seeds = random_seeds(Distribution::cluster, WeightRange::W0, 5000, dimension, random);
+    std::vector<double> low(3, 1), high(3, 0);
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+      for (int k = 0; k < dimension; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        low[at] = std::min(low[at], seeds.coordinate(i, k));
+        high[at] = std::max(high[at], seeds.coordinate(i, k));
+      }
+    const std::vector<std::uint64_t> keys = hilbert_keys(seeds.positions, dimension, low, high, 2);
+    const std::vector<std::uint32_t> order = hilbert_order(seeds.positions, dimension, 1);
+    REQUIRE(keys.size() == seeds.size());
+    CHECK(std::is_sorted(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; }));
+    CHECK(keys[order.front()] < keys[order.back()]);
+    CHECK(hilbert_keys(seeds.positions, dimension, low, high, 1) == keys);
+  }
+  const std::vector<double> one{0.5, 0.5};
+  CHECK(hilbert_keys(one, 2, one, one, 1) == std::vector<std::uint64_t>{0});
+  CHECK(hilbert_keys({}, 2, {}, {}, 1).empty());
+}
+
 TEST_CASE("equal positions are consecutive, by ascending index") {
   INFO(replay_hint());
   for (const int d : {2, 3}) {

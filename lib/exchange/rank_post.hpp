@@ -1,0 +1,63 @@
+/// \file
+/// Messages between shards of which each rank has one. Internal.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <powercell/communicator.hpp>
+#include <powercell/error.hpp>
+#include <string>
+#include <vector>
+
+#include "lib/exchange/post.hpp"
+
+namespace powercell::exchange {
+
+/// Each message ends with a byte that tells whether its sender has failed, so that all ranks fail in the same
+/// exchange, with the same error.
+class RankPost : public Post {
+ public:
+  /// \throw Error invalid_argument (rank and size of the communicator)
+  explicit RankPost(Communicator& communicator);
+
+  int shards() const override { return communicator_.size(); }
+  int first() const override { return communicator_.rank(); }
+  const char* noun() const override { return "rank"; }
+  std::vector<Letters> deliver(std::vector<Letters> letters) override;
+  std::vector<Bytes> share(std::vector<Bytes> own) override;
+
+  /// Does the work of this rank. Where it throws on some ranks, all others are told and throw too: the Error
+  /// of the lowest of these ranks.
+  template <class Work>
+  auto together(const Work& work) {
+    try {
+      auto result = work();
+      exchange(std::vector<Bytes>(
+          static_cast<std::size_t>(shards())));  // others may have failed since the last one
+      return result;
+    } catch (const Error& error) {
+      if (is_over_) throw;
+      throw failed_together(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+      if (!is_over_) failed_together(ErrorCode::internal, "out of host memory");
+      throw;
+    } catch (const std::exception& error) {
+      if (!is_over_) failed_together(ErrorCode::internal, error.what());
+      throw;
+    } catch (...) {
+      if (!is_over_) failed_together(ErrorCode::internal, "an exception of unknown type");
+      throw;
+    }
+  }
+
+ private:
+  /// \throw Error of a rank that has failed
+  std::vector<Bytes> exchange(std::vector<Bytes> messages);
+  /// Tells all ranks that this one has failed. \return the error of all
+  Error failed_together(ErrorCode code, const std::string& what);
+
+  Communicator& communicator_;
+  bool is_over_ = false;  // all ranks know of a failure, or the communicator has failed
+};
+
+}  // namespace powercell::exchange

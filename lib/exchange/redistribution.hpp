@@ -1,0 +1,41 @@
+/// \file
+/// Seeds sent to other ranks, and the results sent back. Internal.
+#pragma once
+
+#include <cstdint>
+#include <powercell/distributed.hpp>
+#include <vector>
+
+#include "lib/exchange/checks.hpp"
+#include "lib/exchange/post.hpp"
+
+namespace powercell::exchange {
+
+/// Ranges of a Hilbert curve through the seeds of all ranks, about as many seeds in each.
+class Redistribution {
+ public:
+  /// Sends the seeds. \param own  of this rank, valid \param post  with one shard a rank
+  Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post);
+
+  /// The seeds to compute on this rank; valid as long as this.
+  ShardSeeds seeds() const { return {ids_, {dimension_, positions_, weights_}}; }
+  /// \param cells  of seeds() \return those of the seeds that were given
+  DistributedCells send_back(const DistributedCells& cells);
+  /// Sent by this rank so far.
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  Post::Letters deliver(Post::Letters letters);
+  /// The ranks that the seeds go to.
+  std::vector<std::size_t> destinations(const ShardSeeds& own, int threads);
+
+  int dimension_;
+  Post& post_;
+  std::vector<std::vector<std::size_t>> given_;  // by rank that they went to: indices of the seeds given
+  std::vector<std::size_t> received_;            // by rank that they came from: the number of seeds here
+  std::vector<std::uint64_t> ids_;
+  std::vector<double> positions_, weights_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace powercell::exchange
