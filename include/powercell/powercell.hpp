@@ -1,5 +1,5 @@
 /// \file
-/// The whole C++ interface except opencl.hpp.
+/// The whole C++ interface except opencl.hpp and mpi.hpp.
 #pragma once
 
 #include <powercell/communicator.hpp>

@@ -1,0 +1,20 @@
+# Ranks that are processes of MPI. The libraries are the static ones of the other tests, not those of powercell::mpi.
+add_executable(test_mpi distributed/mpi/main.cpp distributed/mpi/ranks.cpp)
+target_include_directories(test_mpi SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
+target_compile_options(test_mpi PRIVATE ${test_options})
+target_link_libraries(test_mpi PRIVATE powercell_support MPI::MPI_CXX)
+
+# Containers run as root, with fewer cores than ranks. Each rank has threads, which must not all be on one core.
+set(mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+  PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none)
+foreach(ranks 1 2 3 5)
+  add_test(NAME mpi_${ranks}
+    COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS} $<TARGET_FILE:test_mpi> ${MPIEXEC_POSTFLAGS})
+  list(APPEND mpi_tests mpi_${ranks})
+endforeach()
+add_test(NAME mpi_killed
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/distributed/mpi/killed.py
+    ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 3 ${MPIEXEC_PREFLAGS} $<TARGET_FILE:test_mpi> ${MPIEXEC_POSTFLAGS})
+# A rank that fails a test leaves others waiting, until the time is up.
+set_tests_properties(${mpi_tests} mpi_killed PROPERTIES ENVIRONMENT "${mpi_environment}" TIMEOUT 300)
