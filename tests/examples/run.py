@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
 """Runs a program: it must succeed, print nothing to standard error, and each pattern must match a part of what it
 prints, in their order.
-usage: tests/examples/run.py PROGRAM PATTERN..."""
+usage: tests/examples/run.py PROGRAM PATTERN...
+       tests/examples/run.py --command PROGRAM ARGUMENT... -- PATTERN..."""
 import re
 import subprocess
 import sys
 
-program, patterns = sys.argv[1], sys.argv[2:]
-run = subprocess.run([program], capture_output=True, text=True, timeout=300)
+command, patterns = sys.argv[1:2], sys.argv[2:]
+if command == ["--command"]:
+    end = patterns.index("--")
+    command, patterns = patterns[:end], patterns[end + 1 :]
+program = command[0]
+run = subprocess.run(command, capture_output=True, text=True, timeout=300)
 print(run.stdout, run.stderr, sep="")
 faults = []
 if run.returncode != 0:

@@ -6,6 +6,8 @@ set -eu
 examples=$(cd "${1:?usage: consumers.sh EXAMPLES WORK KIND...}" && pwd)
 work=${2:?a folder for what is built}
 shift 2
+# Open MPI refuses root and more ranks than cores without these.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 step() { printf '== packaging: %s\n' "$*"; }
 fail() { printf '%s\n' "$*" >&2; exit 1; }
 
@@ -53,15 +55,20 @@ for kind in "$@"; do
     shared=OFF
     programs="host_cpp c_cells c_transport"
   fi
+  if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/mpi.hpp" ]; then
+    programs="$programs particles_mpi"
+  fi
   # shellcheck disable=SC2086
   cmake -S "$examples" -B "$work/$kind" -G Ninja -Dpowercell_SHARED_LIBS=$shared >"$work/log" 2>&1 &&
     cmake --build "$work/$kind" --target $programs >>"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
   for program in $programs; do
     part=applications
-    case $program in host_* | own_queue | heat_on_device | c_cells | c_periodic | c_own_queue) part=core ;; esac
+    launcher=
+    case $program in *_mpi) launcher="mpirun -n 2" ;; esac
+    case $program in host_* | *_mpi | own_queue | heat_on_device | c_cells | c_periodic | c_own_queue) part=core ;; esac
     check_links "$work/$kind/$program" "$kind" $part
     step "$program ($kind)"
-    "$work/$kind/$program"
+    $launcher "$work/$kind/$program"
   done
   by_pkg_config "${CXX:-c++}" c++20 host_cpp.cpp "$kind"
   by_pkg_config "${CC:-cc}" c99 host_c.c "$kind"

@@ -16,5 +16,18 @@ endforeach()
 add_test(NAME mpi_killed
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/distributed/mpi/killed.py
     ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 3 ${MPIEXEC_PREFLAGS} $<TARGET_FILE:test_mpi> ${MPIEXEC_POSTFLAGS})
+
+# The example, against the shared libraries as programs of users.
+add_executable(example_particles_mpi ${PROJECT_SOURCE_DIR}/examples/particles_mpi.cpp)
+target_compile_options(example_particles_mpi PRIVATE -Wall -Wextra -Werror)
+target_link_libraries(example_particles_mpi PRIVATE powercell::mpi)
+foreach(ranks 1 3)
+  add_test(NAME example_particles_mpi_${ranks}
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/examples/run.py --command ${MPIEXEC_EXECUTABLE}
+      ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS} $<TARGET_FILE:example_particles_mpi> ${MPIEXEC_POSTFLAGS} 500 4 --
+      "step 0: 500 particles, volume (1\\.0000000|0\\.9999999)\\d+, energy 0\\.00" "step 3: 500 particles")
+  list(APPEND mpi_tests example_particles_mpi_${ranks})
+endforeach()
+
 # A rank that fails a test leaves others waiting, until the time is up.
 set_tests_properties(${mpi_tests} mpi_killed PROPERTIES ENVIRONMENT "${mpi_environment}" TIMEOUT 300)
