@@ -92,6 +92,26 @@ TEST_CASE("MPI: messages in pieces, beside messages of the caller") {
   CHECK(got == (rank + ranks - 1) % ranks);
 }
 
+TEST_CASE("campaign: a message of more than 2^31 bytes" * doctest::skip()) {
+  MpiCommunicator communicator;
+  const auto ranks = static_cast<std::size_t>(communicator.size()),
+             rank = static_cast<std::size_t>(communicator.rank());
+  const std::size_t size = (std::size_t{1} << 31) + 12345;
+  const auto value = [](std::size_t at) { return static_cast<std::byte>(at * 0x9e3779b97f4a7c15 >> 56); };
+  std::vector<Communicator::Message> messages(ranks);
+  if (rank == 0) {
+    messages.back().resize(size);
+    for (std::size_t at = 0; at < size; ++at) messages.back()[at] = value(at);
+  }
+  messages = communicator.exchange(std::move(messages));
+  std::size_t wrong = 0, others = 0;
+  for (std::size_t r = 1; r < ranks; ++r) others += messages[r].size();
+  for (std::size_t at = 0; at < messages[0].size(); ++at) wrong += messages[0][at] != value(at);
+  CHECK(messages[0].size() == (rank + 1 == ranks ? size : 0));
+  CHECK(wrong == 0);
+  CHECK(others == 0);
+}
+
 TEST_CASE("MPI: what is refused on one rank is refused on all, who then compute again") {
   MpiCommunicator communicator;
   const auto rank = static_cast<std::size_t>(communicator.rank()),
