@@ -214,7 +214,7 @@ The package's own words. What there is and how it fits together: [Python](../pyt
 INDEX = {
     "cpp": """# C++ headers
 
-One page for each header, from its comments. `#include <powercell/powercell.hpp>` brings all but `opencl.hpp` and `regions.hpp`.
+One page for each header, from its comments. `#include <powercell/powercell.hpp>` brings all but `opencl.hpp`, `mpi.hpp` and `regions.hpp`.
 Start with [diagram.hpp](diagram.md), [domain.hpp](domain.md) and [results.hpp](results.md).
 
 ```{{toctree}}

@@ -22,10 +22,11 @@ class POWERCELL_API Communicator {
 
   virtual int rank() const = 0;  ///< from 0; stays the same
   virtual int size() const = 0;  ///< the number of ranks; stays the same
-  /// Sends a message to each rank and returns when all that are sent to this one are here. All ranks must
-  /// call it, and it returns on all or fails on all: a rank that waits for one that is gone must not wait for
-  /// ever. \param messages  size() of them, by the rank that they go to; may be empty, or longer than 2^31
-  /// bytes \return size() messages, by the rank that they come from, this one included
+  /// Sends a message to each rank and returns when all that are sent to this one are here. All ranks call it.
+  /// It must not wait for ever for a rank that is gone, but throw or end the program.
+  /// \param messages  size() of them, by the rank that they go to, this one included; some are empty, and
+  ///        some may be longer than 2^31 bytes
+  /// \return size() messages, by the rank that they come from
   virtual std::vector<Message> exchange(std::vector<Message> messages) = 0;
 };
 

@@ -30,12 +30,11 @@ struct ExchangeReport {
 
 /// The cells of the n seeds of one rank, in the order in which it gave them.
 struct DistributedCells {
-  /// Of these cells: total() adds those of this rank. `domain_measure` is that of the whole domain. A status
-  /// is that of a diagram of the seeds of all ranks; of duplicates as heavy the one of lowest id has the
-  /// cell.
+  /// Of these cells alone, total() too; `domain_measure` is that of the whole domain. Of duplicates that are
+  /// as heavy the one of the lowest id on all ranks has the cell.
   Measures measures;
-  std::vector<std::uint64_t>
-      offset;  ///< n + 1; row i of the walls inside the domain is [offset[i], offset[i+1])
+  /// n + 1: row i of the walls with other cells is [offset[i], offset[i+1]).
+  std::vector<std::uint64_t> offset;
   std::vector<std::uint64_t> neighbor;  ///< ids of seeds of any rank, ascending within a row
   std::vector<double> wall;  ///< length (polygon) or area (volume), as seen from the cell of the row
   ExchangeReport report;
@@ -43,8 +42,8 @@ struct DistributedCells {
 
 struct DistributedOptions {
   /// Of the diagrams on this rank. `precision`, `decisions` and `certify` must be the same on all ranks, the
-  /// others may differ. `progress` is called with the fraction of what is clipped at present on this rank,
-  /// and ends the computation on all ranks. `keep_mesh` has no effect.
+  /// others may differ. `progress` is called with the fraction of what is clipped at present on this rank;
+  /// where it returns false, the computation ends on all ranks. `keep_mesh` has no effect.
   Options diagram;
   /// Compute on other ranks than those of the callers: each gets about as many seeds, a range of a Hilbert
   /// curve, for the call, and results go back. For seeds that are not near each other on their rank, or few
@@ -56,12 +55,13 @@ struct DistributedOptions {
 /// same domain and on a device of its own or a shared one; ranks without seeds too. Neighbours and statuses
 /// are those of one Diagram of all seeds in ascending order of ids, whatever rank has which; measures and
 /// walls differ from its by rounding. How seeds are shared out decides how much is sent (docs/scale.md). An
-/// error on one rank is thrown on all, and the communicator can be used again; one that concerns a rank alone
-/// begins with its number. \param ids    of the seeds, each once on all ranks \param seeds  as many; may be
-/// none on some ranks \throw Error invalid_argument (sizes; an id that is there twice; domains or options
-/// that differ between ranks,
-///        and in what), invalid_seed (names the seed by its id), unsupported (surfaces, solids, periodic
-///        domains; single precision; fast decisions; Options::certify), interrupted, and as Diagram
+/// error on one rank is thrown on all, and the communicator can be used again; what one rank alone knows
+/// begins with its number. An exception of Options::progress is thrown as it is on its own rank.
+/// \param ids    of the seeds, each once on all ranks
+/// \param seeds  as many, of the domain's dimension also where there are none
+/// \throw Error invalid_argument (sizes; an id that is there twice; domains or options that differ between
+///        ranks, and in what), invalid_seed (names the seed by its id), unsupported (surfaces, solids,
+///        periodic domains; single precision; fast decisions; Options::certify), interrupted, and as Diagram
 POWERCELL_API DistributedCells compute_distributed(Communicator& communicator, const Device& device,
                                                    const Domain& domain, std::span<const std::uint64_t> ids,
                                                    const SeedsView& seeds,

@@ -29,12 +29,11 @@ namespace powercell {
 class MpiCommunicator : public Communicator {
  public:
   /// Duplicates the communicator, so that messages of the library never meet those of the caller: all its
-  /// ranks must make theirs at the same time. \param most_bytes  that a rank sends in one call of
-  /// MPI_Alltoallv; longer messages are sent in pieces, and twice as many bytes are taken in memory. The same
-  /// on all ranks. \throw Error invalid_argument (MPI is not running, an intercommunicator, less than a byte
-  /// for each rank)
-  explicit MpiCommunicator(MPI_Comm communicator = MPI_COMM_WORLD,
-                           std::size_t most_bytes = std::size_t{1} << 28)
+  /// ranks must make theirs at the same time.
+  /// \param most_bytes  that a rank sends in one call of MPI_Alltoallv; longer messages are sent in pieces.
+  ///        So many bytes are taken in memory twice. The same on all ranks.
+  /// \throw Error invalid_argument (MPI is not running, an intercommunicator, less than a byte for each rank)
+  explicit MpiCommunicator(MPI_Comm communicator = MPI_COMM_WORLD, std::size_t most_bytes = 1 << 28)
       : most_bytes_(std::min<std::size_t>(most_bytes, std::numeric_limits<int>::max())) {
     int is_running = 0, is_over = 0;
     MPI_Initialized(&is_running);

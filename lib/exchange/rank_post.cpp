@@ -13,6 +13,17 @@ Bytes packed_fault(ErrorCode code, const std::string& what) {
                 std::vector<char>(what.begin(), what.end()));
 }
 
+/// Takes the last byte off each message. \return by rank: whether it has failed; fewer if messages are lost
+std::vector<bool> take_marks(std::vector<Bytes>& received) {
+  std::vector<bool> failed;
+  for (Bytes& message : received) {
+    if (message.empty()) break;
+    failed.push_back(message.back() == has_failed);
+    message.pop_back();
+  }
+  return failed;
+}
+
 /// The error of the first rank that has failed. \pre there is one
 Error first_error(const std::vector<Bytes>& messages, const std::vector<bool>& failed) {
   const auto first = static_cast<std::size_t>(std::find(failed.begin(), failed.end(), true) - failed.begin());
@@ -40,12 +51,7 @@ std::vector<Bytes> RankPost::exchange(std::vector<Bytes> messages) {
   for (Bytes& message : messages) message.push_back(fine);
   is_over_ = true;  // unless it comes to its end
   std::vector<Bytes> received = communicator_.exchange(std::move(messages));
-  std::vector<bool> failed;
-  for (Bytes& message : received) {
-    if (message.empty()) break;
-    failed.push_back(message.back() == has_failed);
-    message.pop_back();
-  }
+  const std::vector<bool> failed = take_marks(received);
   if (failed.size() != static_cast<std::size_t>(shards()))
     throw Error(ErrorCode::invalid_argument, "a communicator has lost messages: of " +
                                                  std::to_string(shards()) + " ranks it gave " +
@@ -61,11 +67,8 @@ Error RankPost::failed_together(ErrorCode code, const std::string& what) {
   is_over_ = true;
   std::vector<Bytes> received =
       communicator_.exchange(std::vector<Bytes>(static_cast<std::size_t>(shards()), message));
-  std::vector<bool> failed;
-  for (Bytes& other : received) {
-    failed.push_back(!other.empty() && other.back() == has_failed);
-    if (!other.empty()) other.pop_back();
-  }
+  const std::vector<bool> failed = take_marks(received);
+  if (failed.size() != static_cast<std::size_t>(shards())) return {code, what};  // messages are lost too
   return first_error(received, failed);
 }
 

@@ -203,6 +203,10 @@ TEST_CASE("ranks: a rank that is gone, and communicators that lose messages") {
   } losing;
   CHECK_THROWS_WITH(compute_distributed(losing, test_device(), unit_box(3), view[0].ids, view[0].seeds),
                     "a communicator has lost messages: of 2 ranks it gave 1");
+  const std::span<const std::uint64_t> none;
+  DistributedOptions options;
+  options.diagram.progress = [](double) -> bool { throw std::range_error("by the caller"); };
+  CHECK_THROWS(compute_distributed(losing, test_device(), unit_box(3), none, view[0].seeds, options));
   losing.own = 2;
   CHECK_THROWS_WITH(compute_distributed(losing, test_device(), unit_box(3), view[0].ids, view[0].seeds),
                     "a communicator says that it is rank 2 of 2");
