@@ -46,7 +46,7 @@ if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/mpi.hpp" ]
   accepts C "COMPONENTS;core;OPTIONAL_COMPONENTS;mpi" powercell::core
   refuses C "COMPONENTS;mpi" "needs MPI 3 for C++"
 else
-  refuses CXX "COMPONENTS;mpi" "without the component 'mpi'; build it with -DPOWERCELL_MPI=ON"
+  refuses CXX "COMPONENTS;mpi" "without the component 'mpi', which needs a build"
   accepts CXX "COMPONENTS;core;OPTIONAL_COMPONENTS;mpi" powercell::core
 fi
 
