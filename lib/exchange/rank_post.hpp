@@ -32,8 +32,8 @@ class RankPost : public Post {
   auto together(const Work& work) {
     try {
       auto result = work();
-      exchange(std::vector<Bytes>(
-          static_cast<std::size_t>(shards())));  // others may have failed since the last one
+      // Others may have failed since the last one.
+      exchange(std::vector<Bytes>(static_cast<std::size_t>(shards())));
       return result;
     } catch (const Error& error) {
       if (is_over_) throw;

@@ -1,7 +1,7 @@
 #include "lib/exchange/redistribution.hpp"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -47,7 +47,7 @@ Bounds bounds_of_all(const SeedsView& seeds, Post& post) {
 }
 
 /// The last places of all ranks but the highest, from samples of the places of each rank. Of n seeds on p
-/// ranks one gets up to n / (8 p + 64) more or less than n / p.
+/// ranks one gets up to 2 n / (8 p + 64) more or less than n / p.
 std::vector<Place> last_places(const std::vector<Place>& sorted, Post& post) {
   const auto ranks = static_cast<std::size_t>(post.shards());
   const std::size_t samples = std::min(sorted.size(), 8 * ranks + 64);

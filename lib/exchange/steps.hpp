@@ -23,7 +23,7 @@ class Steps {
 
   /// \return the cells of each shard here \throw Error as Diagram
   std::vector<ShardCells> run();
-  /// Of the shards here. What was sent is counted where it was sent, but requests where they are answered.
+  /// Of the shards here. Of two shards in different places one alone counts what passes between them.
   const ExchangeReport& report() const { return report_; }
 
  private:
