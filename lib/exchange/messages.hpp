@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "lib/seeds/packed_tree.hpp"
+
 namespace powercell::exchange {
 
 /// Bytes of an array.
@@ -59,6 +61,25 @@ void unpack(std::span<const std::byte> bytes, std::vector<T>&... arrays) {
   if (!bytes.empty())
     throw Error(ErrorCode::internal, "a message between shards is too long; please report it");
 }
+
+/// Leaves of a shard's tree at its rim, with the question which seeds of another are likely neighbours.
+struct Rim {
+  std::vector<double> spacing;  ///< per leaf: how far its seeds are apart, about
+  std::vector<double>
+      seed;  ///< per leaf: rows of positions, of eight seeds; some more than once if it has fewer
+
+  std::size_t leaves() const { return spacing.size(); }
+  std::size_t bytes() const { return bytes_of(spacing) + bytes_of(seed); }
+};
+
+/// Seeds near the rim of another shard.
+struct Halo {
+  std::vector<std::uint64_t> id;
+  std::vector<double> seed;  ///< rows of position and weight
+  PackedTree rest;           ///< an outline of those that were not sent
+
+  std::size_t bytes() const { return bytes_of(id) + bytes_of(seed); }
+};
 
 /// Vertices of cells, with the question which seeds of another shard could cut them off.
 struct Request {

@@ -7,13 +7,18 @@
 
 namespace powercell::exchange {
 
+std::size_t outline_level(const PackedTree& tree, std::size_t most_nodes) {
+  std::size_t level = 0;
+  while (level + 1 < tree.levels() && tree.level_offset[level + 1] - tree.level_offset[level] > most_nodes)
+    ++level;
+  return level;
+}
+
 PackedTree outline_of(const PackedTree& tree, std::size_t most_nodes) {
   PackedTree top;
   top.dimension = tree.dimension;
   if (tree.levels() == 0) return top;
-  std::size_t lowest = 0;
-  while (lowest + 1 < tree.levels() && tree.level_offset[lowest + 1] - tree.level_offset[lowest] > most_nodes)
-    ++lowest;
+  const std::size_t lowest = outline_level(tree, most_nodes);
   const auto d = static_cast<std::ptrdiff_t>(tree.dimension);
   const std::uint32_t first = tree.level_offset[lowest];
   top.seeds = lowest == 0 ? tree.seeds : first - tree.level_offset[lowest - 1];
@@ -50,7 +55,7 @@ void NearBoxes::set(const CutTest& cell) {
   end_.clear();
   box_.clear();
   complete_ = true;
-  for (int shard = 0; shard < static_cast<int>(outlines_->size()); ++shard) {
+  for (int shard = 0; shard < static_cast<int>(others_.outlines->size()); ++shard) {
     if (shard == self_) continue;
     const PackedTree& boxes = outline(shard);
     const auto d = static_cast<std::size_t>(boxes.dimension);

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "lib/exchange/cut_test.hpp"
@@ -13,12 +13,26 @@
 
 namespace powercell::exchange {
 
-/// The upper levels of a packed tree, the lowest of which has at most `most_nodes` nodes. `seeds` of the
-/// result counts the nodes below that level. Empty if the tree is.
+/// The lowest level of a packed tree that has at most `most_nodes` nodes. \pre the tree has a level
+std::size_t outline_level(const PackedTree& tree, std::size_t most_nodes);
+
+/// The levels of a packed tree from outline_level() up. `seeds` of the result counts the nodes below that
+/// level. Empty if the tree is.
 PackedTree outline_of(const PackedTree& tree, std::size_t most_nodes);
 
 /// Of all shards, by number.
 using Outlines = std::shared_ptr<const std::vector<PackedTree>>;
+
+/// What a shard knows of the seeds of others that it was not sent.
+struct OthersSeeds {
+  Outlines outlines;               ///< of all their seeds
+  std::map<int, PackedTree> rest;  ///< by shard: an outline of those that are left
+
+  const PackedTree& of(int shard) const {
+    const auto found = rest.find(shard);
+    return found == rest.end() ? (*outlines)[static_cast<std::size_t>(shard)] : found->second;
+  }
+};
 
 std::size_t outline_bytes(const PackedTree& outline);
 
@@ -29,7 +43,7 @@ bool may_cut(const PackedTree& outline, const CutTest& point);
 class NearBoxes {
  public:
   /// \param self  the shard that is left out
-  NearBoxes(Outlines outlines, int self) : outlines_(std::move(outlines)), self_(self) {}
+  NearBoxes(const OthersSeeds& others, int self) : others_(others), self_(self) {}
 
   /// Finds the boxes for a cell.
   void set(const CutTest& cell);
@@ -41,9 +55,9 @@ class NearBoxes {
 
  private:
   static constexpr std::size_t most_boxes = 96;  // more are searched from the roots
-  const PackedTree& outline(int shard) const { return (*outlines_)[static_cast<std::size_t>(shard)]; }
+  const PackedTree& outline(int shard) const { return others_.of(shard); }
 
-  Outlines outlines_;
+  const OthersSeeds& others_;
   int self_;
   std::vector<int> shards_;         // whose boxes they are
   std::vector<std::size_t> end_;    // per shard: of its boxes

@@ -6,6 +6,9 @@
 #include <string>
 
 #include "lib/base/threads.hpp"
+#include "lib/exchange/outline.hpp"
+#include "lib/exchange/rest.hpp"
+#include "lib/exchange/rim.hpp"
 #include "lib/exchange/tree_walk.hpp"
 
 namespace powercell::exchange {
@@ -17,7 +20,10 @@ constexpr int most_steps = 64;
 constexpr double least_step = 1 - 1e-9;
 /// So many are faster to test one by one than to find in the tree.
 constexpr std::size_t few_leaves = 32;
-constexpr std::size_t least_shared = 2048;  // vertices; fewer are faster on one thread
+/// Nodes of the level that an outline of the rest has far from what was sent.
+constexpr std::size_t rest_nodes = 512;
+/// Fewer are faster on one thread.
+constexpr std::size_t least_shared = 2048 /* vertices */, least_shared_leaves = 512;
 
 }  // namespace
 
@@ -122,6 +128,40 @@ void OwnSeeds::answer_cell(const Request& request, std::size_t cell, Search& sea
   }
 }
 
+Rim OwnSeeds::rim(const PackedTree& other) const {
+  return find_rim(set_, tree_, other);
+}
+
+Halo OwnSeeds::near(int asker, const Rim& rim) {
+  Halo halo;
+  if (set_.size() == 0) return halo;
+  std::vector<std::vector<std::uint32_t>> found(rim.leaves());
+  parallel_for(threads_for(found.size(), threads_, least_shared_leaves), found.size(),
+               [&](std::size_t begin, std::size_t end) {
+                 NearRim near(set_, tree_);
+                 for (std::size_t k = begin; k < end; ++k) near.find(rim, k, found[k]);
+               });
+  Sent& sent = sent_[asker];
+  sent.resize(set_.size());
+  for (const std::vector<std::uint32_t>& ranks : found)
+    for (const std::uint32_t rank : ranks) sent[rank] = 1;
+  std::vector<std::uint32_t> ranks;
+  for (std::uint32_t rank = 0; rank < sent.size(); ++rank) {
+    if (sent[rank] == 0) continue;
+    ranks.push_back(rank);
+    send(rank, halo.id, halo.seed);
+  }
+  halo.rest = outline_of_rest(set_, tree_, outline_level(tree_, rest_nodes), rim, ranks);
+  return halo;
+}
+
+void OwnSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows) {
+  ++sent_count_;
+  const std::size_t i = set_.input[rank];
+  ids.push_back(id_[i]);
+  rows.insert(rows.end(), row(i), row(i) + width_);
+}
+
 Reply OwnSeeds::answer(int asker, const Request& request) {
   Sent& sent = sent_[asker];
   sent.resize(set_.size());
@@ -138,10 +178,7 @@ Reply OwnSeeds::answer(int asker, const Request& request) {
     for (const std::uint32_t rank : ranks) {
       if (sent[rank] != 0) continue;
       sent[rank] = 1;
-      ++sent_count_;
-      const std::size_t i = set_.input[rank];
-      reply.id.push_back(id_[i]);
-      reply.seed.insert(reply.seed.end(), row(i), row(i) + width_);
+      send(rank, reply.id, reply.seed);
     }
   return reply;
 }

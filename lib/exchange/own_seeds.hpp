@@ -34,6 +34,11 @@ class OwnSeeds {
   void set_hidden(std::size_t i) { hidden_[i] = 1; }
   bool is_hidden(std::size_t i) const { return hidden_[i] != 0; }
 
+  /// The rim towards another shard. \param other  its outline
+  Rim rim(const PackedTree& other) const;
+  /// The seeds near the rim of another shard.
+  /// \param asker  its number \pre none were sent to it
+  Halo near(int asker, const Rim& rim);
   /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex.
   /// \param asker  the number of the shard that asks
   Reply answer(int asker, const Request& request);
@@ -55,6 +60,8 @@ class OwnSeeds {
     bool few = false;                   ///< whether these are all; else the tree is searched
   };
 
+  /// Appends a seed to a message.
+  void send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows);
   void find_leaves(const CutTest& cell, Search& search) const;
   /// The rank of least power at a point, of seeds that may cut it and were not sent before, or none.
   std::uint32_t least(const CutTest& point, const Search& search) const;

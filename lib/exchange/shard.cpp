@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t far_vertices = 6;  // that are asked about at a time
 /// Seeds of a shard in the plane and in space.
-constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 50000};
+constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 2000};
 
 }  // namespace
 
@@ -70,7 +70,7 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   }
   if (!open_.empty()) {
     compute(diagram, handles, {.adjacency = true, .cells = true});
-    NearBoxes near(outlines_, number_);
+    NearBoxes near(others_, number_);
     for (std::size_t k = 0; k < open_.size(); ++k)
       if (measures_.status[open_[k]] == SeedStatus::ok)
         ask(*diagram.results->cells, k, handles, near, requests);
@@ -108,7 +108,7 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
 }
 
 void Shard::close_far_cells(const std::vector<double>& reach) {
-  NearBoxes near(outlines_, number_);
+  NearBoxes near(others_, number_);
   std::vector<Handle> left;
   for (std::size_t k = 0; k < open_.size(); ++k) {
     const Handle cell = open_[k];
@@ -126,7 +126,7 @@ bool Shard::keep_nearest(CutTest& test, const Point& vertex) {
     test.move_to({along * vertex[0], along * vertex[1], along * vertex[2]});
     std::vector<int> nearer;
     for (const int shard : asked_)
-      if (may_cut((*outlines_)[static_cast<std::size_t>(shard)], test)) nearer.push_back(shard);
+      if (may_cut(others_.of(shard), test)) nearer.push_back(shard);
     if (nearer.empty()) break;
     asked_ = std::move(nearer);
   }
@@ -180,10 +180,29 @@ void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> han
   if (waiting_for_.size() > before) waiting_.push_back({self, waiting_for_.size(), postponed});
 }
 
-void Shard::take(int from, const Reply& reply) {
-  foreign_id_.insert(foreign_id_.end(), reply.id.begin(), reply.id.end());
-  foreign_rows_.insert(foreign_rows_.end(), reply.seed.begin(), reply.seed.end());
+std::map<int, Rim> Shard::rims() const {
+  std::map<int, Rim> rims;
+  for (int shard = 0; shard < static_cast<int>(others_.outlines->size()); ++shard) {
+    if (shard == number_) continue;
+    Rim rim = own_.rim(others_.of(shard));
+    if (rim.leaves() > 0) rims.emplace(shard, std::move(rim));
+  }
+  return rims;
+}
+
+void Shard::take(int from, Halo&& halo) {
+  take_seeds(halo.id, halo.seed);
+  others_.rest[from] = std::move(halo.rest);
+}
+
+void Shard::take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows) {
+  foreign_id_.insert(foreign_id_.end(), ids.begin(), ids.end());
+  foreign_rows_.insert(foreign_rows_.end(), rows.begin(), rows.end());
   foreign_hidden_.resize(foreign_id_.size());
+}
+
+void Shard::take(int from, const Reply& reply) {
+  take_seeds(reply.id, reply.seed);
   const std::vector<Vertex*>& asked = asked_of_.at(from);
   for (std::size_t v = 0; v < asked.size(); ++v)
     if (reply.found[v] != 0) asked[v]->found = true;
@@ -229,8 +248,8 @@ std::map<int, Twins> Shard::twins() const {
   for (Handle cell = 0; cell < own_.size(); ++cell) {
     if (measures_.status[cell] != SeedStatus::hidden) continue;
     const double* const row = own_.row(cell);
-    for (std::size_t s = 0; s < outlines_->size(); ++s) {
-      if (static_cast<int>(s) == number_ || !may_contain((*outlines_)[s], row)) continue;
+    for (std::size_t s = 0; s < others_.outlines->size(); ++s) {
+      if (static_cast<int>(s) == number_ || !may_contain((*others_.outlines)[s], row)) continue;
       Twins& twins = questions[static_cast<int>(s)];
       twins.id.push_back(own_.id(cell));
       twins.seed.insert(twins.seed.end(), row, row + width_);

@@ -25,6 +25,7 @@ struct ShardCells {
 /// All shards take the same steps, one after the other or each on a machine of its own:
 ///
 ///     meet() the outlines of the seeds of all
+///     send rims(), answer them by OwnSeeds::near(), take() the halos; this saves rounds and may be left out
 ///     while some shard has open cells:
 ///       while some shard has: clip(); send the requests, answer() them, take() the replies; settle()
 ///       send take_hidden(), forget() what comes; reopen()
@@ -38,7 +39,10 @@ class Shard {
   const OwnSeeds& own() const { return own_; }
   std::size_t open_cells() const { return open_.size(); }
   std::uint64_t clipped_cells() const { return clipped_; }  ///< counted each time
-  void meet(Outlines outlines) { outlines_ = std::move(outlines); }
+  void meet(Outlines outlines) { others_.outlines = std::move(outlines); }
+  /// Questions to the shards of some numbers which of their seeds are near.
+  std::map<int, Rim> rims() const;
+  void take(int from, Halo&& halo);
 
   /// Clips the open cells among all seeds at hand. \return requests to the shards of some numbers
   /// \param diagram  in the domain; its seeds and selection are replaced \throw Error as Diagram
@@ -91,6 +95,8 @@ class Shard {
   std::vector<Handle> at_hand(bool all) const;
   /// Clips the open cells and keeps their results.
   void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
+  /// Adds seeds of others to those at hand.
+  void take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows);
   /// The open cells that other shards may cut, by what is known of how far they reach; the others are closed.
   void close_far_cells(const std::vector<double>& reach);
   /// Adds the vertices of a cell to the requests that no shard was asked about yet.
@@ -105,7 +111,7 @@ class Shard {
   int number_;
   std::size_t width_;  // of a row of position and weight
   OwnSeeds own_;
-  Outlines outlines_;
+  OthersSeeds others_;
 
   std::vector<std::uint64_t> foreign_id_;
   std::vector<double> foreign_rows_;

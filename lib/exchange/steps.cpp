@@ -39,6 +39,33 @@ Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& po
   const auto outlines = std::make_shared<std::vector<PackedTree>>();
   for (const Bytes& of_shard : post.share(std::move(own))) outlines->push_back(outline_from(of_shard));
   for (Shard& shard : shards_) shard.meet(outlines);
+  guess();
+}
+
+void Steps::guess() {
+  std::vector<Post::Letters> letters(shards_.size());
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (const auto& [to, rim] : shards_[s].rims()) letters[s][to] = packed(rim.spacing, rim.seed);
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (auto& [from, letter] : letters[s]) {
+      Rim rim;
+      unpack(letter, rim.spacing, rim.seed);
+      const Halo halo = shards_[s].own().near(from, rim);
+      report_.requests += rim.bytes();
+      report_.replies += halo.bytes();
+      report_.outlines += outline_bytes(halo.rest);
+      letter = packed(halo.id, halo.seed, packed_outline(halo.rest));
+    }
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (auto& [from, letter] : letters[s]) {
+      Halo halo;
+      Bytes rest;
+      unpack(std::exchange(letter, {}), halo.id, halo.seed, rest);
+      halo.rest = outline_from(rest);
+      shards_[s].take(from, std::move(halo));
+    }
 }
 
 std::vector<ShardCells> Steps::run() {

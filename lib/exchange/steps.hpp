@@ -27,6 +27,8 @@ class Steps {
   const ExchangeReport& report() const { return report_; }
 
  private:
+  /// Fetches the seeds that cells at the rims of shards need, as far as positions tell.
+  void guess();
   /// Whether some shard, wherever it is, has open cells.
   bool any_open();
   void round();

@@ -1,0 +1,139 @@
+#include "lib/exchange/rim.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/exchange/boxes.hpp"
+#include "lib/exchange/tree_walk.hpp"
+
+namespace powercell::exchange {
+namespace {
+
+/// Up to this times the spacing of the asked shard's seeds two seeds are likely neighbours,
+constexpr double depth = 1.8;
+/// and so are the nearest seed and those up to `layer` spacings farther, if it is at most this times the
+/// spacing of the asking shard's seeds away.
+constexpr double farthest = 1.5, layer = 0.5;
+/// The box of the few seeds of a leaf is now and then much smaller than their spacing.
+constexpr double leaf_trust = 1.5;
+/// A leaf of a rim that spans more leaves is among denser seeds, of which it needs few.
+constexpr std::size_t most_leaves = 512;
+
+/// How far apart the seeds below nodes of a tree are, about.
+class Spacing {
+ public:
+  explicit Spacing(const PackedTree& tree)
+      : tree_(tree),
+        leaf_edge_(tree.dimension == 2 ? std::sqrt(8.0) : 2),
+        wide_edge_(leaf_edge_ * leaf_edge_) {}
+
+  /// Of the seeds of a leaf, or at least that of all leaves below another node.
+  double operator()(std::uint32_t number) const {
+    if (number >= tree_.level_offset[1]) return edge(number) / wide_edge_;
+    const double own = edge(number) / leaf_edge_;
+    if (tree_.levels() == 1) return own;
+    const double wide = edge(tree_.level_offset[1] + number / PackedTree::fan) / wide_edge_;
+    return own > 0 ? std::min(wide, leaf_trust * own) : wide;
+  }
+
+ private:
+  /// The mean edge of a node's box.
+  double edge(std::uint32_t number) const {
+    const auto d = static_cast<std::size_t>(tree_.dimension);
+    double sum = 0;
+    for (std::size_t k = 0; k < d; ++k) sum += tree_.high[number * d + k] - tree_.low[number * d + k];
+    return sum / static_cast<double>(d);
+  }
+
+  const PackedTree& tree_;
+  double leaf_edge_, wide_edge_;  // of boxes of 8 and 64 seeds, in units of their spacing
+};
+
+}  // namespace
+
+Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& other) {
+  Rim rim;
+  if (tree.levels() == 0) return rim;
+  const auto d = static_cast<std::size_t>(tree.dimension);
+  const Spacing spacing(tree);
+  const auto is_near = [&](std::uint32_t node) {
+    const BoxView box = box_of(tree, node);
+    const double limit = farthest * spacing(node);
+    return has_open_leaf(other,
+                         [&](std::uint32_t b) { return gap2(box, box_of(other, b), d) <= limit * limit; });
+  };
+  const std::size_t most = tree.level_offset[1] - tree.level_offset[1] / 10;
+  visit_leaves(tree, is_near, [&](std::uint32_t leaf) {
+    rim.spacing.push_back(spacing(leaf));
+    for (std::uint32_t k = 0; k < PackedTree::fan; ++k) {
+      const std::size_t rank = std::min<std::size_t>(leaf * PackedTree::fan + k, seeds.size() - 1);
+      rim.seed.insert(rim.seed.end(), &seeds.positions[rank * d], &seeds.positions[rank * d] + d);
+    }
+    return rim.leaves() <= most;
+  });
+  return rim.leaves() > most ? Rim{} : rim;
+}
+
+bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {
+  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const Box around = box_around(&rim.seed[k * PackedTree::fan * d], PackedTree::fan, d);
+  const Spacing spacing(tree_);
+  leaves_.clear();
+  const auto is_near = [&](std::uint32_t node) {
+    const double h = spacing(node), most = std::max(depth * h, far + layer * h);
+    return gap2(around.view(), box_of(tree_, node), d) <= most * most;
+  };
+  visit_leaves(tree_, is_near, [&](std::uint32_t leaf) {
+    leaves_.push_back(leaf);
+    return leaves_.size() <= most_leaves;
+  });
+  return leaves_.size() <= most_leaves;
+}
+
+NearRim::Row NearRim::measure(const double* rim_seeds) {
+  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  Row least;
+  least.fill(std::numeric_limits<double>::infinity());
+  distance2_.clear();
+  for (const std::uint32_t leaf : leaves_)
+    for (std::size_t rank = std::size_t{leaf} * PackedTree::fan;
+         rank < std::min<std::size_t>((leaf + std::size_t{1}) * PackedTree::fan, seeds_.size()); ++rank) {
+      Row& row = distance2_.emplace_back();
+      for (std::size_t a = 0; a < row.size(); ++a) {
+        for (std::size_t k = 0; k < d; ++k) {
+          const double gap = seeds_.positions[rank * d + k] - rim_seeds[a * d + k];
+          row[a] += gap * gap;
+        }
+        least[a] = std::min(least[a], row[a]);
+      }
+    }
+  return least;
+}
+
+void NearRim::find(const Rim& rim, std::size_t k, std::vector<std::uint32_t>& ranks) {
+  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const double far = farthest * rim.spacing[k];
+  if (!find_leaves(rim, k, far)) return;
+  Row nearest = measure(&rim.seed[k * PackedTree::fan * d]);
+  for (double& distance : nearest) distance = std::sqrt(distance);
+  const Spacing spacing(tree_);
+  std::size_t at = 0;
+  for (const std::uint32_t leaf : leaves_) {
+    const double h = spacing(leaf);
+    Row limit2;
+    for (std::size_t a = 0; a < limit2.size(); ++a) {
+      const double limit = std::max(depth * h, nearest[a] + layer * h);
+      limit2[a] = nearest[a] <= far ? limit * limit : -1;
+    }
+    for (std::size_t rank = std::size_t{leaf} * PackedTree::fan;
+         rank < std::min<std::size_t>((leaf + std::size_t{1}) * PackedTree::fan, seeds_.size());
+         ++rank, ++at) {
+      bool is_likely = false;
+      for (std::size_t a = 0; a < limit2.size(); ++a) is_likely = is_likely || distance2_[at][a] <= limit2[a];
+      if (is_likely) ranks.push_back(static_cast<std::uint32_t>(rank));
+    }
+  }
+}
+
+}  // namespace powercell::exchange

@@ -1,0 +1,41 @@
+/// \file
+/// A guess which seeds of a shard the cells at the rim of another need, from positions alone. It decides what
+/// is sent before any cell is clipped, and no result (docs/scale.md). Internal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lib/exchange/messages.hpp"
+#include "lib/seeds/packed_tree.hpp"
+
+namespace powercell::exchange {
+
+/// The leaves of a shard's tree that are near the boxes of another's outline. Empty if these are nearly all
+/// leaves: then the shards have no rim between them, and nearly all seeds would be sent.
+Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& other);
+
+/// Finds the seeds near leaves of another's rim. The memory is reused from leaf to leaf.
+class NearRim {
+ public:
+  NearRim(const SeedSet& seeds, const PackedTree& tree) : seeds_(seeds), tree_(tree) {}
+
+  /// Appends the ranks of the seeds that are likely neighbours of those of leaf `k` of the rim.
+  void find(const Rim& rim, std::size_t k, std::vector<std::uint32_t>& ranks);
+
+ private:
+  using Row = std::array<double, PackedTree::fan>;  // by seed of the rim's leaf
+
+  /// Lists the leaves that may have likely neighbours. \return whether they are few
+  bool find_leaves(const Rim& rim, std::size_t k, double far);
+  /// Sets the squared distances of all seeds in them. \return the least of each seed of the rim's leaf
+  Row measure(const double* rim_seeds);
+
+  const SeedSet& seeds_;
+  const PackedTree& tree_;
+  std::vector<std::uint32_t> leaves_;
+  std::vector<Row> distance2_;  // by seed in these leaves
+};
+
+}  // namespace powercell::exchange

@@ -1,0 +1,216 @@
+// What shards send each other before they clip: a guess, which may be wrong, and an outline of the rest,
+// which may not.
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <set>
+
+#include "lib/diagram/state.hpp"
+#include "lib/exchange/rest.hpp"
+#include "lib/exchange/tree_walk.hpp"
+#include "tests/exchange/compare.hpp"
+
+using namespace powercell;
+using namespace powercell::test;
+using exchange::Halo;
+using exchange::OwnSeeds;
+using exchange::Rim;
+using exchange::Shard;
+
+namespace {
+
+constexpr std::size_t per_leaf = PackedTree::fan;
+
+/// Rims to ask each shard with, in place of the right ones.
+using Guess = std::function<std::map<int, Rim>(const Shard&, int number, int count)>;
+
+std::map<int, Rim> right_guess(const Shard& shard, int, int) {
+  return shard.rims();
+}
+std::map<int, Rim> no_guess(const Shard&, int, int) {
+  return {};
+}
+
+/// The seeds of `leaves` leaves at random, for each other shard.
+Guess random_guess(Random& random, std::size_t leaves, double spacing) {
+  return [&random, leaves, spacing](const Shard& shard, int number, int count) {
+    std::map<int, Rim> rims;
+    for (int other = 0; other < count; ++other) {
+      if (other == number || shard.own().size() == 0) continue;
+      Rim& rim = rims[other];
+      const auto d = static_cast<std::ptrdiff_t>(shard.own().tree().dimension);
+      for (std::size_t k = 0; k < leaves; ++k) {
+        rim.spacing.push_back(spacing);
+        for (std::size_t a = 0; a < per_leaf; ++a) {
+          const double* const row = shard.own().row(random.index(shard.own().size()));
+          rim.seed.insert(rim.seed.end(), row, row + d);
+        }
+      }
+    }
+    return rims;
+  };
+}
+
+/// Takes the steps of all shards. \return them
+std::vector<Shard> run_steps(const Domain& domain, const Shares& shares, const Guess& guess) {
+  Diagram::State diagram(test_device(), domain, {});
+  std::vector<Shard> shards;
+  const auto outlines = std::make_shared<std::vector<PackedTree>>();
+  for (const exchange::ShardSeeds& seeds : shares.view()) {
+    shards.emplace_back(static_cast<int>(shards.size()), seeds.ids, seeds.seeds, shares.dimension, 1);
+    outlines->push_back(exchange::outline_of(shards.back().own().tree(), 64));
+  }
+  const auto shard = [&](int number) -> Shard& { return shards[static_cast<std::size_t>(number)]; };
+  const int count = static_cast<int>(shards.size());
+  for (Shard& s : shards) s.meet(outlines);
+  for (int s = 0; s < count; ++s)
+    for (const auto& [to, rim] : guess(shard(s), s, count)) shard(s).take(to, shard(to).own().near(s, rim));
+  const auto any_open = [&] {
+    return std::any_of(shards.begin(), shards.end(), [](const Shard& s) { return s.open_cells() > 0; });
+  };
+  while (any_open()) {
+    while (any_open()) {
+      std::vector<std::map<int, exchange::Request>> requests;
+      for (Shard& s : shards) requests.push_back(s.clip(diagram));
+      for (int s = 0; s < count; ++s) {
+        for (const auto& [to, request] : requests[static_cast<std::size_t>(s)])
+          shard(s).take(to, shard(to).own().answer(s, request));
+        shard(s).settle();
+      }
+    }
+    for (int to = 0; to < count; ++to) {
+      for (int from = 0; from < count; ++from)
+        if (from != to) shard(to).forget(shard(from).own().take_hidden(to));
+      shard(to).reopen();
+    }
+  }
+  for (Shard& s : shards)
+    for (const auto& [to, twins] : s.twins()) s.mark_duplicates(twins, shard(to).own().better_twins(twins));
+  return shards;
+}
+
+void check_guess(Diagram& diagram, const Shares& shares, const Guess& guess) {
+  const std::vector<Shard> shards = run_steps(diagram.domain(), shares, guess);
+  for (std::size_t s = 0; s < shards.size(); ++s)
+    check_cells(diagram, shares.ids[s], shards[s].cells(diagram.measures().domain_measure));
+}
+
+OwnSeeds own_of(const SeedArray& seeds) {
+  std::vector<std::uint64_t> ids(seeds.size());
+  std::iota(ids.begin(), ids.end(), std::uint64_t{0});
+  return {ids, seeds.view(), seeds.dimension, 1};
+}
+
+/// One leaf of a rim with seeds at random in the box from `low` to `high`.
+Rim rim_in(double low, double high, int dimension, Random& random) {
+  Rim rim{{0.05}, {}};
+  for (std::size_t k = 0; k < per_leaf * static_cast<std::size_t>(dimension); ++k)
+    rim.seed.push_back(random.uniform(low, high));
+  return rim;
+}
+
+}  // namespace
+
+TEST_CASE("guesses: cells do not depend on what is guessed") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const Distribution distribution : {Distribution::white, Distribution::cluster})
+    for (const WeightRange range : {WeightRange::W0, WeightRange::W2}) {
+      INFO(name(distribution) << " " << name(range));
+      SeedArray seeds = random_seeds(distribution, range, 900, 3, random);
+      seeds.weights[77] += 0.1;  // reaches into all shards, whatever positions say
+      for (std::size_t i = 0; i < 100; ++i)
+        seeds.push({seeds.coordinate(i, 0), seeds.coordinate(i, 1), seeds.coordinate(i, 2)}, 0);
+      Diagram diagram = diagram_of(unit_box(3), seeds);
+      const Shares shares = along_curve(seeds, 4);
+      check_guess(diagram, shares, right_guess);
+      check_guess(diagram, shares, no_guess);
+      check_guess(diagram, shares, random_guess(random, 3, 0.1));
+      check_guess(diagram, shares, random_guess(random, 40, 10));  // nearly all is sent
+    }
+}
+
+TEST_CASE("guesses: flat cells and ties of seeds that were sent before anyone clipped") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const int dimension : {2, 3}) {
+    CAPTURE(dimension);
+    const int per_axis = dimension == 2 ? 16 : 8;
+    SeedArray seeds = grid(per_axis, dimension);
+    for (double& w : seeds.weights) w = -static_cast<double>(random.index(3)) / (per_axis * per_axis);
+    Diagram diagram = diagram_of(unit_box(dimension), seeds);
+    check_guess(diagram, along_curve(seeds, 3), right_guess);
+    check_guess(diagram, at_random(seeds, 3, random), random_guess(random, 10, 1));
+  }
+}
+
+TEST_CASE("guesses: large shards need few rounds and clip few cells twice") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const Distribution distribution : {Distribution::blue, Distribution::cluster}) {
+    INFO(name(distribution));
+    const SeedArray seeds = random_seeds(distribution, WeightRange::W0, 5000, 3, random);
+    Diagram diagram = diagram_of(unit_box(3), seeds);
+    const exchange::ExchangeReport report = check_shares(diagram, along_curve(seeds, 2));
+    CHECK(static_cast<double>(report.clipped) < 1.3 * static_cast<double>(seeds.size()));
+    CHECK(static_cast<double>(report.fetched) < 2.0 * static_cast<double>(report.neighbors));
+  }
+}
+
+TEST_CASE("guesses: the outline of the rest has every seed that was not sent") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const int dimension : {2, 3})
+    for (const std::size_t count : {std::size_t{3}, std::size_t{3000}}) {
+      INFO(dimension << "D " << count);
+      const SeedArray seeds = random_seeds(Distribution::cluster, WeightRange::W2, count, dimension, random);
+      OwnSeeds own = own_of(seeds);
+      const Halo halo = own.near(1, rim_in(0.4, 0.6, dimension, random));
+      const std::set<std::uint64_t> sent(halo.id.begin(), halo.id.end());
+      CHECK(sent.size() == halo.id.size());
+      CHECK((count < 10 || !sent.empty()));
+      REQUIRE(halo.seed.size() == sent.size() * (static_cast<std::size_t>(dimension) + 1));
+      for (std::size_t i = 0; i < seeds.size(); ++i) {
+        if (sent.contains(i)) continue;
+        CAPTURE(i);
+        const double* const row = own.row(i);
+        CHECK(exchange::has_open_leaf(halo.rest, [&](std::uint32_t node) {
+          return exchange::contains(halo.rest, node, row) && halo.rest.weight[node] >= row[dimension];
+        }));
+      }
+    }
+}
+
+TEST_CASE("guesses: when all seeds were sent nothing is left") {
+  Random random(test_seed());
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 100, 3, random);
+  OwnSeeds own = own_of(seeds);
+  Rim all;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    all.spacing.push_back(100);
+    for (std::size_t a = 0; a < per_leaf; ++a) all.seed.insert(all.seed.end(), own.row(i), own.row(i) + 3);
+  }
+  const Halo halo = own.near(1, all);
+  CHECK(halo.id.size() == seeds.size());
+  CHECK(halo.rest.levels() == 0);
+  const double row[] = {0.5, 0.5, 0.5, 0};
+  exchange::CutTest test(row, 10, 3);
+  CHECK(!exchange::may_cut(halo.rest, test));
+}
+
+TEST_CASE("guesses: seeds in a rim are asked about near another shard, and not if the two are mixed") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 4000, 2, random);
+  const Shares halves = along_curve(seeds, 2), mixed = at_random(seeds, 2, random);
+  const auto rim_between = [](const Shares& shares) {
+    const std::vector<exchange::ShardSeeds> view = shares.view();
+    const OwnSeeds one(view[0].ids, view[0].seeds, 2, 1), other(view[1].ids, view[1].seeds, 2, 1);
+    return one.rim(exchange::outline_of(other.tree(), 512));
+  };
+  const Rim rim = rim_between(halves);
+  CHECK(rim.leaves() > 5);
+  CHECK(rim.leaves() * per_leaf < seeds.size() / 4);
+  CHECK(rim.seed.size() == rim.leaves() * per_leaf * 2);
+  CHECK(rim_between(mixed).leaves() == 0);
+}
