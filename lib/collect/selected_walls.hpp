@@ -2,6 +2,7 @@
 /// Collects the walls of the cells of some seeds, as seen from these cells. Internal.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <powercell/results.hpp>
 #include <span>
@@ -17,7 +18,9 @@ class SelectedWalls {
  public:
   /// Keeps the references. \param rows  selected  \param placement  of a periodic domain, else null
   SelectedWalls(const SeedSet& seeds, std::size_t rows, const Placement* placement, int threads)
-      : seeds_(seeds), placement_(placement), threads_(threads), row_(rows) {}
+      : seeds_(seeds), placement_(placement), threads_(threads), row_(rows) {
+    walls_.reserve(rows * usual_walls[seeds.dimension == 2 ? 0 : 1]);
+  }
 
   /// Adds the pieces of a chunk. Rows ascend over all chunks. \param pair_row  of each pair
   void add(std::span<const std::uint32_t> pair_row, std::span<const std::uint32_t> pair_seed,
@@ -32,6 +35,9 @@ class SelectedWalls {
   Adjacency finish(std::span<const std::uint32_t> place, const std::vector<SeedStatus>& status, double unit);
 
  private:
+  /// A few more than cells have on average, so that memory is taken once.
+  static constexpr std::array<std::size_t, 2> usual_walls{7, 18};
+
   struct Wall {
     std::uint32_t neighbor;  // by input index
     Shift shift;
