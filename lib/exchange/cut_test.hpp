@@ -90,6 +90,10 @@ class CutTest {
       const double gap = std::max({low[k] - seed_[k], seed_[k] - high[k], 0.0});
       gap2 += gap * gap;
     }
+    return may_meet(gap2, heaviest);
+  }
+  /// The same for a box at a distance from the seed whose square is `gap2`.
+  bool may_meet(double gap2, double heaviest) const {
     const double reach = radius_ * (1 + error_), far = std::max(std::sqrt(gap2), reach);
     return !(far * (far - 2 * reach) + weight_ - heaviest >
              power_error * (far * (far + 2 * reach) + std::abs(weight_) + std::abs(heaviest)) + underflow);

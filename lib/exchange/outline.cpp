@@ -50,6 +50,19 @@ bool may_cut(const PackedTree& outline, const CutTest& point) {
   return has_open_leaf(outline, [&](std::uint32_t node) { return node_may_cut(outline, node, point); });
 }
 
+bool NearBoxes::may_meet(const BoxView& box, const CutTest& farthest) const {
+  for (int shard = 0; shard < static_cast<int>(others_.outlines->size()); ++shard) {
+    if (shard == self_) continue;
+    const PackedTree& boxes = outline(shard);
+    const auto d = static_cast<std::size_t>(boxes.dimension);
+    if (has_open_leaf(boxes, [&](std::uint32_t node) {
+          return farthest.may_meet(gap2(box, box_of(boxes, node), d), boxes.weight[node]);
+        }))
+      return true;
+  }
+  return false;
+}
+
 void NearBoxes::set(const CutTest& cell) {
   shards_.clear();
   end_.clear();

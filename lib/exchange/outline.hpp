@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/exchange/boxes.hpp"
 #include "lib/exchange/cut_test.hpp"
 #include "lib/seeds/packed_tree.hpp"
 
@@ -45,6 +46,9 @@ class NearBoxes {
   /// \param self  the shard that is left out
   NearBoxes(const OthersSeeds& others, int self) : others_(others), self_(self) {}
 
+  /// Whether there are boxes for a cell of a seed in the box.
+  /// \param farthest  that reaches as far as any, of a seed as light and as far from the origin as any
+  bool may_meet(const BoxView& box, const CutTest& farthest) const;
   /// Finds the boxes for a cell.
   void set(const CutTest& cell);
   bool empty() const { return shards_.empty(); }

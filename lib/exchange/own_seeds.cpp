@@ -33,17 +33,21 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
     throw Error(ErrorCode::invalid_argument, std::to_string(ids.size()) + " ids for " +
                                                  std::to_string(seeds.size()) + " seeds of a shard");
   std::iota(given_.begin(), given_.end(), std::size_t{0});
-  std::sort(given_.begin(), given_.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  if (!std::is_sorted(ids.begin(), ids.end()))
+    std::sort(given_.begin(), given_.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
   const std::size_t d = width_ - 1;
-  std::vector<double> positions, weights;
-  for (const std::size_t k : given_) {
-    if (!id_.empty() && id_.back() == ids[k])
+  std::vector<double> positions(ids.size() * d), weights(ids.size());
+  id_.resize(ids.size());
+  rows_.resize(ids.size() * width_);
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    const std::size_t k = given_[i];
+    id_[i] = ids[k];
+    if (i > 0 && id_[i - 1] == id_[i])
       throw Error(ErrorCode::invalid_argument, "two seeds have the id " + std::to_string(ids[k]));
-    id_.push_back(ids[k]);
-    positions.insert(positions.end(), &seeds.positions[k * d], &seeds.positions[k * d] + d);
-    weights.push_back(seeds.weights.empty() ? 0 : seeds.weights[k]);
-    rows_.insert(rows_.end(), &seeds.positions[k * d], &seeds.positions[k * d] + d);
-    rows_.push_back(weights.back());
+    weights[i] = seeds.weights.empty() ? 0 : seeds.weights[k];
+    std::copy_n(&seeds.positions[k * d], d, &positions[i * d]);
+    std::copy_n(&seeds.positions[k * d], d, &rows_[i * width_]);
+    rows_[i * width_ + d] = weights[i];
   }
   hidden_.resize(id_.size());
   set_ = make_seed_set({dimension, positions, weights}, dimension, threads);

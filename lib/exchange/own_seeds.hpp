@@ -2,6 +2,7 @@
 /// The seeds that a shard owns, and its answers to others. Internal.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <powercell/seeds.hpp>
@@ -29,6 +30,11 @@ class OwnSeeds {
   /// Rows of position and weight.
   const double* row(std::size_t i) const { return &rows_[i * width_]; }
   const PackedTree& tree() const { return tree_; }
+  /// The seeds of a leaf of the tree.
+  std::span<const std::uint32_t> in_leaf(std::size_t leaf) const {
+    const std::size_t first = leaf * PackedTree::fan;
+    return std::span(set_.input).subspan(first, std::min<std::size_t>(PackedTree::fan, set_.size() - first));
+  }
 
   /// A seed without a cell: it cuts no other, and is not sent any more.
   void set_hidden(std::size_t i) { hidden_[i] = 1; }

@@ -40,14 +40,16 @@ std::vector<Handle> Shard::at_hand(bool all) const {
     std::vector<bool> needed(count);
     for (const Handle cell : open_) {
       needed[cell] = true;
-      for (std::size_t k = rows_[cell].begin; k < rows_[cell].begin + rows_[cell].count; ++k)
-        needed[neighbor_[k]] = true;
+      for (const Handle neighbor : neighbors_of(cell)) needed[neighbor] = true;
     }
     for (Handle h = 0; h < count; ++h)
       if (needed[h] || h >= own_.size() + foreign_clipped_) handles.push_back(h);
   }
-  // The lower id wins between duplicates, as the lower index does in a diagram.
-  std::sort(handles.begin(), handles.end(), [this](Handle a, Handle b) { return id_of(a) < id_of(b); });
+  // The lower id wins between duplicates, as the lower index does in a diagram. Own ids ascend already.
+  const auto foreign = std::lower_bound(handles.begin(), handles.end(), static_cast<Handle>(own_.size()));
+  const auto by_id = [this](Handle a, Handle b) { return id_of(a) < id_of(b); };
+  std::sort(foreign, handles.end(), by_id);
+  std::inplace_merge(handles.begin(), foreign, handles.end(), by_id);
   return handles;
 }
 
@@ -56,11 +58,11 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   if (open_.empty()) return requests;
   // Where the domain is convex, a cell is determined by its walls and the seeds that came since.
   const std::vector<Handle> handles = at_hand(all_needed_ || diagram.setup.domain.region_count() > 1);
-  std::vector<double> positions, weights;
-  for (const Handle h : handles) {
-    const double* const row = row_of(h);
-    positions.insert(positions.end(), row, row + width_ - 1);
-    weights.push_back(row[width_ - 1]);
+  std::vector<double> positions(handles.size() * (width_ - 1)), weights(handles.size());
+  for (std::size_t k = 0; k < handles.size(); ++k) {
+    const double* const row = row_of(handles[k]);
+    std::copy_n(row, width_ - 1, &positions[k * (width_ - 1)]);
+    weights[k] = row[width_ - 1];
   }
   diagram.set_seeds({static_cast<int>(width_) - 1, positions, weights});
   // Of a large shard most cells are far from all others, so that their geometry is not needed.
@@ -91,7 +93,7 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
   diagram.select(selected);
   diagram.compute(want);
   const Measures& from = *diagram.results->measures;
-  const Adjacency& adjacency = *diagram.results->adjacency;
+  Adjacency& adjacency = *diagram.results->adjacency;
   for (std::size_t k = 0; k < open_.size(); ++k) {
     const Handle cell = open_[k];
     measures_.mass[cell] = from.mass[k];
@@ -99,24 +101,38 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
     measures_.second_moment[cell] = from.second_moment[k];
     measures_.status[cell] = from.status[k];
     if (from.status[k] != SeedStatus::ok) own_.set_hidden(cell);
-    rows_[cell] = {neighbor_.size(), adjacency.offset[k + 1] - adjacency.offset[k]};
-    for (std::uint64_t w = adjacency.offset[k]; w < adjacency.offset[k + 1]; ++w) {
-      neighbor_.push_back(handle[adjacency.neighbor[w]]);
-      wall_.push_back(adjacency.wall[w]);
-    }
+    rows_[cell] = {adjacency.offset[k],
+                   static_cast<std::uint32_t>(adjacency.offset[k + 1] - adjacency.offset[k]),
+                   static_cast<std::uint32_t>(walls_.size())};
   }
+  for (std::uint32_t& neighbor : adjacency.neighbor) neighbor = handle[neighbor];
+  walls_.push_back({std::move(adjacency.neighbor), std::move(adjacency.wall)});
 }
 
 void Shard::close_far_cells(const std::vector<double>& reach) {
   NearBoxes near(others_, number_);
-  std::vector<Handle> left;
-  for (std::size_t k = 0; k < open_.size(); ++k) {
-    const Handle cell = open_[k];
-    if (measures_.status[cell] != SeedStatus::ok) continue;
-    near.set(CutTest(own_.row(cell), std::max(reach[k], least_radius), measures_.dimension));
-    if (!near.empty()) left.push_back(cell);
+  const PackedTree& tree = own_.tree();
+  std::vector<bool> is_near(own_.size());
+  std::vector<double> farthest(width_);
+  for (std::uint32_t leaf = 0; leaf < tree.level_offset[1]; ++leaf) {
+    // Few leaves are near others, and what can cut none of their cells is found for all of them at once.
+    const BoxView box = box_of(tree, leaf);
+    for (std::size_t k = 0; k + 1 < width_; ++k)
+      farthest[k] = std::max(std::abs(box.low[k]), std::abs(box.high[k]));
+    farthest.back() = std::numeric_limits<double>::infinity();
+    double most = least_radius;
+    for (const std::uint32_t cell : own_.in_leaf(leaf)) {
+      farthest.back() = std::min(farthest.back(), own_.row(cell)[width_ - 1]);
+      most = std::max(most, reach[cell]);
+    }
+    if (!near.may_meet(box, CutTest(farthest.data(), most, measures_.dimension))) continue;
+    for (const std::uint32_t cell : own_.in_leaf(leaf)) {
+      if (measures_.status[cell] != SeedStatus::ok) continue;
+      near.set(CutTest(own_.row(cell), std::max(reach[cell], least_radius), measures_.dimension));
+      is_near[cell] = !near.empty();
+    }
   }
-  open_ = std::move(left);
+  std::erase_if(open_, [&](Handle cell) { return !is_near[cell]; });
 }
 
 bool Shard::keep_nearest(CutTest& test, const Point& vertex) {
@@ -235,9 +251,8 @@ void Shard::forget(const std::vector<std::uint64_t>& ids) {
 void Shard::reopen() {
   for (Handle cell = 0; cell < own_.size(); ++cell) {
     if (measures_.status[cell] != SeedStatus::ok) continue;
-    const auto first = neighbor_.begin() + static_cast<std::ptrdiff_t>(rows_[cell].begin);
-    if (std::any_of(first, first + static_cast<std::ptrdiff_t>(rows_[cell].count),
-                    [this](Handle h) { return is_gone(h); }))
+    const std::span<const Handle> neighbors = neighbors_of(cell);
+    if (std::any_of(neighbors.begin(), neighbors.end(), [this](Handle h) { return is_gone(h); }))
       open_.push_back(cell);
   }
   all_needed_ = !open_.empty();
@@ -267,39 +282,45 @@ void Shard::mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>&
 }
 
 ShardCells Shard::cells(double domain_measure) const {
-  const std::size_t d = width_ - 1;
-  std::vector<Handle> at(own_.size());
-  for (Handle i = 0; i < own_.size(); ++i) at[own_.given(i)] = i;
+  const std::size_t d = width_ - 1, n = own_.size();
   ShardCells cells;
-  cells.measures.dimension = measures_.dimension;
-  cells.measures.domain_measure = domain_measure;
-  cells.offset.push_back(0);
-  std::vector<std::pair<std::uint64_t, double>> row;
-  for (const Handle i : at) {
-    cells.measures.mass.push_back(measures_.mass[i]);
-    cells.measures.second_moment.push_back(measures_.second_moment[i]);
-    cells.measures.status.push_back(measures_.status[i]);
-    cells.measures.centroid.insert(cells.measures.centroid.end(), &measures_.centroid[i * d],
-                                   &measures_.centroid[i * d] + d);
-    row.clear();
-    for (std::size_t k = rows_[i].begin; k < rows_[i].begin + rows_[i].count; ++k)
-      row.emplace_back(id_of(neighbor_[k]), wall_[k]);
-    std::sort(row.begin(), row.end());
-    for (const auto& [id, wall] : row) {
-      cells.neighbor.push_back(id);
-      cells.wall.push_back(wall);
-    }
-    cells.offset.push_back(cells.neighbor.size());
+  Measures& to = cells.measures;
+  to.dimension = measures_.dimension;
+  to.domain_measure = domain_measure;
+  to.mass.resize(n);
+  to.second_moment.resize(n);
+  to.status.resize(n);
+  to.centroid.resize(n * d);
+  cells.offset.resize(n + 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = own_.given(i);
+    to.mass[at] = measures_.mass[i];
+    to.second_moment[at] = measures_.second_moment[i];
+    to.status[at] = measures_.status[i];
+    std::copy_n(&measures_.centroid[i * d], d, &to.centroid[at * d]);
+    cells.offset[at + 1] = rows_[i].count;
+  }
+  std::partial_sum(cells.offset.begin(), cells.offset.end(), cells.offset.begin());
+  cells.neighbor.resize(cells.offset.back());
+  cells.wall.resize(cells.offset.back());
+  for (Handle i = 0; i < n; ++i) {
+    const std::uint64_t at = cells.offset[own_.given(i)];
+    const std::span<const Handle> neighbors = neighbors_of(i);
+    std::transform(neighbors.begin(), neighbors.end(),
+                   cells.neighbor.begin() + static_cast<std::ptrdiff_t>(at),
+                   [this](Handle h) { return id_of(h); });
+    if (!neighbors.empty())
+      std::copy_n(&walls_[rows_[i].walls].wall[rows_[i].begin], neighbors.size(), &cells.wall[at]);
   }
   return cells;
 }
 
 std::size_t Shard::foreign_neighbors() const {
-  std::unordered_set<Handle> found;
+  std::vector<bool> found(foreign_id_.size());
   for (Handle cell = 0; cell < own_.size(); ++cell)
-    for (std::size_t k = rows_[cell].begin; k < rows_[cell].begin + rows_[cell].count; ++k)
-      if (!is_own(neighbor_[k])) found.insert(neighbor_[k]);
-  return found.size();
+    for (const Handle neighbor : neighbors_of(cell))
+      if (!is_own(neighbor)) found[neighbor - own_.size()] = true;
+  return static_cast<std::size_t>(std::count(found.begin(), found.end(), true));
 }
 
 }  // namespace powercell::exchange

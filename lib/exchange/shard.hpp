@@ -78,10 +78,21 @@ class Shard {
     std::size_t end;  ///< of its vertices in waiting_for_
     bool postponed;   ///< whether other vertices are left for later
   };
+  /// Of the cells that were clipped at a time.
+  struct Walls {
+    std::vector<Handle> neighbor;  ///< by ascending id within a cell
+    std::vector<double> wall;
+  };
   struct Row {
-    std::size_t begin = 0, count = 0;  ///< in neighbor_ and wall_
+    std::uint64_t begin = 0;
+    std::uint32_t count = 0, walls = 0;  ///< the place in walls_
   };
 
+  std::span<const Handle> neighbors_of(Handle cell) const {
+    const Row& row = rows_[cell];
+    return row.count == 0 ? std::span<const Handle>{}
+                          : std::span(walls_[row.walls].neighbor).subspan(row.begin, row.count);
+  }
   bool is_own(Handle h) const { return h < own_.size(); }
   std::uint64_t id_of(Handle h) const { return is_own(h) ? own_.id(h) : foreign_id_[h - own_.size()]; }
   const double* row_of(Handle h) const {
@@ -97,7 +108,7 @@ class Shard {
   void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
   /// Adds seeds of others to those at hand.
   void take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows);
-  /// The open cells that other shards may cut, by what is known of how far they reach; the others are closed.
+  /// Leaves those cells open that other shards may cut, by how far they reach. \param reach  of all own cells
   void close_far_cells(const std::vector<double>& reach);
   /// Adds the vertices of a cell to the requests that no shard was asked about yet.
   void ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,
@@ -132,8 +143,7 @@ class Shard {
 
   Measures measures_;  // of own seeds
   std::vector<Row> rows_;
-  std::vector<Handle> neighbor_;
-  std::vector<double> wall_;
+  std::vector<Walls> walls_;
 };
 
 }  // namespace powercell::exchange
