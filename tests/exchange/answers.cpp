@@ -142,6 +142,41 @@ TEST_CASE("answers: how far cells reach is the distance of their farthest vertic
   }
 }
 
+TEST_CASE("answers: what may meet a cell may meet the farthest of the cells in a box") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  std::size_t met = 0, missed = 0;
+  for (int round = 0; round < 3000; ++round) {
+    SeedArray seeds = random_seeds(Distribution::white, WeightRange::W2, 4, 3, random);
+    translate(seeds, {random.uniform(0, 3), 0, 0});
+    const double reach = random.uniform(0.01, 0.5);
+    std::vector<double> farthest{0, 0, 0, seeds.weights[0]};
+    Point low{seeds.coordinate(0, 0), seeds.coordinate(0, 1), seeds.coordinate(0, 2)}, high = low;
+    for (std::size_t i = 0; i < 3; ++i) {
+      farthest[3] = std::min(farthest[3], seeds.weights[i]);
+      for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        low[axis] = std::min(low[axis], seeds.coordinate(i, k));
+        high[axis] = std::max(high[axis], seeds.coordinate(i, k));
+        farthest[axis] = std::max(std::abs(low[axis]), std::abs(high[axis]));
+      }
+    }
+    const std::vector<double> other = row_of(seeds, 3);
+    const double gap2 = exchange::gap2({low.data(), high.data()}, {other.data(), other.data()}, 3);
+    const bool any = CutTest(farthest.data(), reach, 3).may_meet(gap2, other[3]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::vector<double> row = row_of(seeds, i);
+      const bool one =
+          CutTest(row.data(), reach * random.uniform(), 3).may_meet(other.data(), other.data(), other[3]);
+      CHECK((any || !one));
+      met += one;
+    }
+    missed += !any;
+  }
+  CHECK(met > 100);
+  CHECK(missed > 100);
+}
+
 TEST_CASE("answers: the outline of a tree admits what the tree does") {
   INFO(replay_hint());
   Random random(test_seed());
