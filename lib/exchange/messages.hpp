@@ -68,8 +68,10 @@ struct Rim {
   std::vector<double>
       seed;  ///< per leaf: rows of positions, of eight seeds; some more than once if it has fewer
 
+  std::uint64_t all = 0;  ///< leaves of the tree
+
   std::size_t leaves() const { return spacing.size(); }
-  std::size_t bytes() const { return bytes_of(spacing) + bytes_of(seed); }
+  std::size_t bytes() const { return bytes_of(spacing) + bytes_of(seed) + sizeof all; }
 };
 
 /// Seeds near the rim of another shard.

@@ -139,6 +139,10 @@ Rim OwnSeeds::rim(const PackedTree& other) const {
 Halo OwnSeeds::near(int asker, const Rim& rim) {
   Halo halo;
   if (set_.size() == 0) return halo;
+  if (NearRim(set_, tree_).is_everywhere(rim)) {
+    halo.rest = outline_of(tree_, rest_nodes);
+    return halo;
+  }
   std::vector<std::vector<std::uint32_t>> found(rim.leaves());
   parallel_for(threads_for(found.size(), threads_, least_shared_leaves), found.size(),
                [&](std::size_t begin, std::size_t end) {

@@ -42,7 +42,7 @@ class OwnSeeds {
 
   /// The rim towards another shard. \param other  its outline
   Rim rim(const PackedTree& other) const;
-  /// The seeds near the rim of another shard.
+  /// The seeds near the rim of another shard; none if that is everywhere.
   /// \param asker  its number \pre none were sent to it
   Halo near(int asker, const Rim& rim);
   /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex.

@@ -20,6 +20,10 @@ constexpr double leaf_trust = 1.5;
 /// A leaf of a rim that spans more leaves is among denser seeds, of which it needs few.
 constexpr std::size_t most_leaves = 512;
 
+/// Of the leaves of a shard, and how many there are for each that is looked at to tell.
+constexpr double nearly_all = 0.9;
+constexpr std::size_t sample = 16;
+
 /// How far apart the seeds below nodes of a tree are, about.
 class Spacing {
  public:
@@ -63,16 +67,29 @@ Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& oth
     return has_open_leaf(other,
                          [&](std::uint32_t b) { return gap2(box, box_of(other, b), d) <= limit * limit; });
   };
-  const std::size_t most = tree.level_offset[1] - tree.level_offset[1] / 10;
+  rim.all = tree.level_offset[1];
   visit_leaves(tree, is_near, [&](std::uint32_t leaf) {
     rim.spacing.push_back(spacing(leaf));
     for (std::uint32_t k = 0; k < PackedTree::fan; ++k) {
       const std::size_t rank = std::min<std::size_t>(leaf * PackedTree::fan + k, seeds.size() - 1);
       rim.seed.insert(rim.seed.end(), &seeds.positions[rank * d], &seeds.positions[rank * d] + d);
     }
-    return rim.leaves() <= most;
+    return true;
   });
-  return rim.leaves() > most ? Rim{} : rim;
+  return rim;
+}
+
+bool NearRim::is_everywhere(const Rim& rim) {
+  if (static_cast<double>(rim.leaves()) <= nearly_all * static_cast<double>(rim.all)) return false;
+  std::size_t asked = 0, near = 0;
+  std::vector<std::uint32_t> ranks;
+  for (std::size_t k = 0; k < rim.leaves(); k += sample) {
+    ranks.clear();
+    find(rim, k, ranks);
+    ++asked;
+    near += !ranks.empty();
+  }
+  return static_cast<double>(near) > nearly_all * static_cast<double>(asked);
 }
 
 bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {

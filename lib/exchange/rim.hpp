@@ -12,8 +12,7 @@
 
 namespace powercell::exchange {
 
-/// The leaves of a shard's tree that are near the boxes of another's outline. Empty if these are nearly all
-/// leaves: then the shards have no rim between them, and nearly all seeds would be sent.
+/// The leaves of a shard's tree that are near the boxes of another's outline.
 Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& other);
 
 /// Finds the seeds near leaves of another's rim. The memory is reused from leaf to leaf.
@@ -21,6 +20,9 @@ class NearRim {
  public:
   NearRim(const SeedSet& seeds, const PackedTree& tree) : seeds_(seeds), tree_(tree) {}
 
+  /// Whether nearly all leaves of the other shard have likely neighbours here. Then the two have no rim
+  /// between them, and nearly all seeds would be sent. Tells by some leaves.
+  bool is_everywhere(const Rim& rim);
   /// Appends the ranks of the seeds that are likely neighbours of those of leaf `k` of the rim.
   void find(const Rim& rim, std::size_t k, std::vector<std::uint32_t>& ranks);
 

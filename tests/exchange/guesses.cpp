@@ -38,6 +38,7 @@ Guess random_guess(Random& random, std::size_t leaves, double spacing) {
     for (int other = 0; other < count; ++other) {
       if (other == number || shard.own().size() == 0) continue;
       Rim& rim = rims[other];
+      rim.all = 1000;
       const auto d = static_cast<std::ptrdiff_t>(shard.own().tree().dimension);
       for (std::size_t k = 0; k < leaves; ++k) {
         rim.spacing.push_back(spacing);
@@ -103,7 +104,7 @@ OwnSeeds own_of(const SeedArray& seeds) {
 
 /// One leaf of a rim with seeds at random in the box from `low` to `high`.
 Rim rim_in(double low, double high, int dimension, Random& random) {
-  Rim rim{{0.05}, {}};
+  Rim rim{{0.05}, {}, 1000};
   for (std::size_t k = 0; k < per_leaf * static_cast<std::size_t>(dimension); ++k)
     rim.seed.push_back(random.uniform(low, high));
   return rim;
@@ -185,7 +186,7 @@ TEST_CASE("guesses: when all seeds were sent nothing is left") {
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 100, 3, random);
   OwnSeeds own = own_of(seeds);
-  Rim all;
+  Rim all{{}, {}, 1000};
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     all.spacing.push_back(100);
     for (std::size_t a = 0; a < per_leaf; ++a) all.seed.insert(all.seed.end(), own.row(i), own.row(i) + 3);
@@ -203,14 +204,22 @@ TEST_CASE("guesses: seeds in a rim are asked about near another shard, and not i
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 4000, 2, random);
   const Shares halves = along_curve(seeds, 2), mixed = at_random(seeds, 2, random);
-  const auto rim_between = [](const Shares& shares) {
+  const auto near_between = [](const Shares& shares) {
     const std::vector<exchange::ShardSeeds> view = shares.view();
-    const OwnSeeds one(view[0].ids, view[0].seeds, 2, 1), other(view[1].ids, view[1].seeds, 2, 1);
-    return one.rim(exchange::outline_of(other.tree(), 512));
+    const OwnSeeds one(view[0].ids, view[0].seeds, 2, 1);
+    OwnSeeds other(view[1].ids, view[1].seeds, 2, 1);
+    const PackedTree outline = exchange::outline_of(other.tree(), 512);
+    const Rim rim = one.rim(outline);
+    CHECK(rim.seed.size() == rim.leaves() * per_leaf * 2);
+    CHECK(rim.leaves() <= rim.all);
+    const Halo halo = other.near(0, rim);
+    if (halo.id.empty()) CHECK(halo.rest.low == outline.low);
+    return std::pair(rim.leaves(), halo.id.size());
   };
-  const Rim rim = rim_between(halves);
-  CHECK(rim.leaves() > 5);
-  CHECK(rim.leaves() * per_leaf < seeds.size() / 4);
-  CHECK(rim.seed.size() == rim.leaves() * per_leaf * 2);
-  CHECK(rim_between(mixed).leaves() == 0);
+  const auto [leaves, sent] = near_between(halves);
+  CHECK(leaves > 5);
+  CHECK(leaves * per_leaf < seeds.size() / 4);
+  CHECK(sent > 20);
+  CHECK(sent < seeds.size() / 8);
+  CHECK(near_between(mixed).second == 0);
 }
