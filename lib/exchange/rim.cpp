@@ -10,17 +10,15 @@
 namespace powercell::exchange {
 namespace {
 
-/// Up to this times the spacing of the asked shard's seeds two seeds are likely neighbours,
-constexpr double depth = 1.8;
-/// and so are the nearest seed and those up to `layer` spacings farther, if it is at most this times the
-/// spacing of the asking shard's seeds away.
-constexpr double farthest = 1.5, layer = 0.5;
+/// Two seeds are likely neighbours up to `depth` times the spacing of those of the asked shard. So are the
+/// nearest seed and those up to `layer` spacings farther, if it is at most `farthest` times the spacing of
+/// the asking shard's seeds away (docs/scale.md, "The guess").
+constexpr double depth = 1.8, layer = 0.5, farthest = 1.5;
 /// The box of the few seeds of a leaf is now and then much smaller than their spacing.
 constexpr double leaf_trust = 1.5;
 /// A leaf of a rim that spans more leaves is among denser seeds, of which it needs few.
 constexpr std::size_t most_leaves = 512;
-
-/// Of the leaves of a shard, and how many there are for each that is looked at to tell.
+/// The part of a shard's leaves that counts as all, and of how many of them one is looked at.
 constexpr double nearly_all = 0.9;
 constexpr std::size_t sample = 16;
 

@@ -115,20 +115,20 @@ Rim rim_in(double low, double high, int dimension, Random& random) {
 TEST_CASE("guesses: cells do not depend on what is guessed") {
   INFO(replay_hint());
   Random random(test_seed());
-  for (const Distribution distribution : {Distribution::white, Distribution::cluster})
-    for (const WeightRange range : {WeightRange::W0, WeightRange::W2}) {
-      INFO(name(distribution) << " " << name(range));
-      SeedArray seeds = random_seeds(distribution, range, 900, 3, random);
-      seeds.weights[77] += 0.1;  // reaches into all shards, whatever positions say
-      for (std::size_t i = 0; i < 100; ++i)
-        seeds.push({seeds.coordinate(i, 0), seeds.coordinate(i, 1), seeds.coordinate(i, 2)}, 0);
-      Diagram diagram = diagram_of(unit_box(3), seeds);
-      const Shares shares = along_curve(seeds, 4);
-      check_guess(diagram, shares, right_guess);
-      check_guess(diagram, shares, no_guess);
-      check_guess(diagram, shares, random_guess(random, 3, 0.1));
-      check_guess(diagram, shares, random_guess(random, 40, 10));  // nearly all is sent
-    }
+  for (const auto& [distribution, range] :
+       {std::pair(Distribution::white, WeightRange::W2), std::pair(Distribution::cluster, WeightRange::W0)}) {
+    INFO(name(distribution) << " " << name(range));
+    SeedArray seeds = random_seeds(distribution, range, 900, 3, random);
+    seeds.weights[77] += 0.1;  // reaches into all shards, whatever positions say
+    for (std::size_t i = 0; i < 100; ++i)
+      seeds.push({seeds.coordinate(i, 0), seeds.coordinate(i, 1), seeds.coordinate(i, 2)}, 0);
+    Diagram diagram = diagram_of(unit_box(3), seeds);
+    const Shares shares = along_curve(seeds, 4);
+    check_guess(diagram, shares, right_guess);
+    check_guess(diagram, shares, no_guess);
+    check_guess(diagram, shares, random_guess(random, 3, 0.1));
+    check_guess(diagram, shares, random_guess(random, 40, 10));  // nearly all is sent
+  }
 }
 
 TEST_CASE("guesses: flat cells and ties of seeds that were sent before anyone clipped") {
