@@ -65,9 +65,8 @@ void unpack(std::span<const std::byte> bytes, std::vector<T>&... arrays) {
 /// Leaves of a shard's tree at its rim, with the question which seeds of another are likely neighbours.
 struct Rim {
   std::vector<double> spacing;  ///< per leaf: how far its seeds are apart, about
-  std::vector<double>
-      seed;  ///< per leaf: rows of positions, of eight seeds; some more than once if it has fewer
-
+  /// Per leaf: rows of positions, of eight seeds; some more than once if it has fewer.
+  std::vector<double> seed;
   std::uint64_t all = 0;  ///< leaves of the tree
 
   std::size_t leaves() const { return spacing.size(); }

@@ -45,12 +45,15 @@ Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& po
 void Steps::guess() {
   std::vector<Post::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
-    for (const auto& [to, rim] : shards_[s].rims()) letters[s][to] = packed(rim.spacing, rim.seed);
+    for (const auto& [to, rim] : shards_[s].rims())
+      letters[s][to] = packed(rim.spacing, rim.seed, std::vector{rim.all});
   letters = post_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (auto& [from, letter] : letters[s]) {
       Rim rim;
-      unpack(letter, rim.spacing, rim.seed);
+      std::vector<std::uint64_t> all;
+      unpack(letter, rim.spacing, rim.seed, all);
+      rim.all = all.at(0);
       const Halo halo = shards_[s].own().near(from, rim);
       report_.requests += rim.bytes();
       report_.replies += halo.bytes();
