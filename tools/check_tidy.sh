@@ -54,7 +54,9 @@ else
   done | sort -u)
 fi
 
-cmake --preset tidy --log-level=WARNING >/dev/null
+mpi=OFF
+! command -v mpicxx >/dev/null || mpi=ON
+cmake --preset tidy -DPOWERCELL_MPI=$mpi --log-level=WARNING >/dev/null
 # There are options only for files that the build compiles.
 list=$(echo "$files" | while read -r file; do
   ! grep -qF "\"$PWD/$file\"" build/tidy/compile_commands.json || echo "$file"
