@@ -14,6 +14,7 @@ prepare()
 from . import _core  # noqa: E402
 from ._core import (  # noqa: E402
     DensityIntegrals,
+    ExchangeReport,
     LawCheck,
     MeshReport,
     Overlap,
@@ -37,6 +38,7 @@ from ._device import (  # noqa: E402
 )
 from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceStatus, DeviceUncertain  # noqa: E402
 from ._diagram import Diagram, regular_triangulation  # noqa: E402
+from ._distributed import DistributedCells, compute_distributed  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._log import set_log  # noqa: E402
@@ -66,8 +68,10 @@ __all__ = [
     "DeviceStatus",
     "DeviceUncertain",
     "Diagram",
+    "DistributedCells",
     "Domain",
     "Error",
+    "ExchangeReport",
     "KernelBuilds",
     "LawCheck",
     "MeshReport",
@@ -84,6 +88,7 @@ __all__ = [
     "TransportSolver",
     "Treemap",
     "ball",
+    "compute_distributed",
     "devices",
     "farthest_from",
     "integrate",

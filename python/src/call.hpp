@@ -86,20 +86,30 @@ class Call {
   /// Runs a function of Python from any thread. \return false if it threw, now or before
   template <class Function>
   bool python(const Function& function) {
+    return run_python(function, false);
+  }
+  /// The same, also if one threw before. \return false if this one threw
+  template <class Function>
+  bool python_in_any_case(const Function& function) {
+    return run_python(function, true);
+  }
+
+ private:
+  template <class Function>
+  bool run_python(const Function& function, bool in_any_case) {
     if (InFlight::ending()) return false;
     const nb::gil_scoped_acquire acquired;
-    if (exception_) return false;
+    if (exception_ && !in_any_case) return false;
     const Inside inside(this);
     try {
       function();
       return true;
     } catch (...) {
-      exception_ = std::current_exception();
+      if (!exception_) exception_ = std::current_exception();
       return false;
     }
   }
 
- private:
   static void throw_if_interrupted() {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
   }
@@ -157,6 +167,7 @@ void bind_point_sets(nb::module_& m);
 void bind_checks(nb::module_& m);
 void bind_log(nb::module_& m);
 void bind_diagrams(nb::module_& m);
+void bind_distributed(nb::module_& m);
 void bind_transport(nb::module_& m);
 void bind_sampling(nb::module_& m);
 void bind_remeshing(nb::module_& m);

@@ -8,16 +8,10 @@
 #include "python/src/call.hpp"
 #include "python/src/density.hpp"
 #include "python/src/options.hpp"
+#include "python/src/seeds.hpp"
 
 namespace powercell::python {
 namespace {
-
-using Weights = std::optional<Vector<double>>;
-
-SeedsView seeds_of(const Matrix<double>& positions, const Weights& weights) {
-  return {static_cast<int>(positions.shape(1)), span_of(positions),
-          weights ? span_of(*weights) : std::span<const double>()};
-}
 
 /// A diagram whose results Python sees in place: they are shared with it.
 class PyDiagram {

@@ -36,6 +36,7 @@ NB_MODULE(_core, m) {
   bind_checks(m);
   bind_log(m);
   bind_diagrams(m);
+  bind_distributed(m);
   bind_transport(m);
   bind_sampling(m);
   bind_remeshing(m);

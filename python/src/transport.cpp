@@ -3,11 +3,10 @@
 #include "python/src/call.hpp"
 #include "python/src/density.hpp"
 #include "python/src/options.hpp"
+#include "python/src/seeds.hpp"
 
 namespace powercell::python {
 namespace {
-
-using Weights = std::optional<Vector<double>>;
 
 class PySolver {
  public:
@@ -15,8 +14,7 @@ class PySolver {
       : solver_(device, domain, transport_options(domain, given, options)) {}
 
   void set_seeds(const Matrix<double>& positions, const Weights& weights) {
-    const SeedsView seeds{static_cast<int>(positions.shape(1)), span_of(positions),
-                          weights ? span_of(*weights) : std::span<const double>()};
+    const SeedsView seeds = seeds_of(positions, weights);
     slot_.run(nb::none(), [&] { solver_.set_seeds(seeds); });
   }
   void move_seeds(const Matrix<double>& positions) {

@@ -14,7 +14,7 @@ python3 -m venv --clear "$folder/venv"
 python="$folder/venv/bin/python"
 "$python" -m pip -q install --disable-pip-version-check uv # installs in a fifth of pip's time
 "$python" -m uv pip install -q --python "$python" pip pytest pytest-timeout mypy scipy scipy-stubs shapely geopandas matplotlib meshio pyvista \
-  trimesh tqdm pyopencl intel-opencl-rt intel-cmplr-lib-rt nbclient ipykernel pyvoro2
+  trimesh tqdm pyopencl intel-opencl-rt intel-cmplr-lib-rt nbclient ipykernel pyvoro2 mpi4py
 
 say "the wheel"
 rm -f "$folder"/*.whl

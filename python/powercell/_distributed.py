@@ -1,0 +1,196 @@
+"""Power diagrams whose seeds are on several ranks, none of which has all of them."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._arrays import Reals, integers, optional_reals, reals
+from ._core import ExchangeReport
+from ._device import Device, open_device
+from ._domain import Domain
+from ._options import diagram_options
+from ._progress import Progress, fraction_bar
+
+_MOST_BYTES = 2**28  # in one call of the communicator; MPI counts in 32 bits
+
+
+class DistributedCells:
+    """The cells of the n seeds of one rank, in the order in which it gave them. Arrays are read-only views.
+
+    Attributes
+    ----------
+    mass, second_moment : (n,) float64
+        Area (volume) of the cell, and the integral of the squared distance from its seed over it.
+    centroid : (n, d) float64
+        NaN of empty cells.
+    status : (n,) uint8
+        See :class:`Status`; of duplicates that are as heavy the one of the lowest id on all ranks has the cell.
+    domain_measure : float
+        Of the whole domain.
+    indptr : (n + 1,) uint64
+        Row i of the walls with other cells is ``indptr[i]`` to ``indptr[i + 1]``.
+    indices : (m,) uint64
+        Ids of the neighbours, which may be on any rank, ascending in each row.
+    data : (m,) float64
+        Length or area of the wall, as seen from the cell of the row.
+    report : ExchangeReport
+        What ranks sent to each other.
+    """
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+
+    @property
+    def mass(self) -> Reals:
+        return self._core.measures.mass  # type: ignore[no-any-return]
+
+    @property
+    def centroid(self) -> Reals:
+        return self._core.measures.centroid  # type: ignore[no-any-return]
+
+    @property
+    def second_moment(self) -> Reals:
+        return self._core.measures.second_moment  # type: ignore[no-any-return]
+
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        return self._core.measures.status  # type: ignore[no-any-return]
+
+    @property
+    def domain_measure(self) -> float:
+        return float(self._core.measures.domain_measure)
+
+    @property
+    def indptr(self) -> NDArray[np.uint64]:
+        return self._core.indptr  # type: ignore[no-any-return]
+
+    @property
+    def indices(self) -> NDArray[np.uint64]:
+        return self._core.indices  # type: ignore[no-any-return]
+
+    @property
+    def data(self) -> Reals:
+        return self._core.data  # type: ignore[no-any-return]
+
+    @property
+    def report(self) -> ExchangeReport:
+        return self._core.report  # type: ignore[no-any-return]
+
+    def neighbors(self, seed: int) -> NDArray[np.uint64]:
+        """The ids of the neighbours of one seed of this rank, by its place."""
+        if not 0 <= seed < len(self.indptr) - 1:
+            raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
+        return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
+
+    def __repr__(self) -> str:
+        return f"<powercell.DistributedCells of {len(self.indptr) - 1} seeds, {len(self.indices)} sides of walls>"
+
+
+def _exchange_by(comm: Any) -> Callable[[list[bytes]], list[bytes]]:
+    """The exchange of a message with each rank, in pieces where messages are long."""
+
+    def exchange(messages: list[bytes]) -> list[bytes]:
+        longest = max(comm.allgather(max(len(message) for message in messages)))
+        piece = max(1, _MOST_BYTES // len(messages))
+        if longest <= piece:
+            return comm.alltoall(messages)  # type: ignore[no-any-return]
+        received: list[list[bytes]] = [[] for _ in messages]
+        for begin in range(0, longest, piece):
+            parts = comm.alltoall([message[begin : begin + piece] for message in messages])
+            for of_rank, part in zip(received, parts):
+                of_rank.append(part)
+        return [b"".join(parts) for parts in received]
+
+    return exchange
+
+
+def compute_distributed(
+    comm: Any,
+    domain: Domain,
+    ids: ArrayLike,
+    positions: ArrayLike,
+    weights: Optional[ArrayLike] = None,
+    *,
+    device: Union[None, str, Device] = None,
+    redistribute: bool = False,
+    precision: str = "auto",
+    neighbors: str = "auto",
+    threads: int = 0,
+    progress: Progress = None,
+) -> DistributedCells:
+    """Compute the cells of the seeds of all ranks; each gives its own seeds and gets their cells.
+
+    All ranks must call it, those without seeds too, with the same domain and options. Neighbours and statuses are
+    those of one :class:`Diagram` of all seeds in ascending order of ids, whatever rank has which; measures and
+    walls differ from its by rounding. Seeds of a rank should be near each other, or be redistributed.
+
+    Parameters
+    ----------
+    comm : mpi4py.MPI.Intracomm
+        Or any object with ``Get_rank()``, ``Get_size()``, ``allgather(value)`` and ``alltoall(list of bytes)``.
+    domain : Domain
+        A polygon, a box or a volume of tetrahedra.
+    ids : (n,) array_like of int
+        Of the seeds, from 0, each once on all ranks.
+    positions : (n, d) array_like
+    weights : (n,) array_like, optional
+        As for :class:`Diagram`.
+    device : Device or str, optional
+        Of this rank. With several ranks on the cores of a machine, set `threads` and, for PoCL, the variable
+        ``POCL_MAX_PTHREAD_COUNT`` to the cores of each.
+    redistribute : bool
+        Compute on other ranks, each with a range of a Hilbert curve, and send the results back: for seeds that
+        are not near each other on their rank, or few on some ranks and many on others.
+    precision : {"auto", "double"}
+    neighbors : {"auto", "tree", "flann"}
+    threads : int
+        On the host; 0 for all.
+    progress : bool or callable, optional
+        True for a bar, or a function of the fraction of what is clipped at present on this rank, which may
+        return False to stop all ranks.
+
+    Returns
+    -------
+    DistributedCells
+
+    Raises
+    ------
+    ValueError
+        An array of the wrong shape or type, by name, or no communicator; on this rank alone, so that the program should
+        end.
+    Error
+        On all ranks: ``invalid_argument`` (an id that is there twice; domains or options that differ), ``invalid_seed``
+        (names the seed by its id), ``unsupported`` (surfaces, solids, periodic domains, single precision) and others.
+        What one rank alone knows begins with its number.
+
+    Examples
+    --------
+    ``mpiexec -n 4 python program.py``:
+
+    >>> from mpi4py import MPI  # doctest: +SKIP
+    >>> cells = pc.compute_distributed(MPI.COMM_WORLD, box, ids, positions, weights)  # doctest: +SKIP
+    >>> cells.mass, cells.neighbors(0)  # doctest: +SKIP
+    """
+    missing = [name for name in ("Get_rank", "Get_size", "allgather", "alltoall") if not hasattr(comm, name)]
+    if missing:
+        raise ValueError(f"comm is a {type(comm).__name__} without {', '.join(missing)}; pass a communicator of mpi4py")
+    if hasattr(comm, "Is_inter") and comm.Is_inter():
+        raise ValueError("comm is an intercommunicator; an intracommunicator is expected")
+    if not isinstance(domain, Domain):
+        raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+    d = domain.dimension
+    where = "in the plane" if d == 2 else "in space"
+    points = reals(positions, "positions", (None, d), f", since the domain is {where}")
+    named = integers(ids, "ids", (len(points),), np.uint64, ", one for each seed")
+    checked = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+    options = diagram_options(precision, neighbors, threads=threads)
+    with fraction_bar(progress, "power diagram") as report:
+        core = _core.compute_distributed(
+            comm.Get_rank(), comm.Get_size(), _exchange_by(comm), open_device(device), domain._core, named, points, checked,
+            options, bool(redistribute), report,
+        )
+    return DistributedCells(core)
