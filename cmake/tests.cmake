@@ -7,8 +7,8 @@ include(${PROJECT_SOURCE_DIR}/tests/support/support.cmake)
 # They see the library's Setup besides that of the tests.
 set_source_files_properties(diagram/cells_at_boundary.cpp solid/both_ways.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
-# Without optimisation tests compile in two thirds of the time of -O1. Most of a test's time is in the libraries and helpers, which
-# keep theirs.
+# Without optimisation tests compile in two thirds of the time of -O1. Most of a test's time is in the libraries and
+# helpers, which keep theirs.
 set(test_options -Wall -Wextra -O0)
 
 # doctest's main function and the headers that most tests begin with, both compiled once for all.
