@@ -12,8 +12,9 @@ from ._arrays import Reals, integers, optional_reals, reals
 from ._core import ExchangeReport
 from ._device import Device, open_device
 from ._domain import Domain
+from ._errors import Error
 from ._options import diagram_options
-from ._progress import Progress, fraction_bar
+from ._progress import Progress, fraction_bar, progress_function
 
 _MOST_BYTES = 2**28  # in one call of the communicator; MPI counts in 32 bits
 
@@ -108,6 +109,22 @@ def _exchange_by(comm: Any) -> Callable[[list[bytes]], list[bytes]]:
     return exchange
 
 
+def _together(comm: Any, check: Callable[[], Any]) -> Any:
+    """What ``check()`` returns. If it raises on some ranks the others raise too, instead of waiting for them."""
+    fault: Optional[Exception] = None
+    checked = None
+    try:
+        checked = check()
+    except Exception as error:
+        fault = error
+    for rank, told in enumerate(comm.allgather(fault and (str(fault), getattr(fault, "code", "invalid_argument")))):
+        if fault is not None:
+            raise fault
+        if told is not None:
+            raise Error(f"rank {rank}: {told[0]}", told[1])
+    return checked
+
+
 def compute_distributed(
     comm: Any,
     domain: Domain,
@@ -160,12 +177,11 @@ def compute_distributed(
     Raises
     ------
     ValueError
-        An array of the wrong shape or type, by name, or no communicator; on this rank alone, so that the program should
-        end.
+        An array of the wrong shape or type, by name, on the rank that has it; or no communicator.
     Error
-        On all ranks: ``invalid_argument`` (an id that is there twice; domains or options that differ), ``invalid_seed``
-        (names the seed by its id), ``unsupported`` (surfaces, solids, periodic domains, single precision) and others.
-        What one rank alone knows begins with its number.
+        On all ranks: ``invalid_argument`` (an id that is there twice; domains or options that differ; a ValueError on
+        another rank), ``invalid_seed`` (names the seed by its id), ``unsupported`` (surfaces, solids, periodic domains,
+        single precision) and others. What one rank alone knows begins with its number.
 
     Examples
     --------
@@ -180,17 +196,23 @@ def compute_distributed(
         raise ValueError(f"comm is a {type(comm).__name__} without {', '.join(missing)}; pass a communicator of mpi4py")
     if hasattr(comm, "Is_inter") and comm.Is_inter():
         raise ValueError("comm is an intercommunicator; an intracommunicator is expected")
-    if not isinstance(domain, Domain):
-        raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
-    d = domain.dimension
-    where = "in the plane" if d == 2 else "in space"
-    points = reals(positions, "positions", (None, d), f", since the domain is {where}")
-    named = integers(ids, "ids", (len(points),), np.uint64, ", one for each seed")
-    checked = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+
+    def check() -> tuple[NDArray[np.uint64], Reals, Optional[Reals], Any]:
+        if not isinstance(domain, Domain):
+            raise ValueError(f"domain is a {type(domain).__name__}; a powercell.Domain is expected")
+        progress_function(progress)  # refuses what is none
+        d = domain.dimension
+        where = "in the plane" if d == 2 else "in space"
+        points = reals(positions, "positions", (None, d), f", since the domain is {where}")
+        named = integers(ids, "ids", (len(points),), np.uint64, ", one for each seed")
+        heavy = optional_reals(weights, "weights", (len(points),), ", one for each seed")
+        return named, points, heavy, open_device(device)
+
+    named, points, heavy, opened = _together(comm, check)
     options = diagram_options(precision, neighbors, threads=threads)
     with fraction_bar(progress, "power diagram") as report:
         core = _core.compute_distributed(
-            comm.Get_rank(), comm.Get_size(), _exchange_by(comm), open_device(device), domain._core, named, points, checked,
+            comm.Get_rank(), comm.Get_size(), _exchange_by(comm), opened, domain._core, named, points, heavy,
             options, bool(redistribute), report,
         )
     return DistributedCells(core)

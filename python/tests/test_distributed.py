@@ -173,6 +173,22 @@ def test_an_exception_on_one_rank_ends_all(rng, cube):
     assert str(results[0]).startswith("rank 1: ")
 
 
+def test_a_wrong_argument_of_one_rank_is_told_to_the_others(square):
+    def work(comm):
+        rank = comm.Get_rank()
+        wrong = {"weights": [1, 2, 3]} if rank == 2 else {}
+        return pc.compute_distributed(comm, square, [rank], [[0.2 + 0.3 * rank, 0.5]], **wrong)
+
+    results = on_ranks(3, work)
+    assert isinstance(results[2], ValueError) and "weights has the shape" in str(results[2])
+    assert codes_and_texts(results[:2]) == {("invalid_argument", f"rank 2: {results[2]}")}
+    results = on_ranks(2, lambda comm: pc.compute_distributed(comm, square, [], [], device="none" if comm.rank else None))
+    assert len(codes_and_texts(results)) == 2 and str(results[0]) == f"rank 1: {results[1]}"
+    assert results[0].code == results[1].code
+    results = on_ranks(2, lambda comm: pc.compute_distributed(comm, square, [], [], precision="half"))
+    assert all(isinstance(error, ValueError) and "half" in str(error) for error in results)
+
+
 def test_an_exception_of_the_communicator_comes_out_unchanged(square):
     class Broken(Rank):
         def alltoall(self, values):
