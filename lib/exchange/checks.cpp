@@ -34,7 +34,7 @@ InputFault first_by_id(const Setup& setup, const ShardSeeds& shard) {
 void require_sizes(const Setup& setup, const ShardSeeds& shard) {
   if (shard.ids.size() != shard.seeds.size())
     throw Error(ErrorCode::invalid_argument, std::to_string(shard.ids.size()) + " ids for " +
-                                                 std::to_string(shard.seeds.size()) + " seeds of a shard");
+                                                 std::to_string(shard.seeds.size()) + " seeds");
   check_sizes(shard.seeds, setup.domain.dimension());
 }
 
@@ -112,21 +112,21 @@ void require_no_fault(const Setup& setup, std::span<const ShardSeeds> here, Post
 
 void require_supported(const Domain& domain, const Options& options) {
   if (domain.kind() == DomainKind::surface || domain.is_solid() || domain.is_periodic())
-    throw Error(
-        ErrorCode::unsupported,
-        "seeds in shards need a polygon, a box or a volume of tetrahedra as domain, neither a surface nor a "
-        "solid nor a periodic domain");
+    throw Error(ErrorCode::unsupported,
+                "distributed seeds need a polygon, a box or a volume of tetrahedra as domain, neither a "
+                "surface nor a "
+                "solid nor a periodic domain");
   if (options.decisions != Decisions::exact)
     throw Error(ErrorCode::unsupported,
-                "seeds in shards need exact decisions, which do not depend on the shards");
+                "distributed seeds need exact decisions, which do not depend on where seeds are");
   if (options.certify)
     throw Error(
         ErrorCode::unsupported,
-        "the laws that Options::certify checks are those of one diagram; turn it off for seeds in shards");
+        "the laws that Options::certify checks are those of one diagram; turn it off for distributed seeds");
 }
 
 void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post) {
-  if (setup.float32()) throw Error(ErrorCode::unsupported, "seeds in shards need double precision");
+  if (setup.float32()) throw Error(ErrorCode::unsupported, "distributed seeds need double precision");
   for (const ShardSeeds& shard : here) require_sizes(setup, shard);
   require_once(here, post);
   require_no_fault(setup, here, post);

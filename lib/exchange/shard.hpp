@@ -35,6 +35,7 @@ class Shard {
   /// \param number  among all shards \throw Error as OwnSeeds
   Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads);
 
+  int number() const { return number_; }
   OwnSeeds& own() { return own_; }
   const OwnSeeds& own() const { return own_; }
   std::size_t open_cells() const { return open_.size(); }

@@ -32,13 +32,13 @@ class LocalPost : public Post {
 }  // namespace
 
 ShardedDiagram compute_shards(const Device& device, const Domain& domain, std::span<const ShardSeeds> shards,
-                              Options options) {
+                              Options options, const Guess& guess) {
   require_supported(domain, options);
   options.keep_mesh = false;  // for all seeds alone
   Diagram::State diagram(device, domain, options);
   LocalPost post(shards.size());
   require_valid(diagram.setup, shards, post);
-  Steps steps(diagram, shards, post);
+  Steps steps(diagram, shards, post, guess);
   ShardedDiagram result;
   result.shards = steps.run();
   result.report = steps.report();

@@ -25,7 +25,7 @@ PackedTree outline_from(const Bytes& bytes) {
 
 }  // namespace
 
-Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post)
+Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post, const Guess& guess)
     : diagram_(diagram), post_(post) {
   const int first = post.first(), dimension = diagram.setup.domain.dimension();
   std::vector<Bytes> own;
@@ -39,13 +39,13 @@ Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& po
   const auto outlines = std::make_shared<std::vector<PackedTree>>();
   for (const Bytes& of_shard : post.share(std::move(own))) outlines->push_back(outline_from(of_shard));
   for (Shard& shard : shards_) shard.meet(outlines);
-  guess();
+  fetch_rims(guess);
 }
 
-void Steps::guess() {
+void Steps::fetch_rims(const Guess& guess) {
   std::vector<Post::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
-    for (const auto& [to, rim] : shards_[s].rims())
+    for (const auto& [to, rim] : guess(shards_[s]))
       letters[s][to] = packed(rim.spacing, rim.seed, std::vector{rim.all});
   letters = post_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)

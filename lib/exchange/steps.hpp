@@ -2,6 +2,8 @@
 /// The steps of the shards that are here, in time with those elsewhere. Internal.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <powercell/distributed.hpp>
 #include <span>
 #include <vector>
@@ -14,12 +16,16 @@ namespace powercell::exchange {
 
 using powercell::ExchangeReport;
 
+/// The rims that a shard asks others with before cells are clipped, by their numbers. They decide no result.
+using Guess = std::function<std::map<int, Rim>(const Shard&)>;
+
 /// Takes the steps of Shard for all shards here, one after the other.
 class Steps {
  public:
   /// \param diagram  in the domain; its seeds and selection are replaced
   /// \param here     valid seeds (require_valid) of each shard that is here
-  Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post);
+  Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post,
+        const Guess& guess = &Shard::rims);
 
   /// \return the cells of each shard here \throw Error as Diagram
   std::vector<ShardCells> run();
@@ -28,7 +34,7 @@ class Steps {
 
  private:
   /// Fetches the seeds that cells at the rims of shards need, as far as positions tell.
-  void guess();
+  void fetch_rims(const Guess& guess);
   /// Whether some shard, wherever it is, has open cells.
   bool any_open();
   void round();

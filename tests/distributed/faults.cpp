@@ -123,12 +123,13 @@ TEST_CASE("ranks: what shards cannot have is refused without the name of a rank"
   check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported), "the laws that Options::certify");
   for (Call& call : three.calls)
     call = {Domain::periodic_box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0}), {}};
-  check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported), "seeds in shards need a polygon");
+  check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported),
+                "distributed seeds need a polygon");
   for (Call& call : three.calls) {
     call = {unit_box(3), {}};
     call.options.diagram.precision = Precision::float32;
   }
-  check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported), "seeds in shards need double");
+  check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported), "distributed seeds need double");
 }
 
 TEST_CASE("ranks: an error on one of them ends the others, in whichever round") {

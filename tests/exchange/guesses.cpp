@@ -2,16 +2,15 @@
 // which may not.
 #include <doctest/doctest.h>
 
-#include <functional>
 #include <set>
 
-#include "lib/diagram/state.hpp"
 #include "lib/exchange/rest.hpp"
 #include "lib/exchange/tree_walk.hpp"
 #include "tests/exchange/compare.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
+using exchange::Guess;
 using exchange::Halo;
 using exchange::OwnSeeds;
 using exchange::Rim;
@@ -21,22 +20,16 @@ namespace {
 
 constexpr std::size_t per_leaf = PackedTree::fan;
 
-/// Rims to ask each shard with, in place of the right ones.
-using Guess = std::function<std::map<int, Rim>(const Shard&, int number, int count)>;
-
-std::map<int, Rim> right_guess(const Shard& shard, int, int) {
-  return shard.rims();
-}
-std::map<int, Rim> no_guess(const Shard&, int, int) {
+std::map<int, Rim> no_guess(const Shard&) {
   return {};
 }
 
-/// The seeds of `leaves` leaves at random, for each other shard.
-Guess random_guess(Random& random, std::size_t leaves, double spacing) {
-  return [&random, leaves, spacing](const Shard& shard, int number, int count) {
+/// The seeds of `leaves` leaves at random, for each other of `count` shards.
+Guess random_guess(Random& random, int count, std::size_t leaves, double spacing) {
+  return [&random, count, leaves, spacing](const Shard& shard) {
     std::map<int, Rim> rims;
     for (int other = 0; other < count; ++other) {
-      if (other == number || shard.own().size() == 0) continue;
+      if (other == shard.number() || shard.own().size() == 0) continue;
       Rim& rim = rims[other];
       rim.all = 1000;
       const auto d = static_cast<std::ptrdiff_t>(shard.own().tree().dimension);
@@ -50,50 +43,6 @@ Guess random_guess(Random& random, std::size_t leaves, double spacing) {
     }
     return rims;
   };
-}
-
-/// Takes the steps of all shards. \return them
-std::vector<Shard> run_steps(const Domain& domain, const Shares& shares, const Guess& guess) {
-  Diagram::State diagram(test_device(), domain, {});
-  std::vector<Shard> shards;
-  const auto outlines = std::make_shared<std::vector<PackedTree>>();
-  for (const exchange::ShardSeeds& seeds : shares.view()) {
-    shards.emplace_back(static_cast<int>(shards.size()), seeds.ids, seeds.seeds, shares.dimension, 1);
-    outlines->push_back(exchange::outline_of(shards.back().own().tree(), 64));
-  }
-  const auto shard = [&](int number) -> Shard& { return shards[static_cast<std::size_t>(number)]; };
-  const int count = static_cast<int>(shards.size());
-  for (Shard& s : shards) s.meet(outlines);
-  for (int s = 0; s < count; ++s)
-    for (const auto& [to, rim] : guess(shard(s), s, count)) shard(s).take(to, shard(to).own().near(s, rim));
-  const auto any_open = [&] {
-    return std::any_of(shards.begin(), shards.end(), [](const Shard& s) { return s.open_cells() > 0; });
-  };
-  while (any_open()) {
-    while (any_open()) {
-      std::vector<std::map<int, exchange::Request>> requests;
-      for (Shard& s : shards) requests.push_back(s.clip(diagram));
-      for (int s = 0; s < count; ++s) {
-        for (const auto& [to, request] : requests[static_cast<std::size_t>(s)])
-          shard(s).take(to, shard(to).own().answer(s, request));
-        shard(s).settle();
-      }
-    }
-    for (int to = 0; to < count; ++to) {
-      for (int from = 0; from < count; ++from)
-        if (from != to) shard(to).forget(shard(from).own().take_hidden(to));
-      shard(to).reopen();
-    }
-  }
-  for (Shard& s : shards)
-    for (const auto& [to, twins] : s.twins()) s.mark_duplicates(twins, shard(to).own().better_twins(twins));
-  return shards;
-}
-
-void check_guess(Diagram& diagram, const Shares& shares, const Guess& guess) {
-  const std::vector<Shard> shards = run_steps(diagram.domain(), shares, guess);
-  for (std::size_t s = 0; s < shards.size(); ++s)
-    check_cells(diagram, shares.ids[s], shards[s].cells(diagram.measures().domain_measure));
 }
 
 OwnSeeds own_of(const SeedArray& seeds) {
@@ -124,10 +73,10 @@ TEST_CASE("guesses: cells do not depend on what is guessed") {
       seeds.push({seeds.coordinate(i, 0), seeds.coordinate(i, 1), seeds.coordinate(i, 2)}, 0);
     Diagram diagram = diagram_of(unit_box(3), seeds);
     const Shares shares = along_curve(seeds, 4);
-    check_guess(diagram, shares, right_guess);
-    check_guess(diagram, shares, no_guess);
-    check_guess(diagram, shares, random_guess(random, 3, 0.1));
-    check_guess(diagram, shares, random_guess(random, 40, 10));  // nearly all is sent
+    check_shares(diagram, shares);
+    check_shares(diagram, shares, no_guess);
+    check_shares(diagram, shares, random_guess(random, 4, 3, 0.1));
+    check_shares(diagram, shares, random_guess(random, 4, 40, 10));  // nearly all is sent
   }
 }
 
@@ -140,8 +89,8 @@ TEST_CASE("guesses: flat cells and ties of seeds that were sent before anyone cl
     SeedArray seeds = grid(per_axis, dimension);
     for (double& w : seeds.weights) w = -static_cast<double>(random.index(3)) / (per_axis * per_axis);
     Diagram diagram = diagram_of(unit_box(dimension), seeds);
-    check_guess(diagram, along_curve(seeds, 3), right_guess);
-    check_guess(diagram, at_random(seeds, 3, random), random_guess(random, 10, 1));
+    check_shares(diagram, along_curve(seeds, 3));
+    check_shares(diagram, at_random(seeds, 3, random), random_guess(random, 3, 10, 1));
   }
 }
 
