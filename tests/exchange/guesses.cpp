@@ -64,8 +64,8 @@ Rim rim_in(double low, double high, int dimension, Random& random) {
 TEST_CASE("guesses: cells do not depend on what is guessed") {
   INFO(replay_hint());
   Random random(test_seed());
-  for (const auto& [distribution, range] :
-       {std::pair(Distribution::white, WeightRange::W2), std::pair(Distribution::cluster, WeightRange::W0)}) {
+  for (const Distribution distribution : {Distribution::white, Distribution::cluster}) {
+    const WeightRange range = distribution == Distribution::white ? WeightRange::W2 : WeightRange::W0;
     INFO(name(distribution) << " " << name(range));
     SeedArray seeds = random_seeds(distribution, range, 900, 3, random);
     seeds.weights[77] += 0.1;  // reaches into all shards, whatever positions say
