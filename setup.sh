@@ -98,5 +98,5 @@ case $action in
   build) build OFF; say "Built: build/release/apps/powercell" ;;
   demo) build OFF; say "Running powercell demo"; build/release/apps/powercell demo ;;
   bench) bench/run_goals.sh ;;
-  test) build ON; say "Testing"; ctest --test-dir build/release --output-on-failure --parallel "$((jobs + 1))" ;; # many wait now and then
+  test) build ON; say "Testing"; ctest --test-dir build/release --output-on-failure --parallel "$((2 * jobs))" ;; # many wait now and then
 esac

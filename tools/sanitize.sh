@@ -18,6 +18,7 @@ memory="readers report fuzz seeds clip collect hostile primitives cl c_api base"
 # determinism, faults) take twice as long together, most of it in kernels, which are not sanitized.
 host="$memory writers treemap remeshing domain linear density exact pairs laws neighbors verify"
 
+# Without optimisation the libraries compile in half the time of -O1, which is more than the tests take longer.
 cmake --preset asan --log-level=WARNING
 case ${1-} in
   all)

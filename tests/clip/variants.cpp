@@ -60,6 +60,8 @@ TEST_CASE("every variant compiles and computes the golden diagram") {
     if (!float32 && !context->info().fp64) continue;
     for (const Variant& variant : all_variants(float32, cl::lane_width(context->settings(), 3))) {
       for (const Candidates* source : sources) {
+        // The larger kernels clip among lists as among the candidates of a tree, and take seconds to compile.
+        if (source != &tree && capacity_of(variant) > 0 && !all_inputs()) continue;
         CAPTURE(source->file());
         CAPTURE(variant.dimension);
         CAPTURE(variant.cell_dimension);

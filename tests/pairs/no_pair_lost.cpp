@@ -155,9 +155,11 @@ TEST_CASE("no pair is lost: degenerate seeds") {
       {"far outside", far_outside},
       {"all outside", all_outside},
       {"cluster",
-       [](int d, Random& r) { return random_seeds(Distribution::cluster, WeightRange::W1, 150, d, r); }},
-      {"scales", [](int d, Random& r) { return spread_over_scales(150, d, 9, r); }},
-      {"cospherical", [](int d, Random&) { return cospherical(100, d); }},
+       [](int d, Random& r) {
+         return random_seeds(Distribution::cluster, WeightRange::W1, number_of_inputs(60u, 150u), d, r);
+       }},
+      {"scales", [](int d, Random& r) { return spread_over_scales(number_of_inputs(60u, 150u), d, 9, r); }},
+      {"cospherical", [](int d, Random&) { return cospherical(number_of_inputs(60u, 100u), d); }},
       {"collinear", [](int d, Random&) { return collinear(60, d); }},
       {"one seed",
        [](int d, Random& r) { return random_seeds(Distribution::white, WeightRange::W0, 1, d, r); }},
