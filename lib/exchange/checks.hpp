@@ -8,8 +8,8 @@
 #include <powercell/seeds.hpp>
 #include <span>
 
+#include "lib/base/post.hpp"
 #include "lib/diagram/setup.hpp"
-#include "lib/exchange/post.hpp"
 
 namespace powercell::exchange {
 

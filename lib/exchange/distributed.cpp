@@ -2,8 +2,8 @@
 #include <powercell/distributed.hpp>
 #include <utility>
 
+#include "lib/base/rank_post.hpp"
 #include "lib/diagram/state.hpp"
-#include "lib/exchange/rank_post.hpp"
 #include "lib/exchange/redistribution.hpp"
 #include "lib/exchange/same_call.hpp"
 #include "lib/exchange/steps.hpp"
@@ -64,7 +64,7 @@ DistributedCells compute(RankPost& post, const Device& device, const Domain& dom
 DistributedCells compute_distributed(Communicator& communicator, const Device& device, const Domain& domain,
                                      std::span<const std::uint64_t> ids, const SeedsView& seeds,
                                      const DistributedOptions& options) {
-  exchange::RankPost post(communicator);
+  RankPost post(communicator);
   return post.together([&] { return exchange::compute(post, device, domain, {ids, seeds}, options); });
 }
 

@@ -6,8 +6,8 @@
 #include <powercell/distributed.hpp>
 #include <vector>
 
+#include "lib/base/post.hpp"
 #include "lib/exchange/checks.hpp"
-#include "lib/exchange/post.hpp"
 
 namespace powercell::exchange {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lib/base/random.hpp"
+#include "lib/base/same_values.hpp"
 #include "lib/domain/region_mesh.hpp"
 
 namespace powercell::exchange {
@@ -33,12 +34,7 @@ class Digest {
   std::uint64_t value_ = 0;
 };
 
-struct Part {
-  const char* name;
-  std::uint64_t digest;
-};
-
-std::vector<Part> parts_of(const Domain& domain, const DistributedOptions& options) {
+std::vector<NamedValue> parts_of(const Domain& domain, const DistributedOptions& options) {
   const RegionMesh& mesh = domain.mesh();
   const auto number = [](auto value) { return static_cast<std::uint64_t>(value); };  // of an enumeration
   return {{"the version of powercell", Digest().add_all(std::string_view(version())).value()},
@@ -61,21 +57,7 @@ std::vector<Part> parts_of(const Domain& domain, const DistributedOptions& optio
 }  // namespace
 
 void require_same_call(const Domain& domain, const DistributedOptions& options, Post& post) {
-  const std::vector<Part> parts = parts_of(domain, options);
-  std::vector<std::uint64_t> digests, first, other;
-  for (const Part& part : parts) digests.push_back(part.digest);
-  const std::vector<Bytes> all = post.share({packed(digests)});
-  unpack(all[0], first);
-  for (std::size_t rank = 1; rank < all.size(); ++rank) {
-    unpack(all[rank], other);
-    if (other == first) continue;
-    std::string differ;
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      if (other.size() != parts.size() || other[k] != first[k])
-        differ += (differ.empty() ? "" : ", ") + std::string(parts[k].name);
-    throw Error(ErrorCode::invalid_argument, "ranks 0 and " + std::to_string(rank) + " differ in " + differ +
-                                                 "; call with the same domain and options on all ranks");
-  }
+  require_same(parts_of(domain, options), post);
 }
 
 }  // namespace powercell::exchange

@@ -4,7 +4,7 @@
 
 #include <powercell/distributed.hpp>
 
-#include "lib/exchange/post.hpp"
+#include "lib/base/post.hpp"
 
 namespace powercell::exchange {
 

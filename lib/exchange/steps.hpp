@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "lib/base/post.hpp"
 #include "lib/exchange/checks.hpp"
-#include "lib/exchange/post.hpp"
 #include "lib/exchange/shard.hpp"
 
 namespace powercell::exchange {

@@ -216,13 +216,13 @@ TEST_CASE("ranks: a rank that is gone, and communicators that lose messages") {
 TEST_CASE("ranks: messages that are cut off or too long") {
   const std::vector<double> numbers{1, 2, 3};
   const std::vector<std::uint8_t> bytes{7};
-  const exchange::Bytes message = exchange::packed(numbers, bytes);
+  const Bytes message = packed(numbers, bytes);
   std::vector<double> first;
   std::vector<std::uint8_t> second;
-  exchange::unpack(message, first, second);
+  unpack(message, first, second);
   CHECK(first == numbers);
   CHECK(second == bytes);
   for (std::size_t size = 0; size < message.size(); ++size)
-    CHECK_THROWS_AS(exchange::unpack(std::span(message).first(size), first, second), Error);
-  CHECK_THROWS_AS(exchange::unpack(message, first), Error);
+    CHECK_THROWS_AS(unpack(std::span(message).first(size), first, second), Error);
+  CHECK_THROWS_AS(unpack(message, first), Error);
 }

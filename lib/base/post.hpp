@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/exchange/messages.hpp"
+#include "lib/base/bytes.hpp"
 
-namespace powercell::exchange {
+namespace powercell {
 
 /// Where some shards are here and others elsewhere, all places call the same functions in the same order.
 class Post {
@@ -45,4 +45,4 @@ class Post {
   }
 };
 
-}  // namespace powercell::exchange
+}  // namespace powercell

@@ -1,9 +1,9 @@
-#include "lib/exchange/rank_post.hpp"
+#include "lib/base/rank_post.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace powercell::exchange {
+namespace powercell {
 namespace {
 
 constexpr std::byte fine{0}, has_failed{1};
@@ -87,4 +87,4 @@ std::vector<Bytes> RankPost::share(std::vector<Bytes> own) {
   return exchange(std::vector<Bytes>(static_cast<std::size_t>(shards()), own.at(0)));
 }
 
-}  // namespace powercell::exchange
+}  // namespace powercell

@@ -1,5 +1,5 @@
 /// \file
-/// Messages between shards of which each rank has one. Internal.
+/// Messages between ranks, with what happens when one of them fails. Internal.
 #pragma once
 
 #include <exception>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/exchange/post.hpp"
+#include "lib/base/post.hpp"
 
-namespace powercell::exchange {
+namespace powercell {
 
 /// Each message ends with a byte that tells whether its sender has failed, so that all ranks fail in the same
 /// exchange, with the same error.
@@ -32,8 +32,7 @@ class RankPost : public Post {
   auto together(const Work& work) {
     try {
       auto result = work();
-      // Others may have failed since the last one.
-      exchange(std::vector<Bytes>(static_cast<std::size_t>(shards())));
+      meet();  // others may have failed since the last exchange
       return result;
     } catch (const Error& error) {
       if (is_over_) throw;
@@ -50,6 +49,17 @@ class RankPost : public Post {
     }
   }
 
+  /// Within together(): does work that throws on all ranks or on none, so that nobody needs to be told.
+  template <class Work>
+  auto nested(const Work& work) {
+    is_over_ = true;  // unless it comes to its end
+    auto result = work();
+    is_over_ = false;
+    return result;
+  }
+  /// Returns when all ranks have come here. \throw Error of a rank that has failed before
+  void meet() { exchange(std::vector<Bytes>(static_cast<std::size_t>(shards()))); }
+
  private:
   /// \throw Error of a rank that has failed
   std::vector<Bytes> exchange(std::vector<Bytes> messages);
@@ -60,4 +70,4 @@ class RankPost : public Post {
   bool is_over_ = false;  // all ranks know of a failure, or the communicator has failed
 };
 
-}  // namespace powercell::exchange
+}  // namespace powercell
