@@ -7,7 +7,8 @@
 namespace powercell {
 
 Laplacian make_laplacian(std::span<const std::uint64_t> offset, std::span<const std::uint32_t> neighbor,
-                         std::span<const double> conductance, std::span<const double> shift) {
+                         std::span<const double> conductance, std::span<const double> shift,
+                         std::size_t beyond) {
   const std::size_t n = offset.size() - 1;
   if (neighbor.size() + n > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw Error(ErrorCode::unsupported, "a linear system of " + std::to_string(neighbor.size() + n) +
@@ -15,7 +16,7 @@ Laplacian make_laplacian(std::span<const std::uint64_t> offset, std::span<const 
   Laplacian system;
   system.singular = shift.empty();
   SparseRows& matrix = system.matrix;
-  matrix.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  matrix.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n + beyond));
   matrix.resizeNonZeros(static_cast<Eigen::Index>(neighbor.size() + n));
   std::int32_t* const outer = matrix.outerIndexPtr();
   std::int32_t* const inner = matrix.innerIndexPtr();

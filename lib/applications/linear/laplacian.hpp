@@ -23,9 +23,11 @@ struct Laplacian {
 /// \param offset, neighbor  n + 1 and m: rows of a symmetric graph, ascending, without the diagonal
 /// \param conductance       m: c_ij
 /// \param shift             n: s_i; empty means 0
+/// \param beyond            columns behind the n: of neighbours whose rows are elsewhere
 /// \throw Error unsupported for 2^31 entries or more
 Laplacian make_laplacian(std::span<const std::uint64_t> offset, std::span<const std::uint32_t> neighbor,
-                         std::span<const double> conductance, std::span<const double> shift);
+                         std::span<const double> conductance, std::span<const double> shift,
+                         std::size_t beyond = 0);
 
 /// The number of connected components of the graph of nonzero entries.
 std::size_t connected_components(const SparseRows& matrix);

@@ -12,8 +12,9 @@ constexpr double repaired = 0.01;  // min m_i / v_i from which damped Newton tak
 
 /// dm_i/dw_i of a cell of mass v_i in a regular grid of such cells, with the domain's mean density. Scales
 /// the regularisation, as the derivative of an empty cell itself is 0.
-Vector typical_derivative(const Vector& target, const Domain& domain) {
-  const double d = domain.cell_dimension(), density = target.sum() / domain.measure();
+Vector typical_derivative(const Vector& target, const Evaluator& evaluator) {
+  const Domain& domain = evaluator.domain();
+  const double d = domain.cell_dimension(), density = evaluator.all().sum_of(target) / domain.measure();
   // d density (v / density)^((d - 2)/d) in factors that do not overflow: masses may span hundreds of orders.
   return d * target.array().pow((d - 2) / d) * std::pow(density, 2 / d);
 }
@@ -22,17 +23,19 @@ std::span<const double> span_of(const Vector& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-bool damped_newton_can_take_over(const Iterate& at, const Vector& target) {
-  return at.empty == 0 && at.least(target) >= repaired && connected_components(at.laplacian().matrix) == 1;
+bool damped_newton_can_take_over(Evaluator& evaluator, const Iterate& at, const Vector& target) {
+  return at.empty == 0 && at.least(target) >= repaired && evaluator.connects_all(at.laplacian());
 }
 
 PhaseEnd climb(SolveContext& context, Iterate& at, bool repair) {
   const Vector& target = context.target();
-  const Vector typical = typical_derivative(target, context.evaluator().diagram().domain());
+  Evaluator& evaluator = context.evaluator();
+  const AllSeeds& all = evaluator.all();
+  const Vector typical = typical_derivative(target, evaluator);
   double shift = first_shift;
   while (true) {
     if (context.reached(at)) return PhaseEnd::converged;
-    if (repair && damped_newton_can_take_over(at, target)) return PhaseEnd::stalled;
+    if (repair && damped_newton_can_take_over(evaluator, at, target)) return PhaseEnd::stalled;
     const Vector gradient = at.gradient(target);
     const double value = at.dual(target);
     Direction direction;
@@ -43,13 +46,13 @@ PhaseEnd climb(SolveContext& context, Iterate& at, bool repair) {
       const Vector shifts = shift * typical;
       direction = context.solve(at.laplacian(span_of(shifts)), gradient);
       if (!direction.linear.broke_down &&
-          context.evaluator().plausible(at.weights + direction.linear.solution, at.weights)) {
-        next = context.evaluator().evaluate(at.weights + direction.linear.solution);
+          evaluator.plausible(at.weights + direction.linear.solution, at.weights)) {
+        next = evaluator.evaluate(at.weights + direction.linear.solution);
         // The dual is concave, so any sufficient rise is progress. A decrease of the gradient counts too:
         // near the maximum the rise is lost in rounding.
         rise = next.dual(target) - value;
-        if (rise >= 1e-4 * gradient.dot(direction.linear.solution) ||
-            next.gradient(target).norm() <= 0.75 * gradient.norm())
+        if (rise >= 1e-4 * all.dot(gradient, direction.linear.solution) ||
+            next.gradient_norm(target) <= 0.75 * all.norm(gradient))
           break;
       }
       shift *= shift_factor;
@@ -58,7 +61,7 @@ PhaseEnd climb(SolveContext& context, Iterate& at, bool repair) {
     at = std::move(next);
     // Compares the rise with that of the quadratic model (Marquardt 1963).
     const Vector& taken = direction.linear.solution;
-    const double predicted = (gradient.dot(taken) + shift * taken.cwiseAbs2().dot(typical)) / 2;
+    const double predicted = (all.dot(gradient, taken) + shift * all.dot(taken.cwiseAbs2(), typical)) / 2;
     if (rise > 0.75 * predicted) shift = std::max(shift / shift_factor, least_shift);
     if (rise < 0.25 * predicted) shift *= shift_factor;
     context.record(step_along(direction, TransportPhase::ascent, 1), at, target);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/applications/transport/diagram_evaluator.hpp"
 #include "lib/applications/transport/phases.hpp"
 
 namespace powercell {
@@ -19,6 +20,11 @@ double uniform_share(double ratio) {
   return 1 / (1 + ratio);
 }
 
+/// Only densities that vary are blended, and these are not on ranks.
+void set_spread(SolveContext& context, double share) {
+  context.evaluator().in_one_place()->set_spread(share);
+}
+
 PhaseEnd newton_for_blend(SolveContext& context, Iterate& at) {
   return newton(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
 }
@@ -27,7 +33,7 @@ PhaseEnd newton_for_blend(SolveContext& context, Iterate& at) {
 /// \return its ratio, 0 on failure
 double blend_near(SolveContext& context, Iterate& at) {
   for (double ratio = 64; ratio > 1; ratio /= 4) {
-    context.evaluator().set_spread(uniform_share(ratio));
+    set_spread(context, uniform_share(ratio));
     Iterate trial = context.evaluator().evaluate(at.weights);
     if (trial.empty > 0 || trial.least(context.target()) < ready) continue;
     if (newton_for_blend(context, trial) != PhaseEnd::converged) return 0;
@@ -39,7 +45,7 @@ double blend_near(SolveContext& context, Iterate& at) {
 
 /// Solves for the uniform density alone.
 bool solve_uniform(SolveContext& context, const Vector& weights, Iterate& at) {
-  context.evaluator().set_spread(1);
+  set_spread(context, 1);
   at = find_start(context, weights);
   return solve_current_density(context, at) == PhaseEnd::converged;
 }
@@ -47,7 +53,7 @@ bool solve_uniform(SolveContext& context, const Vector& weights, Iterate& at) {
 /// Evaluates the solution of a blend for the plain density, and accepts it if damped Newton can take over.
 bool drop_uniform(SolveContext& context, const Vector& weights, double ratio, Iterate& at) {
   const Vector& target = context.target();
-  context.evaluator().set_spread(0);
+  set_spread(context, 0);
   Iterate plain = context.evaluator().evaluate(weights);
   context.keep_best(plain);
   const bool good = plain.empty == 0 && plain.least(target) >= ready;
@@ -67,7 +73,7 @@ bool next_blend(SolveContext& context, Iterate& blended, double& ratio, double& 
   double next = ratio > 0 ? ratio * factor : first_ratio;
   while (true) {
     const std::size_t before = evaluator.diagrams();
-    evaluator.set_spread(uniform_share(next));
+    set_spread(context, uniform_share(next));
     Iterate trial = evaluator.evaluate(blended.weights);
     const PhaseEnd end = newton_for_blend(context, trial);
     if (end == PhaseEnd::step_limit) return false;
@@ -105,7 +111,7 @@ bool blend(SolveContext& context, const Vector& weights, Iterate& at) {
   const double near = blend_near(context, blended);
   const bool done =
       (near > 0 || solve_uniform(context, weights, blended)) && follow_blends(context, blended, near, at);
-  context.evaluator().set_spread(0);
+  set_spread(context, 0);
   return done;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <powercell/regions.hpp>
 
-#include "lib/applications/transport/evaluator.hpp"
+#include "lib/applications/transport/diagram_evaluator.hpp"
 
 namespace powercell {
 namespace {
@@ -12,21 +12,6 @@ using Vec3 = Eigen::Vector3d;
 
 Vec3 point(const double* x) {
   return {x[0], x[1], x[2]};
-}
-
-/// (15) for a wall in a plane.
-std::vector<double> flat(const Adjacency& walls, std::span<const double> positions, std::size_t d) {
-  std::vector<double> result(walls.wall.size());
-  for (std::size_t i = 0; i + 1 < walls.offset.size(); ++i)
-    for (std::uint64_t k = walls.offset[i]; k < walls.offset[i + 1]; ++k) {
-      double squared = 0;
-      for (std::size_t c = 0; c < d; ++c) {
-        const double q = positions[walls.neighbor[k] * d + c] - positions[i * d + c];
-        squared += q * q;
-      }
-      result[k] = walls.wall[k] / (2 * std::sqrt(squared));
-    }
-  return result;
 }
 
 /// Unit normals of the triangles.
@@ -98,10 +83,25 @@ std::vector<double> on_surface(Diagram& diagram, const Adjacency& walls, std::sp
 
 }  // namespace
 
+std::vector<double> plane_conductances(const Adjacency& walls, std::span<const double> positions,
+                                       std::size_t d) {
+  std::vector<double> result(walls.wall.size());
+  for (std::size_t i = 0; i + 1 < walls.offset.size(); ++i)
+    for (std::uint64_t k = walls.offset[i]; k < walls.offset[i + 1]; ++k) {
+      double squared = 0;
+      for (std::size_t c = 0; c < d; ++c) {
+        const double q = positions[walls.neighbor[k] * d + c] - positions[i * d + c];
+        squared += q * q;
+      }
+      result[k] = walls.wall[k] / (2 * std::sqrt(squared));
+    }
+  return result;
+}
+
 std::vector<double> conductances(Diagram& diagram, const Adjacency& walls,
                                  std::span<const double> positions) {
   if (diagram.domain().kind() == DomainKind::surface) return on_surface(diagram, walls, positions);
-  return flat(walls, positions, static_cast<std::size_t>(diagram.domain().dimension()));
+  return plane_conductances(walls, positions, static_cast<std::size_t>(diagram.domain().dimension()));
 }
 
 }  // namespace powercell

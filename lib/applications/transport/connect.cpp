@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "lib/applications/transport/cell_simplices.hpp"
+#include "lib/applications/transport/diagram_evaluator.hpp"
 #include "lib/applications/transport/phases.hpp"
 #include "lib/applications/transport/power_tree.hpp"
 #include "lib/base/disjoint_sets.hpp"
@@ -197,9 +198,10 @@ class Raising {
 }  // namespace
 
 bool raise_starved(SolveContext& context, Iterate& at, const Vector& target, double starved) {
+  if (context.evaluator().in_one_place() == nullptr) return false;
   const Groups groups = groups_of(at, target, starved);
   if (groups.members.size() < 2) return false;
-  Evaluator& evaluator = context.evaluator();
+  DiagramEvaluator& evaluator = *context.evaluator().in_one_place();
   if (evaluator.last_weights() != at.weights) at = evaluator.evaluate(at.weights);
   Raising raising(context, at, target, groups, evaluator.cells(), starved);
   if (groups.members.size() * raising.simplices() > most_work || !raising.raise_all()) return false;

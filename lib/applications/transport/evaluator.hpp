@@ -2,19 +2,23 @@
 /// Evaluation of weights: the masses of their cells and the derivatives. Internal.
 #pragma once
 
-#include <optional>
 #include <powercell/transport.hpp>
 
 #include "lib/applications/linear/laplacian.hpp"
+#include "lib/applications/transport/all_seeds.hpp"
 
 namespace powercell {
 
 /// Relative error to which the masses of blended densities are solved: enough to start the next blend from.
 inline constexpr double blend_tolerance = 0.1;
 
-/// Weights with everything that is evaluated at them. v are target masses.
+/// Weights with everything that is evaluated at them. v are target masses. Arrays are those of the seeds
+/// here, numbers of all seeds.
 struct Iterate {
-  Vector weights;  ///< with mean 0
+  const AllSeeds* all = nullptr;
+  Vector weights;  ///< with mean 0 over all seeds
+  /// Weights of seeds elsewhere: neighbour weights.size() + k is the k-th of them.
+  Vector beyond;
   DensityIntegrals cells;
   /// Parallel to cells.walls: c_ij = -dm_i/dw_j, (15). Empty if the masses are met and walls would cost
   /// extra.
@@ -32,12 +36,14 @@ struct Iterate {
   Vector rounding() const;
   /// The largest of these relative to v_i.
   double rounding_error(const Vector& target) const {
-    return (rounding().array() / target.array()).maxCoeff();
+    return all->greatest_of(rounding().array() / target.array());
   }
   /// min m_i / v_i
   double least(const Vector& target) const;
   /// v - m, the gradient of the dual
   Vector gradient(const Vector& target) const { return target - mass(); }
+  /// |v - m|
+  double gradient_norm(const Vector& target) const { return all->norm(gradient(target)); }
   /// The matrix of (27), plus a diagonal `shift` unless that is empty.
   Laplacian laplacian(std::span<const double> shift = {}) const;
   /// Sum of the second moments.
@@ -46,78 +52,64 @@ struct Iterate {
   double dual(const Vector& target) const;
 };
 
-/// The masses to solve for and their tolerance. Refers to the target.
-struct Goal {
-  const Vector& target;
-  double tolerance;
-};
+class DiagramEvaluator;
 
-/// Evaluates weights of the seeds of a diagram.
+/// Evaluates weights of the seeds of a transport, and solves the systems of its steps.
 class Evaluator {
  public:
-  /// The first three arguments are kept by reference.
-  /// \param positions  n x d, those of the diagram
-  /// \param threads    for the integrals; 0 means all
-  Evaluator(Diagram& diagram, const Density& density, std::span<const double> positions, const Goal& goal,
-            int threads);
-  /// Subtracts the mean from the weights and evaluates them. They remain set in the diagram.
+  /// All are kept, the last two by reference.
+  /// \param positions  n x d, of the seeds here
+  Evaluator(Domain domain, std::span<const double> positions, const AllSeeds& all);
+  Evaluator(const Evaluator&) = delete;
+  Evaluator& operator=(const Evaluator&) = delete;
+  virtual ~Evaluator() = default;
+
+  /// Subtracts the mean from the weights and evaluates them.
   Iterate evaluate(Vector weights);
-
-  /// Sets the share of the domain's mass that is replaced by a uniform density, (31c). The density must not
-  /// be constant.
-  void set_spread(double share);
-  double spread() const { return spread_; }
-  /// Whether integrals must be accurate enough for the result whatever the error of the masses. For phases
-  /// that compare values of the dual, whose increase may be small beside it.
-  void set_precise(bool precise) { precise_ = precise; }
-  bool density_varies() const { return !density_.is_constant(); }
-
   /// Whether weights pass a necessary condition for nonempty cells: the weights of two nonempty cells differ
   /// by at most the squared distance from a seed to the farthest point. Allows four times that, and for
   /// weights that violate it from the beginning, as given ones may, four times their range.
   /// \param before  the weights at which the step starts
   bool plausible(const Vector& weights, const Vector& before) const;
 
-  std::size_t size() const { return positions_.size() / dimension_; }
+  /// Whether nonzero entries of a matrix of Iterate::laplacian connect all seeds.
+  virtual bool connects_all(const Laplacian& system) = 0;
+  /// Solves system x = right.
+  virtual LinearResult solve(const Laplacian& system, const Vector& right) = 0;
+  /// With what takes all seeds in one place; null where they are on several ranks.
+  virtual DiagramEvaluator* in_one_place() { return nullptr; }
+  /// The share of the domain's mass that is replaced by a uniform density.
+  virtual double spread() const { return 0; }
+  virtual bool density_varies() const { return false; }
+  /// Whether integrals must be accurate enough for the result whatever the error of the masses. For phases
+  /// that compare values of the dual, whose increase may be small beside it.
+  virtual void set_precise(bool) {}
+
+  const AllSeeds& all() const { return all_; }
+  std::size_t count() const { return count_; }  ///< of all seeds
+  const Domain& domain() const { return domain_; }
+  std::size_t dimension() const { return dimension_; }
   std::span<const double> positions() const { return positions_; }
-  Diagram& diagram() { return diagram_; }
-  /// The geometry of the cells of the last weights; counts as a diagram.
-  const Cells& cells() {
-    ++diagrams_;
-    return diagram_.cells();
-  }
-  const Vector& last_weights() const { return last_weights_; }  ///< those that the diagram has
-  std::size_t diagrams() const { return diagrams_; }            ///< computed so far
-  double seconds() const { return seconds_; }                   ///< wall-clock time of these
+  /// The box of all seeds: the least coordinates and the greatest.
+  const std::vector<double>& low() const { return low_; }
+  const std::vector<double>& high() const { return high_; }
+  std::size_t diagrams() const { return diagrams_; }  ///< computed so far
+  double seconds() const { return seconds_; }         ///< wall-clock time of these
+
+ protected:
+  /// Computes cells and conductances of at.weights.
+  virtual void measure(Iterate& at) = 0;
+  void count_diagram() { ++diagrams_; }
 
  private:
-  /// Computes cells and conductances of at.weights.
-  void measure(Iterate& at);
-  double integral_tolerance(double error) const;
-  DensityIntegrals integrate_density();
-  DensityIntegrals integrate_blend();
-
-  Diagram& diagram_;
-  const Density& density_;
+  Domain domain_;
   std::span<const double> positions_;
   std::size_t dimension_;
-  Goal goal_;
-  int threads_;
-  double expected_error_ = 1;  // of the next weights
-  bool precise_ = false;
-  double spread_ = 0;
-  std::optional<Density> uniform_;  // constant, with the same mass
-  Vector last_weights_;
+  const AllSeeds& all_;
+  std::size_t count_;
+  std::vector<double> low_, high_;
   std::size_t diagrams_ = 0;
   double seconds_ = 0;
 };
-
-/// Conductances of `walls`, parallel to walls.wall. On a surface a wall crosses many triangles and moves at a
-/// different speed in each, which takes the geometry of the cells.
-std::vector<double> conductances(Diagram& diagram, const Adjacency& walls, std::span<const double> positions);
-
-/// Sets the conductances in a periodic domain. Joins the walls of two seeds through several images into one,
-/// and removes those of a seed with images of itself, which no weight moves.
-void join_images(const Domain& domain, std::span<const double> positions, Iterate& at);
 
 }  // namespace powercell

@@ -16,14 +16,14 @@ constexpr int few_short_steps = 2;        // the same where ramp() has good inte
 /// Whether small masses become better although the rounding of large ones hides that in the gradient.
 bool better_but_for_rounding(const Iterate& at, const Iterate& next, const Vector& target) {
   return next.error(target) <= at.error(target) / 2 &&
-         next.gradient(target).norm() <= at.gradient(target).norm() + next.rounding().norm();
+         next.gradient_norm(target) <= at.gradient_norm(target) + next.all->norm(next.rounding());
 }
 
 /// Gives mass back to cells that a step has left with less than the share `least`. Where masses differ by
 /// orders, small cells vanish in steps that are good for all others. \return whether no cell has less
 bool feed(SolveContext& context, Iterate& next, const Vector& target, double least) {
   constexpr std::size_t few = 3;
-  if (next.empty > std::max(few, static_cast<std::size_t>(target.size()) / most_starved)) return false;
+  if (next.empty > std::max(few, context.evaluator().count() / most_starved)) return false;
   for (int k = 0; k < most_rounds; ++k) {
     const std::size_t before = next.empty;
     if (!raise_starved(context, next, target, least)) return false;
@@ -51,9 +51,9 @@ PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double
       return PhaseEnd::converged;
     if (context.at_limit()) return PhaseEnd::step_limit;
     const Laplacian system = at.laplacian();
-    if (connected_components(system.matrix) > 1) return PhaseEnd::disconnected;
-    const Vector gradient = at.gradient(target);
-    const Direction direction = context.solve(system, gradient);
+    if (!context.evaluator().connects_all(system)) return PhaseEnd::disconnected;
+    const double off = at.gradient_norm(target);
+    const Direction direction = context.solve(system, at.gradient(target));
     if (direction.linear.broke_down) return PhaseEnd::stalled;
     Iterate next;
     const double length = damped_length(
@@ -63,7 +63,7 @@ PhaseEnd newton(SolveContext& context, Iterate& at, const Vector& target, double
           if (!context.evaluator().plausible(weights, at.weights)) return false;
           next = context.evaluator().evaluate(std::move(weights));
           const auto better = [&] {
-            return decreases_enough(next.gradient(target).norm(), gradient.norm(), trial) ||
+            return decreases_enough(next.gradient_norm(target), off, trial) ||
                    (context.has_several_parts() && better_but_for_rounding(at, next, target));
           };
           if (!better()) return false;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/applications/transport/evaluator.hpp"
+#include "lib/applications/transport/diagram_evaluator.hpp"
 
 namespace powercell {
 namespace {

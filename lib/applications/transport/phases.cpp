@@ -26,7 +26,7 @@ SolveContext::SolveContext(Evaluator& evaluator, const TransportOptions& options
       tolerance_(tolerance),
       tolerance_given_(tolerance_given),
       target_(std::move(target)),
-      several_parts_(domain_parts(evaluator.diagram().domain()).count > 1) {}
+      several_parts_(domain_parts(evaluator.domain()).count > 1) {}
 
 double SolveContext::tolerance() const {
   return evaluator_.spread() > 0 ? blend_tolerance : tolerance_;
@@ -35,8 +35,7 @@ double SolveContext::tolerance() const {
 Direction SolveContext::solve(const Laplacian& system, const Vector& right) {
   const auto start = std::chrono::steady_clock::now();
   Direction result;
-  result.linear = solve_laplacian(system, right, options_.linear, options_.linear_residual,
-                                  evaluator_.diagram().domain().cell_dimension());
+  result.linear = evaluator_.solve(system, right);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ++solved_;
   return result;
@@ -45,7 +44,7 @@ Direction SolveContext::solve(const Laplacian& system, const Vector& right) {
 void SolveContext::record(TransportStep step, const Iterate& at, const Vector& target) {
   step.step = static_cast<int>(steps_.size());
   step.error = at.error(target);
-  step.gradient = at.gradient(target).norm();
+  step.gradient = at.gradient_norm(target);
   step.least = at.least(target);
   step.empty = at.empty;
   step.dual = at.dual(target);
@@ -61,7 +60,8 @@ void SolveContext::record(TransportStep step, const Iterate& at, const Vector& t
 
 void SolveContext::keep_best(const Iterate& at) {
   const double error = at.error(target_);
-  if (best_.size() == 0 || at.empty < best_empty_ || (at.empty == best_empty_ && error < best_error_)) {
+  if (!has_best_ || at.empty < best_empty_ || (at.empty == best_empty_ && error < best_error_)) {
+    has_best_ = true;
     best_ = at.weights;
     best_empty_ = at.empty;
     best_error_ = error;
@@ -99,7 +99,8 @@ PhaseEnd solve_current_density(SolveContext& context, Iterate& at) {
     return newton_across_gaps(context, at, context.target(), context.tolerance(), TransportPhase::newton, 1);
   };
   if (context.has_several_parts()) {
-    const double ratio = context.target().maxCoeff() / context.target().minCoeff();
+    const AllSeeds& all = context.evaluator().all();
+    const double ratio = all.greatest_of(context.target()) / all.least_of(context.target());
     if (context.shares().empty() || ratio < uneven_masses) end = newton_to_target();
     if (end == PhaseEnd::stalled && !context.shares().empty()) end = ramp(context, at);
     if (end == PhaseEnd::converged) return end;
@@ -118,7 +119,7 @@ Iterate run_phases(SolveContext& context, const Vector& weights) {
   if (context.evaluator().density_varies() && at.least(context.target()) < hopeless_share)
     blend(context, weights, at);
   const PhaseEnd end = solve_current_density(context, at);
-  if (end == PhaseEnd::converged || at.weights == context.best()) return at;
+  if (end == PhaseEnd::converged || !at.all->any(at.weights != context.best())) return at;
   return context.evaluator().evaluate(context.best());
 }
 

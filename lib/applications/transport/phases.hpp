@@ -41,6 +41,7 @@ class SolveContext {
  public:
   /// Evaluator and options are kept by reference.
   /// \param tolerance_given  false if it is the default
+  /// \param target  of the seeds here
   SolveContext(Evaluator& evaluator, const TransportOptions& options, double tolerance, bool tolerance_given,
                Vector target);
 
@@ -93,6 +94,7 @@ class SolveContext {
   int solved_ = 0;
   std::size_t recorded_diagrams_ = 0;  // diagrams of the steps so far
   double recorded_seconds_ = 0;        // and their time
+  bool has_best_ = false;
   Vector best_;
   std::size_t best_empty_ = 0;
   double best_error_ = 0;

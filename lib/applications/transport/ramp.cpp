@@ -10,14 +10,15 @@ constexpr double intermediate_tolerance = 0.1;  // of the masses for exponents b
 constexpr double smallest_stride = 1.0 / 64;    // of the exponent
 
 /// Masses proportional to a power of these, with the same sum. Computed by logarithms to avoid overflow.
-Vector power_of(const Vector& mass, double exponent) {
-  Vector result = (exponent * (mass.array() / mass.maxCoeff()).log()).exp();  // 0 where there is no mass
-  return result * (mass.sum() / result.sum());
+Vector power_of(const AllSeeds& all, const Vector& mass, double exponent) {
+  const double largest = all.greatest_of(mass);
+  Vector result = (exponent * (mass.array() / largest).log()).exp();  // 0 where there is no mass
+  return result * (all.sum_of(mass) / all.sum_of(result));
 }
 
 /// The same for the masses in each part of the domain: then none crosses a gap that does not in the end.
-Vector power_of(const SolveContext& context, double exponent) {
-  if (context.shares().empty()) return power_of(context.target(), exponent);
+Vector power_of(SolveContext& context, double exponent) {
+  if (context.shares().empty()) return power_of(context.evaluator().all(), context.target(), exponent);
   std::vector<double> sum, largest, power;  // per part
   for (const PartShare& share : context.shares()) {
     if (share.part >= sum.size())
@@ -36,12 +37,12 @@ Vector power_of(const SolveContext& context, double exponent) {
 }
 
 /// The exponent whose masses are nearest to those that the start has in the parts; 0 without such a start.
-double first_exponent(const SolveContext& context, const Iterate& at) {
+double first_exponent(SolveContext& context, const Iterate& at) {
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (const double exponent : {0.0, 0.25, 0.5, 0.75}) {
     if (context.shares().empty()) break;
     const Vector target = power_of(context, exponent);
-    const double off = at.gradient(target).norm() / target.norm();
+    const double off = at.gradient_norm(target) / at.all->norm(target);
     if (off >= least) continue;
     least = off;
     best = exponent;

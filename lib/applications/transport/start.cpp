@@ -41,17 +41,12 @@ Vector weights_of_moved_seeds(std::span<const double> positions, std::size_t d, 
 }
 
 /// Maps the bounding box of the seeds into that of the domain, keeping proportions.
-Move into_box(const Domain& domain, std::span<const double> positions) {
-  const auto d = static_cast<std::size_t>(domain.dimension());
-  const std::size_t n = positions.size() / d;
+Move into_box(const Evaluator& evaluator) {
+  const Domain& domain = evaluator.domain();
   Move move;
   double scale = 0;
-  for (std::size_t c = 0; c < d; ++c) {
-    double low = positions[c], high = positions[c];
-    for (std::size_t i = 0; i < n; ++i) {
-      low = std::min(low, positions[i * d + c]);
-      high = std::max(high, positions[i * d + c]);
-    }
+  for (std::size_t c = 0; c < evaluator.dimension(); ++c) {
+    const double low = evaluator.low()[c], high = evaluator.high()[c];
     const auto k = static_cast<Eigen::Index>(c);
     move.middle[k] = low / 2 + high / 2;
     move.center[k] = domain.low()[c] / 2 + domain.high()[c] / 2;
@@ -116,17 +111,17 @@ Move onto_density(const Normal& seeds, const Normal& density) {
   return {seeds.mean, density.mean, inverse * power_of(root * density.covariance * root, 0.5) * inverse};
 }
 
-bool some_outside_box(const Domain& domain, std::span<const double> positions) {
-  const auto d = static_cast<std::size_t>(domain.dimension());
-  for (std::size_t k = 0; k < positions.size(); ++k)
-    if (positions[k] < domain.low()[k % d] || positions[k] > domain.high()[k % d]) return true;
+bool some_outside_box(const Evaluator& evaluator) {
+  const Domain& domain = evaluator.domain();
+  for (std::size_t c = 0; c < evaluator.dimension(); ++c)
+    if (evaluator.low()[c] < domain.low()[c] || evaluator.high()[c] > domain.high()[c]) return true;
   return false;
 }
 
 /// Tries weights as if the seeds were moved onto the density, and keeps the best. If the density has an edge,
 /// seeds spread in another shape lie beyond it until they are contracted towards the mean.
 void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
-  const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
+  const std::size_t d = evaluator.dimension();
   const std::span<const double> positions = evaluator.positions();
   Move move = onto_density(normal_of(positions, d, target), normal_of(best, positions, d));
   for (int k = 0; k < most_attempts && best.least(target) < poor_share; ++k, move.linear *= contraction) {
@@ -144,7 +139,6 @@ void try_on_density(Evaluator& evaluator, const Vector& target, Iterate& best) {
 Iterate find_start(SolveContext& context, const Vector& weights) {
   Evaluator& evaluator = context.evaluator();
   const Vector& target = context.target();
-  const auto d = static_cast<std::size_t>(evaluator.diagram().domain().dimension());
   Iterate best = evaluator.evaluate(weights);
   const auto attempt = [&](const Vector& trial) {
     Iterate found = evaluator.evaluate(trial);
@@ -154,13 +148,12 @@ Iterate find_start(SolveContext& context, const Vector& weights) {
   const auto search = [&] {
     if (best.empty == 0) return;
     const Vector centred = best.weights;
-    const bool weighted = centred.cwiseAbs().maxCoeff() > 0;
+    const bool weighted = best.all->any(!centred.isZero(0));
     for (double t = 0.5; weighted && t >= smallest_fraction; t /= 2)
       if (attempt(t * centred)) return;
     if (weighted && attempt(Vector::Zero(centred.size()))) return;
-    const Domain& domain = evaluator.diagram().domain();
-    if (some_outside_box(domain, evaluator.positions()))
-      attempt(weights_of_moved_seeds(evaluator.positions(), d, into_box(domain, evaluator.positions())));
+    if (some_outside_box(evaluator))
+      attempt(weights_of_moved_seeds(evaluator.positions(), evaluator.dimension(), into_box(evaluator)));
   };
   search();
   if (evaluator.density_varies() && best.least(target) < poor_share) try_on_density(evaluator, target, best);

@@ -187,9 +187,10 @@ class StartOnParts {
 }  // namespace
 
 void try_on_parts(SolveContext& context, Iterate& best) {
-  Evaluator& evaluator = context.evaluator();
+  if (context.evaluator().in_one_place() == nullptr) return;
+  DiagramEvaluator& evaluator = *context.evaluator().in_one_place();
   const Vector& target = context.target();
-  const Domain& domain = evaluator.diagram().domain();
+  const Domain& domain = evaluator.domain();
   const bool misplaced = best.gradient(target).lpNorm<1>() / 2 > little * target.sum();
   if (!context.has_several_parts() || evaluator.density_varies() || !misplaced) return;
   if (std::size_t{std::min(domain_parts(domain).count, most_parts)} * evaluator.size() > most_shares) return;

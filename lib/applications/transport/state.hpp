@@ -5,8 +5,6 @@
 #include <memory>
 #include <powercell/transport.hpp>
 
-#include "lib/applications/transport/evaluator.hpp"
-
 namespace powercell {
 
 struct TransportSolver::State {
@@ -28,13 +26,6 @@ struct TransportSolver::State {
   SeedsView seeds() const { return {diagram.domain().dimension(), positions, weights}; }
 
   const TransportResult& solve();
-
- private:
-  /// The target masses of all seeds, with the sum `total`.
-  /// \throw Error invalid_argument
-  std::vector<double> targets(double total) const;
-  /// \param kept  indices of the seeds that are not merged, those of `at`
-  void fill_result(const Iterate& at, const std::vector<std::uint32_t>& kept);
 };
 
 }  // namespace powercell

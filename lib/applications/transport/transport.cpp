@@ -1,6 +1,7 @@
 #include <cmath>
 #include <powercell/transport.hpp>
 
+#include "lib/applications/transport/outcome.hpp"
 #include "lib/applications/transport/state.hpp"
 
 namespace powercell {
@@ -8,14 +9,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::invalid_argument, what);
-}
-
-void check(const TransportOptions& options) {
-  if (!(options.tolerance >= 0) || !(options.tolerance < 1))
-    refuse("the tolerance must be in [0, 1), got " + std::to_string(options.tolerance));
-  if (!(options.linear_residual > 0) || !(options.linear_residual < 1))
-    refuse("the linear residual must be in (0, 1), got " + std::to_string(options.linear_residual));
-  if (options.max_steps < 0) refuse("max_steps is negative");
 }
 
 }  // namespace
@@ -41,7 +34,7 @@ std::size_t TransportResult::newton_steps() const {
 }
 
 TransportSolver::TransportSolver(Device device, Domain domain, TransportOptions options) {
-  check(options);
+  require_valid(options);
   state_ = std::make_unique<State>(std::move(device), std::move(domain), std::move(options));
 }
 TransportSolver::TransportSolver(TransportSolver&&) noexcept = default;
@@ -89,26 +82,21 @@ void TransportSolver::set_weights(std::span<const double> weights) {
 
 void TransportSolver::set_masses(std::span<const double> masses) {
   State& s = *state_;
-  if (!masses.empty() && masses.size() != s.size())
-    refuse(std::to_string(masses.size()) + " masses for " + std::to_string(s.size()) + " seeds");
-  for (std::size_t i = 0; i < masses.size(); ++i)
-    if (!(masses[i] > 0) || !std::isfinite(masses[i]))
-      refuse("seed " + std::to_string(i) + ": the mass is " + std::to_string(masses[i]) +
-             "; masses must be positive and finite");
+  require_valid_masses(masses, s.size());
   s.masses.assign(masses.begin(), masses.end());
 }
 
 void TransportSolver::set_tolerance(double tolerance) {
   TransportOptions options;
   options.tolerance = tolerance;
-  check(options);
+  require_valid(options);
   state_->tolerance = tolerance > 0 ? tolerance : state_->options.tolerance;
 }
 
 void TransportSolver::set_max_steps(int steps) {
   TransportOptions options;
   options.max_steps = steps;
-  check(options);
+  require_valid(options);
   state_->options.max_steps = steps;
 }
 

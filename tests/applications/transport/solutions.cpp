@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/applications/transport/evaluator.hpp"
+#include "lib/applications/transport/diagram_evaluator.hpp"
 #include "tests/applications/transport/cases.hpp"
 
 using namespace powercell;
@@ -24,9 +24,9 @@ void check_derivatives(const TransportCase& one) {
   const std::size_t n = one.seeds.size();
   Diagram diagram(transport_device(), one.domain, transport_options().diagram);
   diagram.set_seeds(one.seeds.view());
-  const Density density = Density::constant(1);
   const Vector target = Eigen::Map<const Vector>(one.masses.data(), static_cast<Eigen::Index>(n));
-  Evaluator evaluator(diagram, density, one.seeds.positions, {target, 1e-6}, 0);
+  const TransportOptions options;
+  DiagramEvaluator evaluator(diagram, one.seeds.positions, {target, 1e-6}, options);
   const Vector at = Vector::Zero(static_cast<Eigen::Index>(n));
   const Iterate here = evaluator.evaluate(at);
   const Vector gradient = here.gradient(target);
