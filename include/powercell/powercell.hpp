@@ -9,6 +9,7 @@
 #include <powercell/device_settings.hpp>
 #include <powercell/diagram.hpp>
 #include <powercell/distributed.hpp>
+#include <powercell/distributed_transport.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/error.hpp>
 #include <powercell/log.hpp>
