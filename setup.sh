@@ -21,7 +21,7 @@ build_packages="cmake ninja-build g++ pkg-config
 
 # Packages of the tests besides those: the libraries that results are compared with, and the programs that read written
 # files.
-test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev libopenmpi-dev openmpi-bin
+test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev libopenmpi-dev openmpi-bin libpetsc-real-dev
   bash zsh fish groff-base man-db mandoc
   clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-dev python3-venv python3-meshio python3-shapely python3-vtk9"
 
@@ -62,10 +62,10 @@ install() {
   rm -f "${TMPDIR:-/tmp}/powercell-apt.$$.log"
 }
 
-# build ON|OFF: builds the release preset, with or without tests, among which are those of MPI.
+# build ON|OFF: builds the release preset, with or without tests, among which are those of MPI and PETSc.
 build() {
   say "Building in build/release with $jobs jobs"
-  cmake --preset release -DPOWERCELL_TESTS="$1" -DPOWERCELL_MPI="$1" --log-level=WARNING
+  cmake --preset release -DPOWERCELL_TESTS="$1" -DPOWERCELL_MPI="$1" -DPOWERCELL_PETSC="$1" --log-level=WARNING
   cmake --build build/release --parallel "$jobs"
 }
 

@@ -31,9 +31,12 @@ if(TARGET powercell_archive)
 endif()
 
 set(headers_left_out "")
-if(NOT POWERCELL_MPI)
-  set(headers_left_out PATTERN mpi.hpp EXCLUDE)
-endif()
+foreach(part mpi petsc)
+  string(TOUPPER POWERCELL_${part} option)
+  if(NOT ${option})
+    list(APPEND headers_left_out PATTERN ${part}.hpp EXCLUDE)
+  endif()
+endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   ${headers_left_out})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md

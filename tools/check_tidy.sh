@@ -54,9 +54,10 @@ else
   done | sort -u)
 fi
 
-mpi=OFF
+mpi=OFF petsc=OFF
 ! command -v mpicxx >/dev/null || mpi=ON
-cmake --preset tidy -DPOWERCELL_MPI=$mpi --log-level=WARNING >/dev/null
+[ $mpi = OFF ] || ! pkg-config --exists PETSc || petsc=ON
+cmake --preset tidy -DPOWERCELL_MPI=$mpi -DPOWERCELL_PETSC=$petsc --log-level=WARNING >/dev/null
 # There are options only for files that the build compiles.
 list=$(echo "$files" | while read -r file; do
   ! grep -qF "\"$PWD/$file\"" build/tidy/compile_commands.json || echo "$file"

@@ -38,16 +38,24 @@ accepts C "COMPONENTS;shared;OPTIONAL_COMPONENTS;gui" powercell::powercell
 for other in "$major.$((minor + 1))" "$((major + 1)).0" "$version.1"; do
   refuses C "$other" "compatible with requested version \"$other\""
 done
-refuses C "COMPONENTS;gui" "no component 'gui', only: core, applications, mpi, shared, static"
+refuses C "COMPONENTS;gui" "no component 'gui', only: core, applications, mpi, petsc, shared, static"
 refuses C "COMPONENTS;shared;static" "'shared' and 'static'"
 
 if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/mpi.hpp" ]; then
   accepts CXX "COMPONENTS;mpi" "powercell::core;powercell::mpi"
   accepts C "COMPONENTS;core;OPTIONAL_COMPONENTS;mpi" powercell::core
-  refuses C "COMPONENTS;mpi" "needs MPI 3 for C++"
+  refuses C "COMPONENTS;mpi" "need MPI 3 for C++"
 else
   refuses CXX "COMPONENTS;mpi" "without the component 'mpi', which needs a build"
   accepts CXX "COMPONENTS;core;OPTIONAL_COMPONENTS;mpi" powercell::core
+fi
+if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/petsc.hpp" ]; then
+  accepts CXX "COMPONENTS;petsc" "powercell::powercell;powercell::mpi;powercell::petsc"
+  accepts C "COMPONENTS;core;OPTIONAL_COMPONENTS;petsc" powercell::core
+  refuses C "COMPONENTS;petsc" "need MPI 3 for C++"
+else
+  refuses CXX "COMPONENTS;petsc" "without the component 'petsc', which needs a build"
+  accepts CXX "COMPONENTS;core;OPTIONAL_COMPONENTS;petsc" powercell::core
 fi
 
 refuses C "COMPONENTS;static" "enable the language CXX"

@@ -54,7 +54,12 @@ if [ "$kinds" = "shared static" ]; then
 fi
 
 step "every public header compiles alone"
-flags_of() { [ "$1" != powercell/mpi.hpp ] || pkg-config --cflags mpi-cxx; }
+flags_of() {
+  case $1 in
+    powercell/mpi.hpp) pkg-config --cflags mpi-cxx ;;
+    powercell/petsc.hpp) pkg-config --cflags PETSc mpi-cxx ;;
+  esac
+}
 for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | sort); do
   # shellcheck disable=SC2046
   echo "#include <$header>" | ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ \
