@@ -16,7 +16,7 @@ void require_same(const std::vector<NamedValue>& own, Post& post) {
     std::string differ;
     for (std::size_t k = 0; k < own.size(); ++k)
       if (other.size() != own.size() || other[k] != first[k])
-        differ += (differ.empty() ? "" : ", ") + std::string(own[k].name);
+        differ += (differ.empty() ? "" : ", ") + own[k].name;
     throw Error(ErrorCode::invalid_argument, "ranks 0 and " + std::to_string(rank) + " differ in " + differ +
                                                  "; call with the same domain and options on all ranks");
   }

@@ -1,8 +1,9 @@
 /// \file
-/// Whether all ranks were called with the same arguments. Internal.
+/// Whether all ranks, or one call and a later one, have the same arguments. Internal.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lib/base/post.hpp"
@@ -11,7 +12,7 @@ namespace powercell {
 
 /// An argument, or what tells it from others.
 struct NamedValue {
-  const char* name;
+  std::string name;
   std::uint64_t value;
 };
 

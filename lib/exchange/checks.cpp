@@ -110,19 +110,17 @@ void require_no_fault(const Setup& setup, std::span<const ShardSeeds> here, Post
 
 }  // namespace
 
-void require_supported(const Domain& domain, const Options& options) {
+void require_supported(const Domain& domain, const Options& options, const std::string& what) {
   if (domain.kind() == DomainKind::surface || domain.is_solid() || domain.is_periodic())
-    throw Error(ErrorCode::unsupported,
-                "distributed seeds need a polygon, a box or a volume of tetrahedra as domain, neither a "
-                "surface nor a "
-                "solid nor a periodic domain");
+    throw Error(ErrorCode::unsupported, what +
+                                            " need a polygon, a box or a volume of tetrahedra as domain, "
+                                            "neither a surface nor a solid nor a periodic domain");
   if (options.decisions != Decisions::exact)
     throw Error(ErrorCode::unsupported,
-                "distributed seeds need exact decisions, which do not depend on where seeds are");
+                what + " need exact decisions, which do not depend on where seeds are");
   if (options.certify)
-    throw Error(
-        ErrorCode::unsupported,
-        "the laws that Options::certify checks are those of one diagram; turn it off for distributed seeds");
+    throw Error(ErrorCode::unsupported,
+                "the laws that Options::certify checks are those of one diagram; turn it off for " + what);
 }
 
 void require_valid(const Setup& setup, std::span<const ShardSeeds> here, Post& post) {

@@ -7,6 +7,7 @@
 #include <powercell/options.hpp>
 #include <powercell/seeds.hpp>
 #include <span>
+#include <string>
 
 #include "lib/base/post.hpp"
 #include "lib/diagram/setup.hpp"
@@ -19,8 +20,9 @@ struct ShardSeeds {
   SeedsView seeds;
 };
 
-/// \throw Error unsupported
-void require_supported(const Domain& domain, const Options& options);
+/// \param what  needs what is required, for the message \throw Error unsupported
+void require_supported(const Domain& domain, const Options& options,
+                       const std::string& what = "distributed seeds");
 
 /// \param here  the seeds of each shard that is here
 /// \throw Error unsupported (single precision), invalid_argument (sizes of the seeds here, an id that is

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "lib/exchange/cut_test.hpp"
 #include "lib/exchange/messages.hpp"
+#include "lib/exchange/tree_seeds.hpp"
 #include "lib/seeds/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
 
@@ -56,32 +56,11 @@ class OwnSeeds {
   std::uint64_t sent() const { return sent_count_; }
 
  private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
   using Sent = std::vector<std::uint8_t>;  // by rank
 
-  /// What is asked about the cells of a request.
-  struct Search {
-    const Sent& sent;
-    std::vector<std::uint32_t> leaves;  ///< that could cut the present cell
-    bool few = false;                   ///< whether these are all; else the tree is searched
-  };
-
+  TreeSeeds in_tree() const { return {set_, tree_}; }
   /// Appends a seed to a message.
   void send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows);
-  void find_leaves(const CutTest& cell, Search& search) const;
-  /// The rank of least power at a point, of seeds that may cut it and were not sent before, or none.
-  std::uint32_t least(const CutTest& point, const Search& search) const;
-  /// Appends the ranks that a vertex is answered with. \return whether there are any
-  bool find_first(CutTest& point, const Search& search, std::vector<std::uint32_t>& ranks) const;
-  /// Answers the vertices of a cell. \param ranks  receives those to send
-  void answer_cell(const Request& request, std::size_t cell, Search& search, std::vector<std::uint8_t>& found,
-                   std::vector<std::uint32_t>& ranks) const;
-  bool may_send(std::uint32_t rank, const Sent& sent) const {
-    return sent[rank] == 0 && hidden_[set_.input[rank]] == 0;
-  }
-  const double* position(std::uint32_t rank) const {
-    return &set_.positions[rank * static_cast<std::size_t>(set_.dimension)];
-  }
 
   int threads_;
   std::size_t width_;  // of a row

@@ -54,10 +54,11 @@ class Spacing {
 
 }  // namespace
 
-Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& other) {
+Rim find_rim(const TreeSeeds& seeds, const PackedTree& other) {
+  const PackedTree& tree = seeds.tree;
   Rim rim;
   if (tree.levels() == 0) return rim;
-  const auto d = static_cast<std::size_t>(tree.dimension);
+  const std::size_t d = seeds.dimension();
   const Spacing spacing(tree);
   const auto is_near = [&](std::uint32_t node) {
     const BoxView box = box_of(tree, node);
@@ -70,7 +71,7 @@ Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& oth
     rim.spacing.push_back(spacing(leaf));
     for (std::uint32_t k = 0; k < PackedTree::fan; ++k) {
       const std::size_t rank = std::min<std::size_t>(leaf * PackedTree::fan + k, seeds.size() - 1);
-      rim.seed.insert(rim.seed.end(), &seeds.positions[rank * d], &seeds.positions[rank * d] + d);
+      rim.seed.insert(rim.seed.end(), seeds.position(rank), seeds.position(rank) + d);
     }
     return true;
   });
@@ -91,7 +92,7 @@ bool NearRim::is_everywhere(const Rim& rim) {
 }
 
 bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {
-  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const std::size_t d = seeds_.dimension();
   const Box around = box_around(&rim.seed[k * PackedTree::fan * d], PackedTree::fan, d);
   const Spacing spacing(tree_);
   leaves_.clear();
@@ -107,13 +108,12 @@ bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {
 }
 
 NearRim::Row NearRim::measure(const double* rim_seeds) {
-  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const std::size_t d = seeds_.dimension();
   Row least;
   least.fill(std::numeric_limits<double>::infinity());
   distance2_.clear();
   for (const std::uint32_t leaf : leaves_)
-    for (std::size_t rank = std::size_t{leaf} * PackedTree::fan;
-         rank < std::min<std::size_t>((leaf + std::size_t{1}) * PackedTree::fan, seeds_.size()); ++rank) {
+    for (std::size_t rank = seeds_.first_of(leaf); rank < seeds_.first_of(leaf + std::size_t{1}); ++rank) {
       Row& row = distance2_.emplace_back();
       for (std::size_t a = 0; a < row.size(); ++a) {
         for (std::size_t k = 0; k < d; ++k) {
@@ -127,7 +127,7 @@ NearRim::Row NearRim::measure(const double* rim_seeds) {
 }
 
 void NearRim::find(const Rim& rim, std::size_t k, std::vector<std::uint32_t>& ranks) {
-  const auto d = static_cast<std::size_t>(seeds_.dimension);
+  const std::size_t d = seeds_.dimension();
   const double far = farthest * rim.spacing[k];
   if (!find_leaves(rim, k, far)) return;
   Row nearest = measure(&rim.seed[k * PackedTree::fan * d]);
@@ -141,8 +141,7 @@ void NearRim::find(const Rim& rim, std::size_t k, std::vector<std::uint32_t>& ra
       const double limit = std::max(depth * h, nearest[a] + layer * h);
       limit2[a] = nearest[a] <= far ? limit * limit : -1;
     }
-    for (std::size_t rank = std::size_t{leaf} * PackedTree::fan;
-         rank < std::min<std::size_t>((leaf + std::size_t{1}) * PackedTree::fan, seeds_.size());
+    for (std::size_t rank = seeds_.first_of(leaf); rank < seeds_.first_of(leaf + std::size_t{1});
          ++rank, ++at) {
       bool is_likely = false;
       for (std::size_t a = 0; a < limit2.size(); ++a) is_likely = is_likely || distance2_[at][a] <= limit2[a];

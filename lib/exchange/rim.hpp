@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "lib/exchange/messages.hpp"
-#include "lib/seeds/packed_tree.hpp"
+#include "lib/exchange/tree_seeds.hpp"
 
 namespace powercell::exchange {
 
 /// The leaves of a shard's tree that are near the boxes of another's outline.
-Rim find_rim(const SeedSet& seeds, const PackedTree& tree, const PackedTree& other);
+Rim find_rim(const TreeSeeds& seeds, const PackedTree& other);
 
 /// Finds the seeds near leaves of another's rim. The memory is reused from leaf to leaf.
 class NearRim {
  public:
-  NearRim(const SeedSet& seeds, const PackedTree& tree) : seeds_(seeds), tree_(tree) {}
+  explicit NearRim(const TreeSeeds& seeds) : seeds_(seeds), tree_(seeds.tree) {}
 
   /// Whether nearly all leaves of the other shard have likely neighbours here. Then the two have no rim
   /// between them, and nearly all seeds would be sent. Tells by some leaves.
@@ -34,7 +34,7 @@ class NearRim {
   /// Sets the squared distances of all seeds in them. \return the least of each seed of the rim's leaf
   Row measure(const double* rim_seeds);
 
-  const SeedSet& seeds_;
+  TreeSeeds seeds_;
   const PackedTree& tree_;
   std::vector<std::uint32_t> leaves_;
   std::vector<Row> distance2_;  // by seed in these leaves

@@ -315,12 +315,15 @@ ShardCells Shard::cells(double domain_measure) const {
   return cells;
 }
 
-std::size_t Shard::foreign_neighbors() const {
+std::vector<std::uint64_t> Shard::foreign_neighbors() const {
   std::vector<bool> found(foreign_id_.size());
   for (Handle cell = 0; cell < own_.size(); ++cell)
     for (const Handle neighbor : neighbors_of(cell))
       if (!is_own(neighbor)) found[neighbor - own_.size()] = true;
-  return static_cast<std::size_t>(std::count(found.begin(), found.end(), true));
+  std::vector<std::uint64_t> ids;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (found[k]) ids.push_back(foreign_id_[k]);
+  return ids;
 }
 
 }  // namespace powercell::exchange

@@ -63,7 +63,8 @@ class Shard {
 
   ShardCells cells(double domain_measure) const;
   std::size_t foreign_seeds() const { return foreign_id_.size(); }  ///< fetched in all
-  std::size_t foreign_neighbors() const;                            ///< of these, with a wall in the end
+  /// Ids of those of these that have a wall in the end.
+  std::vector<std::uint64_t> foreign_neighbors() const;
 
  private:
   /// A vertex that another shard could cut off.

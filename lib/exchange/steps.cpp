@@ -83,7 +83,7 @@ std::vector<ShardCells> Steps::run() {
     cells.push_back(shard.cells(diagram_.setup.domain.measure()));
     report_.clipped += shard.clipped_cells();
     report_.fetched += shard.foreign_seeds();
-    report_.neighbors += shard.foreign_neighbors();
+    report_.neighbors += shard.foreign_neighbors().size();
   }
   return cells;
 }

@@ -1,0 +1,29 @@
+/// \file
+/// What those are answered that ask about seeds: which of them are near a rim, and which cut vertices off.
+/// Internal.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "lib/exchange/messages.hpp"
+#include "lib/exchange/tree_seeds.hpp"
+
+namespace powercell::exchange {
+
+/// The ranks of seeds that are likely neighbours of those of the rim, ascending.
+std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads);
+
+/// Whether the seed of a rank may be part of an answer.
+using MaySend = std::function<bool(std::uint32_t rank)>;
+
+struct FirstSeeds {
+  std::vector<std::uint32_t> rank;  ///< by cell; some more than once
+  std::vector<std::uint8_t> found;  ///< by vertex: 1 if there is one
+};
+
+/// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex.
+FirstSeeds first_seeds(const TreeSeeds& seeds, const Request& request, const MaySend& may_send, int threads);
+
+}  // namespace powercell::exchange
