@@ -14,6 +14,7 @@
 #include <powercell/error.hpp>
 #include <powercell/log.hpp>
 #include <powercell/options.hpp>
+#include <powercell/out_of_core.hpp>
 #include <powercell/point_sets.hpp>
 #include <powercell/remeshing.hpp>
 #include <powercell/repair.hpp>

@@ -122,11 +122,12 @@ std::vector<std::uint32_t> joined(const std::vector<std::vector<std::uint32_t>>&
 
 }  // namespace
 
-std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads) {
+std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads,
+                                      std::pair<std::size_t, std::size_t> own) {
   std::vector<std::vector<std::uint32_t>> found(rim.leaves());
   parallel_for(threads_for(found.size(), threads, least_shared_leaves), found.size(),
                [&](std::size_t begin, std::size_t end) {
-                 NearRim near(seeds);
+                 NearRim near(seeds, own);
                  for (std::size_t k = begin; k < end; ++k) near.find(rim, k, found[k]);
                });
   std::vector<std::uint32_t> ranks = joined(found);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "lib/exchange/messages.hpp"
@@ -12,8 +13,9 @@
 
 namespace powercell::exchange {
 
-/// The ranks of seeds that are likely neighbours of those of the rim, ascending.
-std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads);
+/// The ranks of seeds that are likely neighbours of those of the rim, ascending. \param own  as in NearRim
+std::vector<std::uint32_t> ranks_near(const TreeSeeds& seeds, const Rim& rim, int threads,
+                                      std::pair<std::size_t, std::size_t> own = {});
 
 /// Whether the seed of a rank may be part of an answer.
 using MaySend = std::function<bool(std::uint32_t rank)>;

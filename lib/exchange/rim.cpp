@@ -97,6 +97,10 @@ bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {
   const Spacing spacing(tree_);
   leaves_.clear();
   const auto is_near = [&](std::uint32_t node) {
+    if (own_.second > 0) {
+      const auto [first, last] = seeds_.ranks_of(node);
+      if (own_.first <= first && last <= own_.second) return false;
+    }
     const double h = spacing(node), most = std::max(depth * h, far + layer * h);
     return gap2(around.view(), box_of(tree_, node), d) <= most * most;
   };
@@ -115,6 +119,10 @@ NearRim::Row NearRim::measure(const double* rim_seeds) {
   for (const std::uint32_t leaf : leaves_)
     for (std::size_t rank = seeds_.first_of(leaf); rank < seeds_.first_of(leaf + std::size_t{1}); ++rank) {
       Row& row = distance2_.emplace_back();
+      if (is_own(rank)) {
+        row.fill(std::numeric_limits<double>::infinity());
+        continue;
+      }
       for (std::size_t a = 0; a < row.size(); ++a) {
         for (std::size_t k = 0; k < d; ++k) {
           const double gap = seeds_.positions[rank * d + k] - rim_seeds[a * d + k];

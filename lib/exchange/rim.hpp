@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "lib/exchange/messages.hpp"
@@ -18,7 +19,9 @@ Rim find_rim(const TreeSeeds& seeds, const PackedTree& other);
 /// Finds the seeds near leaves of another's rim. The memory is reused from leaf to leaf.
 class NearRim {
  public:
-  explicit NearRim(const TreeSeeds& seeds) : seeds_(seeds), tree_(seeds.tree) {}
+  /// \param own  the ranks of the asking shard's seeds, if these are among the others
+  explicit NearRim(const TreeSeeds& seeds, std::pair<std::size_t, std::size_t> own = {})
+      : seeds_(seeds), tree_(seeds.tree), own_(own) {}
 
   /// Whether nearly all leaves of the other shard have likely neighbours here. Then the two have no rim
   /// between them, and nearly all seeds would be sent. Tells by some leaves.
@@ -33,9 +36,11 @@ class NearRim {
   bool find_leaves(const Rim& rim, std::size_t k, double far);
   /// Sets the squared distances of all seeds in them. \return the least of each seed of the rim's leaf
   Row measure(const double* rim_seeds);
+  bool is_own(std::size_t rank) const { return own_.first <= rank && rank < own_.second; }
 
   TreeSeeds seeds_;
   const PackedTree& tree_;
+  std::pair<std::size_t, std::size_t> own_;
   std::vector<std::uint32_t> leaves_;
   std::vector<Row> distance2_;  // by seed in these leaves
 };

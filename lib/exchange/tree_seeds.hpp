@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "lib/seeds/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -25,6 +26,14 @@ struct TreeSeeds {
   std::size_t size() const { return weights.size(); }
   std::size_t dimension() const { return static_cast<std::size_t>(tree.dimension); }
   const double* position(std::size_t rank) const { return &positions[rank * dimension()]; }
+  /// The ranks below a node of a number, from the first one to behind the last one.
+  std::pair<std::size_t, std::size_t> ranks_of(std::uint32_t number) const {
+    std::size_t level = 0;
+    while (number >= tree.level_offset[level + 1]) ++level;
+    const std::size_t below = std::size_t{PackedTree::fan} << (3 * level),
+                      first = (number - tree.level_offset[level]) * below;
+    return {first, std::min(first + below, size())};
+  }
   /// The ranks of a leaf are [first_of(leaf), first_of(leaf + 1)).
   std::size_t first_of(std::size_t leaf) const { return std::min(leaf * PackedTree::fan, size()); }
 };

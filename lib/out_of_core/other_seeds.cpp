@@ -1,0 +1,89 @@
+#include "lib/out_of_core/other_seeds.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "lib/base/threads.hpp"
+#include "lib/exchange/answers.hpp"
+#include "lib/exchange/outline.hpp"
+#include "lib/exchange/rest.hpp"
+
+namespace powercell::out_of_core {
+namespace {
+
+/// Nodes of an outline far from the piece, and of that of the piece itself.
+constexpr std::size_t outline_nodes = 512;
+/// What is nearer to a box of the piece's outline than this part of its edge is outlined leaf by leaf.
+constexpr double near_part = 0.125;
+
+/// The outline of a piece, with the distance up to which seeds are near in the place of the weights.
+PackedTree rim_of(const PackedTree& own) {
+  PackedTree rim = exchange::outline_of(own, outline_nodes);
+  const auto d = static_cast<std::size_t>(rim.dimension);
+  for (std::size_t node = 0; node < rim.weight.size(); ++node) {
+    double edge = 0;
+    for (std::size_t k = 0; k < d; ++k) edge = std::max(edge, rim.high[node * d + k] - rim.low[node * d + k]);
+    rim.weight[node] = near_part * edge;
+  }
+  return rim;
+}
+
+}  // namespace
+
+OtherSeeds::OtherSeeds(const Store& store, const Statuses& statuses, int threads)
+    : store_(store), statuses_(statuses), threads_(thread_count(threads)), is_sent_(store.size()) {}
+
+template <class Near>
+PackedTree OtherSeeds::outline_without(const std::vector<std::uint32_t>& ranks, const Near& near) const {
+  std::vector<std::uint32_t> out(last_ - first_);
+  std::iota(out.begin(), out.end(), static_cast<std::uint32_t>(first_));
+  const auto middle = std::lower_bound(ranks.begin(), ranks.end(), first_);
+  out.insert(out.begin(), ranks.begin(), middle);
+  out.insert(out.end(), middle, ranks.end());
+  const exchange::TreeSeeds seeds = store_.seeds();
+  return exchange::outline_of_rest(seeds, exchange::outline_level(seeds.tree, outline_nodes), near, out);
+}
+
+PackedTree OtherSeeds::begin(std::size_t piece, const PackedTree& own) {
+  for (const std::uint32_t rank : sent_) is_sent_[rank] = 0;
+  sent_.clear();
+  std::tie(first_, last_) = store_.ranks(piece);
+  return outline_without({}, rim_of(own));
+}
+
+void OtherSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows) {
+  if (is_sent_[rank] != 0) return;
+  is_sent_[rank] = 1;
+  sent_.push_back(rank);
+  ++sent_count_;
+  const exchange::TreeSeeds seeds = store_.seeds();
+  ids.push_back(store_.id(rank));
+  rows.insert(rows.end(), seeds.position(rank), seeds.position(rank) + seeds.dimension());
+  rows.push_back(seeds.weights[rank]);
+}
+
+exchange::Halo OtherSeeds::near(const exchange::Rim& rim) {
+  exchange::Halo halo;
+  const std::vector<std::uint32_t> ranks =
+      exchange::ranks_near(store_.seeds(), rim, threads_, {first_, last_});
+  for (const std::uint32_t rank : ranks)
+    if (!statuses_.is_hidden(store_.id(rank))) send(rank, halo.id, halo.seed);
+  // Hidden seeds cut nothing, so they need no box either.
+  halo.rest = outline_without(ranks, rim);
+  return halo;
+}
+
+exchange::Reply OtherSeeds::answer(const exchange::Request& request) {
+  const auto may_send = [this](std::uint32_t rank) {
+    return !is_own(rank) && is_sent_[rank] == 0 && !statuses_.is_hidden(store_.id(rank));
+  };
+  exchange::FirstSeeds first = exchange::first_seeds(store_.seeds(), request, may_send, threads_);
+  exchange::Reply reply;
+  reply.found = std::move(first.found);
+  for (const std::uint32_t rank : first.rank) send(rank, reply.id, reply.seed);
+  return reply;
+}
+
+}  // namespace powercell::out_of_core

@@ -1,0 +1,57 @@
+#include "lib/out_of_core/piece_file.hpp"
+
+namespace powercell::out_of_core {
+namespace {
+
+/// Numbers at the head of a file: of cells, of foreign neighbours, of walls, of those that are written.
+using Counts = std::array<std::uint64_t, 4>;
+
+}  // namespace
+
+std::uint64_t write_piece(const std::string& path, std::span<const std::uint64_t> ids,
+                          const exchange::ShardCells& cells, const std::vector<std::uint64_t>& foreign,
+                          bool walls) {
+  const Measures& measures = cells.measures;
+  std::vector<std::uint32_t> count(ids.size());
+  for (std::size_t i = 0; i < count.size(); ++i)
+    count[i] = static_cast<std::uint32_t>(cells.offset[i + 1] - cells.offset[i]);
+  FileWriter file(path, FileWriter::Kind::kept);
+  // Longer numbers come first, so that all are where their type may be.
+  file.write_all(Counts{ids.size(), foreign.size(), cells.offset.back(), walls ? cells.neighbor.size() : 0});
+  file.write_all(ids);
+  file.write_all(measures.mass);
+  file.write_all(measures.centroid);
+  file.write_all(measures.second_moment);
+  file.write_all(foreign);
+  if (walls) {
+    file.write_all(cells.neighbor);
+    file.write_all(cells.wall);
+  }
+  file.write_all(count);
+  file.write_all(measures.status);
+  file.close();
+  return file.bytes();
+}
+
+PieceFile::PieceFile(const std::string& path, int dimension) : file_(path) {
+  std::size_t at = 0;
+  const auto take = [&]<class T>(std::span<const T>& to, std::size_t count) {
+    to = file_.numbers<T>(at, count);
+    at += to.size_bytes();
+  };
+  std::span<const std::uint64_t> counts;
+  take(counts, std::tuple_size_v<Counts>);
+  const std::size_t cells = counts[0];
+  take(id, cells);
+  take(mass, cells);
+  take(centroid, cells * static_cast<std::size_t>(dimension));
+  take(second_moment, cells);
+  take(foreign, counts[1]);
+  all_walls = counts[2];
+  take(neighbor, counts[3]);
+  take(wall, counts[3]);
+  take(walls, cells);
+  take(status, cells);
+}
+
+}  // namespace powercell::out_of_core

@@ -1,0 +1,12 @@
+/// \file
+/// How many seeds are computed at a time, by the memory there is. Internal.
+#pragma once
+
+#include <cstdint>
+
+namespace powercell::out_of_core {
+
+/// \return the most seeds of a piece \throw Error invalid_argument with the least memory that is enough
+std::uint64_t seeds_of_piece(std::uint64_t seeds, int dimension, std::uint64_t memory, std::uint64_t most);
+
+}  // namespace powercell::out_of_core

@@ -1,0 +1,103 @@
+#include "lib/out_of_core/store.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <powercell/error.hpp>
+
+#include "lib/exchange/tree_of_boxes.hpp"
+
+namespace powercell::out_of_core {
+namespace {
+
+constexpr const char *ids_name = "ids", *positions_name = "positions", *weights_name = "weights",
+                     *ends_name = "pieces";
+/// Leaves whose seeds are in memory at a time while the tree is built.
+constexpr std::size_t leaves_at_once = std::size_t{1} << 18;
+
+}  // namespace
+
+StoreWriter::StoreWriter(const LockedFolder& folder)
+    : folder_(folder),
+      ids_(folder.file(ids_name), FileWriter::Kind::kept),
+      positions_(folder.file(positions_name), FileWriter::Kind::kept),
+      weights_(folder.file(weights_name), FileWriter::Kind::kept) {}
+
+void StoreWriter::add(const SeedBlock& seeds, std::span<const std::uint32_t> order, int dimension) {
+  const auto d = static_cast<std::size_t>(dimension);
+  for (const std::uint32_t k : order) {
+    ids_.write_one(seeds.id[k]);
+    positions_.write_all(std::span(seeds.positions).subspan(k * d, d));
+    weights_.write_one(seeds.weights[k]);
+  }
+  if (!order.empty()) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + order.size());
+}
+
+std::uint64_t StoreWriter::close() {
+  ids_.close();
+  positions_.close();
+  weights_.close();
+  // The last file, because it tells that the others are whole.
+  FileWriter ends(folder_.file(ends_name), FileWriter::Kind::kept);
+  ends.write_one(duplicates_);
+  ends.write_all(ends_);
+  ends.close();
+  return ids_.bytes() + positions_.bytes() + weights_.bytes() + ends.bytes();
+}
+
+bool Store::is_in(const LockedFolder& folder) {
+  return folder.has(ends_name);
+}
+
+Store::Store(const LockedFolder& folder, int dimension)
+    : id_file_(folder.file(ids_name)),
+      position_file_(folder.file(positions_name)),
+      weight_file_(folder.file(weights_name)) {
+  const MappedFile ends(folder.file(ends_name));
+  const std::span<const std::uint64_t> all = ends.all<std::uint64_t>();
+  duplicates_ = ends.numbers<std::uint64_t>(0, 1)[0];
+  ends_.assign(all.begin() + 1, all.end());
+  const std::size_t count = ends_.empty() ? 0 : ends_.back();
+  ids_ = id_file_.numbers<std::uint64_t>(0, count);
+  weights_ = weight_file_.numbers<double>(0, count);
+  positions_ = position_file_.numbers<double>(0, count * static_cast<std::size_t>(dimension));
+  build_tree(dimension);
+}
+
+void Store::build_tree(int dimension) {
+  const auto d = static_cast<std::size_t>(dimension);
+  exchange::TreeOfBoxes boxes(dimension);
+  boxes.reserve((size() + PackedTree::fan - 1) / PackedTree::fan);
+  for (std::size_t first = 0, leaf = 1; first < size(); first += PackedTree::fan, ++leaf) {
+    const std::size_t count = std::min<std::size_t>(PackedTree::fan, size() - first);
+    boxes.add(exchange::box_around(&positions_[first * d], count, d).view(),
+              *std::max_element(&weights_[first], &weights_[first] + count));
+    if (leaf % leaves_at_once == 0) drop();
+  }
+  drop();
+  tree_ = std::move(boxes).finish();
+  tree_.seeds = size();
+}
+
+SeedBlock Store::by_id(std::size_t piece) const {
+  const auto [first, last] = ranks(piece);
+  const std::size_t d = seeds().dimension(), count = last - first;
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), first);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids_[a] < ids_[b]; });
+  SeedBlock block{std::vector<std::uint64_t>(count), std::vector<double>(count * d),
+                  std::vector<double>(count)};
+  for (std::size_t k = 0; k < count; ++k) {
+    block.id[k] = ids_[order[k]];
+    std::copy_n(&positions_[order[k] * d], d, &block.positions[k * d]);
+    block.weights[k] = weights_[order[k]];
+  }
+  return block;
+}
+
+void Store::drop() const {
+  id_file_.drop();
+  position_file_.drop();
+  weight_file_.drop();
+}
+
+}  // namespace powercell::out_of_core

@@ -1,0 +1,77 @@
+/// \file
+/// All seeds of a diagram in files, piece after piece along a Hilbert curve. Internal.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/exchange/tree_seeds.hpp"
+#include "lib/out_of_core/files.hpp"
+#include "lib/seeds/packed_tree.hpp"
+
+namespace powercell::out_of_core {
+
+/// Seeds with their indices, in memory.
+struct SeedBlock {
+  std::vector<std::uint64_t> id;
+  std::vector<double> positions, weights;
+
+  std::size_t size() const { return id.size(); }
+};
+
+/// Writes a store.
+class StoreWriter {
+ public:
+  explicit StoreWriter(const LockedFolder& folder);
+
+  /// Adds a piece: seeds that are no duplicates. \param order  of them along the curve
+  void add(const SeedBlock& seeds, std::span<const std::uint32_t> order, int dimension);
+  void add_duplicates(std::uint64_t count) { duplicates_ += count; }
+  /// The store is there as a whole from here on. \return bytes written
+  std::uint64_t close();
+
+ private:
+  const LockedFolder& folder_;
+  FileWriter ids_, positions_, weights_;
+  std::vector<std::uint64_t> ends_;
+  std::uint64_t duplicates_ = 0;
+};
+
+/// A store in memory, as far as it is looked at, with a tree of all seeds.
+class Store {
+ public:
+  /// Whether a folder has one.
+  static bool is_in(const LockedFolder& folder);
+  /// \pre is_in(folder) \throw Error invalid_file
+  Store(const LockedFolder& folder, int dimension);
+
+  std::size_t size() const { return ids_.size(); }
+  std::uint64_t duplicates() const { return duplicates_; }  ///< seeds that were left out
+  std::size_t pieces() const { return ends_.size(); }
+  /// The ranks of a piece.
+  std::pair<std::size_t, std::size_t> ranks(std::size_t piece) const {
+    return {piece == 0 ? 0 : ends_[piece - 1], ends_[piece]};
+  }
+  std::uint64_t id(std::size_t rank) const { return ids_[rank]; }
+  exchange::TreeSeeds seeds() const { return {tree_, positions_, weights_}; }
+  /// The seeds of a piece by ascending id.
+  SeedBlock by_id(std::size_t piece) const;
+  /// Gives the memory of what was looked at back.
+  void drop() const;
+
+ private:
+  void build_tree(int dimension);
+
+  MappedFile id_file_, position_file_, weight_file_;
+  std::span<const std::uint64_t> ids_;
+  std::span<const double> positions_, weights_;
+  std::vector<std::uint64_t> ends_;
+  std::uint64_t duplicates_ = 0;
+  PackedTree tree_;
+};
+
+}  // namespace powercell::out_of_core
