@@ -9,10 +9,13 @@
 #include "apps/common.hpp"
 #include "apps/inputs.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/io/cell_writers.hpp"
 #include "apps/io/output.hpp"
 #include "apps/io/read_file.hpp"
+#include "apps/io/write_npy.hpp"
 #include "apps/io/write_table.hpp"
 #include "apps/only.hpp"
+#include "apps/out_of_core.hpp"
 #include "apps/outputs.hpp"
 #include "apps/picture_choice.hpp"
 #include "apps/progress.hpp"
@@ -24,6 +27,7 @@ namespace {
 struct DiagramArguments : CommonOptions, InputArguments {
   PictureArguments picture;
   std::string table, walls, only;
+  std::uint64_t memory = 0;  // 0: all in memory
   bool facets = false, whole_cells = false;
   int repeat = 1;
   std::vector<std::string> outputs;
@@ -35,7 +39,12 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inpu
   write_diagram(arguments.outputs, diagram, seeds,
                 {.inputs = inputs.view(), .whole_cells = arguments.whole_cells, .style = style});
   report.files = arguments.outputs;
-  if (!arguments.table.empty()) {
+  if (io::is_npy(arguments.table)) {
+    const auto table = io::table_writer(arguments.table, seeds.dimension, seeds.size());
+    table->add({0, seeds, diagram.measures(), diagram.adjacency().offset, {}, {}});
+    table->commit();
+    report.files.push_back(arguments.table);
+  } else if (!arguments.table.empty()) {
     io::write_table(arguments.table, seeds, diagram.measures(), diagram.adjacency(), inputs.view(), only);
     report.files.push_back(arguments.table);
   }
@@ -66,6 +75,10 @@ void check_together(const DiagramArguments& arguments) {
     throw WrongUsage("--only needs --table or --walls, or nothing would be written");
   if (!arguments.only.empty() && arguments.certify)
     throw WrongUsage("--certify checks laws of all cells; leave it or --only out");
+  if (!arguments.only.empty() && io::is_npy(arguments.table))
+    throw WrongUsage("an array in .npy has a row for each seed; with --only write the table as .csv");
+  if (arguments.memory == 0 && io::is_npy(arguments.walls))
+    throw WrongUsage("walls are written as .npy with --memory alone; write them as .csv");
   if (arguments.facets && arguments.walls.empty())
     throw WrongUsage("--facets adds rows to --walls; name that file");
   const auto is_vtu = [](const std::string& path) { return io::lower_extension(path) == ".vtu"; };
@@ -92,8 +105,18 @@ std::vector<double> compute_repeatedly(const DiagramArguments& arguments, Diagra
   return seconds;
 }
 
+/// \throw WrongUsage for options that need all cells in memory
+int run_by_pieces(const DiagramArguments& arguments) {
+  if (!arguments.outputs.empty() || !arguments.only.empty() || arguments.facets || arguments.repeat > 1)
+    throw WrongUsage(
+        "--memory is for --table and --walls of all seeds; leave -o, --only, --facets and --repeat out, or "
+        "--memory");
+  return run_out_of_core({arguments, arguments, arguments.table, arguments.walls, arguments.memory});
+}
+
 int run(const DiagramArguments& arguments) {
   check_together(arguments);
+  if (arguments.memory > 0) return run_by_pieces(arguments);
   check_writable(arguments.outputs, {arguments.table, arguments.walls}, arguments.json);
   Progress progress({{stage::reading, 5}, {stage::opening, 2}, {"computing", 78}, {stage::writing, 15}},
                     arguments.silent());
@@ -169,6 +192,17 @@ Command add_diagram(CLI::App& app) {
           "or an id (--id-column), in each line")
       ->type_name("FILE")
       ->default_str("all cells");
+  command
+      ->add_option(
+          "--memory", arguments->memory,
+          "Compute piece after piece in files, within so much memory, as in 4G: for --table and --walls "
+          "of seeds in an .npy, text or CSV of any size. What is finished is kept in a folder beside the "
+          "file, and "
+          "the same command goes on with it. In .npy instead of .csv, a table is an array with a field "
+          "for each column, and walls are compressed sparse rows in .indptr.npy, .indices.npy, .data.npy")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE")
+      ->default_str("all in memory");
   command
       ->add_option(
           "--repeat", arguments->repeat,

@@ -244,6 +244,24 @@ Inputs read_inputs(const InputArguments& arguments) {
   return inputs;
 }
 
+io::LoadedDomain read_plane_domain(const InputArguments& arguments,
+                                   const std::function<io::SeedColumns(int dimension)>& columns,
+                                   std::vector<std::string>& notes) {
+  io::DomainArrays arrays = read_arrays(arguments);
+  io::make_periodic(arrays, arguments.periodic, arguments.domain);
+  const Georeference place =
+      georeference(arguments, arguments.domain, arrays, columns(arrays.kind == DomainKind::polygon ? 2 : 3));
+  if (place.frame.plane || place.seeds)
+    throw WrongUsage(
+        "--memory computes in the coordinates of the files, but seeds or domain would be projected; save "
+        "both "
+        "in a plane, or give --no-project");
+  io::LoadedDomain domain = io::load_domain(std::move(arrays), arguments.domain);
+  notes.push_back(domain.description);
+  notes.insert(notes.end(), place.notes.begin(), place.notes.end());
+  return domain;
+}
+
 void describe_inputs(const Inputs& inputs, RunReport& report) {
   report.outside = inputs.outside;
   report.crs = inputs.map.crs;

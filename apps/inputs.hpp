@@ -2,6 +2,7 @@
 /// The domain and the seeds that a command computes with.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,12 @@ struct Inputs {
 
 /// \throw Error of the readers; invalid_seed if the seeds miss the domain
 Inputs read_inputs(const InputArguments& arguments);
+
+/// The domain alone, in the coordinates of its file. \param columns  of the seeds, by the dimension
+/// \param notes  receives how it was read \throw WrongUsage if seeds or domain would be projected
+io::LoadedDomain read_plane_domain(const InputArguments& arguments,
+                                   const std::function<io::SeedColumns(int dimension)>& columns,
+                                   std::vector<std::string>& notes);
 
 /// Enters what a report says of them.
 void describe_inputs(const Inputs& inputs, RunReport& report);

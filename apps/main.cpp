@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "apps/command_line.hpp"
@@ -55,7 +56,9 @@ int main(int argc, char** argv) {
   } catch (const powercell::Error& error) {
     // Also if the signal made something else fail: a driver's compiler removes its files on a signal.
     if (error.code() == powercell::ErrorCode::interrupted || powercell::app::interrupted())
-      return report(was_interrupted, "interrupted");
+      // The library says that its callback stopped it; the tool may say how to go on.
+      return report(was_interrupted,
+                    std::string_view(error.what()).starts_with("interrupted") ? error.what() : "interrupted");
     return report(failed, error.what());
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::broken_pipe) return closed_pipe;

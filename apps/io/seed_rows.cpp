@@ -80,9 +80,9 @@ SeedRows::SeedRows(const std::string& path, const SeedsView& seeds, const InputV
 void SeedRows::begin(std::size_t seed) {
   for (const KeptColumn& column : kept_.columns()) fields_.text(kept_.field(seed, column));
   fields_.count(seed);
-  const double* given = inputs_.positions(seeds_) + seed * dimension_;
+  const double* given = inputs_.positions(seeds_) + (seed - first_) * dimension_;
   for (std::size_t k = 0; k < dimension_ && !kept_.has_positions(); ++k) fields_.number(given[k]);
-  if (!kept_.has_weights()) fields_.number(seeds_.weights.empty() ? 0.0 : seeds_.weights[seed]);
+  if (!kept_.has_weights()) fields_.number(seeds_.weights.empty() ? 0.0 : seeds_.weights[seed - first_]);
 }
 
 void SeedRows::point(const double* point) {

@@ -45,6 +45,8 @@ class SeedRows {
   SeedRows(const std::string& path, const SeedsView& seeds, const InputView& inputs,
            std::initializer_list<std::string_view> results);
 
+  /// Rows are of these seeds from here on, of which the first one has the index `first`.
+  void use(const SeedsView& seeds, std::size_t first) { seeds_ = seeds, first_ = first; }
   void begin(std::size_t seed);
   /// A point of the plane, in the coordinates of the inputs.
   void point(const double* point);
@@ -54,6 +56,7 @@ class SeedRows {
  private:
   SeedsView seeds_;
   InputView inputs_;
+  std::size_t first_ = 0;
   std::size_t dimension_;
   KeptColumns kept_;
   FieldWriter fields_;

@@ -1,4 +1,6 @@
 // Seeds as a NumPy array (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
+#include "apps/io/seeds_npy.hpp"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -91,35 +93,50 @@ Array read_header(std::string_view bytes, ByteScanner& scanner, const std::strin
 
 }  // namespace
 
-SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::string& name) {
+NpySeeds::NpySeeds(std::string_view bytes, int dimension, const std::string& name)
+    : name_(name), d_(static_cast<std::size_t>(dimension)) {
   ByteScanner scanner(bytes, name, std::endian::little);
   const Array array = read_header(bytes, scanner, name);
-  const auto d = static_cast<std::uint64_t>(dimension);
-  if (array.columns != d && array.columns != d + 1) {
+  if (array.columns != d_ && array.columns != d_ + 1) {
     fail_file(name,
               fmt::format("has {} columns; seeds of this domain have {} coordinates and may have a weight",
-                          array.columns, d));
+                          array.columns, d_));
   }
-  const std::size_t size = size_of(array.type);
-  scanner.need(array.rows, array.columns * size, "the array");
-  const char* begin = bytes.data() + scanner.offset();
-  SeedTable table;
-  table.dimension = dimension;
-  table.positions.resize(array.rows * d);
-  table.weights.resize(array.rows, 0.0);
-  for (std::size_t row = 0; row < array.rows; ++row) {
-    for (std::size_t column = 0; column < array.columns; ++column) {
-      const std::size_t at = array.fortran ? column * array.rows + row : row * array.columns + column;
-      const double value = load_number(begin + at * size, array.type, array.swapped);
+  scanner.need(array.rows, array.columns * size_of(array.type), "the array");
+  begin_ = bytes.data() + scanner.offset();
+  type_ = array.type;
+  swapped_ = array.swapped;
+  fortran_ = array.fortran;
+  rows_ = array.rows;
+  columns_ = array.columns;
+}
+
+void NpySeeds::read(std::uint64_t first, std::span<double> positions, std::span<double> weights) const {
+  const std::size_t size = size_of(type_);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const std::uint64_t row = first + k;
+    weights[k] = 0;
+    for (std::size_t column = 0; column < columns_; ++column) {
+      const std::size_t at = fortran_ ? column * rows_ + row : row * columns_ + column;
+      const double value = load_number(begin_ + at * size, type_, swapped_);
       if (!std::isfinite(value)) {
         throw Error(ErrorCode::invalid_seed,
                     fmt::format("{}: seed {} (row from 0), column {}: {} is not finite; take the seed "
                                 "out or give it a finite value",
-                                name, row, column, value));
+                                name_, row, column, value));
       }
-      (column < d ? table.positions[row * d + column] : table.weights[row]) = value;
+      (column < d_ ? positions[k * d_ + column] : weights[k]) = value;
     }
   }
+}
+
+SeedTable parse_seeds_npy(std::string_view bytes, int dimension, const std::string& name) {
+  const NpySeeds seeds(bytes, dimension, name);
+  SeedTable table;
+  table.dimension = dimension;
+  table.positions.resize(seeds.rows() * static_cast<std::size_t>(dimension));
+  table.weights.resize(seeds.rows());
+  seeds.read(0, table.positions, table.weights);
   return table;
 }
 

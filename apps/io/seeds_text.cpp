@@ -1,9 +1,13 @@
 // Seeds from rows of fields: text, CSV, features of maps.
+#include "apps/io/seeds_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
@@ -27,13 +31,20 @@ class SeedsReader {
         numbers_(rows.separator()) {
     table_.dimension = dimension;
   }
+  /// Reads the next seed. \return whether there is one
+  bool next();
+  const std::array<double, 3>& position() const { return position_; }
+  double weight() const { return weight_; }
+  std::size_t dimension() const { return dimension_; }
+  /// Null before the first seed.
+  const SeedColumns* columns() const { return columns_ ? &*columns_ : nullptr; }
   SeedTable read();
 
  private:
   bool first_line(const Fields& fields);
   void row(Fields& fields);
   double number(std::string_view field, std::size_t column);
-  double weight(const Fields& fields);
+  double weight_of(const Fields& fields);
   void finish_columns();
   std::string shown(std::size_t column) const;
   void require_different_ids() const;
@@ -43,7 +54,12 @@ class SeedsReader {
   std::size_t dimension_;
   const ColumnChoice& choice_;
   FieldNumbers numbers_;
-  SeedTable table_;
+  SeedTable table_;  // without its seeds until read()
+  Fields fields_;    // of the present row
+  std::array<double, 3> position_{};
+  double weight_ = 0;
+  std::size_t count_ = 0;  // of seeds so far
+  bool begun_ = false;
   std::optional<std::uint64_t> announced_;  // by a count line
   std::string announced_place_;
   std::optional<SeedColumns> columns_;
@@ -59,9 +75,8 @@ double SeedsReader::number(std::string_view field, std::size_t column) {
   double value = 0;
   const Parsed parsed = numbers_.read(field, value);
   if (parsed == Parsed::ok) return value;
-  const std::string what =
-      fmt::format("{}: seed {} (from 0), {}: {}", rows_.place(), table_.count(), shown(column),
-                  field.empty() ? "is empty" : numbers_.why_not(field, parsed));
+  const std::string what = fmt::format("{}: seed {} (from 0), {}: {}", rows_.place(), count_, shown(column),
+                                       field.empty() ? "is empty" : numbers_.why_not(field, parsed));
   if (parsed == Parsed::not_a_number)
     throw Error(ErrorCode::invalid_file,
                 what + fmt::format("; a row is {}{}", seed_row(dimension_), separated_by(rows_.separator())));
@@ -89,9 +104,8 @@ bool SeedsReader::first_line(const Fields& fields) {
 }
 
 void SeedsReader::fail_width(std::size_t columns) const {
-  rows_.fail(fmt::format("seed {} (from 0) has {} columns, {} {}; give every row a weight or none{}",
-                         table_.count(), columns,
-                         header_ && table_.count() == 0 ? "the header has" : "the rows before have",
+  rows_.fail(fmt::format("seed {} (from 0) has {} columns, {} {}; give every row a weight or none{}", count_,
+                         columns, header_ && count_ == 0 ? "the header has" : "the rows before have",
                          columns_->count, separated_by(rows_.separator())));
 }
 
@@ -105,20 +119,18 @@ void SeedsReader::row(Fields& fields) {
   if (fields.size() != columns_->count) fail_width(fields.size());
   for (std::size_t axis = 0; axis < dimension_; ++axis) {
     const std::size_t column = columns_->position[axis];
-    table_.positions.push_back(number(fields[column], column));
+    position_[axis] = number(fields[column], column);
   }
-  table_.weights.push_back(weight(fields));
-  if (header_)
-    for (const std::string_view field : fields) table_.text.add(field);
+  weight_ = weight_of(fields);
 }
 
-double SeedsReader::weight(const Fields& fields) {
+double SeedsReader::weight_of(const Fields& fields) {
   if (!columns_->weight) return 0;
   const std::size_t column = *columns_->weight;
   const double value = number(fields[column], column);
   if (!columns_->radius) return value;
   if (value < 0)
-    rows_.fail(fmt::format("seed {} (from 0), {}: the radius is {}; give one of at least 0", table_.count(),
+    rows_.fail(fmt::format("seed {} (from 0), {}: the radius is {}; give one of at least 0", count_,
                            shown(column), value));
   return value * value;
 }
@@ -144,19 +156,40 @@ void SeedsReader::finish_columns() {
   table_.columns = std::move(*columns_);
 }
 
-SeedTable SeedsReader::read() {
-  Fields fields;
-  for (bool first = true; rows_.next(fields); first = false)
-    if (!first || !first_line(fields)) row(fields);
-  if (announced_ && *announced_ != table_.count()) {
+bool SeedsReader::next() {
+  bool found = rows_.next(fields_);
+  if (found && !std::exchange(begun_, true) && first_line(fields_)) found = rows_.next(fields_);
+  if (found) {
+    row(fields_);
+    ++count_;
+    return true;
+  }
+  if (announced_ && *announced_ != count_)
     fail_file(
         announced_place_,
         fmt::format("{} seeds are announced, but the file has {}; it is truncated or the count is wrong",
-                    *announced_, table_.count()));
+                    *announced_, count_));
+  return false;
+}
+
+SeedTable SeedsReader::read() {
+  while (next()) {
+    table_.positions.insert(table_.positions.end(), position_.begin(),
+                            position_.begin() + static_cast<std::ptrdiff_t>(dimension_));
+    table_.weights.push_back(weight_);
+    if (header_)
+      for (const std::string_view field : fields_) table_.text.add(field);
   }
   if (columns_) finish_columns();
   require_different_ids();
   return std::move(table_);
+}
+
+/// The rows of a text.
+Records records_of(std::string_view text, const std::string& name) {
+  if (text.substr(0, 4096).find('\0') != std::string_view::npos)
+    fail_line(name, 1, "has NUL bytes; is it text? (.npy files need that extension)");
+  return {text, name, begins_as_wkt_point(trimmed(text)) ? '\0' : number_separator(text, comment), comment};
 }
 
 }  // namespace
@@ -167,15 +200,64 @@ SeedTable parse_seed_rows(RowSource& rows, int dimension, const ColumnChoice& ch
 
 SeedTable parse_seeds_text(std::string_view text, int dimension, const std::string& name,
                            const ColumnChoice& choice) {
-  if (text.substr(0, 4096).find('\0') != std::string_view::npos)
-    fail_line(name, 1, "has NUL bytes; is it text? (.npy files need that extension)");
-  const char separator = begins_as_wkt_point(trimmed(text)) ? '\0' : number_separator(text, comment);
-  Records records(text, name, separator, comment);
+  Records records = records_of(text, name);
   if (choice.has_position()) return parse_seed_rows(records, dimension, choice);
   WktColumn rows(records, static_cast<std::size_t>(dimension));
   SeedTable table = parse_seed_rows(rows, dimension, choice);
   table.columns.crs = rows.crs().name;
   return table;
+}
+
+struct SeedText::Rows {
+  Rows() = default;
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
+  virtual ~Rows() = default;
+  virtual bool next(double* position, double& weight) = 0;
+  virtual SeedColumns columns() const = 0;
+};
+
+namespace {
+
+class TextRows : public SeedText::Rows {
+ public:
+  TextRows(std::string_view text, int dimension, const std::string& name, const ColumnChoice& choice)
+      : records_(records_of(text, name)),
+        points_(records_, static_cast<std::size_t>(dimension)),
+        reader_(choice.has_position() ? static_cast<RowSource&>(records_) : points_, dimension, choice) {}
+
+  bool next(double* position, double& weight) override {
+    if (!reader_.next()) return false;
+    std::copy_n(reader_.position().begin(), reader_.dimension(), position);
+    weight = reader_.weight();
+    return true;
+  }
+  SeedColumns columns() const override {
+    const SeedColumns* const found = reader_.columns();
+    SeedColumns columns = found ? *found : SeedColumns();
+    columns.crs = points_.crs().name;
+    return columns;
+  }
+
+ private:
+  Records records_;
+  WktColumn points_;
+  SeedsReader reader_;
+};
+
+}  // namespace
+
+SeedText::SeedText(std::string_view text, int dimension, const std::string& name, const ColumnChoice& choice)
+    : rows_(std::make_unique<TextRows>(text, dimension, name, choice)) {}
+
+SeedText::~SeedText() = default;
+
+bool SeedText::next(double* position, double& weight) {
+  return rows_->next(position, weight);
+}
+
+SeedColumns SeedText::columns() const {
+  return rows_->columns();
 }
 
 }  // namespace powercell::io

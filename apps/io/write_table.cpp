@@ -5,19 +5,28 @@
 
 namespace powercell::io {
 
+SeedRows begin_table(const std::string& path, const SeedsView& seeds, const InputView& inputs) {
+  return {path, seeds, inputs, {"status", "measure", "centroid", "second_moment", "neighbors"}};
+}
+
+void write_row(SeedRows& rows, std::size_t seed, const Measures& measures, std::size_t row,
+               std::uint64_t neighbors) {
+  rows.begin(seed);
+  rows.fields().text(name(measures.status[row]));
+  rows.fields().number(measures.mass[row]);
+  rows.point(&measures.centroid[row * static_cast<std::size_t>(measures.dimension)]);
+  rows.fields().number(measures.second_moment[row]);
+  rows.fields().count(neighbors);
+  rows.fields().end_row();
+}
+
 void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
                  const Adjacency& adjacency, const InputView& inputs, std::span<const std::uint32_t> only) {
-  SeedRows rows(path, seeds, inputs, {"status", "measure", "centroid", "second_moment", "neighbors"});
-  const auto d = static_cast<std::size_t>(seeds.dimension);
+  SeedRows rows = begin_table(path, seeds, inputs);
   for (std::size_t i = 0; i < measures.mass.size(); ++i) {
-    rows.begin(only.empty() ? i : only[i]);
-    rows.fields().text(name(measures.status[i]));
-    rows.fields().number(measures.mass[i]);
-    rows.point(&measures.centroid[i * d]);
-    rows.fields().number(measures.second_moment[i]);
     const bool listed = i + 1 < adjacency.offset.size();
-    rows.fields().count(listed ? adjacency.offset[i + 1] - adjacency.offset[i] : 0);
-    rows.fields().end_row();
+    write_row(rows, only.empty() ? i : only[i], measures, i,
+              listed ? adjacency.offset[i + 1] - adjacency.offset[i] : 0);
   }
   rows.commit();
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "apps/io/map_frame.hpp"
+#include "apps/io/seed_rows.hpp"
 
 namespace powercell::io {
 
@@ -20,6 +21,12 @@ namespace powercell::io {
 void write_table(const std::string& path, const SeedsView& seeds, const Measures& measures,
                  const Adjacency& adjacency, const InputView& inputs = {},
                  std::span<const std::uint32_t> only = {});
+
+/// The header of write_table(), with its columns.
+SeedRows begin_table(const std::string& path, const SeedsView& seeds, const InputView& inputs = {});
+/// A row below it. \param row  of the seed in the measures
+void write_row(SeedRows& rows, std::size_t seed, const Measures& measures, std::size_t row,
+               std::uint64_t neighbors);
 
 /// What a table of walls has beside the walls between cells.
 struct WallColumns {

@@ -1,0 +1,130 @@
+#include "apps/io/cell_writers.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/io/write_npy.hpp"
+#include "apps/io/write_table.hpp"
+
+namespace powercell::io {
+namespace {
+
+class CsvTable : public CellWriter {
+ public:
+  CsvTable(const std::string& path, int dimension) : rows_(begin_table(path, {dimension, {}, {}})) {}
+
+  void add(const CellBatch& cells) override {
+    rows_.use(cells.seeds, cells.first);
+    for (std::size_t i = 0; i < cells.measures.mass.size(); ++i)
+      write_row(rows_, cells.first + i, cells.measures, i, cells.offset[i + 1] - cells.offset[i]);
+  }
+  void commit() override { rows_.commit(); }
+
+ private:
+  SeedRows rows_;
+};
+
+std::string table_type(int dimension) {
+  std::string fields;
+  const auto add = [&fields](std::string_view name, std::string_view type) {
+    fields += fmt::format("{}('{}', {})", fields.empty() ? "" : ", ", name, npy_type(type));
+  };
+  add("status", "u1");
+  add("measure", "f8");
+  for (const char* name : {"cx", "cy", "cz"})
+    if (dimension-- > 0) add(name, "f8");
+  add("second_moment", "f8");
+  add("neighbors", "u4");
+  return "[" + fields + "]";
+}
+
+class NpyTable : public CellWriter {
+ public:
+  NpyTable(const std::string& path, int dimension, std::uint64_t seeds)
+      : d_(static_cast<std::size_t>(dimension)), array_(path, table_type(dimension), seeds) {}
+
+  void add(const CellBatch& cells) override {
+    const Measures& measures = cells.measures;
+    for (std::size_t i = 0; i < measures.mass.size(); ++i) {
+      array_.number(static_cast<std::uint8_t>(measures.status[i]));
+      array_.number(measures.mass[i]);
+      for (std::size_t k = 0; k < d_; ++k) array_.number(measures.centroid[i * d_ + k]);
+      array_.number(measures.second_moment[i]);
+      array_.number(static_cast<std::uint32_t>(cells.offset[i + 1] - cells.offset[i]));
+    }
+  }
+  void commit() override { array_.commit(); }
+
+ private:
+  std::size_t d_;
+  NpyWriter array_;
+};
+
+class CsvWalls : public CellWriter {
+ public:
+  explicit CsvWalls(const std::string& path) : file_(path, ',') {
+    for (const char* column : {"seed", "neighbor", "measure"}) file_.text(column);
+    file_.end_row();
+  }
+
+  void add(const CellBatch& cells) override {
+    const std::uint64_t before = cells.offset[0];
+    for (std::size_t i = 0; i + 1 < cells.offset.size(); ++i)
+      for (std::uint64_t k = cells.offset[i] - before; k < cells.offset[i + 1] - before; ++k) {
+        file_.count(cells.first + i);
+        file_.count(cells.neighbor[k]);
+        file_.number(cells.wall[k]);
+        file_.end_row();
+      }
+  }
+  void commit() override { file_.commit(); }
+
+ private:
+  FieldWriter file_;
+};
+
+class NpyWalls : public CellWriter {
+ public:
+  NpyWalls(const std::vector<std::string>& paths, std::uint64_t seeds, std::uint64_t walls)
+      : indptr_(paths[0], npy_type("i8"), seeds + 1),
+        indices_(paths[1], npy_type("i4"), walls),
+        data_(paths[2], npy_type("f8"), walls) {
+    indptr_.number(std::int64_t{0});
+  }
+
+  void add(const CellBatch& cells) override {
+    for (std::size_t i = 1; i < cells.offset.size(); ++i)
+      indptr_.number(static_cast<std::int64_t>(before_ + cells.offset[i] - cells.offset[0]));
+    before_ += cells.neighbor.size();
+    for (const std::uint64_t neighbor : cells.neighbor) indices_.number(static_cast<std::int32_t>(neighbor));
+    for (const double wall : cells.wall) data_.number(wall);
+  }
+  void commit() override {
+    indptr_.commit();
+    indices_.commit();
+    data_.commit();
+  }
+
+ private:
+  NpyWriter indptr_, indices_, data_;
+  std::uint64_t before_ = 0;  // walls of the cells so far
+};
+
+}  // namespace
+
+std::unique_ptr<CellWriter> table_writer(const std::string& path, int dimension, std::uint64_t seeds) {
+  if (is_npy(path)) return std::make_unique<NpyTable>(path, dimension, seeds);
+  return std::make_unique<CsvTable>(path, dimension);
+}
+
+std::vector<std::string> walls_files(const std::string& path) {
+  if (!is_npy(path)) return {path};
+  const std::string stem = path.substr(0, path.size() - std::string_view(".npy").size());
+  return {stem + ".indptr.npy", stem + ".indices.npy", stem + ".data.npy"};
+}
+
+std::unique_ptr<CellWriter> walls_writer(const std::string& path, std::uint64_t seeds, std::uint64_t walls) {
+  if (is_npy(path)) return std::make_unique<NpyWalls>(walls_files(path), seeds, walls);
+  return std::make_unique<CsvWalls>(path);
+}
+
+}  // namespace powercell::io
