@@ -7,9 +7,11 @@
 namespace powercell::out_of_core {
 namespace {
 
-/// Measured by 10^5 to 10^6 seeds of all kinds (docs/scale.md): bytes of each seed of a piece, and of
-/// programs of the device and buffers that do not depend on their number.
-constexpr std::uint64_t bytes_of_piece_seed[] = {600, 1500}, bytes_of_programs = std::uint64_t{256} << 20;
+/// Bytes of each seed of a piece in the plane and in space, a third more than was measured of 10^5 to 10^6
+/// seeds (docs/scale.md): in a domain of one region, and of many.
+constexpr std::uint64_t bytes_of_piece_seed[2][2] = {{850, 1500}, {1700, 3500}};
+/// Of programs of the device and buffers that do not depend on the number of seeds.
+constexpr std::uint64_t bytes_of_programs = std::uint64_t{256} << 20;
 /// Smaller pieces would spend more time on their rims than on themselves.
 constexpr std::uint64_t least_piece = 16384, usual_piece = std::uint64_t{1} << 20;
 
@@ -19,12 +21,14 @@ std::string in_mebibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t seeds_of_piece(std::uint64_t seeds, int dimension, std::uint64_t memory, std::uint64_t most) {
+std::uint64_t seeds_of_piece(std::uint64_t seeds, int dimension, bool many_regions, std::uint64_t memory,
+                             std::uint64_t most) {
   // A leaf of the tree of all seeds has eight seeds, its levels above it a seventh of its nodes; and a seed
   // has its status, and whether a piece has it.
   const auto d = static_cast<std::uint64_t>(dimension);
   const std::uint64_t tree = seeds * (2 * d + 1) * sizeof(double) / 7, all = tree + 2 * seeds,
-                      fixed = bytes_of_programs + all, of_seed = bytes_of_piece_seed[dimension - 2];
+                      fixed = bytes_of_programs + all,
+                      of_seed = bytes_of_piece_seed[many_regions ? 1 : 0][dimension - 2];
   const std::uint64_t least = fixed + std::min(seeds, least_piece) * of_seed;
   if (memory < least)
     throw Error(ErrorCode::invalid_argument, in_mebibytes(memory) + " of memory are too little for " +
