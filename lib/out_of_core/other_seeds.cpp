@@ -1,7 +1,11 @@
 #include "lib/out_of_core/other_seeds.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <numeric>
+#include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -30,10 +34,36 @@ PackedTree rim_of(const PackedTree& own) {
   return rim;
 }
 
+/// Seeds that each piece gets. One whose weight is far above those of others would else be asked for by
+/// every cell of each piece, and none would be proved without its vertices.
+constexpr std::size_t heaviest_seeds = 32;
+
+/// The ranks of the heaviest seeds, ascending.
+std::vector<std::uint32_t> heaviest_of(const Store& store) {
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heaviest;  // the lightest of them is on top
+  const std::span<const double> weights = store.seeds().weights;
+  for (std::size_t rank = 0; rank < weights.size(); ++rank) {
+    const bool has_room = heaviest.size() < heaviest_seeds;
+    if (!has_room && weights[rank] <= heaviest.top().first) continue;
+    if (!has_room) heaviest.pop();
+    heaviest.emplace(weights[rank], static_cast<std::uint32_t>(rank));
+  }
+  store.drop();
+  std::vector<std::uint32_t> ranks;
+  for (; !heaviest.empty(); heaviest.pop()) ranks.push_back(heaviest.top().second);
+  std::sort(ranks.begin(), ranks.end());
+  return ranks;
+}
+
 }  // namespace
 
 OtherSeeds::OtherSeeds(const Store& store, const Statuses& statuses, int threads)
-    : store_(store), statuses_(statuses), threads_(thread_count(threads)), is_sent_(store.size()) {}
+    : store_(store),
+      statuses_(statuses),
+      threads_(thread_count(threads)),
+      heaviest_(heaviest_of(store)),
+      is_sent_(store.size()) {}
 
 template <class Near>
 PackedTree OtherSeeds::outline_without(const std::vector<std::uint32_t>& ranks, const Near& near) const {
@@ -66,8 +96,11 @@ void OtherSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::
 
 exchange::Halo OtherSeeds::near(const exchange::Rim& rim) {
   exchange::Halo halo;
-  const std::vector<std::uint32_t> ranks =
+  const std::vector<std::uint32_t> likely =
       exchange::ranks_near(store_.seeds(), rim, threads_, {first_, last_});
+  std::vector<std::uint32_t> ranks;
+  std::set_union(likely.begin(), likely.end(), heaviest_.begin(), heaviest_.end(), std::back_inserter(ranks));
+  std::erase_if(ranks, [this](std::uint32_t rank) { return is_own(rank); });
   for (const std::uint32_t rank : ranks)
     if (!statuses_.is_hidden(store_.id(rank))) send(rank, halo.id, halo.seed);
   // Hidden seeds cut nothing, so they need no box either.

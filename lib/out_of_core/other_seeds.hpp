@@ -29,7 +29,8 @@ class OtherSeeds {
   /// Answers are for a piece from here on. \param own  the tree of its seeds
   /// \return an outline of the seeds of the others, finer near those of the piece
   PackedTree begin(std::size_t piece, const PackedTree& own);
-  /// The seeds near the rim of the piece. \pre none were sent since begin()
+  /// The seeds near the rim of the piece, and the heaviest of all, which may reach it from anywhere. \pre
+  /// none were sent since begin()
   exchange::Halo near(const exchange::Rim& rim);
   exchange::Reply answer(const exchange::Request& request);
   std::uint64_t sent() const { return sent_count_; }  ///< in all
@@ -44,9 +45,10 @@ class OtherSeeds {
   const Store& store_;
   const Statuses& statuses_;
   int threads_;
-  std::size_t first_ = 0, last_ = 0;   // ranks of the piece
-  std::vector<std::uint8_t> is_sent_;  // by rank
-  std::vector<std::uint32_t> sent_;    // the ranks of these
+  std::size_t first_ = 0, last_ = 0;     // ranks of the piece
+  std::vector<std::uint32_t> heaviest_;  // ranks, ascending
+  std::vector<std::uint8_t> is_sent_;    // by rank
+  std::vector<std::uint32_t> sent_;      // the ranks of these
   std::uint64_t sent_count_ = 0;
 };
 
