@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "lib/applications/transport/assignment.hpp"
+#include "lib/applications/transport/diagram_evaluator.hpp"
 #include "lib/applications/transport/domain_parts.hpp"
 #include "lib/applications/transport/domain_points.hpp"
 #include "lib/applications/transport/phases.hpp"
