@@ -1,11 +1,12 @@
 /// \file
-/// OpenCL devices: the list of them, and the one that a diagram runs on.
+/// OpenCL devices: the list of them, and the one or several that a diagram runs on.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <powercell/error.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,27 +54,38 @@ struct KernelBuilds {
 };
 POWERCELL_API KernelBuilds kernel_builds() noexcept;
 
-/// A device with its context, queue and program cache. Copies share one state; the last one frees it.
-/// Diagrams in different threads may share a device.
+/// A device with its context, queue and program cache, or a group of several, which share the work of each
+/// diagram. Copies share one state; the last one frees it. Diagrams in different threads may share a device.
 class POWERCELL_API Device {
  public:
   /// Opens the device that `selector` names: "P:D" by index, a case-insensitive part of the device's or
   /// platform's name, or "cpu" / "gpu". An empty selector stands for the environment variable
-  /// POWERCELL_DEVICE; without it, for the GPU with the most compute units, else a CPU. The device is
-  /// returned only if it passes a self-test (primitives with known results). \throw Error device_not_found,
-  /// self_test_failed, build_failed, opencl
+  /// POWERCELL_DEVICE; without it, for the GPU with the most compute units, else a CPU. Several of these with
+  /// commas between name a group of them, and "all" one of all devices, the best first. A device is returned
+  /// only if it passes a self-test (primitives with known results). \throw Error device_not_found,
+  /// self_test_failed, build_failed, opencl; invalid_argument (a device that is named twice)
   static Device choose(std::string_view selector = {});
 
-  const DeviceInfo& info() const;
-  /// Seconds spent on compiling kernels since the device was opened; 0 if all came from the cache.
+  /// Several devices as one. A diagram shares the clipping of its cells out to all of them by their speeds,
+  /// and does what is not shared on the first. A device that was opened twice counts as two.
+  /// \param devices  may be groups themselves
+  /// \throw Error invalid_argument (no device, or copies of one)
+  static Device group(std::span<const Device> devices);
+  /// The devices of a group, in their order; of a single device itself.
+  std::vector<Device> members() const;
+
+  const DeviceInfo& info() const;  ///< of a group, that of the first
+  /// Seconds spent on compiling kernels since the device was opened; 0 if all came from the cache. The sum of
+  /// a group.
   double build_seconds() const;
 
   explicit Device(std::shared_ptr<cl::Context> context) : context_(std::move(context)) {}
-  /// For the library's own use.
+  /// For the library's own use: of a group, that of the first.
   const std::shared_ptr<cl::Context>& context() const { return context_; }
 
  private:
   std::shared_ptr<cl::Context> context_;
+  std::vector<std::shared_ptr<cl::Context>> others_;  // of a group, after the first
 };
 
 }  // namespace powercell

@@ -15,7 +15,8 @@ struct DeviceRates {
 
 /// Takes about a second and up to 512 MiB of device memory. Every result is checked.
 /// \param precision  float64, float32, or automatic: double where the device has it
-/// \throw Error no_fp64; self_test_failed (a wrong result); out_of_device_memory, build_failed, opencl
+/// \throw Error no_fp64; unsupported (a group); self_test_failed (a wrong result); out_of_device_memory,
+/// build_failed, opencl
 POWERCELL_API DeviceRates measure_device_rates(const Device& device,
                                                Precision precision = Precision::automatic);
 
@@ -26,7 +27,7 @@ struct DeviceLatencies {
 };
 
 /// Takes a few milliseconds, and once the time to compile a kernel. \throw Error self_test_failed (a wrong
-/// result); build_failed, opencl
+/// result); unsupported (a group); build_failed, opencl
 POWERCELL_API DeviceLatencies measure_device_latencies(const Device& device);
 
 }  // namespace powercell

@@ -28,10 +28,11 @@ struct DeviceSettings {
 
 /// Those that the library has for a device of this kind and maker, whatever was measured on it.
 POWERCELL_API DeviceSettings default_settings(const DeviceInfo& device);
-/// Those in use: read from `settings_file` when the device was opened, else the defaults.
+/// Those in use: read from `settings_file` when the device was opened, else the defaults. \throw Error
+/// unsupported for a group
 POWERCELL_API DeviceSettings settings_of(const Device& device);
 /// Changes those in use, for all copies of `device`. To be called before the first diagram on it. \throw
-/// Error invalid_argument for settings out of range
+/// Error invalid_argument for settings out of range; unsupported for a group
 POWERCELL_API void use_settings(const Device& device, const DeviceSettings& settings);
 
 /// The file of measured settings of a device, in the folder of compiled kernels (POWERCELL_CACHE_DIR); it

@@ -15,6 +15,17 @@ struct DeviceList {
   std::vector<const pc_device_info*> devices;
 };
 
+void hand_over_list(const pc_device_list** list, std::vector<DeviceInfo> infos) {
+  DeviceList all;
+  for (DeviceInfo& info : infos) all.text.emplace_back(std::move(info));
+  hand_over_result(list, std::move(all), [](pc_device_list& to, DeviceList& from) {
+    for (const DeviceText& text : from.text) from.info.push_back(text.view());
+    from.devices = pointers(from.info);
+    to.count = from.devices.size();
+    to.devices = pointer(from.devices);
+  });
+}
+
 }  // namespace
 
 DeviceText::DeviceText(DeviceInfo info) : owned(std::move(info)), selector(owned.selector()) {}
@@ -55,14 +66,7 @@ const char* pc_device_kind_name(pc_device_kind kind) {
 pc_status pc_device_list_create(const pc_device_list** list) {
   return guarded([&] {
     result_at(list);
-    DeviceList all;
-    for (DeviceInfo& info : devices()) all.text.emplace_back(std::move(info));
-    hand_over_result(list, std::move(all), [](pc_device_list& to, DeviceList& from) {
-      for (const DeviceText& text : from.text) from.info.push_back(text.view());
-      from.devices = pointers(from.info);
-      to.count = from.devices.size();
-      to.devices = pointer(from.devices);
-    });
+    hand_over_list(list, devices());
   });
 }
 
@@ -74,6 +78,25 @@ pc_status pc_device_create(const char* selector, pc_device** device) {
   return guarded([&] {
     result_at(device);
     hand_over(device, Device::choose(selector ? selector : ""));
+  });
+}
+
+pc_status pc_device_group_create(const pc_device* const* devices, size_t count, pc_device** group) {
+  return guarded([&] {
+    result_at(group);
+    std::vector<Device> members;
+    for (const pc_device* const device : rows_view(devices, count, 1, "devices"))
+      members.push_back(device_in(device));
+    hand_over(group, Device::group(members));
+  });
+}
+
+pc_status pc_device_members(const pc_device* device, const pc_device_list** list) {
+  return guarded([&] {
+    result_at(list);
+    std::vector<DeviceInfo> infos;
+    for (const Device& member : device_in(device).members()) infos.push_back(member.info());
+    hand_over_list(list, std::move(infos));
   });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <powercell/opencl.hpp>
 #include <utility>
@@ -55,7 +57,9 @@ std::string not_found_message(std::span<const DeviceInfo> devices, std::string_v
     message += separator + device.selector() + " " + device.name + " (" + device.platform_name + ")";
     separator = ", ";
   }
-  return message + "; use \"P:D\", a part of a name, \"cpu\" or \"gpu\"";
+  return message +
+         "; use \"P:D\", a part of a name, \"cpu\" or \"gpu\", several of these with commas between, or "
+         "\"all\"";
 }
 
 }  // namespace
@@ -73,6 +77,48 @@ std::size_t select_device(std::span<const DeviceInfo> devices, std::string_view 
   return *best;
 }
 
+std::vector<std::size_t> select_devices(std::span<const DeviceInfo> devices, std::string_view selectors,
+                                        std::string_view origin) {
+  std::vector<std::size_t> chosen;
+  if (lower(selectors) == "all") {
+    if (devices.empty()) throw Error(ErrorCode::device_not_found, no_device_message());
+    chosen.resize(devices.size());
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    std::stable_sort(chosen.begin(), chosen.end(),
+                     [&](std::size_t a, std::size_t b) { return better(devices[a], devices[b]); });
+    return chosen;
+  }
+  // A name may contain a comma itself.
+  const bool is_name = std::any_of(devices.begin(), devices.end(), [&](const DeviceInfo& device) {
+    return matches(device, lower(selectors));
+  });
+  if (is_name || selectors.find(',') == std::string_view::npos)
+    return {select_device(devices, selectors, origin)};
+  for (std::size_t begin = 0, end = 0; end != selectors.size(); begin = end + 1) {
+    end = std::min(selectors.find(',', begin), selectors.size());
+    const std::string_view selector = selectors.substr(begin, end - begin);
+    if (selector.empty())
+      throw Error(ErrorCode::invalid_argument, "the list of devices \"" +
+                                                   readable(std::string(selectors), 100) + "\"" +
+                                                   std::string(origin) + " has an empty name");
+    const std::size_t found = select_device(devices, selector, origin);
+    if (std::find(chosen.begin(), chosen.end(), found) != chosen.end())
+      throw Error(ErrorCode::invalid_argument, "the device " + devices[found].selector() + " " +
+                                                   devices[found].name + " is named twice in \"" +
+                                                   readable(std::string(selectors), 100) + "\"" +
+                                                   std::string(origin));
+    chosen.push_back(found);
+  }
+  return chosen;
+}
+
+void require_single(const Device& device, std::string_view what) {
+  const std::size_t count = device.members().size();
+  if (count > 1)
+    throw Error(ErrorCode::unsupported, std::string(what) + " one device, and this is a group of " +
+                                            std::to_string(count) + "; give one of its members");
+}
+
 }  // namespace cl
 
 Device Device::choose(std::string_view selector) {
@@ -86,17 +132,47 @@ Device Device::choose(std::string_view selector) {
       origin = " (from the environment variable POWERCELL_DEVICE)";
     }
   }
-  const auto& entry = found[cl::select_device(infos, selector, origin)];
-  auto context = std::make_shared<cl::Context>(entry.platform, entry.device, entry.info);
-  cl::self_test(context);
-  return Device(std::move(context));
+  std::vector<Device> opened;
+  for (const std::size_t k : cl::select_devices(infos, selector, origin)) {
+    const cl::FoundDevice& entry = found[k];
+    auto context = std::make_shared<cl::Context>(entry.platform, entry.device, entry.info);
+    cl::self_test(context);
+    opened.emplace_back(std::move(context));
+  }
+  return group(opened);
+}
+
+Device Device::group(std::span<const Device> devices) {
+  std::vector<std::shared_ptr<cl::Context>> contexts;
+  for (const Device& device : devices) {
+    contexts.push_back(device.context_);
+    contexts.insert(contexts.end(), device.others_.begin(), device.others_.end());
+  }
+  if (contexts.empty()) throw Error(ErrorCode::invalid_argument, "a group needs at least one device");
+  for (std::size_t k = 0; k < contexts.size(); ++k)
+    if (std::find(contexts.begin(), contexts.begin() + static_cast<std::ptrdiff_t>(k), contexts[k]) !=
+        contexts.begin() + static_cast<std::ptrdiff_t>(k))
+      throw Error(ErrorCode::invalid_argument, "the device " + contexts[k]->info().selector() + " " +
+                                                   contexts[k]->info().name + " is twice in a group");
+  Device result(std::move(contexts.front()));
+  result.others_.assign(std::make_move_iterator(contexts.begin() + 1),
+                        std::make_move_iterator(contexts.end()));
+  return result;
+}
+
+std::vector<Device> Device::members() const {
+  std::vector<Device> all{Device(context_)};
+  for (const std::shared_ptr<cl::Context>& context : others_) all.emplace_back(context);
+  return all;
 }
 
 DeviceSettings settings_of(const Device& device) {
+  cl::require_single(device, "settings are those of");
   return device.context()->settings();
 }
 
 void use_settings(const Device& device, const DeviceSettings& settings) {
+  cl::require_single(device, "settings are those of");
   cl::require_usable(device.info(), settings);
   device.context()->use(settings);
 }
@@ -112,7 +188,9 @@ const DeviceInfo& Device::info() const {
 }
 
 double Device::build_seconds() const {
-  return context_->build_seconds();
+  double sum = context_->build_seconds();
+  for (const std::shared_ptr<cl::Context>& context : others_) sum += context->build_seconds();
+  return sum;
 }
 
 }  // namespace powercell

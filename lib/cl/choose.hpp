@@ -5,6 +5,7 @@
 #include <powercell/device.hpp>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace powercell::cl {
 
@@ -15,5 +16,13 @@ namespace powercell::cl {
 /// \throw Error device_not_found listing `devices`
 std::size_t select_device(std::span<const DeviceInfo> devices, std::string_view selector,
                           std::string_view origin = {});
+
+/// The same for selectors with commas between, in their order, and for "all": all devices, the best first.
+/// \throw Error as select_device; invalid_argument (a device that is named twice)
+std::vector<std::size_t> select_devices(std::span<const DeviceInfo> devices, std::string_view selectors,
+                                        std::string_view origin = {});
+
+/// For what is that of one device. \throw Error unsupported if `device` is a group; names `what`
+void require_single(const Device& device, std::string_view what);
 
 }  // namespace powercell::cl

@@ -40,6 +40,9 @@ bool is_cpu(const DeviceInfo& device) {
 bool is_pocl(const DeviceInfo& device) {
   return device.platform_name == "Portable Computing Language";
 }
+bool is_basic_pocl(const DeviceInfo& device) {
+  return is_pocl(device) && device.name.starts_with("basic");
+}
 
 void one_by_one(Quirks& quirks, const DeviceInfo&) {
   quirks.settings.polygon_lanes = quirks.settings.polyhedron_lanes = 1;
@@ -96,6 +99,11 @@ constexpr Row table[] = {
        quirks.compiles_at_launch = true;
        quirks.keeps_programs = true;
      }},
+
+    // The devices of PoCL that run commands in the thread that enqueues them (POCL_DEVICES=basic) lock an
+    // event
+    // of another thread's command while that thread waits for theirs: PoCL 3.1, tests/devices/same_bits.cpp.
+    {is_basic_pocl, [](Quirks& quirks, const DeviceInfo&) { quirks.one_thread = true; }},
 };
 
 }  // namespace
@@ -105,6 +113,11 @@ Quirks quirks_of(const DeviceInfo& device) {
   for (const Row& row : table)
     if (row.applies(device)) row.change(quirks, device);
   return quirks;
+}
+
+std::unique_lock<std::recursive_mutex> call_alone(const DeviceInfo& device) {
+  static std::recursive_mutex calling;
+  return quirks_of(device).one_thread ? std::unique_lock(calling) : std::unique_lock<std::recursive_mutex>();
 }
 
 int lane_width(const DeviceSettings& settings, int cell_dimension) {

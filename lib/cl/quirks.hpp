@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <powercell/device_settings.hpp>
 
 namespace powercell::cl {
@@ -16,6 +17,8 @@ struct Quirks {
   bool keeps_programs = false;
   /// A launch of more work-items makes the driver compile the kernel once more.
   std::uint64_t launch_limit = std::numeric_limits<std::uint64_t>::max();
+  /// Two threads that call the driver at a time may wait for each other for ever (call_alone).
+  bool one_thread = false;
   /// Where nothing was measured (settings_file.hpp). Groups are for kernels that require no number of their
   /// own; the default is for CPUs, whose drivers run a group as a loop on one thread: long enough to pay for
   /// the group, short enough to share the work evenly. Lanes are LANE_WIDTH of kernels/base/lanes.cl: vectors
@@ -25,6 +28,9 @@ struct Quirks {
 };
 
 Quirks quirks_of(const DeviceInfo& device);
+
+/// A lock that all devices with Quirks::one_thread share; of others one that locks nothing.
+std::unique_lock<std::recursive_mutex> call_alone(const DeviceInfo& device);
 
 /// That of the settings for cells of a dimension, unless the environment variable POWERCELL_LANES is 1, 4
 /// or 8. \throw Error invalid_argument if it is anything else

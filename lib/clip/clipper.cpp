@@ -235,6 +235,13 @@ void Clipper::run(std::size_t number, const List& active, Outcome& outcome) {
   }
 }
 
+void Clipper::read_moments() {
+  const std::size_t real = scene_.float32() ? sizeof(float) : sizeof(double);
+  host_moments_.resize(pair_seed_.size() * (2 + static_cast<std::size_t>(scene_.mesh().dimension)) * real);
+  memory_.moments.read(host_moments_.data(), host_moments_.size());
+  moments_read_ = true;
+}
+
 ClipMemory Clipper::release() && {
   memory_.pieces.used = 0;
   unmap_rows();
@@ -298,6 +305,7 @@ std::vector<std::uint32_t> Clipper::clip_on_device(std::span<const std::uint32_t
   }
   for_host.insert(for_host.end(), pending.begin(), pending.end());
   std::sort(for_host.begin(), for_host.end());
+  if (options_.read_moments && !moments_read_) read_moments();
   return for_host;
 }
 

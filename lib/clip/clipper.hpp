@@ -36,6 +36,9 @@ struct ClipOptions {
   /// The number of pairs of the whole pass, if it is known. Of few pairs, those too large for the first
   /// capacity are finished on the host: compiling a larger program would take longer.
   std::uint64_t pairs = ~std::uint64_t{0};
+  /// Read the moments at the end of clip_on_device(), so that the device can clip other pairs while the host
+  /// finishes these: whatever it enqueues then waits for them.
+  bool read_moments = false;
 };
 
 /// The buffers and pieces of a Clipper. A caller that clips again passes them on: to touch new memory page by
@@ -73,6 +76,10 @@ class Clipper {
   /// \throw Error opencl, out_of_device_memory, build_failed, self_test_failed, internal
   const PieceSet& clip(std::span<const std::uint32_t> pair_seed, std::span<const std::uint32_t> pair_region);
 
+  /// Compiles the first kernel, which is else done when it is first needed. \throw Error build_failed,
+  /// self_test_failed, opencl
+  void build() { kernel(0); }
+
   /// The first step of clip(), for callers with split pairs.
   /// \return the pairs, ascending, that finish_on_host() must be called with
   std::vector<std::uint32_t> clip_on_device(std::span<const std::uint32_t> pair_seed,
@@ -92,9 +99,11 @@ class Clipper {
   const cl::RawBuffer& moments();
   /// The same on the host, where they have been read already; else null.
   const std::byte* moments_on_host() const { return moments_read_ ? host_moments_.data() : nullptr; }
-  /// Takes the other's copy of the scene for the host, one of which is made for both. The two must not finish
-  /// chunks on the host at the same time.
-  void share_host_scene(const Clipper& other) { host_scene_ = other.host_scene_; }
+  /// The scene for the host, made on first use.
+  using SharedHostScene = std::shared_ptr<std::optional<HostScene>>;
+  /// From now on uses one of several clippers, also on other devices. These must not finish chunks on the
+  /// host at the same time.
+  void share_host_scene(SharedHostScene scene) { host_scene_ = std::move(scene); }
   const ClipStatistics& statistics() const { return statistics_; }
   /// The statistics since the last call.
   ClipStatistics take_statistics() { return std::exchange(statistics_, {}); }
@@ -121,6 +130,7 @@ class Clipper {
   void reserve_rows(std::size_t rows, const Capacity& capacity);
   void read_rows(const Capacity& capacity, PieceBatch& batch);
   void read_reach(std::span<const std::uint32_t> active);
+  void read_moments();
   /// Copies the mapped rows of this chunk and unmaps them, before the next launch overwrites them.
   void unmap_rows();
   bool wants_rows() const;
@@ -139,8 +149,7 @@ class Clipper {
   int outputs_;
   ClipOptions options_;
   std::map<std::size_t, cl::Kernel> kernels_;  // by number of the capacity
-  /// Made on first use.
-  std::shared_ptr<std::optional<HostScene>> host_scene_ = std::make_shared<std::optional<HostScene>>();
+  SharedHostScene host_scene_ = std::make_shared<std::optional<HostScene>>();
   std::span<const std::uint32_t> pair_seed_, pair_region_;
   ClipStatistics statistics_;
   ClipMemory memory_;

@@ -20,9 +20,11 @@ struct ChunkSizes {
 /// Calls body(begin, end) for consecutive ranges that cover [0, total). If a call runs out of device memory,
 /// halves the chunk, calls free_memory() and repeats the range.
 /// \pre a call that throws has no effect
+/// \return the size of a chunk at the end
 /// \throw Error out_of_device_memory if the smallest chunk does not fit
 template <class Body, class FreeMemory>
-void in_chunks(std::uint64_t total, ChunkSizes sizes, const Body& body, const FreeMemory& free_memory) {
+std::uint64_t in_chunks(std::uint64_t total, ChunkSizes sizes, const Body& body,
+                        const FreeMemory& free_memory) {
   std::uint64_t chunk = sizes.chunk;
   for (std::uint64_t begin = 0; begin < total;) {
     const std::uint64_t end = std::min(total, begin + chunk);
@@ -38,6 +40,7 @@ void in_chunks(std::uint64_t total, ChunkSizes sizes, const Body& body, const Fr
       free_memory();
     }
   }
+  return chunk;
 }
 
 }  // namespace powercell

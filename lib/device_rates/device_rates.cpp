@@ -3,6 +3,7 @@
 #include <limits>
 #include <powercell/device_rates.hpp>
 
+#include "lib/cl/choose.hpp"
 #include "lib/cl/program.hpp"
 #include "lib/device_rates/known.hpp"
 
@@ -115,6 +116,7 @@ double least_seconds(Call&& call) {
 }  // namespace
 
 DeviceLatencies measure_device_latencies(const Device& device) {
+  cl::require_single(device, "latencies are those of");
   const ContextPointer& context = device.context();
   cl::Buffer<float> one(context);
   one.resize(1);
@@ -134,6 +136,7 @@ DeviceLatencies measure_device_latencies(const Device& device) {
 }
 
 DeviceRates measure_device_rates(const Device& device, Precision precision) {
+  cl::require_single(device, "rates are those of");
   const bool fp64 = device.info().fp64;
   if (precision == Precision::float64 && !fp64)
     throw Error(ErrorCode::no_fp64, "device \"" + device.info().name +

@@ -39,7 +39,13 @@ class Active {
   /// From wrapped seeds to those given. \pre images()
   Placement placement() const { return {*setup_.period(), *images_, input_.unwrapped->shift}; }
   const PackedTree& tree() const { return tree_; }
-  Scene scene() const { return {setup_.on_device, buffers_, seeds(), tree_, images_.has_value()}; }
+  Scene scene() const { return scene_on(setup_.on_device, buffers_); }
+  /// The same on another device.
+  Scene scene_on(const DomainBuffers& domain, const SeedBuffers& buffers) const {
+    return {domain, buffers, seeds(), tree_, images_.has_value()};
+  }
+  /// Another number whenever the seeds or the tree have changed.
+  std::uint64_t uploads() const { return buffers_.uploads; }
 
   /// Ranks whose cells must be clipped region by region, because it is unclear whether they lie inside the
   /// domain.

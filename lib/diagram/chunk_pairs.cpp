@@ -13,10 +13,10 @@ constexpr std::uint64_t most_chunk_pairs = std::uint64_t{1} << 22;
 
 }  // namespace
 
-std::uint64_t chunk_pairs(const Setup& setup, std::uint64_t total) {
+std::uint64_t chunk_pairs(const Setup& setup, const Device& device, std::uint64_t total) {
   if (setup.options.chunk_pairs > 0) return std::min(setup.options.chunk_pairs, most_chunk_pairs);
-  const std::uint64_t most = std::min(setup.device.context()->settings().chunk_pairs,
-                                      cl::quirks_of(setup.device.info()).launch_limit);
+  const std::uint64_t most =
+      std::min(device.context()->settings().chunk_pairs, cl::quirks_of(device.info()).launch_limit);
   if (total == 0) return most;
   // Chunks of equal size, because a small last chunk would not keep all cores busy.
   return (total - 1) / ((total - 1) / most + 1) + 1;

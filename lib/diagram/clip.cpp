@@ -1,18 +1,18 @@
 #include "lib/diagram/clip.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <memory>
-#include <system_error>
+#include <string>
 #include <utility>
 
 #include "kernels/layout.h"
-#include "lib/cl/quirks.hpp"
 #include "lib/clip/in_chunks.hpp"
 #include "lib/collect/geometry.hpp"
 #include "lib/collect/periodic_walls.hpp"
 #include "lib/collect/selected_walls.hpp"
 #include "lib/diagram/chunk_pairs.hpp"
-#include "lib/diagram/clip_chunk.hpp"
+#include "lib/diagram/chunk_pipeline.hpp"
 #include "lib/diagram/solid.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/diagram/unrestricted.hpp"
@@ -25,6 +25,8 @@ namespace {
 /// Of a proved reach, relative (82).
 constexpr double proved_reach_error_double = 1.0 / (1 << MARGIN_BITS_DOUBLE),
                  proved_reach_error_float = 1.0 / (1 << MARGIN_BITS_FLOAT);
+/// Fewer pairs are clipped faster by one device than by several.
+constexpr std::uint64_t least_shared_pairs = 16384;
 /// Of a margin that must be widened, against rounding.
 constexpr double more_than_needed = 1.001;
 
@@ -34,15 +36,13 @@ int outputs_of(Wanted want, bool walls) {
 
 class Pass {
  public:
-  Pass(const Setup& setup, Active& active, const Plan& plan, Wanted want, Workspace& workspace)
+  Pass(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace)
       : setup_(setup),
         active_(active),
         plan_(plan),
         want_(want),
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact || setup.boundary),
-        overlaps_(setup.device.info().type == DeviceInfo::Type::gpu && plan.candidates &&
-                  plan.candidates->is_shared()),
         measures_(setup.on_device, row_seeds(), setup.domain.measure(), setup.threads),
         walls_(collects_walls() && !active.images() && !plan.selected ? active.seeds().size() : 0,
                setup.threads, std::exchange(workspace.walls, {})),
@@ -82,16 +82,29 @@ class Pass {
   void clip_all(Timings& timings);
   /// Clips the cells that reached beyond the margin again, among more images.
   void clip_beyond(Timings& timings);
-  /// Calls clip_some(begin, end) for chunks of `total` pairs, with a clipper.
-  template <class ClipSome>
-  void in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timings& timings,
-                         const ClipSome& clip_some);
-  Clipper make_clipper(std::optional<ClipMemory> memory) const;
-  static void keep_memory(ClipChunk& chunk, std::optional<ClipMemory>& kept);
-  /// The moments of the chunk that the host completes.
-  PairMoments moments() {
-    return {now_->clipper->moments_on_host(),
-            [this]() -> const cl::RawBuffer& { return now_->clipper->moments(); }};
+  /// Calls `body`, which clips by these candidates, and adds its time to the timings.
+  template <class Body>
+  void timed(const Candidates& candidates, Timings& timings, const Body& body);
+  /// \param overlapping  whether a device clips a chunk while the host completes another
+  ClipWork work(std::uint64_t total, bool overlapping = false) const;
+  /// Whether so many pairs are worth more than one device.
+  bool is_shared(std::uint64_t total) const;
+  /// Clips and completes the pairs [begin, end) one chunk after the other. \return the size of a chunk at the
+  /// end
+  std::uint64_t clip_in_turn(ClipDevice& device, ClipChunk& chunk, std::uint64_t begin, std::uint64_t end,
+                             std::uint64_t size);
+  /// Has the devices clip all pairs while the host completes them. \return false if the system gives no
+  /// thread
+  bool clip_in_pipeline(std::deque<ClipDevice>& devices, Sharing sharing, std::size_t chunks);
+  void keep_shares(const Sharing& sharing, const std::vector<std::uint64_t>& pairs);
+  /// Completes a chunk on the host and collects it.
+  void complete(ClipChunk& chunk);
+  /// To be called for each chunk, when `done` pairs of `total` are.
+  void report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total);
+  /// The moments of a chunk that the host completes.
+  static PairMoments moments(ClipChunk& chunk) {
+    return {chunk.clipper->moments_on_host(),
+            [&chunk]() -> const cl::RawBuffer& { return chunk.clipper->moments(); }};
   }
   /// Cells that the boundary does not cut lie on the side of their neighbours, which are needed for that.
   bool collects_walls() const { return want_.adjacency || plan_.solid; }
@@ -100,29 +113,13 @@ class Pass {
   std::uint32_t rank_of_row(std::uint32_t row) const {
     return plan_.selected ? plan_.selected->rank[row] : row;
   }
-  /// Clips and collects the pairs [begin, end). Where it pays, has the device clip those after them
-  /// meanwhile.
-  void clip_chunk(std::uint64_t begin, std::uint64_t end);
-  /// The regions of the pairs of a chunk.
-  std::span<const std::uint32_t> regions_of(const ClipChunk& chunk) const {
-    return std::span(plan_.pairs.region).subspan(chunk.begin, chunk.end - chunk.begin);
-  }
-  std::vector<std::uint32_t> clip_on_device(ClipChunk& chunk) const {
-    return chunk.clipper->clip_on_device(chunk.pair_seed, regions_of(chunk));
-  }
-  /// Has the device clip the pairs [begin, end) in another thread.
-  void start_ahead(std::uint64_t begin, std::uint64_t end);
-  /// Collects the pieces of the pairs in now_->pair_row, all but their measures.
-  void collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region);
+  /// Collects the pieces of a chunk, all but their measures.
+  void collect(const ClipChunk& chunk, const PieceSet& pieces);
   /// Lists the cells that reach beyond the margin.
-  void prove_reach(const PieceSet& pieces);
-  void keep_reach(const PieceSet& pieces);
+  void prove_reach(const ClipChunk& chunk, const PieceSet& pieces);
+  void keep_reach(const ClipChunk& chunk, const PieceSet& pieces);
   /// Removes what was collected of some rows.
   void discard(std::span<const std::uint32_t> rows);
-  void set_chunk_rows(ClipChunk& chunk, std::uint64_t begin, std::uint64_t end) const;
-  /// Sets pair_seed from pair_row.
-  void set_chunk_seeds(ClipChunk& chunk) const;
-  std::uint32_t row_of(std::uint64_t pair) const;
   /// Moves the centroids from near the wrapped seeds to near those given.
   void place_centroids(Measures& measures) const;
   std::vector<CoincidentWall> coincident_walls(const std::vector<SeedStatus>& status) const;
@@ -131,19 +128,14 @@ class Pass {
 
   const Setup& setup_;
   Active& active_;
-  const Plan& plan_;
+  Plan& plan_;
   const Wanted want_;
   Workspace& workspace_;
   const bool exact_;
-  /// Whether the device clips a chunk while the host completes the one before it. The host's cores are idle
-  /// then unless they are the device.
-  bool overlaps_;
   MomentSums measures_;
   WallCollector walls_;
   GeometryCollector geometry_;
-  std::unique_ptr<ClipChunk> now_ = std::make_unique<ClipChunk>(),
-                             ahead_ = std::make_unique<ClipChunk>();  // used where a GPU clips
-  std::vector<std::uint32_t> flat_;                                   // the row of each flat piece
+  std::vector<std::uint32_t> flat_;  // the row of each flat piece
   // In a periodic domain:
   std::optional<Placement> placement_;
   std::optional<MarginProof> proof_;
@@ -153,111 +145,168 @@ class Pass {
   double margin_ = 0;                  // that these need
   std::vector<double> reach_;          // by row of the results
   ClipStatistics done_;                // of finished chunks
-  Candidates* candidates_ = nullptr;
-  std::uint64_t total_ = 0;  // pairs
+  Clipper::SharedHostScene host_scene_ = std::make_shared<std::optional<HostScene>>();
   double clip_seconds_ = 0, collect_seconds_ = 0;
 };
 
-std::uint32_t Pass::row_of(std::uint64_t pair) const {
-  const auto& offset = plan_.pairs.offset;
-  return static_cast<std::uint32_t>(std::upper_bound(offset.begin(), offset.end(), pair) - offset.begin() -
-                                    1);
-}
-
-void Pass::set_chunk_rows(ClipChunk& chunk, std::uint64_t begin, std::uint64_t end) const {
-  const std::vector<std::uint64_t>& offset = plan_.pairs.offset;
-  chunk.begin = begin;
-  chunk.end = end;
-  chunk.pair_row.resize(end - begin);
-  for (std::uint32_t row = row_of(begin); row <= row_of(end - 1); ++row) {
-    const std::uint64_t from = std::max(begin, offset[row]), to = std::min(end, offset[row + 1]);
-    if (to > from) std::fill_n(&chunk.pair_row[from - begin], to - from, row);
-  }
-  set_chunk_seeds(chunk);
-}
-
-void Pass::set_chunk_seeds(ClipChunk& chunk) const {
-  chunk.pair_seed = chunk.pair_row;
-  if (!plan_.selected) return;
-  chunk.selected_seed.resize(chunk.pair_row.size());
-  std::transform(chunk.pair_row.begin(), chunk.pair_row.end(), chunk.selected_seed.begin(),
-                 [&](std::uint32_t row) { return rank_of_row(row); });
-  chunk.pair_seed = chunk.selected_seed;
-}
-
-void Pass::start_ahead(std::uint64_t begin, std::uint64_t end) {
-  if (!ahead_->clipper) ahead_->clipper.emplace(make_clipper({}));
-  ahead_->clipper->share_host_scene(*now_->clipper);
-  set_chunk_rows(*ahead_, begin, end);
-  try {
-    ahead_->for_host =
-        std::async(std::launch::async, [this, &chunk = *ahead_] { return clip_on_device(chunk); });
-  } catch (const std::system_error&) {
-    // The system refuses another thread: the chunk is clipped when its turn comes.
-  }
-}
-
-void Pass::clip_chunk(std::uint64_t begin, std::uint64_t end) {
-  std::vector<std::uint32_t> for_host;
-  if (ahead_->is_of(begin, end)) {
-    for_host = ahead_->for_host.get();
-    std::swap(now_, ahead_);
-  } else {
-    ahead_->drop();
-    set_chunk_rows(*now_, begin, end);
-    for_host = clip_on_device(*now_);
-  }
-  const std::uint64_t total = plan_.pairs.region.size();
-  if (overlaps_ && end < total) start_ahead(end, std::min(total, end + (end - begin)));
-  const std::span pair_region = regions_of(*now_);
-  const PieceSet& pieces = now_->clipper->finish_on_host(
-      for_host, plan_.split(setup_, active_, now_->pair_seed, pair_region, for_host));
+void Pass::complete(ClipChunk& chunk) {
+  chunk.clipper->share_host_scene(host_scene_);
+  const PieceSet& pieces = chunk.clipper->finish_on_host(
+      chunk.for_host, plan_.split(setup_, active_, chunk.pair_seed, chunk.pair_region, chunk.for_host));
   const Stopwatch watch(setup_.device);
   // This step may run out of device memory, and then adds nothing. No later step uses device memory.
-  measures_.add(plan_.pairs.offset, begin, end, now_->pair_row.front(), now_->pair_row.back(), moments());
-  collect(pieces, pair_region);
+  measures_.add(plan_.pairs.offset, chunk.begin, chunk.end, chunk.pair_row.front(), chunk.pair_row.back(),
+                moments(chunk));
+  collect(chunk, pieces);
   collect_seconds_ += watch.seconds();
 }
 
-void Pass::collect(const PieceSet& pieces, std::span<const std::uint32_t> pair_region) {
+void Pass::collect(const ClipChunk& chunk, const PieceSet& pieces) {
   if (exact_)
-    for (std::size_t k = 0; k < now_->pair_row.size(); ++k)
-      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(now_->pair_row[k]);
-  if (proof_) prove_reach(pieces);
-  if (want_.reach) keep_reach(pieces);
+    for (std::size_t k = 0; k < chunk.pair_row.size(); ++k)
+      if (pieces.status[k] == PIECE_FLAT) flat_.push_back(chunk.pair_row[k]);
+  if (proof_) prove_reach(chunk, pieces);
+  if (want_.reach) keep_reach(chunk, pieces);
   if (selected_walls_)
-    selected_walls_->add(now_->pair_row, now_->pair_seed, pieces);
+    selected_walls_->add(chunk.pair_row, chunk.pair_seed, pieces);
   else if (periodic_walls_)
-    periodic_walls_->add(now_->pair_seed, pieces);
+    periodic_walls_->add(chunk.pair_seed, pieces);
   else if (collects_walls() && !plan_.selected)
-    walls_.add(now_->pair_seed, pieces);
-  if (want_.cells) geometry_.add(now_->pair_seed, pair_region, pieces);
+    walls_.add(chunk.pair_seed, pieces);
+  if (want_.cells) geometry_.add(chunk.pair_seed, chunk.pair_region, pieces);
 }
 
-void Pass::keep_reach(const PieceSet& pieces) {
+void Pass::keep_reach(const ClipChunk& chunk, const PieceSet& pieces) {
   const double unit = setup_.on_device.frame().unit(1);
   reach_.resize(row_seeds().input_count);
-  for (std::size_t k = 0; k < now_->pair_row.size(); ++k) {
+  for (std::size_t k = 0; k < chunk.pair_row.size(); ++k) {
     if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
-    double& reach = reach_[row_seeds().input[now_->pair_row[k]]];
+    double& reach = reach_[row_seeds().input[chunk.pair_row[k]]];
     reach = std::max(reach, pieces.reach[k] * unit);
   }
 }
 
-void Pass::prove_reach(const PieceSet& pieces) {
+void Pass::prove_reach(const ClipChunk& chunk, const PieceSet& pieces) {
   const double unit = setup_.on_device.frame().unit(1);
-  for (std::size_t k = 0; k < now_->pair_seed.size(); ++k) {
+  for (std::size_t k = 0; k < chunk.pair_seed.size(); ++k) {
     if (pieces.status[k] != PIECE_DONE && pieces.status[k] != PIECE_FLAT) continue;
-    const double margin = proof_->margin_for(now_->pair_seed[k], pieces.reach[k] * unit);
-    if (margin > 0) beyond_.push_back(now_->pair_row[k]);
+    const double margin = proof_->margin_for(chunk.pair_seed[k], pieces.reach[k] * unit);
+    if (margin > 0) beyond_.push_back(chunk.pair_row[k]);
     margin_ = std::max(margin_, margin);
   }
 }
 
 void Pass::clip_all(Timings& timings) {
   done_ = plan_.solid_statistics;
-  in_clipped_chunks(plan_.pairs.region.size(), *plan_.candidates, timings,
-                    [&](std::uint64_t begin, std::uint64_t end) { clip_chunk(begin, end); });
+  const std::uint64_t total = plan_.pairs.region.size();
+  const bool shared = is_shared(total);
+  std::deque<ClipDevice> devices;
+  std::vector<Sharing::Member> members;
+  plan_.copies.resize(setup_.members.size() - 1);
+  // The host's cores are idle while one device clips, unless they are the device.
+  const bool overlaps =
+      shared || (setup_.device.info().type == DeviceInfo::Type::gpu && plan_.candidates->is_shared() &&
+                 chunk_pairs(setup_, setup_.members[0], total) < total);
+  for (std::size_t k = 0; k < (shared ? setup_.members.size() : 1); ++k) {
+    DeviceWorkspace& kept = workspace_.devices[k];
+    const Device& device = setup_.members[k];
+    if (k == 0)
+      devices.emplace_back(work(total, overlaps), device, kept, *plan_.candidates);
+    else
+      devices.emplace_back(work(total, overlaps), device, kept, *plan_.candidates, plan_.copies[k - 1]);
+    members.push_back({chunk_pairs(setup_, device, shared ? 0 : total), kept.speed});
+  }
+  timed(*plan_.candidates, timings, [&] {
+    if (!overlaps || !clip_in_pipeline(devices, Sharing(total, least_chunk_pairs, members),
+                                       plan_.candidates->is_shared() ? 2 : 1))
+      clip_in_turn(devices[0], devices[0].chunks()[0], 0, total,
+                   chunk_pairs(setup_, setup_.members[0], total));
+  });
+  for (ClipDevice& device : devices) device.keep_memory();
+}
+
+bool Pass::is_shared(std::uint64_t total) const {
+  if (setup_.members.size() == 1) return false;
+  return total >= least_shared_pairs ||
+         (setup_.options.chunk_pairs > 0 && setup_.options.chunk_pairs < total);
+}
+
+ClipWork Pass::work(std::uint64_t total, bool overlapping) const {
+  return {
+      setup_, active_, outputs_of(want_, collects_walls()) | (proof_ || want_.reach ? OUTPUT_REACH : 0),
+      ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total, .read_moments = overlapping}};
+}
+
+std::uint64_t Pass::clip_in_turn(ClipDevice& device, ClipChunk& chunk, std::uint64_t begin, std::uint64_t end,
+                                 std::uint64_t size) {
+  return in_chunks(
+      end - begin, {size, least_chunk_pairs, "pairs"},
+      [&](std::uint64_t first, std::uint64_t last) {
+        chunk.set_pairs(plan_, begin + first, begin + last);
+        device.clip(chunk);
+        device.use([&] { complete(chunk); });
+        report(chunk, chunk.end, plan_.pairs.region.size());
+      },
+      [&] { device.free_memory(chunk); });
+}
+
+bool Pass::clip_in_pipeline(std::deque<ClipDevice>& devices, Sharing sharing, std::size_t chunks) {
+  std::vector<std::uint64_t> pairs(devices.size());
+  const std::uint64_t total = plan_.pairs.region.size();
+  {
+    ChunkPipeline pipeline(devices, plan_, sharing, chunks);
+    if (!pipeline.start()) return false;
+    for (std::uint64_t begin = 0; begin < total;) {
+      const ChunkPipeline::Done done = pipeline.wait_for(begin);
+      const std::uint64_t end = done.chunk->end;
+      if (done.is_clipped) {
+        complete(*done.chunk);  // whose moments are on the host: this does not use the device
+        report(*done.chunk, end, total);
+      } else {
+        pipeline.take_over(done);
+        pipeline.limit(done.device, clip_in_turn(devices[done.device], *done.chunk, begin, end, end - begin));
+      }
+      pipeline.release(done);
+      pairs[done.device] += end - begin;
+      begin = end;
+    }
+  }
+  keep_shares(sharing, pairs);
+  return true;
+}
+
+void Pass::keep_shares(const Sharing& sharing, const std::vector<std::uint64_t>& pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs[k] > 0) workspace_.devices[k].speed = sharing.speed(k);
+    workspace_.devices[k].pairs = pairs[k];
+  }
+  if (pairs.size() == 1) return;
+  write_log(LogLevel::info, [&] {
+    std::string shares;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      shares += (k > 0 ? ", " : "") + setup_.members[k].info().selector() + " " + std::to_string(pairs[k]);
+    return "pairs clipped by each device: " + shares;
+  });
+}
+
+void Pass::report(ClipChunk& chunk, std::uint64_t done, std::uint64_t total) {
+  done_.add(chunk.clipper->take_statistics());
+  write_log(LogLevel::detail,
+            [&] { return std::to_string(done) + " of " + std::to_string(total) + " pairs clipped"; });
+  const std::function<bool(double)>& progress = setup_.options.progress;
+  if (progress && !progress(static_cast<double>(done) / static_cast<double>(total)))
+    throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
+}
+
+template <class Body>
+void Pass::timed(const Candidates& candidates, Timings& timings, const Body& body) {
+  const double list_seconds_before = candidates.host_seconds(), collected_before = collect_seconds_;
+  const Stopwatch watch(setup_.device);
+  body();
+  const double list_seconds = candidates.host_seconds() - list_seconds_before;
+  timings.neighbors += list_seconds;
+  // Several devices make lists while others clip, so that the sum of the parts may be more than the whole.
+  clip_seconds_ += std::max(0.0, watch.seconds() - (collect_seconds_ - collected_before) - list_seconds);
 }
 
 void Pass::discard(std::span<const std::uint32_t> rows) {
@@ -281,67 +330,33 @@ void Pass::clip_beyond(Timings& timings) {
            " cells reached beyond a narrower margin";
   });
   discard(rows);
+  host_scene_ = std::make_shared<std::optional<HostScene>>();
   const std::vector<std::uint32_t> regions(rows.size());
   const std::unique_ptr<Candidates> candidates = search_all(setup_, active_.scene());
-  in_clipped_chunks(rows.size(), *candidates, timings, [&](std::uint64_t begin, std::uint64_t end) {
-    now_->pair_row.assign(rows.begin() + static_cast<std::ptrdiff_t>(begin),
-                          rows.begin() + static_cast<std::ptrdiff_t>(end));
-    set_chunk_seeds(*now_);
-    const std::span pair_region = std::span(regions).subspan(begin, end - begin);
-    const PieceSet& pieces = now_->clipper->clip(now_->pair_seed, pair_region);
-    const Stopwatch watch(setup_.device);
-    measures_.replace(now_->pair_row, moments());
-    collect(pieces, pair_region);
-    collect_seconds_ += watch.seconds();
+  const std::uint64_t total = rows.size();
+  const Device& first = setup_.members.front();
+  ClipDevice device(work(total), first, workspace_.devices[0], *candidates);
+  ClipChunk& chunk = device.chunks()[0];
+  timed(*candidates, timings, [&] {
+    in_chunks(
+        total, {chunk_pairs(setup_, first, total), least_chunk_pairs, "pairs"},
+        [&](std::uint64_t begin, std::uint64_t end) {
+          chunk.pair_row.assign(rows.begin() + static_cast<std::ptrdiff_t>(begin),
+                                rows.begin() + static_cast<std::ptrdiff_t>(end));
+          chunk.set_seeds(plan_);
+          chunk.pair_region = std::span(regions).subspan(begin, end - begin);
+          device.clip(chunk);
+          chunk.clipper->share_host_scene(host_scene_);
+          const PieceSet& pieces = chunk.clipper->finish_on_host(chunk.for_host);
+          const Stopwatch watch(setup_.device);
+          measures_.replace(chunk.pair_row, moments(chunk));
+          collect(chunk, pieces);
+          collect_seconds_ += watch.seconds();
+          report(chunk, end, total);
+        },
+        [&] { device.free_memory(chunk); });
   });
-}
-
-template <class ClipSome>
-void Pass::in_clipped_chunks(std::uint64_t total, Candidates& candidates, Timings& timings,
-                             const ClipSome& clip_some) {
-  candidates_ = &candidates;
-  total_ = total;
-  now_->clipper.emplace(make_clipper(std::exchange(workspace_.clip, std::nullopt)));
-  if (workspace_.clip_ahead)
-    ahead_->clipper.emplace(make_clipper(std::exchange(workspace_.clip_ahead, std::nullopt)));
-  const std::function<bool(double)>& progress = setup_.options.progress;
-  const double list_seconds_before = candidates.host_seconds(), collected_before = collect_seconds_;
-  const Stopwatch watch(setup_.device);
-  in_chunks(
-      total, {chunk_pairs(setup_, total), least_chunk_pairs, "pairs"},
-      [&](std::uint64_t begin, std::uint64_t end) {
-        clip_some(begin, end);
-        done_.add(now_->clipper->take_statistics());
-        write_log(LogLevel::detail,
-                  [&] { return std::to_string(end) + " of " + std::to_string(total) + " pairs clipped"; });
-        if (progress && !progress(static_cast<double>(end) / static_cast<double>(total)))
-          throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
-      },
-      [&] {
-        ahead_->drop();
-        ahead_->clipper.reset();
-        overlaps_ = false;  // there is too little memory for two chunks
-        now_->clipper.emplace(make_clipper({}));
-      });
-  const double list_seconds = candidates.host_seconds() - list_seconds_before;
-  timings.neighbors += list_seconds;
-  clip_seconds_ += watch.seconds() - (collect_seconds_ - collected_before) - list_seconds;
-  keep_memory(*now_, workspace_.clip);
-  keep_memory(*ahead_, workspace_.clip_ahead);
-}
-
-Clipper Pass::make_clipper(std::optional<ClipMemory> memory) const {
-  return Clipper(active_.scene(), *candidates_,
-                 outputs_of(want_, collects_walls()) | (proof_ || want_.reach ? OUTPUT_REACH : 0),
-                 ClipOptions{.exact = exact_, .threads = setup_.threads, .pairs = total_}, std::move(memory));
-}
-
-void Pass::keep_memory(ClipChunk& chunk, std::optional<ClipMemory>& kept) {
-  chunk.drop();
-  if (!chunk.clipper) return;
-  ClipMemory memory = std::move(*chunk.clipper).release();
-  chunk.clipper.reset();
-  if (memory.bytes() <= kept_bytes) kept = std::move(memory);
+  device.keep_memory();
 }
 
 void Pass::keep_wall_memory() {
@@ -418,7 +433,7 @@ Clipped Pass::finish() {
 
 }  // namespace
 
-Clipped clip(const Setup& setup, Active& active, const Plan& plan, Wanted want, Workspace& workspace,
+Clipped clip(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace,
              Timings& timings) {
   return Pass(setup, active, plan, want, workspace).run(timings);
 }

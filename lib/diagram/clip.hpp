@@ -35,9 +35,10 @@ struct Clipped {
 /// Of a periodic domain `active` gets more images if cells reach too far for those that it has, and only
 /// these cells are clipped again.
 ///
+/// \param plan  gets its candidates copied to the further devices of a group
 /// \param timings  sets `clip`, `collect` and the counts; adds the time of lists to `neighbors`
 /// \throw Error interrupted, out_of_device_memory, opencl, build_failed, self_test_failed, internal
-Clipped clip(const Setup& setup, Active& active, const Plan& plan, Wanted want, Workspace& workspace,
+Clipped clip(const Setup& setup, Active& active, Plan& plan, Wanted want, Workspace& workspace,
              Timings& timings);
 
 }  // namespace powercell

@@ -1,37 +1,30 @@
 /// \file
-/// Chunks of pairs, of which the device clips one while the host completes another. Internal.
+/// A chunk of pairs, and what clips it. Internal.
 #pragma once
 
 #include <cstdint>
-#include <future>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "lib/clip/clipper.hpp"
+#include "lib/diagram/plan.hpp"
 
 namespace powercell {
 
-/// The pairs [begin, end) of a plan, and what clips them.
 struct ClipChunk {
-  std::uint64_t begin = 0, end = 0;
+  std::uint64_t begin = 0, end = 0;          ///< of the pairs of a plan
   std::vector<std::uint32_t> pair_row;       ///< of each pair
   std::vector<std::uint32_t> selected_seed;  ///< the same by rank, if cells are selected
   std::span<const std::uint32_t> pair_seed;  ///< the same by rank
+  std::span<const std::uint32_t> pair_region;
   std::optional<Clipper> clipper;
-  /// Of a chunk that is being clipped on the device: the pairs to finish on the host. Declared last: its end
-  /// waits for the thread that uses all the others.
-  std::future<std::vector<std::uint32_t>> for_host;
+  std::vector<std::uint32_t> for_host;  ///< once the device has clipped the chunk: the pairs to finish here
 
-  bool is_of(std::uint64_t first, std::uint64_t last) const {
-    return for_host.valid() && begin == first && end == last;
-  }
-  /// Waits for a chunk that is being clipped and drops its results, or its failure.
-  void drop() {
-    if (!for_host.valid()) return;
-    for_host.wait();
-    for_host = {};
-  }
+  /// Makes this the pairs [first, last) of a plan, which must not be empty.
+  void set_pairs(const Plan& plan, std::uint64_t first, std::uint64_t last);
+  /// Sets pair_seed from pair_row.
+  void set_seeds(const Plan& plan);
 };
 
 }  // namespace powercell

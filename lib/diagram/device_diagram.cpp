@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/layout.h"
+#include "lib/cl/choose.hpp"
 #include "lib/cl/quirks.hpp"
 #include "lib/clip/golden.hpp"
 #include "lib/diagram/setup.hpp"
@@ -83,13 +84,19 @@ void test_capacity(const Device& device, const Variant& variant, std::size_t cap
   variant.float32 ? run_golden<float>(state, variant) : run_golden<double>(state, variant);
 }
 
+/// \throw Error unsupported for a group
+const Device& single(const Device& device) {
+  cl::require_single(device, "a diagram in device memory is computed by");
+  return device;
+}
+
 }  // namespace
 
 DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_in)
     : device(std::move(device_in)),
       domain(std::move(domain_in)),
       options(std::move(options_in)),
-      precision(choose_precision(device, options.precision)),
+      precision(choose_precision(single(device), options.precision)),
       room(domain.is_periodic() ? clip_mesh_of(domain) : nullptr),
       domain_buffers(device.context(), room ? *room : domain.mesh(), precision == Precision::float32),
       frame_(device.context()),

@@ -49,7 +49,7 @@ BoundaryWalls clip_facets(const Setup& setup, const Active& active, const Plan& 
   const std::function<bool(double)>& progress = setup.options.progress;
   if (total > 0)
     in_chunks(
-        total, {chunk_pairs(setup, total), least_chunk_pairs, "pairs"},
+        total, {chunk_pairs(setup, setup.members.front(), total), least_chunk_pairs, "pairs"},
         [&](std::uint64_t begin, std::uint64_t end) {
           if (!clipper)
             clipper.emplace(active.scene(), *plan.candidates, OUTPUT_MOMENTS | OUTPUT_WALLS | OUTPUT_FACETS,

@@ -113,12 +113,13 @@ Plan plan_by_boundary(const Setup& setup, const Active& active, bool faces, Work
   TreeCandidates tree(scene);
   const Scene facets{boundary.on_device, scene.buffers, scene.seeds, scene.tree};
   RegionCandidates facet_candidates(facets, on_facets.list_offset, on_facets.list_seed, on_facets.all_listed);
-  SolidMemory memory{std::exchange(workspace.facets, {}), std::exchange(workspace.clip, {})};
+  SolidMemory memory{std::exchange(workspace.facets, {}), std::exchange(workspace.devices[0].clip[0], {})};
   plan.solid = compute_solid_cells(
       {setup.domain.mesh(), boundary, scene, on_facets, active.by_region, facet_candidates, tree,
-       chunk_pairs(setup, on_facets.region.size()), faces, setup.threads, setup.options.progress},
+       chunk_pairs(setup, setup.members.front(), on_facets.region.size()), faces, setup.threads,
+       setup.options.progress},
       memory, plan.solid_statistics);
-  workspace.clip = std::move(memory.cells);  // clipping goes on with them
+  workspace.devices[0].clip[0] = std::move(memory.cells);  // clipping goes on with them
   if (memory.facets && memory.facets->bytes() <= kept_bytes) workspace.facets = std::move(memory.facets);
   std::vector<bool> excluded(active.seeds().size());
   for (const SolidCells::Cell& cell : plan.solid->cells) excluded[cell.rank] = true;

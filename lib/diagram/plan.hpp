@@ -2,6 +2,8 @@
 /// The strategy by which the cells of the active seeds are computed. Internal.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <powercell/results.hpp>
@@ -29,6 +31,8 @@ struct Plan {
   std::optional<SelectedRows> selected;
   Pairs pairs;
   std::unique_ptr<Candidates> candidates;
+  /// Of a group of devices: those of its further members, made on first use.
+  std::vector<std::unique_ptr<Candidates>> copies;
   bool unrestricted = false;  ///< pairs with the container are cells inside or outside the domain
   /// Cells without pairs, computed from the boundary.
   std::optional<SolidCells> solid;
@@ -47,11 +51,32 @@ struct Plan {
 /// Larger buffers are freed after a pass, because other work needs the memory.
 inline constexpr std::size_t kept_bytes = std::size_t{16} << 20;
 
-/// Small buffers that are reused by the next pass.
+/// Domain and seeds on a further device of a group.
+struct DeviceScene {
+  DeviceScene(const std::shared_ptr<cl::Context>& context, const RegionMesh& mesh, bool float32)
+      : domain(context, mesh, float32), seeds(context) {}
+
+  DomainBuffers domain;
+  SeedBuffers seeds;
+  std::uint64_t uploads = 0;  ///< Active::uploads() of these seeds
+};
+
+/// What a device keeps from pass to pass.
+struct DeviceWorkspace {
+  std::array<std::optional<ClipMemory>, 2> clip;  ///< small, by chunk of the device
+  std::unique_ptr<DeviceScene> scene;             ///< null on the first device, and before it is used
+  double speed = 0;         ///< pairs a second in the last pass that the device had a part in
+  std::uint64_t pairs = 0;  ///< that it clipped in the last pass that was shared
+};
+
+/// What is reused by the next pass.
 struct Workspace {
+  explicit Workspace(std::size_t device_count) : devices(device_count) {}
+
+  std::vector<DeviceWorkspace> devices;  ///< Setup::members
+
   /// The search of all active seeds, of a plan that another selection replaces; null where there is none.
   std::unique_ptr<Candidates> search;
-  std::optional<ClipMemory> clip, clip_ahead;
   std::optional<ClipMemory> facets;  ///< of clipping the boundary of a solid
   WallRows::Memory walls;
 };

@@ -1,5 +1,7 @@
 #include "lib/diagram/setup.hpp"
 
+#include <algorithm>
+
 #include "lib/base/threads.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/outline.hpp"
@@ -7,11 +9,16 @@
 namespace powercell {
 
 Precision choose_precision(const Device& device, Precision asked) {
-  const bool fp64 = device.info().fp64;
-  if (asked == Precision::automatic) return fp64 ? Precision::float64 : Precision::float32;
-  if (asked == Precision::float64 && !fp64)
-    throw Error(ErrorCode::no_fp64, "device \"" + device.info().name +
-                                        "\" has no double precision; use single precision or another device");
+  const std::vector<Device> members = device.members();
+  const auto without =
+      std::find_if(members.begin(), members.end(), [](const Device& member) { return !member.info().fp64; });
+  if (asked == Precision::automatic)
+    return without == members.end() ? Precision::float64 : Precision::float32;
+  if (asked == Precision::float64 && without != members.end())
+    throw Error(ErrorCode::no_fp64,
+                "device \"" + without->info().name + "\"" +
+                    (members.size() > 1 ? " (" + without->info().selector() + " of a group)" : "") +
+                    " has no double precision; use single precision or another device");
   return asked;
 }
 
@@ -73,6 +80,7 @@ std::shared_ptr<const RegionMesh> clip_mesh_of(const Domain& domain) {
 
 Setup::Setup(Device device_in, Domain domain_in, Options options_in)
     : device(std::move(device_in)),
+      members(device.members()),
       domain(std::move(domain_in)),
       options(checked(std::move(options_in))),
       progress(std::make_shared<StageProgress>(options.progress)),

@@ -6,6 +6,7 @@
 #include <powercell/device.hpp>
 #include <powercell/domain.hpp>
 #include <powercell/options.hpp>
+#include <vector>
 
 #include "lib/diagram/stage_progress.hpp"
 #include "lib/pairs/pair_finder.hpp"
@@ -14,7 +15,7 @@
 
 namespace powercell {
 
-/// Resolves Precision::automatic for a device. \throw Error no_fp64
+/// Resolves Precision::automatic for a device; of a group double only if all have it. \throw Error no_fp64
 Precision choose_precision(const Device& device, Precision asked);
 
 /// The mesh that cells are clipped by where it is not the domain's, kept with the domain: with a container
@@ -22,7 +23,8 @@ Precision choose_precision(const Device& device, Precision asked);
 std::shared_ptr<const RegionMesh> clip_mesh_of(const Domain& domain);
 
 struct Setup {
-  Device device;
+  Device device;                ///< or a group; its first member does all that is not shared
+  std::vector<Device> members;  ///< of the group
   Domain domain;
   Options options;  ///< its `progress` reports through the one below
   std::shared_ptr<StageProgress> progress;

@@ -5,6 +5,7 @@
 #include "lib/collect/dual.hpp"
 #include "lib/collect/facets.hpp"
 #include "lib/collect/periodic_dual.hpp"
+#include "lib/diagram/device_errors.hpp"
 #include "lib/diagram/facets.hpp"
 #include "lib/diagram/stopwatch.hpp"
 #include "lib/report/log.hpp"
@@ -111,15 +112,22 @@ void Diagram::State::make_active() {
 }
 
 Clipped Diagram::State::clip_once(PlanKind kind, Wanted want) {
-  make_active();
-  return clip(setup, *active, plan(kind), want, workspace, timings);
+  Plan& made = on_device(setup, setup.members.front(), [&]() -> Plan& {
+    make_active();
+    return plan(kind);
+  });
+  return clip(setup, *active, made, want, workspace, timings);
 }
 
 bool Diagram::State::release_memory() {
-  if (!workspace.clip && !workspace.facets) return false;
-  workspace.clip.reset();
+  bool any = workspace.facets.has_value();
   workspace.facets.reset();
-  return true;
+  for (DeviceWorkspace& device : workspace.devices)
+    for (std::optional<ClipMemory>& memory : device.clip) {
+      any = any || memory.has_value();
+      memory.reset();
+    }
+  return any;
 }
 
 void Diagram::State::pass(PlanKind kind, Wanted want) {
@@ -247,11 +255,12 @@ const BoundaryWalls& Diagram::State::boundary_walls() {
   compute({});  // excludes flat cells, and has images enough
   setup.progress->begin_computation();
   setup.progress->begin_pass(0, 1);
-  make_active();
   for (;;) {
     try {
-      results->boundary_walls =
-          clip_facets(setup, *active, plan(PlanKind::geometry), results->measures->status);
+      results->boundary_walls = on_device(setup, setup.members.front(), [&] {
+        make_active();
+        return clip_facets(setup, *active, plan(PlanKind::geometry), results->measures->status);
+      });
       return *results->boundary_walls;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::out_of_device_memory || !release_memory()) throw;

@@ -41,7 +41,8 @@ struct Diagram::State {
 
   State(Device device, Domain domain, Options options)
       : setup(std::move(device), std::move(domain), std::move(options)),
-        seed_buffers(setup.device.context()) {}
+        seed_buffers(setup.device.context()),
+        workspace(setup.members.size()) {}
 
   void set_seeds(const SeedsView& seeds);
   void set_weights(std::span<const double> weights);
@@ -64,7 +65,7 @@ struct Diagram::State {
   Plan& plan(PlanKind kind);
   /// Clips, repeatedly if cells must be excluded or restricted, and stores the results.
   void pass(PlanKind kind, Wanted want);
-  /// Frees the kept buffers of the device; false if there are none.
+  /// Frees the kept buffers of the devices; false if there are none.
   bool release_memory();
   Clipped clip_once(PlanKind kind, Wanted want);
   void compute_missing(Wanted want);

@@ -15,13 +15,13 @@ namespace {
 constexpr std::size_t least_shared = 4096;  // ranks; fewer are faster on one thread
 constexpr std::size_t ahead = 16;           // ranks between a prefetch and its use
 
-cl::Kernel gather_kernel(const DomainBuffers& domain) {
+cl::Kernel gather_kernel(const std::shared_ptr<cl::Context>& context, const DomainBuffers& domain) {
   Variant variant;
   variant.dimension = domain.mesh().dimension;
   variant.cell_dimension = variant.dimension;  // which does not matter: one program for both
   variant.float32 = domain.float32();
   variant.capacity = {1, 1};
-  return {domain.context(), domain.context()->program("integrate/gather.cl", variant.defines()), "gather"};
+  return {context, context->program("integrate/gather.cl", variant.defines()), "gather"};
 }
 
 /// Value `k` of an array in the device's precision.
@@ -50,10 +50,7 @@ MomentSums::MomentSums(const DomainBuffers& domain, const SeedSet& seeds, double
       seeds_(seeds),
       threads_(threads),
       columns_(2 + static_cast<std::size_t>(domain.mesh().dimension)),
-      row_bytes_(columns_ * (domain.float32() ? sizeof(float) : sizeof(double))),
-      offset_(domain.context()),
-      before_(domain.context()),
-      device_sums_(domain.context()) {
+      row_bytes_(columns_ * (domain.float32() ? sizeof(float) : sizeof(double))) {
   const std::size_t n = seeds.input_count;
   measures_.dimension = domain.mesh().dimension;
   measures_.domain_measure = domain_measure;
@@ -73,24 +70,26 @@ bool MomentSums::one_pair_per_rank(const std::vector<std::uint64_t>& pair_offset
   return true;
 }
 
-void MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
-                               std::uint64_t end, std::uint32_t first, std::uint32_t last,
-                               const cl::RawBuffer& moments) {
+const cl::RawBuffer& MomentSums::sum_on_device(const std::vector<std::uint64_t>& pair_offset,
+                                               std::uint64_t begin, std::uint64_t end, std::uint32_t first,
+                                               std::uint32_t last, const cl::RawBuffer& moments) {
+  Summing& device = summing_.try_emplace(moments.context().get(), moments.context()).first->second;
   const std::size_t count = std::size_t{last} - first + 1;
   chunk_offset_.resize(count + 1);
   chunk_offset_[0] = 0;
   for (std::size_t t = 0; t < count; ++t)
     chunk_offset_[t + 1] = static_cast<std::uint32_t>(std::min(pair_offset[first + t + 1], end) - begin);
-  offset_.upload(chunk_offset_);
+  device.offset.upload(chunk_offset_);
   const bool goes_on = pair_offset[first] < begin;
-  before_.reserve(row_bytes_);
-  if (goes_on) before_.write(open_.data(), row_bytes_);
-  device_sums_.reserve(count * row_bytes_);
-  if (!gather_) gather_.emplace(gather_kernel(domain_));
-  gather_
-      ->args(static_cast<cl_uint>(count), offset_, static_cast<cl_int>(goes_on), before_, moments,
-             device_sums_)
+  device.before.reserve(row_bytes_);
+  if (goes_on) device.before.write(open_.data(), row_bytes_);
+  device.sums.reserve(count * row_bytes_);
+  if (!device.gather) device.gather.emplace(gather_kernel(moments.context(), domain_));
+  device.gather
+      ->args(static_cast<cl_uint>(count), device.offset, static_cast<cl_int>(goes_on), device.before, moments,
+             device.sums)
       .launch(count);
+  return device.sums;
 }
 
 void MomentSums::set(std::uint32_t rank, std::span<const double> moments) {
@@ -111,6 +110,30 @@ void MomentSums::set(std::uint32_t rank, std::span<const double> moments) {
   for (std::size_t c = 0; c < d; ++c)
     measures_.centroid[i * d + c] = seeds_.positions[rank * d + c] + moments[1 + c] / mass / scale;
   measures_.second_moment[i] = unscaled(moments[1 + d], power + 2);
+}
+
+const std::byte* MomentSums::sum_on_host(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                                         std::uint64_t end, std::uint32_t first, std::uint32_t last,
+                                         const std::byte* moments) {
+  const std::size_t count = std::size_t{last} - first + 1;
+  const bool goes_on = pair_offset[first] < begin;
+  host_sums_.assign(count * row_bytes_, std::byte{0});
+  if (goes_on) std::copy(open_.begin(), open_.end(), host_sums_.begin());
+  // In the order of the pairs, as the kernel does (kernels/integrate/gather.cl).
+  const auto sum = [&]<class Real>(const Real* rows, Real* sums) {
+    parallel_for(threads_for(end - begin, threads_, least_shared), count,
+                 [&](std::size_t from, std::size_t to) {
+                   for (std::size_t t = from; t < to; ++t)
+                     for (std::uint64_t pair = std::max(begin, pair_offset[first + t]);
+                          pair < std::min(end, pair_offset[first + t + 1]); ++pair)
+                       for (std::size_t c = 0; c < columns_; ++c)
+                         sums[t * columns_ + c] += rows[(pair - begin) * columns_ + c];
+                 });
+  };
+  std::byte* const to = host_sums_.data();
+  domain_.float32() ? sum(reinterpret_cast<const float*>(moments), reinterpret_cast<float*>(to))
+                    : sum(reinterpret_cast<const double*>(moments), reinterpret_cast<double*>(to));
+  return to;
 }
 
 std::array<double, 5> MomentSums::row_at(const std::byte* row) const {
@@ -150,12 +173,18 @@ void MomentSums::replace(std::span<const std::uint32_t> ranks, const PairMoments
 void MomentSums::add(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
                      std::uint32_t first, std::uint32_t last, const PairMoments& moments) {
   const bool summed = one_pair_per_rank(pair_offset, begin, end, first, last);
-  if (summed && moments.on_host) return set_measures(first, last + 1, moments.on_host);
-  const cl::RawBuffer& on_device = moments.on_device();
-  if (!summed) sum_on_device(pair_offset, begin, end, first, last, on_device);
   const std::size_t ranks = std::size_t{last} - first + 1;
-  cl::Mapping sums(summed ? on_device : device_sums_, ranks * row_bytes_);
   const bool open = pair_offset[last + 1] > end;
+  if (moments.on_host) {
+    const std::byte* const sums =
+        summed ? moments.on_host : sum_on_host(pair_offset, begin, end, first, last, moments.on_host);
+    set_measures(first, open ? last : last + 1, sums);
+    if (open) open_.assign(sums + (ranks - 1) * row_bytes_, sums + ranks * row_bytes_);
+    return;
+  }
+  const cl::RawBuffer& on_device = moments.on_device();
+  cl::Mapping sums(summed ? on_device : sum_on_device(pair_offset, begin, end, first, last, on_device),
+                   ranks * row_bytes_);
   set_measures(first, open ? last : last + 1, sums.data());
   // Keep the row of the previous chunk until the map has ended: if that fails the chunk is repeated.
   std::vector<std::byte> row;

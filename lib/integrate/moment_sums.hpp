@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <powercell/results.hpp>
@@ -26,8 +27,9 @@ struct PairMoments {
   std::function<const cl::RawBuffer&()> on_device = {};  ///< called where the host does not suffice
 };
 
-/// Sums on the device and converts the rows that a chunk completes on the host, so device memory grows with
-/// the chunk and not with the number of seeds.
+/// Sums on the device that clipped a chunk, or on the host if the moments are there, and converts the rows
+/// that a chunk completes on the host, so device memory grows with the chunk and not with the number of
+/// seeds.
 class MomentSums {
  public:
   /// Every seed starts as hidden or duplicate. Keeps references to `domain` and `seeds`.
@@ -54,8 +56,14 @@ class MomentSums {
   /// Whether each rank has one pair, for instance in a domain of one region: the moments are then the sums.
   static bool one_pair_per_rank(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
                                 std::uint64_t end, std::uint32_t first, std::uint32_t last);
-  void sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin, std::uint64_t end,
-                     std::uint32_t first, std::uint32_t last, const cl::RawBuffer& moments);
+  /// \return the sums
+  const cl::RawBuffer& sum_on_device(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                                     std::uint64_t end, std::uint32_t first, std::uint32_t last,
+                                     const cl::RawBuffer& moments);
+  /// The same on the host, where the moments are there. \return a row of sums for each rank
+  const std::byte* sum_on_host(const std::vector<std::uint64_t>& pair_offset, std::uint64_t begin,
+                               std::uint64_t end, std::uint32_t first, std::uint32_t last,
+                               const std::byte* moments);
   /// A row of sums in the device's precision.
   std::array<double, 5> row_at(const std::byte* row) const;
   /// Sets the measures of the ranks [first, last). \param sums  a row for each rank
@@ -65,10 +73,17 @@ class MomentSums {
   const SeedSet& seeds_;
   int threads_;
   std::size_t columns_, row_bytes_;
-  std::optional<cl::Kernel> gather_;  // built when a rank has several pairs
-  cl::Buffer<std::uint32_t> offset_;
-  cl::RawBuffer before_, device_sums_;
+  /// What one device sums with.
+  struct Summing {
+    std::optional<cl::Kernel> gather;  // built when a rank has several pairs
+    cl::Buffer<std::uint32_t> offset;
+    cl::RawBuffer before, sums;
+    explicit Summing(const std::shared_ptr<cl::Context>& context)
+        : offset(context), before(context), sums(context) {}
+  };
+  std::map<const cl::Context*, Summing> summing_;
   std::vector<std::uint32_t> chunk_offset_;
+  std::vector<std::byte> host_sums_;
   std::vector<std::byte> open_;  // sum so far of a rank that continues, in the device's precision
   Measures measures_;
 };

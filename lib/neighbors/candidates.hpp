@@ -24,6 +24,9 @@ class Candidates {
   /// Candidates of the same kind for the golden diagram: a small scene in which every seed may be a neighbour
   /// of every other and meet every region.
   virtual std::unique_ptr<Candidates> for_scene(const Scene& scene) const = 0;
+  /// The same candidates on another device, which has the same domain, seeds and tree. Reads from this device
+  /// what is not on the host. \throw Error opencl, out_of_device_memory, build_failed
+  virtual std::unique_ptr<Candidates> on(const Scene& scene) const = 0;
 
   // For lists of candidates, which are made for each launch. The tree needs none of this.
 

@@ -55,7 +55,7 @@ ListCandidates::ListCandidates(const Scene& scene, const Options& options, const
       initial_(initial_neighbors(options, scene.mesh().cell_dimension)),
       twins_(options.twin_queries),
       threads_(thread_count(options.threads)),
-      index_(scene.seeds, scene.frame().scale, heights),
+      index_(std::make_shared<Index>(scene.seeds, scene.frame().scale, heights)),
       lift_(scene.context()),
       neighbor_(scene.context()),
       active_list_(scene.context()),
@@ -68,6 +68,27 @@ ListCandidates::ListCandidates(const Scene& scene, const Options& options, const
     lift_.reserve(heights.size() * sizeof(double));
     if (!heights.empty()) lift_.write(heights.data(), heights.size() * sizeof(double));
   }
+}
+
+ListCandidates::ListCandidates(const Scene& scene, const ListCandidates& other)
+    : scene_(scene),
+      initial_(other.initial_),
+      twins_(other.twins_),
+      threads_(other.threads_),
+      index_(other.index_),
+      lift_(scene.context()),
+      neighbor_(scene.context()),
+      active_list_(scene.context()),
+      counting_(other.counting_),
+      list_use_(scene.context()) {
+  std::vector<std::byte> lift(other.lift_.bytes());
+  other.lift_.read(lift.data(), lift.size());
+  lift_.reserve(lift.size());
+  lift_.write(lift.data(), lift.size());
+}
+
+std::unique_ptr<Candidates> ListCandidates::on(const Scene& scene) const {
+  return std::unique_ptr<Candidates>(new ListCandidates(scene, *this));
 }
 
 std::size_t ListCandidates::neighbors(int round) const {
@@ -120,7 +141,10 @@ void ListCandidates::prepare(std::span<const std::uint32_t> ranks, int round) {
     pair_row_.push_back(static_cast<std::uint32_t>(distinct_.size() - 1));
   }
   count_ = neighbors(round);
-  index_.query(distinct_, count_, twins_, threads_, rows_);
+  {
+    const std::scoped_lock lock(index_->querying);
+    index_->tree.query(distinct_, count_, twins_, threads_, rows_);
+  }
   host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   neighbor_.upload(rows_);
   active_list_.upload(pair_row_);

@@ -2,6 +2,7 @@
 /// Candidates from neighbour lists made on the host (kernels/neighbors/list.cl): the paper's method.
 #pragma once
 
+#include <mutex>
 #include <powercell/options.hpp>
 
 #include "lib/neighbors/candidates.hpp"
@@ -29,6 +30,7 @@ class ListCandidates : public Candidates {
   void prepare(std::span<const std::uint32_t> ranks, int round) override;
   void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+  std::unique_ptr<Candidates> on(const Scene& scene) const override;
   int outputs() const override;
   bool is_shared() const override { return false; }
   double host_seconds() const override { return host_seconds_; }
@@ -41,6 +43,8 @@ class ListCandidates : public Candidates {
  private:
   /// \param heights  the lift by rank, in units of the scene's frame
   ListCandidates(const Scene& scene, const Options& options, const std::vector<double>& heights);
+  /// Searches the index of `other`, of another device.
+  ListCandidates(const Scene& scene, const ListCandidates& other);
 
   std::size_t neighbors(int round) const;  ///< length of a list in this round
   void read_use();                         ///< adds the counts of the last launch to use_
@@ -49,7 +53,14 @@ class ListCandidates : public Candidates {
   std::size_t initial_;
   bool twins_;
   int threads_;
-  FlannIndex index_;
+  /// One for all devices. Each query is made with all threads, so they are made one at a time.
+  struct Index {
+    FlannIndex tree;
+    std::mutex querying;
+    Index(const SeedSet& seeds, double scale, std::span<const double> heights)
+        : tree(seeds, scale, heights) {}
+  };
+  std::shared_ptr<Index> index_;
   std::vector<std::uint32_t> rows_, pair_row_, distinct_;
   std::size_t count_ = 0;
   cl::RawBuffer lift_;

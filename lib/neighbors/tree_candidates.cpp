@@ -75,9 +75,16 @@ std::unique_ptr<Candidates> TreeCandidates::for_scene(const Scene& scene) const 
   return std::make_unique<TreeCandidates>(scene);
 }
 
+std::unique_ptr<Candidates> TreeCandidates::on(const Scene& scene) const {
+  return std::make_unique<TreeCandidates>(scene);
+}
+
 RegionCandidates::RegionCandidates(const Scene& scene, std::span<const std::uint64_t> list_offset,
                                    std::span<const std::uint32_t> list_seed, bool all_listed)
-    : TreeCandidates(scene, !all_listed), list_offset_(scene.context()), list_seed_(scene.context()) {
+    : TreeCandidates(scene, !all_listed),
+      all_listed_(all_listed),
+      list_offset_(scene.context()),
+      list_seed_(scene.context()) {
   std::vector<std::uint64_t> offset(list_offset.begin(), list_offset.end());
   offset.resize(scene.mesh().region_count() + 1, offset.back());
   list_offset_.upload(offset);
@@ -101,6 +108,11 @@ std::unique_ptr<Candidates> RegionCandidates::for_scene(const Scene& scene) cons
   return std::make_unique<RegionCandidates>(scene, offset, seed, false);
 }
 
+std::unique_ptr<Candidates> RegionCandidates::on(const Scene& scene) const {
+  return std::make_unique<RegionCandidates>(scene, list_offset_.download(), list_seed_.download(),
+                                            all_listed_);
+}
+
 CellCandidates::CellCandidates(TreeCandidates tree, const CellWalls& walls, const CellPlanes& planes)
     : TreeCandidates(std::move(tree)),
       wall_offset_(scene().context()),
@@ -113,6 +125,21 @@ CellCandidates::CellCandidates(TreeCandidates tree, const CellWalls& walls, cons
   const std::vector<double> rows = plane_rows(planes, scene().frame().scale);
   plane_.reserve(rows.size() * sizeof(double));
   if (!rows.empty()) plane_.write(rows.data(), rows.size() * sizeof(double));
+}
+
+CellCandidates::CellCandidates(TreeCandidates tree, const CellCandidates& other)
+    : TreeCandidates(std::move(tree)),
+      wall_offset_(scene().context()),
+      neighbor_(scene().context()),
+      plane_offset_(scene().context()),
+      plane_(scene().context()) {
+  wall_offset_.upload(other.wall_offset_.download());
+  neighbor_.upload(other.neighbor_.download());
+  plane_offset_.upload(other.plane_offset_.download());
+  std::vector<std::byte> rows(other.plane_.bytes());
+  plane_.reserve(rows.size());
+  other.plane_.read(rows.data(), rows.size());
+  plane_.write(rows.data(), rows.size());
 }
 
 void CellCandidates::append_arguments(cl::Kernel& kernel) const {
@@ -131,6 +158,10 @@ std::unique_ptr<Candidates> CellCandidates::for_scene(const Scene& scene) const 
   }
   walls.offset.push_back(static_cast<std::uint32_t>(walls.neighbor.size()));
   return std::make_unique<CellCandidates>(TreeCandidates(scene), walls, CellPlanes{});
+}
+
+std::unique_ptr<Candidates> CellCandidates::on(const Scene& scene) const {
+  return std::unique_ptr<Candidates>(new CellCandidates(TreeCandidates(scene), *this));
 }
 
 }  // namespace powercell

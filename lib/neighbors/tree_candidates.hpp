@@ -25,6 +25,7 @@ class TreeCandidates : public Candidates {
   std::string_view kernel() const override { return "clip_by_tree_kernel"; }
   void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+  std::unique_ptr<Candidates> on(const Scene& scene) const override;
 
  protected:
   const Scene& scene() const { return scene_; }
@@ -46,8 +47,10 @@ class RegionCandidates : public TreeCandidates {
   std::string_view kernel() const override { return "clip_by_region_kernel"; }
   void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+  std::unique_ptr<Candidates> on(const Scene& scene) const override;
 
  private:
+  bool all_listed_;
   cl::Buffer<std::uint64_t> list_offset_;  ///< regions + 1
   cl::Buffer<std::uint32_t> list_seed_;
 };
@@ -63,8 +66,12 @@ class CellCandidates : public TreeCandidates {
   std::string_view kernel() const override { return "clip_by_cell_kernel"; }
   void append_arguments(cl::Kernel& kernel) const override;
   std::unique_ptr<Candidates> for_scene(const Scene& scene) const override;
+  std::unique_ptr<Candidates> on(const Scene& scene) const override;
 
  private:
+  /// Copies the buffers of `other`, of another device.
+  CellCandidates(TreeCandidates tree, const CellCandidates& other);
+
   cl::Buffer<std::uint32_t> wall_offset_, neighbor_, plane_offset_;
   cl::RawBuffer plane_;
 };

@@ -22,6 +22,7 @@ void SeedBuffers::upload(const Frame& frame, const SeedSet& seeds, const PackedT
 void SeedBuffers::upload_weights(const Frame& frame, const SeedSet& seeds, const PackedTree& tree,
                                  int threads) {
   blocks->current = false;
+  ++uploads;
   upload_points(points, frame, seeds.dimension, seeds.positions, seeds.weights, threads);
   upload_points(node_low, frame, tree.dimension, tree.low, tree.weight, threads);
 }

@@ -41,6 +41,7 @@ class SeedBuffers {
   cl::RawBuffer points, node_low, node_high;  ///< seed_t
   cl::Buffer<std::uint32_t> level_offset;
   std::shared_ptr<BlockBuffers> blocks;
+  std::uint64_t uploads = 0;  ///< how often the content was replaced
 };
 
 /// A view of domain and seeds on host and device; must not outlive them.

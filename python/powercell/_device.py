@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional, Union
 from weakref import WeakValueDictionary
 
@@ -10,7 +11,7 @@ from . import _core
 
 
 class Device:
-    """An OpenCL device of this machine.
+    """An OpenCL device of this machine, or a group of several, of which the attributes are those of the first.
 
     Attributes
     ----------
@@ -56,14 +57,48 @@ class Device:
     def choose(cls, selector: str = "") -> Device:
         """The device that ``selector`` names: part of its or its platform's name, ``"cpu"``, ``"gpu"`` or
         ``"P:D"`` (platform and device). Empty: the environment variable ``POWERCELL_DEVICE``, else the best
-        GPU, else a CPU.
+        GPU, else a CPU. Several of these with commas between name a :meth:`group`, and ``"all"`` that of all
+        devices, the best first.
 
         Raises
         ------
         Error
-            ``device_not_found``; ``self_test_failed`` if it computes known results incorrectly.
+            ``device_not_found``; ``self_test_failed`` if it computes known results incorrectly;
+            ``invalid_argument`` if a device is named twice.
         """
-        return cls(_open(selector).info)
+        return cls._of(_open(selector))
+
+    @classmethod
+    def group(cls, devices: Sequence[Union[str, Device]]) -> Device:
+        """Several devices as one. Diagrams share the clipping of their cells out to all of them by their speeds,
+        and do what is not shared on the first. Whatever takes a ``device`` takes a list of them too.
+
+        Parameters
+        ----------
+        devices : sequence of Device or str
+            Each once.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` for no device, or one that is there twice.
+
+        >>> import powercell as pc
+        >>> len(pc.Device.group(pc.devices()[:1]).members)
+        1
+        """
+        return cls._of(open_device(list(devices)))
+
+    @classmethod
+    def _of(cls, core: Any) -> Device:
+        # A single device is opened by its name, once a process; a group has no name.
+        return cls(core.info, core if len(core.members) > 1 else None)
+
+    @property
+    def members(self) -> list[Device]:
+        """The devices of a group, in their order; of a single device itself."""
+        members = [] if self._core is None else self._core.members
+        return [self] if len(members) < 2 else [Device(core.info, core) for core in members]
 
     @classmethod
     def from_queue(cls, queue: Any) -> Device:
@@ -98,6 +133,9 @@ class Device:
         return _open(self._info.selector) if self._core is None else self._core
 
     def __repr__(self) -> str:
+        members = self.members
+        if len(members) > 1:
+            return f"<powercell.Device, a group of {members!r}>"
         return f"<powercell.Device {self.name!r}, {self.kind}, {self.compute_units} compute units>"
 
 
@@ -119,7 +157,11 @@ def _open(selector: str) -> Any:
         return Device._opened[selector]
 
 
-def open_device(device: Union[None, str, Device]) -> Any:
+#: What names a device: of a group a list.
+DeviceLike = Union[None, str, Device, "Sequence[Union[str, Device]]"]
+
+
+def open_device(device: DeviceLike) -> Any:
     """The opened device: each is opened, tested and given its programs once a process."""
     _core.require_same_process()
     if device is None:
@@ -128,10 +170,14 @@ def open_device(device: Union[None, str, Device]) -> Any:
         return _open(device)
     if isinstance(device, Device):
         return device._open()
-    raise ValueError(f"device is a {type(device).__name__}; a Device, a str or None is expected")
+    if isinstance(device, (list, tuple)):
+        if any(member is None for member in device):
+            raise ValueError("a device of the list is None; a Device or a str is expected")
+        return _core.Device.group([open_device(member) for member in device])
+    raise ValueError(f"device is a {type(device).__name__}; a Device, a str, a list of these or None is expected")
 
 
-def optional_device(device: Union[None, str, Device]) -> Optional[Any]:
+def optional_device(device: DeviceLike) -> Optional[Any]:
     return None if device is None else open_device(device)
 
 

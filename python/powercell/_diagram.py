@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _looks
 from ._arrays import Indices, Reals, indices, optional_reals, reals
-from ._device import Device, open_device
+from ._device import Device, DeviceLike, open_device
 from ._domain import Domain
 from ._options import diagram_options
 from ._outside import warn_of_seeds_outside
@@ -35,7 +35,7 @@ class Diagram:
         most do, that is warned of.
     weights : (n,) array_like, optional
         Length squared (for a ball of radius r, r squared), of any sign. Default: 0, a Voronoi diagram.
-    device : Device or str, optional
+    device : Device, str or list of these, optional
         As for :meth:`Device.choose`. Default: the best one.
     precision : {"auto", "double", "float"}
     neighbors : {"auto", "tree", "flann"}
@@ -88,7 +88,7 @@ class Diagram:
         positions: ArrayLike,
         weights: Optional[ArrayLike] = None,
         *,
-        device: Union[None, str, Device] = None,
+        device: DeviceLike = None,
         precision: str = "auto",
         neighbors: str = "auto",
         decisions: str = "exact",
@@ -304,7 +304,7 @@ class Diagram:
 
     @property
     def device(self) -> Device:
-        return Device(self._core.device.info)
+        return Device._of(self._core.device)
 
     def verify(self, samples: int = 1000, random_seed: int = 1, progress: Progress = None) -> list[Any]:
         """Checks the laws of a power diagram; each entry has law, passed, value, tolerance and detail.
@@ -411,7 +411,7 @@ def regular_triangulation(
     positions: ArrayLike,
     weights: Optional[ArrayLike] = None,
     *,
-    device: Union[None, str, Device] = None,
+    device: DeviceLike = None,
     precision: str = "auto",
     threads: int = 0,
     progress: Progress = None,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import Reals, integers, optional_reals, reals
 from ._core import ExchangeReport
-from ._device import Device, open_device
+from ._device import DeviceLike, open_device
 from ._domain import Domain
 from ._errors import Error
 from ._options import diagram_options
@@ -132,7 +132,7 @@ def compute_distributed(
     positions: ArrayLike,
     weights: Optional[ArrayLike] = None,
     *,
-    device: Union[None, str, Device] = None,
+    device: DeviceLike = None,
     redistribute: bool = False,
     precision: str = "auto",
     neighbors: str = "auto",
@@ -156,7 +156,7 @@ def compute_distributed(
     positions : (n, d) array_like
     weights : (n,) array_like, optional
         As for :class:`Diagram`.
-    device : Device or str, optional
+    device : Device, str or list of these, optional
         Of this rank. With several ranks on the cores of a machine, set `threads` and, for PoCL, the variable
         ``POCL_MAX_PTHREAD_COUNT`` to the cores of each.
     redistribute : bool

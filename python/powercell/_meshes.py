@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._device import Device, optional_device
+from ._device import DeviceLike, optional_device
 from ._progress import Progress, fraction_bar
 from ._shapes import surface_arrays
 
@@ -25,7 +25,7 @@ def remesh(
     relaxations: int = 15,
     random_seed: int = 1,
     repair: bool = True,
-    device: Union[None, str, Device] = None,
+    device: DeviceLike = None,
     progress: Progress = None,
 ) -> Any:
     """A new triangle mesh of a surface with a given number of vertices and well-shaped triangles.

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Union
+from typing import Any
 
 from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import Reals, reals
 from ._density import Density, density_arguments
-from ._device import Device, open_device
+from ._device import DeviceLike, open_device
 from ._domain import Domain
 from ._options import diagram_options
 
@@ -51,7 +51,7 @@ def spacing(
     positions: ArrayLike,
     *,
     uniform: bool = True,
-    device: Union[None, str, Device] = None,
+    device: DeviceLike = None,
     precision: str = "auto",
     threads: int = 0,
 ) -> Any:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import reals
 from ._density import Density, density_arguments
-from ._device import Device, open_device
+from ._device import DeviceLike, open_device
 from ._domain import Domain
 from ._options import diagram_options
 from ._progress import Progress, step_bar
@@ -32,7 +32,7 @@ def sample(
     movement: float = 1e-4,
     capacity_tolerance: float = 1e-6,
     random_seed: int = 1,
-    device: Union[None, str, Device] = None,
+    device: DeviceLike = None,
     precision: str = "auto",
     threads: int = 0,
     progress: Progress = None,

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import optional_reals, reals
 from ._density import Density, density_arguments
-from ._device import Device, open_device
+from ._device import DeviceLike, open_device
 from ._diagram import Diagram
 from ._domain import Domain
 from ._options import diagram_options
@@ -61,7 +61,7 @@ class TransportSolver:
         rescale: bool = False,
         linear: str = "auto",
         linear_residual: float = 1e-4,
-        device: Union[None, str, Device] = None,
+        device: DeviceLike = None,
         precision: str = "auto",
         neighbors: str = "auto",
         threads: int = 0,

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import Reals, reals
-from ._device import Device, optional_device
+from ._device import DeviceLike, optional_device
 from ._progress import Progress, fraction_bar
 
 
@@ -95,7 +95,7 @@ def treemap(
     random_seed: int = 1,
     threads: int = 0,
     large_group: int = 4096,
-    device: Union[None, str, Device] = None,
+    device: DeviceLike = None,
     progress: Progress = None,
 ) -> Treemap:
     """Draws a weighted tree as nested convex cells whose areas are proportional to the values.
@@ -120,7 +120,7 @@ def treemap(
         0 threads for all.
     large_group : int
         Groups of more siblings are laid out on the device, others on the host.
-    device : Device or str, optional
+    device : Device, str or list of these, optional
         As for :meth:`Device.choose`.
 
     Examples

@@ -33,6 +33,8 @@ void bind_devices(nb::module_& m) {
             return Call(nb::none()).run([&] { return Device::choose(selector); });
           },
           "selector"_a = "")
+      .def_static("group", [](const std::vector<Device>& devices) { return Device::group(devices); })
+      .def_prop_ro("members", &Device::members)
       .def_prop_ro("info", &Device::info, nb::rv_policy::copy)
       .def_prop_ro("build_seconds", &Device::build_seconds);
 

@@ -32,6 +32,11 @@ def test_shapes_and_types_are_named(square):
     value_error("threads is -1", lambda: pc.Diagram(square, [[0, 0]], threads=-1))
     value_error("domain is a int", lambda: pc.Diagram(3, [[0, 0]]))
     value_error("device is a int", lambda: pc.Diagram(square, [[0, 0]], device=3))
+    value_error("device is a int", lambda: pc.Diagram(square, [[0, 0]], device=[3]))
+    value_error("a device of the list is None", lambda: pc.Diagram(square, [[0, 0]], device=[None]))
+    first = pc.devices()[0]
+    library_error("invalid_argument", "twice in a group", lambda: pc.Diagram(square, [[0, 0]], device=[first, first.selector]))
+    library_error("invalid_argument", "at least one device", lambda: pc.Diagram(square, [[0, 0]], device=[]))
     value_error("triangles: row 0 has a number below 0", lambda: pc.Domain.surface(np.eye(3), [[0, 1, -1]]))
     value_error("triangles has the type float64", lambda: pc.Domain.surface(np.eye(3), [[0.0, 1, 2]]))
     value_error("low has 1 coordinates", lambda: pc.Domain.box([0], [1]))

@@ -89,6 +89,46 @@ TEST_CASE("every enumeration of the options has bounds") {
   CHECK(diagram == nullptr);
 }
 
+TEST_CASE("a group of devices computes what one computes, and outlives the handles of its members") {
+  const pc_device_info* info = nullptr;
+  REQUIRE(pc_device_info_view(shared_device(), &info) == PC_OK);
+  Device group;
+  {
+    Device first, second;
+    REQUIRE(pc_device_create(info->selector, &first.handle) == PC_OK);
+    REQUIRE(pc_device_create(info->selector, &second.handle) == PC_OK);
+    const pc_device* members[] = {first.handle, second.handle, first.handle};
+    CHECK(pc_device_group_create(members, 3, &group.handle) == PC_INVALID_ARGUMENT);  // one twice
+    CHECK(pc_device_group_create(members, 0, &group.handle) == PC_INVALID_ARGUMENT);
+    CHECK(pc_device_group_create(nullptr, 2, &group.handle) == PC_INVALID_ARGUMENT);
+    members[1] = nullptr;
+    CHECK(pc_device_group_create(members, 2, &group.handle) == PC_INVALID_ARGUMENT);
+    members[1] = second.handle;
+    REQUIRE(pc_device_group_create(members, 2, &group.handle) == PC_OK);
+  }
+  Owned<const pc_device_list, pc_device_list_destroy> list;
+  REQUIRE(pc_device_members(group.handle, &list.handle) == PC_OK);
+  CHECK(list->count == 2);
+  CHECK(pc_device_members(nullptr, &list.handle) == PC_INVALID_ARGUMENT);
+  const auto masses = [](const pc_device* device) {
+    const double low[] = {0, 0}, high[] = {1, 1};
+    std::vector<double> positions;
+    for (int k = 0; k < 300; ++k) positions.insert(positions.end(), {k * 0.618 - int(k * 0.618), k / 300.});
+    Domain domain;
+    REQUIRE(pc_domain_box(low, high, 2, &domain.handle) == PC_OK);
+    pc_options options;
+    REQUIRE(pc_options_init(&options, sizeof options) == PC_OK);
+    options.chunk_pairs = 20;
+    Diagram diagram;
+    REQUIRE(pc_diagram_create(device, domain.handle, &options, &diagram.handle) == PC_OK);
+    REQUIRE(pc_diagram_set_seeds(diagram.handle, positions.data(), nullptr, 300) == PC_OK);
+    std::vector<double> mass(300);
+    REQUIRE(pc_diagram_measures(diagram.handle, mass.data(), nullptr, nullptr, nullptr) == PC_OK);
+    return mass;
+  };
+  CHECK(masses(group.handle) == masses(shared_device()));
+}
+
 TEST_CASE("the devices of the machine are those of C++") {
   Owned<const pc_device_list, pc_device_list_destroy> list;
   REQUIRE(pc_device_list_create(&list.handle) == PC_OK);
@@ -111,6 +151,10 @@ TEST_CASE("the devices of the machine are those of C++") {
 
   const pc_device_info* info = nullptr;
   REQUIRE(pc_device_info_view(shared_device(), &info) == PC_OK);
+  Owned<const pc_device_list, pc_device_list_destroy> single;
+  REQUIRE(pc_device_members(shared_device(), &single.handle) == PC_OK);
+  REQUIRE(single->count == 1);
+  CHECK(std::string(single->devices[0]->selector) == info->selector);
   CHECK(std::string(info->name) == pc_device_name(shared_device()));
   CHECK(pc_device_info_view(nullptr, &info) == PC_INVALID_ARGUMENT);
   double seconds = -1, processor = -1;

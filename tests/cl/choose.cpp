@@ -50,6 +50,33 @@ TEST_CASE("selectors") {
   CHECK(cl::select_device(no_gpu, "") == 1);
 }
 
+TEST_CASE("lists of selectors") {
+  using List = std::vector<std::size_t>;
+  CHECK(cl::select_devices(machine, "1:0,cpu") == List{1, 0});
+  CHECK(cl::select_devices(machine, "gpu") == List{2});
+  CHECK(cl::select_devices(machine, "") == List{2});
+  CHECK(cl::select_devices(machine, "ALL") == List{2, 1, 0, 3});  // the best first
+  CHECK(cl::select_devices(machine, "board,small,large") == List{3, 1, 2});
+  const std::vector<DeviceInfo> comma = {made_up(0, 0, "P", "Card, small", DeviceInfo::Type::gpu, 1)};
+  CHECK(cl::select_devices(comma, "card, small") == List{0});
+  const auto code = [](std::string_view selectors) {
+    const auto error = error_of([&] { cl::select_devices(machine, selectors); });
+    REQUIRE(error);
+    CHECK(contains(error->what(), std::string(selectors)));
+    return error->code();
+  };
+  CHECK(code("1:1,gpu") == ErrorCode::invalid_argument);  // the same twice
+  CHECK(code("cpu,,gpu") == ErrorCode::invalid_argument);
+  CHECK(code("cpu,") == ErrorCode::invalid_argument);
+  CHECK(code(",") == ErrorCode::invalid_argument);
+  const auto error = error_of([] { cl::select_devices(machine, "cpu,teapot"); });
+  REQUIRE(error);
+  CHECK(error->code() == ErrorCode::device_not_found);
+  const auto none = error_of([] { cl::select_devices({}, "all"); });
+  REQUIRE(none);
+  CHECK(contains(none->what(), "pocl-opencl-icd"));
+}
+
 TEST_CASE("an unknown selector is answered with the devices that exist") {
   for (const char* selector : {"9:9", "1:2", "teapot", "1:", ":1", "01:00"}) {
     CAPTURE(selector);

@@ -41,6 +41,17 @@ TEST_CASE("quirks: only PoCL compiles at the launch and keeps programs, on whate
   }
 }
 
+TEST_CASE("quirks: PoCL's basic devices are called by one thread at a time, others by any") {
+  DeviceInfo device;
+  device.platform_name = "Portable Computing Language";
+  device.name = "basic-haswell-EPYC";
+  CHECK(cl::quirks_of(device).one_thread);
+  CHECK(cl::call_alone(device).owns_lock());
+  device.name = "pthread-haswell-EPYC";
+  CHECK_FALSE(cl::quirks_of(device).one_thread);
+  CHECK_FALSE(cl::call_alone(device).owns_lock());
+}
+
 TEST_CASE("quirks: a launch at a CPU's limit, rounded up to whole groups, stays below 2^16 work-items") {
   const cl::Quirks cpu = quirks_of("Intel(R) OpenCL", Type::cpu);
   CHECK(cpu.settings.group_size == 32);

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-typedef struct pc_device pc_device; /**< an OpenCL device with its context, queue and programs */
+typedef struct pc_device pc_device; /**< an OpenCL device with its context, queue and programs; or a group */
 
 typedef enum pc_device_kind {
   PC_DEVICE_CPU = 0,
@@ -51,14 +51,23 @@ typedef struct pc_device_list {
 POWERCELL_API pc_status pc_device_list_create(const pc_device_list** list);
 POWERCELL_API void pc_device_list_destroy(const pc_device_list* list);
 
-/** Opens the device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "": the default. */
+/** Opens the device that `selector` names ("P:D", part of a name, "cpu", "gpu"); NULL or "": the default.
+ * Several of these with commas between name a group of them, "all" one of all devices, the best first. */
 POWERCELL_API pc_status pc_device_create(const char* selector, pc_device** device);
+/** Several devices as one. A diagram shares the clipping of its cells out to all of them by their speeds, and
+ * does what is not shared on the first. \param devices  `count` opened devices, each once; groups too. They
+ * may be destroyed before the group */
+POWERCELL_API pc_status pc_device_group_create(const pc_device* const* devices, size_t count,
+                                               pc_device** group);
+/** The devices of a group, in their order; of a single device itself. */
+POWERCELL_API pc_status pc_device_members(const pc_device* device, const pc_device_list** list);
 POWERCELL_API void pc_device_destroy(pc_device* device);
-/** The device's name; owned by the handle. NULL for a NULL handle. */
+/** The device's name, of a group that of the first; owned by the handle. NULL for a NULL handle. */
 POWERCELL_API const char* pc_device_name(const pc_device* device);
-/** What the device is; lasts as long as the handle. */
+/** What the device is, of a group the first; lasts as long as the handle. */
 POWERCELL_API pc_status pc_device_info_view(const pc_device* device, const pc_device_info** info);
-/** Seconds spent on compiling kernels since the device was opened; 0 if all came from the cache. */
+/** Seconds spent on compiling kernels since the device was opened; 0 if all came from the cache. The sum of a
+ * group. */
 POWERCELL_API pc_status pc_device_build_seconds(const pc_device* device, double* seconds);
 
 /** Compilation of kernels in this process, on all devices and in all threads. Any pointer may be NULL.

@@ -1,0 +1,136 @@
+#include "lib/diagram/chunk_pipeline.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "lib/diagram/stopwatch.hpp"
+
+namespace powercell {
+
+ChunkPipeline::ChunkPipeline(std::deque<ClipDevice>& devices, const Plan& plan, Sharing& sharing,
+                             std::size_t chunks)
+    : devices_(devices), plan_(plan), sharing_(sharing) {
+  for (ClipDevice& device : devices_) {
+    Lane& lane = lanes_.emplace_back();
+    for (std::size_t k = 0; k < chunks; ++k) lane.slots.push_back({&device.chunks()[k]});
+  }
+}
+
+ChunkPipeline::~ChunkPipeline() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stopped_ = true;
+  }
+  changed_.notify_all();
+  for (Lane& lane : lanes_)
+    if (lane.thread.joinable()) lane.thread.join();
+}
+
+bool ChunkPipeline::start() {
+  bool any = false;
+  for (std::size_t k = 0; k < lanes_.size(); ++k) {
+    try {
+      lanes_[k].thread = std::thread([this, k] { run(k); });
+      any = true;
+    } catch (const std::system_error&) {
+      // The system refuses another thread: the other devices clip this one's share.
+    }
+  }
+  return any;
+}
+
+void ChunkPipeline::run(std::size_t device) noexcept {
+  try {
+    devices_[device].prepare();
+    while (Slot* const slot = take(device)) clip(device, *slot);
+  } catch (...) {
+    const std::scoped_lock lock(mutex_);
+    if (!failure_) failure_ = std::current_exception();
+    stopped_ = true;
+  }
+  changed_.notify_all();
+}
+
+ChunkPipeline::Slot* ChunkPipeline::usable(Lane& lane) {
+  const auto is_free = [](const Slot& slot) { return slot.stage == Stage::free; };
+  if (lane.one_at_a_time && !std::all_of(lane.slots.begin(), lane.slots.end(), is_free)) return nullptr;
+  const auto found = std::find_if(lane.slots.begin(), lane.slots.end(), is_free);
+  return found == lane.slots.end() ? nullptr : &*found;
+}
+
+ChunkPipeline::Slot* ChunkPipeline::take(std::size_t device) {
+  std::unique_lock lock(mutex_);
+  Slot* slot = nullptr;
+  changed_.wait(lock, [&] { return stopped_ || (slot = usable(lanes_[device])) != nullptr; });
+  if (stopped_) return nullptr;
+  const Sharing::Range range = sharing_.take(device);
+  if (range.empty()) return nullptr;
+  slot->stage = Stage::taken;
+  slot->chunk->begin = range.begin;
+  slot->chunk->end = range.end;
+  return slot;
+}
+
+void ChunkPipeline::clip(std::size_t device, Slot& slot) {
+  ClipChunk& chunk = *slot.chunk;
+  chunk.set_pairs(plan_, chunk.begin, chunk.end);
+  const Stopwatch watch(devices_[device].device());
+  bool is_clipped = true;
+  try {
+    devices_[device].clip(chunk);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::out_of_device_memory) throw;
+    is_clipped = false;
+  }
+  {
+    const std::scoped_lock lock(mutex_);
+    if (is_clipped)
+      sharing_.took(device, chunk.end - chunk.begin, watch.seconds());
+    else
+      lanes_[device].one_at_a_time = true;
+    slot.is_clipped = is_clipped;
+    slot.stage = Stage::done;
+  }
+  changed_.notify_all();
+}
+
+ChunkPipeline::Done ChunkPipeline::wait_for(std::uint64_t begin) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (failure_) std::rethrow_exception(failure_);
+    for (std::size_t k = 0; k < lanes_.size(); ++k)
+      for (const Slot& slot : lanes_[k].slots)
+        if (slot.stage == Stage::done && slot.chunk->begin == begin) return {k, slot.chunk, slot.is_clipped};
+    changed_.wait(lock);
+  }
+}
+
+void ChunkPipeline::release(const Done& done) {
+  {
+    const std::scoped_lock lock(mutex_);
+    for (Slot& slot : lanes_[done.device].slots)
+      if (slot.chunk == done.chunk) slot.stage = Stage::free;
+  }
+  changed_.notify_all();
+}
+
+void ChunkPipeline::take_over(const Done& done) {
+  std::unique_lock lock(mutex_);
+  Lane& lane = lanes_[done.device];
+  lane.one_at_a_time = true;
+  changed_.wait(lock, [&] {
+    return std::none_of(lane.slots.begin(), lane.slots.end(),
+                        [](const Slot& slot) { return slot.stage == Stage::taken; });
+  });
+  for (Slot& slot : lane.slots) {
+    slot.is_clipped = false;
+    devices_[done.device].free_memory(*slot.chunk);
+  }
+}
+
+void ChunkPipeline::limit(std::size_t device, std::uint64_t most) {
+  const std::scoped_lock lock(mutex_);
+  sharing_.limit(device, most);
+}
+
+}  // namespace powercell

@@ -1,0 +1,79 @@
+/// \file
+/// Devices clip chunks, each in a thread of its own, while the caller completes them in order. Internal.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "lib/diagram/clip_device.hpp"
+#include "lib/diagram/sharing.hpp"
+
+namespace powercell {
+
+class ChunkPipeline {
+ public:
+  /// A chunk that a device has done with.
+  struct Done {
+    std::size_t device;  ///< its number
+    ClipChunk* chunk;
+    bool is_clipped;  ///< false where the device ran out of memory
+  };
+
+  /// Devices, plan and sharing must outlive this. \param chunks  that a device has at a time: 1 or 2
+  ChunkPipeline(std::deque<ClipDevice>& devices, const Plan& plan, Sharing& sharing, std::size_t chunks);
+  ChunkPipeline(const ChunkPipeline&) = delete;
+  ChunkPipeline& operator=(const ChunkPipeline&) = delete;
+  /// Waits until the devices have ended what they do now.
+  ~ChunkPipeline();
+
+  /// Starts the threads, as many as the system gives. \return false if there is none
+  bool start();
+  /// Waits for the chunk that begins with a pair, the one after that of the call before.
+  /// \throw what a device's thread has thrown, whatever its chunk
+  Done wait_for(std::uint64_t begin);
+  /// The device may use the chunk again.
+  void release(const Done& done);
+  /// Stops the device of a chunk, and frees the memory of all its chunks: those that were clipped already
+  /// become such that ran out of memory. Until release() the device is the caller's, and has one chunk at a
+  /// time from then on.
+  void take_over(const Done& done);
+  /// Chunks of a device have at most so many pairs from now on.
+  void limit(std::size_t device, std::uint64_t most);
+
+ private:
+  enum class Stage { free, taken, done };
+  struct Slot {
+    ClipChunk* chunk = nullptr;
+    Stage stage = Stage::free;
+    bool is_clipped = false;
+  };
+  struct Lane {
+    std::vector<Slot> slots;
+    bool one_at_a_time = false;
+    std::thread thread;
+  };
+
+  /// The thread of a device.
+  void run(std::size_t device) noexcept;
+  /// Takes a range into a free chunk; waits for one. \return null if there is nothing more to do
+  Slot* take(std::size_t device);
+  static Slot* usable(Lane& lane);
+  void clip(std::size_t device, Slot& slot);
+
+  std::deque<ClipDevice>& devices_;
+  const Plan& plan_;
+  Sharing& sharing_;
+  std::deque<Lane> lanes_;
+  std::mutex mutex_;  // guards what follows, slots, lanes and the sharing
+  std::condition_variable changed_;
+  bool stopped_ = false;
+  std::exception_ptr failure_;
+};
+
+}  // namespace powercell

@@ -1,0 +1,68 @@
+/// \file
+/// One of the devices that clip the pairs of a pass. Internal.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <powercell/device.hpp>
+
+#include "lib/cl/quirks.hpp"
+#include "lib/diagram/clip_chunk.hpp"
+#include "lib/diagram/device_errors.hpp"
+
+namespace powercell {
+
+/// What clipping is the same on all devices.
+struct ClipWork {
+  const Setup& setup;
+  const Active& active;
+  int outputs = 0;  ///< of clippers
+  ClipOptions options = {};
+};
+
+class ClipDevice {
+ public:
+  /// The first device of a group, or the only one.
+  /// \param kept  memory from earlier passes; gets it back by keep_memory()
+  ClipDevice(const ClipWork& work, const Device& device, DeviceWorkspace& kept, Candidates& candidates);
+  /// A further device, to be prepared.
+  /// \param first  the candidates on the first device
+  /// \param copy   those on this one: null before they are made
+  ClipDevice(const ClipWork& work, const Device& device, DeviceWorkspace& kept, const Candidates& first,
+             std::unique_ptr<Candidates>& copy);
+
+  /// On a further device uploads the seeds, makes the candidates and compiles, where that was not done
+  /// before. \throw Error opencl, out_of_device_memory, build_failed, self_test_failed
+  void prepare();
+  /// Clips a chunk, one of chunks(), on the device. \throw as prepare(); internal
+  void clip(ClipChunk& chunk);
+  /// Frees the memory of a chunk that is not in use.
+  void free_memory(ClipChunk& chunk);
+  /// Leaves small memory to the next pass.
+  void keep_memory();
+  /// Calls `body`, which uses the device. Of a group, errors of the device name it.
+  template <class Body>
+  void use(const Body& body) const {
+    const auto lock = cl::call_alone(device_.info());
+    on_device(work_.setup, device_, body);
+  }
+
+  /// Of which the device clips one while the host completes the other.
+  std::array<ClipChunk, 2>& chunks() { return chunks_; }
+  const Device& device() const { return device_; }
+  const Candidates& candidates() const { return *candidates_; }
+
+ private:
+  Scene scene() const;
+  Clipper make_clipper(std::size_t chunk);
+
+  const ClipWork work_;
+  const Device device_;
+  DeviceWorkspace& kept_;
+  const Candidates* first_ = nullptr;
+  std::unique_ptr<Candidates>* copy_ = nullptr;
+  Candidates* candidates_;  // null before a further device is prepared
+  std::array<ClipChunk, 2> chunks_;
+};
+
+}  // namespace powercell

@@ -1,0 +1,1 @@
+target_link_libraries(test_devices PRIVATE powercell_opencl_shim)
