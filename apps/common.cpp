@@ -25,9 +25,11 @@ void add_device_option(CLI::App& command, CommonOptions& options, const std::str
   command
       .add_option("--device", options.device,
                   (preface.empty() ? "Part" : preface + "part") +
-                      " of a device's name, its number P:D, cpu or gpu (see 'powercell devices')")
+                      " of a device's name, its number P:D, cpu or gpu (see 'powercell devices'); several "
+                      "with commas "
+                      "between, or all, share the work")
       ->type_name("DEVICE")
-      ->check(known_words({"cpu", "gpu"}))
+      ->check(known_words({"cpu", "gpu", "all"}))
       ->default_str("POWERCELL_DEVICE, else the best GPU, else the CPU");
 }
 
@@ -98,6 +100,21 @@ Device open_device(const CommonOptions& options) {
   std::optional<Device> device;
   compute([&] { device = Device::choose(options.device); });
   return *device;
+}
+
+Device open_single_device(const CommonOptions& options) {
+  Device device = open_device(options);
+  if (const std::size_t count = device.members().size(); count > 1)
+    throw Error(
+        ErrorCode::unsupported,
+        fmt::format("this command is for one device, and --device or POWERCELL_DEVICE names {}", count));
+  return device;
+}
+
+std::string device_name(const Device& device) {
+  std::vector<std::string> names;
+  for (const Device& member : device.members()) names.push_back(member.info().name);
+  return fmt::format("{}", fmt::join(names, " + "));
 }
 
 const char* precision_name(Precision precision) {

@@ -61,6 +61,10 @@ Options library_options(const CommonOptions& options, Progress& progress);
 void limit_threads(const CommonOptions& options);
 /// Opens the device of --device with the threads of --threads, interruptibly (see interrupt.hpp).
 Device open_device(const CommonOptions& options);
+/// \throw Error unsupported if the options name a group
+Device open_single_device(const CommonOptions& options);
+/// Of a group, all names.
+std::string device_name(const Device& device);
 
 const char* precision_name(Precision precision);  ///< "double" or "float"
 const char* neighbors_name(Neighbors neighbors);  ///< "tree" or "flann"

@@ -38,7 +38,7 @@ RunReport report_of(Diagram& diagram) {
   report.measure = measures.total();
   report.domain_measure = measures.domain_measure;
   report.relative_error = measures.relative_error();
-  report.device = diagram.device().info().name;
+  report.device = device_name(diagram.device());
   report.precision = precision_name(diagram.precision());
   report.neighbors = neighbors_name(diagram.neighbors());
   report.timings = diagram.timings();

@@ -86,7 +86,7 @@ json as_json(const TuneRecord& record, const std::string& file, bool written) {
 }
 
 int reset(const TuneArguments& arguments) {
-  const DeviceInfo device = open_device(arguments).info();
+  const DeviceInfo device = open_single_device(arguments).info();
   const std::string file = settings_file(device);
   const bool removed = remove_settings(device);
   if (arguments.json)

@@ -185,7 +185,7 @@ int run(const VerifyArguments& arguments) {
   std::optional<Inputs> inputs;
   if (!arguments.domain.empty()) inputs = read_inputs(arguments);
   progress.begin(stage::opening);
-  const Device device = open_device(arguments);
+  const Device device = open_single_device(arguments);
   progress.begin(checking);
   return conclude(
       arguments, device.info().name,

@@ -61,14 +61,22 @@ CommonOptions on_device(const BenchArguments& arguments, const std::string& sele
   return options;
 }
 
-// The devices of --device, else that of POWERCELL_DEVICE, else all.
+// Each device of a group is measured alone.
+void add_members(const Device& device, std::vector<DeviceInfo>& found) {
+  for (const Device& member : device.members()) found.push_back(member.info());
+}
+
+// The devices of --device, else those of POWERCELL_DEVICE, else all.
 std::vector<DeviceInfo> find_devices(const BenchArguments& arguments) {
   std::vector<DeviceInfo> found;
   for (const std::string& selector : arguments.devices)
-    found.push_back(open_device(on_device(arguments, selector)).info());
+    add_members(open_device(on_device(arguments, selector)), found);
   if (!found.empty()) return found;
   const char* named = std::getenv("POWERCELL_DEVICE");
-  if (named && *named) return {open_device(arguments).info()};
+  if (named && *named) {
+    add_members(open_device(arguments), found);
+    return found;
+  }
   limit_threads(arguments);
   found = devices();
   if (found.empty()) open_device(arguments);  // throws an error with advice

@@ -29,7 +29,7 @@ class Tuner {
  public:
   Tuner(const TuneArguments& arguments, const std::function<void(const TuneStep&)>& said)
       : arguments_(arguments), said_(said), progress_({{"measuring", 1}}, arguments.silent()) {
-    const Device device = open_device(arguments);
+    const Device device = open_single_device(arguments);
     record_.device = device.info();
     record_.defaults = default_settings(record_.device);
     // What is not measured stays as it was.

@@ -54,6 +54,30 @@ class Devices(ToolTest):
             report = self.report("diagram", "--domain", "square", "--seeds", "random:10", "--device", selector)
             self.assertEqual(report["device"], device["name"])
 
+    def test_a_group_of_devices_gives_the_table_of_one(self):
+        env = {"POCL_DEVICES": "basic pthread"}  # where the driver is PoCL
+        devices = self.report("devices", env=env)["devices"]
+        names = [device["device"] for device in devices]
+        arguments = ("diagram", "--domain", "cube", "--seeds", "random:30000", "--table")
+        self.good(*arguments, "one.csv", "--device", names[-1], env=env)
+        report = self.report(*arguments, "all.csv", "--device", "all", env=env)
+        self.assertEqual(set(report["device"].split(" + ")), {device["name"] for device in devices})
+        self.good(*arguments, "list.csv", env={**env, "POWERCELL_DEVICE": ",".join(names)})
+        if len({device["name"] for device in devices if device["name"].startswith(("basic", "pthread"))}) == len(devices):
+            one = (self.folder / "one.csv").read_bytes()
+            for table in ("all.csv", "list.csv"):
+                self.assertEqual((self.folder / table).read_bytes(), one)
+
+    def test_groups_that_cannot_be_are_refused(self):
+        name = self.report("devices")["devices"][0]["device"]
+        arguments = ("diagram", "--domain", "square", "--seeds", "random:10", "--device")
+        self.bad(1, f"{name} .* is named twice", *arguments, f"{name},{name}")
+        self.bad(1, "empty name", *arguments, f"{name},")
+        env = {"POCL_DEVICES": "basic pthread"}
+        if len(self.report("devices", env=env)["devices"]) > 1:
+            for command in ("verify", "tune"):
+                self.bad(1, "for one device", command, "--device", "all", env=env)
+
     def test_unknown_device_lists_the_known_ones(self):
         name = self.report("devices")["devices"][0]["name"]
         arguments = ("diagram", "--domain", "square", "--seeds", "random:10")
