@@ -167,8 +167,10 @@ Command add_diagram(CLI::App& app) {
   add_inputs(*command, *arguments, true);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   add_picture_options(*command, arguments->picture, "-o");
-  command->add_option("--table", arguments->table, "CSV with one row for each seed")
-      ->type_name("FILE.csv")
+  command
+      ->add_option("--table", arguments->table,
+                   "CSV with one row for each seed, or an array of NumPy with its results")
+      ->type_name("FILE.csv|FILE.npy")
       ->default_str("none");
   command
       ->add_option("--walls", arguments->walls,
@@ -197,10 +199,9 @@ Command add_diagram(CLI::App& app) {
           "--memory", arguments->memory,
           "Compute piece after piece in files, within so much memory, as in 4G: for --table and --walls "
           "of seeds in an .npy, text or CSV of any size. What is finished is kept in a folder beside the "
-          "file, and "
-          "the same command goes on with it. In .npy instead of .csv, a table is an array with a field "
-          "for each column, and walls are compressed sparse rows in .indptr.npy, .indices.npy, .data.npy")
-      ->transform(CLI::AsSizeValue(false))
+          "file, and the same command goes on with it. With .npy instead of .csv, walls are compressed "
+          "sparse rows in three arrays")
+      ->transform(CLI::AsSizeValue(false).description(""))
       ->type_name("SIZE")
       ->default_str("all in memory");
   command

@@ -190,7 +190,7 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
                           }};
   run.seeds = run.selected = seeds.count();
   run.precision = precision_name(Precision::float64);
-  run.neighbors = neighbors_name(Neighbors::tree);
+  run.neighbors = neighbors_name(options.diagram.neighbors);
   run.device = device.info().name;
   Files files(arguments, seeds, domain.dimension(), run);
   OutOfCoreReport report;
