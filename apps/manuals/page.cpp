@@ -152,7 +152,8 @@ std::string manual_page(const CLI::App& app, const CLI::App& command, const std:
   std::string called = app.get_name();
   if (&command != &app) called += " " + command.get_name();
   std::string page = fmt::format(
-      ".\\\" Written from the options of the tool.\n.TH {} 1 \"{}\" \"powercell {}\" \"User Commands\"\n",
+      ".\\\" Written from the options of the tool.\n.TH {} 1 \"{}\" \"powercell {}\" \"User Commands\"\n"
+      ".ad l\n.nh\n",  // words are not broken at hyphens: names would be copied with them
       troff(upper_case(name)), date, version());
   page += ".SH NAME\n" + troff(name) + " \\- " + troff(command.get_description()) + "\n";
   page += ".SH SYNOPSIS\n\\fB" + troff(called) + "\\fR";
