@@ -4,13 +4,13 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <powercell/distributed.hpp>
 #include <powercell/mpi.hpp>
 
 #include "bench/against_cgal.hpp"
+#include "bench/clocks.hpp"
 #include "tests/support/shares.hpp"
 
 using namespace powercell;
@@ -26,10 +26,6 @@ struct Work {
   int dimension;
   bool redistribute;
 };
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 template <class T>
 Communicator::Message message_of(const std::vector<T>& values) {
@@ -63,10 +59,10 @@ bool run(Communicator& communicator, const Device& device, const Work& work) {
   const exchange::ShardSeeds own = shares.view()[rank];
   const std::vector<double> low(static_cast<std::size_t>(work.dimension), low_side),
       high(static_cast<std::size_t>(work.dimension), high_side);
-  const double start = seconds();
+  const double start = wall_seconds();
   const DistributedCells cells = compute_distributed(communicator, device, Domain::box(low, high), own.ids,
                                                      own.seeds, {{}, work.redistribute});
-  const double spent = seconds() - start;
+  const double spent = wall_seconds() - start;
   const auto status = on_first_rank(communicator, cells.measures.status);
   const auto offset = on_first_rank(communicator, cells.offset),
              neighbor = on_first_rank(communicator, cells.neighbor);

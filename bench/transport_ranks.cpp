@@ -4,16 +4,17 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <powercell/distributed_transport.hpp>
 #include <powercell/mpi.hpp>
 #include <powercell/petsc.hpp>
 
+#include "bench/clocks.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/shares.hpp"
 
 using namespace powercell;
+using namespace powercell::bench;
 using namespace powercell::test;
 
 namespace {
@@ -25,20 +26,6 @@ struct Work {
   bool one_process = false;
   double linear_residual = 1e-4;
 };
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Of this process, so far.
-double processor_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  const auto of = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return of(used.ru_utime) + of(used.ru_stime);
-}
 
 double megabytes() {
   rusage used{};
@@ -73,7 +60,7 @@ bool run(const Work& work) {
       return true;
     };
   const Shares shares = along_curve(seeds, ranks);
-  const double start = seconds(), used = processor_seconds();
+  const double start = wall_seconds(), used = processor_seconds();
   const TransportResult found =
       work.one_process ? transport(device, domain, seeds.view(), {}, options.transport)
                        : transport_distributed(communicator, solver, device, domain,
@@ -87,7 +74,7 @@ bool run(const Work& work) {
         "processor s, "
         "%.0f MB in all\n",
         work.n, work.dimension, ranks, found.converged ? "converged" : "NOT CONVERGED", found.error,
-        found.newton_steps(), found.diagrams, seconds() - start, sums[0], sums[1]);
+        found.newton_steps(), found.diagrams, wall_seconds() - start, sums[0], sums[1]);
   return found.converged;
 }
 
