@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -43,9 +44,21 @@ class OutsideCount {
                               "give --allow-outside",
                               with_commas(outside_), with_commas(seeds_)));
   }
-  std::uint64_t outside() const { return outside_; }
+  /// Reads the seeds that were not read, because this run goes on with what an earlier one has sorted.
+  std::uint64_t outside(io::SeedStream& seeds) {
+    std::vector<double> positions, weights;
+    for (; next_ < seeds_; next_ += weights.size()) {
+      weights.resize(std::min<std::uint64_t>(seeds_at_once, seeds_ - next_));
+      positions.resize(weights.size() * box_.dimension);
+      seeds.read(next_, positions, weights);
+      outside_ += io::count_outside(box_, positions);
+    }
+    return outside_;
+  }
 
  private:
+  static constexpr std::size_t seeds_at_once = std::size_t{1} << 16;
+
   io::SeedBox box_;
   std::uint64_t seeds_, outside_ = 0, next_ = 0;
   bool allowed_;
@@ -210,7 +223,7 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
   run.cells = report.cells;
   run.hidden = report.hidden;
   run.duplicate = report.duplicate;
-  run.outside = outside.outside();
+  run.outside = outside.outside(seeds);
   run.timings.total = report.sort + report.compute + report.gather;
   if (!arguments.table.empty()) run.files.push_back(arguments.table);
   if (!arguments.walls.empty())
