@@ -3,14 +3,10 @@
 /// PETSc nor MPI. CMake: find_package(powercell COMPONENTS petsc) has powercell::petsc.
 #pragma once
 
-// Of the C++ bindings, which MPI 3 has removed, some headers still have remains that cause warnings.
-#ifndef OMPI_SKIP_MPICXX
-#define OMPI_SKIP_MPICXX 1
-#endif
-#ifndef MPICH_SKIP_MPICXX
-#define MPICH_SKIP_MPICXX 1
-#endif
+// First, because it has MPI without the remains of the C++ bindings, which PETSc would include too.
 #include <petscksp.h>
+
+#include <powercell/mpi.hpp>
 
 #ifndef PETSC_HAVE_HYPRE
 #error "powercell/petsc.hpp needs a PETSc that was built with hypre, as Debian's is"
