@@ -1,8 +1,6 @@
 // mpirun -n 7 campaign_ranks --n 1000000: diagrams of seeds on ranks of MPI against CGAL's regular
 // triangulation of all of them. Neighbours and hidden seeds must be the same, without a tolerance. The first
 // rank prints a line for each combination; the program exits 1 on any difference.
-#include <mpi.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +9,7 @@
 
 #include "bench/against_cgal.hpp"
 #include "bench/clocks.hpp"
+#include "bench/mpi_program.hpp"
 #include "tests/support/shares.hpp"
 
 using namespace powercell;
@@ -106,12 +105,6 @@ int run_all(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  MPI_Init(&argc, &argv);
-  const int status = run_all(argc, argv);
-  MPI_Finalize();
-  return status;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "campaign_ranks: %s\n", error.what());
-  MPI_Abort(MPI_COMM_WORLD, 2);
+int main(int argc, char** argv) {
+  return mpi_program("campaign_ranks", argc, argv, run_all);
 }

@@ -1,8 +1,6 @@
 // mpirun -n 4 rank_times --n 1000000: the processor time of a diagram on ranks of MPI beside that of one
 // diagram of all seeds. MPI waits by asking again and again, so what its calls take is counted apart. The
 // first rank prints a row a distribution and range of weights, with the least of --repeat times of each.
-#include <mpi.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -12,6 +10,7 @@
 #include <powercell/mpi.hpp>
 
 #include "bench/clocks.hpp"
+#include "bench/mpi_program.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/shares.hpp"
 
@@ -112,12 +111,6 @@ int run_all(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  MPI_Init(&argc, &argv);
-  const int status = run_all(argc, argv);
-  MPI_Finalize();
-  return status;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "rank_times: %s\n", error.what());
-  MPI_Abort(MPI_COMM_WORLD, 2);
+int main(int argc, char** argv) {
+  return mpi_program("rank_times", argc, argv, run_all);
 }
