@@ -135,9 +135,8 @@ Examples:
 void add_options(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--device", arguments.devices,
-                  "Part of a device's name, its number P:D, cpu or gpu; may be repeated, and of a list with "
-                  "commas, or "
-                  "all, each is measured alone")
+                  "Part of a device's name, its number P:D, cpu or gpu; may be repeated; of a list with "
+                  "commas, or all, each is measured alone")
       ->type_name("DEVICE")
       ->check(known_words({"cpu", "gpu", "all"}))
       ->default_str("POWERCELL_DEVICE, else every device")

@@ -26,8 +26,7 @@ void add_device_option(CLI::App& command, CommonOptions& options, const std::str
       .add_option("--device", options.device,
                   (preface.empty() ? "Part" : preface + "part") +
                       " of a device's name, its number P:D, cpu or gpu (see 'powercell devices'); several "
-                      "with commas "
-                      "between, or all, share the work")
+                      "with commas between, or all, share the work")
       ->type_name("DEVICE")
       ->check(known_words({"cpu", "gpu", "all"}))
       ->default_str("POWERCELL_DEVICE, else the best GPU, else the CPU");

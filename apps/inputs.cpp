@@ -254,8 +254,7 @@ io::LoadedDomain read_plane_domain(const InputArguments& arguments,
   if (place.frame.plane || place.seeds)
     throw WrongUsage(
         "--memory computes in the coordinates of the files, but seeds or domain would be projected; save "
-        "both "
-        "in a plane, or give --no-project");
+        "both in a plane, or give --no-project");
   io::LoadedDomain domain = io::load_domain(std::move(arrays), arguments.domain);
   notes.push_back(domain.description);
   notes.insert(notes.end(), place.notes.begin(), place.notes.end());

@@ -71,8 +71,7 @@ bool run(const Work& work) {
   if (rank == 0)
     std::printf(
         "%zu seeds in %dD on %zu ranks: %s, error %.2e, %zu Newton steps, %zu diagrams, %.1f s, %.1f "
-        "processor s, "
-        "%.0f MB in all\n",
+        "processor s, %.0f MB in all\n",
         work.n, work.dimension, ranks, found.converged ? "converged" : "NOT CONVERGED", found.error,
         found.newton_steps(), found.diagrams, wall_seconds() - start, sums[0], sums[1]);
   return found.converged;

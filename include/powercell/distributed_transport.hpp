@@ -61,9 +61,8 @@ struct DistributedTransportOptions {
 ///
 /// To solve again for seeds that moved, from p to p', give them the weights w - |p' - p|² of the last result.
 /// \param solver  over the same ranks; used within the call
-/// \param seeds   of this rank, of the domain's dimension also where there are none; their weights are those
-/// to
-///                start from, 0 without
+/// \param seeds   of this rank, of the domain's dimension also where there are none; the solve starts from
+///                their weights, or from 0 without
 /// \param masses  as many; or none on all ranks, for equal masses
 /// \return arrays of the seeds of this rank, numbers of all, the same on all ranks. Of seeds at one position
 ///         the first by number has the cell and the mass of all of them, and all have its weight;

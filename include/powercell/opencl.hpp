@@ -96,8 +96,7 @@ class POWERCELL_API DeviceDiagram {
   ///   the most pairs of one kernel launch; `threads` and `progress` are those of repair(); `decisions` and
   ///   `certify` are ignored
   /// \throw Error no_fp64; unsupported (a group of devices; Neighbors::flann, which works on the host; a
-  /// domain whose size is not
-  ///   in the range of the precision); build_failed, opencl
+  ///   domain whose size is not in the range of the precision); build_failed, opencl
   DeviceDiagram(Device device, Domain domain, Options options = {});
   DeviceDiagram(DeviceDiagram&&) noexcept;
   DeviceDiagram& operator=(DeviceDiagram&&) noexcept;

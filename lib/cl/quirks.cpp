@@ -101,8 +101,8 @@ constexpr Row table[] = {
      }},
 
     // The devices of PoCL that run commands in the thread that enqueues them (POCL_DEVICES=basic) lock an
-    // event
-    // of another thread's command while that thread waits for theirs: PoCL 3.1, tests/devices/same_bits.cpp.
+    // event of another thread's command while that thread waits for theirs: PoCL 3.1,
+    // tests/devices/same_bits.cpp.
     {is_basic_pocl, [](Quirks& quirks, const DeviceInfo&) { quirks.one_thread = true; }},
 };
 
