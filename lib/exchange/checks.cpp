@@ -57,13 +57,13 @@ std::vector<Twice> lowest_twice(const Post::Letters& letters) {
   return {{twice->first, shard(*twice), shard(*(twice + 1))}};
 }
 
-/// Each id goes to a shard that depends on the id alone, so that equal ones meet there.
+/// Equal ids go to the same shard.
 void require_once(std::span<const ShardSeeds> here, Post& post) {
-  const auto count = static_cast<std::uint64_t>(post.shards());
   std::vector<Post::Letters> letters(here.size());
   for (std::size_t s = 0; s < here.size(); ++s) {
-    std::vector<std::vector<std::uint64_t>> to(count);
-    for (const std::uint64_t id : here[s].ids) to[mixed_bits(id) % count].push_back(id);
+    std::vector<std::vector<std::uint64_t>> to(static_cast<std::size_t>(post.shards()));
+    for (const std::uint64_t id : here[s].ids)
+      to[static_cast<std::size_t>(meeting_shard(id, post.shards()))].push_back(id);
     for (std::size_t t = 0; t < to.size(); ++t)
       if (!to[t].empty()) letters[s][static_cast<int>(t)] = packed(to[t]);
   }
@@ -109,6 +109,10 @@ void require_no_fault(const Setup& setup, std::span<const ShardSeeds> here, Post
 }
 
 }  // namespace
+
+int meeting_shard(std::uint64_t id, int shards) {
+  return static_cast<int>(mixed_bits(id) % static_cast<std::uint64_t>(shards));
+}
 
 void require_supported(const Domain& domain, const Options& options, const std::string& what) {
   if (domain.kind() == DomainKind::surface || domain.is_solid() || domain.is_periodic())

@@ -20,6 +20,9 @@ struct ShardSeeds {
   SeedsView seeds;
 };
 
+/// Where those meet who know of a seed: it depends on the id alone.
+int meeting_shard(std::uint64_t id, int shards);
+
 /// \param what  needs what is required, for the message \throw Error unsupported
 void require_supported(const Domain& domain, const Options& options,
                        const std::string& what = "distributed seeds");
