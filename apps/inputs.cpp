@@ -244,7 +244,7 @@ Inputs read_inputs(const InputArguments& arguments) {
   return inputs;
 }
 
-io::LoadedDomain read_plane_domain(const InputArguments& arguments,
+io::LoadedDomain read_plane_domain(const InputArguments& arguments, const std::string& way,
                                    const std::function<io::SeedColumns(int dimension)>& columns,
                                    std::vector<std::string>& notes) {
   io::DomainArrays arrays = read_arrays(arguments);
@@ -253,7 +253,8 @@ io::LoadedDomain read_plane_domain(const InputArguments& arguments,
       georeference(arguments, arguments.domain, arrays, columns(arrays.kind == DomainKind::polygon ? 2 : 3));
   if (place.frame.plane || place.seeds)
     throw WrongUsage(
-        "--memory computes in the coordinates of the files, but seeds or domain would be projected; save "
+        way +
+        " computes in the coordinates of the files, but seeds or domain would be projected; save "
         "both in a plane, or give --no-project");
   io::LoadedDomain domain = io::load_domain(std::move(arrays), arguments.domain);
   notes.push_back(domain.description);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,15 +12,15 @@
 #include <span>
 #include <vector>
 
+#include "apps/cell_files.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/io/atomic_file.hpp"
-#include "apps/io/cell_writers.hpp"
 #include "apps/io/seed_stream.hpp"
 #include "apps/io/seeds_outside.hpp"
-#include "apps/io/write_npy.hpp"
 #include "apps/outputs.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
+#include "apps/seeds_outside.hpp"
 
 namespace powercell::app {
 namespace {
@@ -37,12 +36,7 @@ class OutsideCount {
     if (first != next_) return;  // read again
     outside_ += io::count_outside(box_, positions);
     next_ += positions.size() / box_.dimension;
-    const bool most = outside_ > 0 && (seeds_ - outside_) * 20 < seeds_;
-    if (next_ == seeds_ && most && !allowed_)
-      throw Error(ErrorCode::invalid_seed,
-                  fmt::format("{} of {} seeds lie outside the domain's box; if they are meant to lie there, "
-                              "give --allow-outside",
-                              with_commas(outside_), with_commas(seeds_)));
+    if (next_ == seeds_ && !allowed_) require_inside(outside_, seeds_);
   }
   /// Reads the seeds that were not read, because this run goes on with what an earlier one has sorted.
   std::uint64_t outside(io::SeedStream& seeds) {
@@ -64,69 +58,12 @@ class OutsideCount {
   bool allowed_;
 };
 
-/// Writes the files as cells come, and gives them their names with the last ones.
-class Files {
- public:
-  Files(const OutOfCoreArguments& arguments, io::SeedStream& seeds, int dimension, RunReport& report)
-      : arguments_(arguments), seeds_(seeds), dimension_(dimension), report_(report) {}
-
-  void take(const CellRows& rows) {
-    if (rows.first == 0) begin(rows.all_walls);
-    const std::size_t count = rows.measures.mass.size();
-    if (!arguments_.table.empty() && !io::is_npy(arguments_.table)) {  // which repeats them
-      positions_.resize(count * static_cast<std::size_t>(dimension_));
-      weights_.resize(count);
-      seeds_.read(rows.first, positions_, weights_);
-    }
-    for (const std::unique_ptr<io::CellWriter>& writer : writers_)
-      writer->add({rows.first,
-                   {dimension_, positions_, weights_},
-                   rows.measures,
-                   rows.offset,
-                   rows.neighbor,
-                   rows.wall});
-    report_.measure += rows.measures.total();
-    if (rows.first + count == seeds_.count()) end(rows.measures.domain_measure);
-  }
-  /// If there are no cells.
-  void finish(double domain_measure) {
-    if (seeds_.count() > 0) return;
-    begin(0);
-    end(domain_measure);
-  }
-
- private:
-  void begin(std::uint64_t walls) {
-    if (!arguments_.table.empty())
-      writers_.push_back(io::table_writer(arguments_.table, dimension_, seeds_.count()));
-    if (!arguments_.walls.empty())
-      writers_.push_back(io::walls_writer(arguments_.walls, seeds_.count(), walls));
-  }
-
-  void end(double domain_measure) {
-    seeds_.require_unchanged();
-    report_.domain_measure = domain_measure;
-    if (domain_measure > 0)
-      report_.relative_error = std::abs(report_.measure - domain_measure) / domain_measure;
-    require_partition(report_);
-    for (const std::unique_ptr<io::CellWriter>& writer : writers_) writer->commit();
-  }
-
-  const OutOfCoreArguments& arguments_;
-  io::SeedStream& seeds_;
-  int dimension_;
-  RunReport& report_;
-  std::vector<double> positions_, weights_;  // of some seeds
-  std::vector<std::unique_ptr<io::CellWriter>> writers_;
-};
-
 void check(const OutOfCoreArguments& arguments) {
   if (arguments.table.empty() && arguments.walls.empty())
     throw WrongUsage("--memory needs --table or --walls, or nothing would be written");
   if (!arguments.inputs.scale_weights.empty())
     throw WrongUsage("--scale-weights does not go with --memory; multiply the weights in the file");
-  std::vector<std::string> files = io::walls_files(arguments.walls);
-  files.push_back(arguments.table);
+  const std::vector<std::string> files = cell_file_names(arguments.table, arguments.walls);
   for (const std::string& file : files)
     if (io::is_standard_output(file))
       throw WrongUsage("--memory writes to files, which it can go on with; name one instead of '-'");
@@ -178,9 +115,10 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
   RunReport run;
   std::optional<io::SeedStream> opened;
   const auto open_seeds = [&](int dimension) {
-    return opened.emplace(arguments.inputs.seeds, dimension, arguments.inputs.columns).columns();
+    return opened.emplace(arguments.inputs.seeds, dimension, arguments.inputs.columns, "leave --memory out")
+        .columns();
   };
-  const io::LoadedDomain loaded = read_plane_domain(arguments.inputs, open_seeds, run.notes);
+  const io::LoadedDomain loaded = read_plane_domain(arguments.inputs, "--memory", open_seeds, run.notes);
   const Domain& domain = loaded.domain;
   print_notes(domain.notes(), arguments.inputs.domain, arguments.common, progress);
   io::SeedStream& seeds = *opened;
@@ -205,7 +143,7 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
   run.precision = precision_name(Precision::float64);
   run.neighbors = neighbors_name(options.diagram.neighbors);
   run.device = device.info().name;
-  Files files(arguments, seeds, domain.dimension(), run);
+  CellFiles files(arguments.table, arguments.walls, seeds, domain.dimension(), run);
   OutOfCoreReport report;
   try {
     compute([&] {
@@ -219,15 +157,13 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
         ErrorCode::interrupted,
         fmt::format("interrupted; the same command goes on with what is finished, in {}", options.folder));
   }
-  files.finish(domain.measure());
+  if (seeds.count() == 0) files.take_none(domain.measure());
   run.cells = report.cells;
   run.hidden = report.hidden;
   run.duplicate = report.duplicate;
   run.outside = outside.outside(seeds);
   run.timings.total = report.sort + report.compute + report.gather;
-  if (!arguments.table.empty()) run.files.push_back(arguments.table);
-  if (!arguments.walls.empty())
-    for (const std::string& file : io::walls_files(arguments.walls)) run.files.push_back(file);
+  run.files = cell_file_names(arguments.table, arguments.walls);
   progress.finish();
   describe_times(progress, run);
   print(arguments, run, report);

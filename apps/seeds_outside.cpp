@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <powercell/error.hpp>
 
 #include "apps/io/printable.hpp"
 #include "apps/io/read_fields.hpp"
@@ -92,6 +93,14 @@ std::optional<Miss> find_miss(const io::SeedBox& box, const std::vector<double>&
     if (!other.empty()) miss.message += "; " + other;
   }
   return miss;
+}
+
+void require_inside(std::uint64_t outside, std::uint64_t seeds) {
+  if (outside == 0 || (seeds - outside) * 20 >= seeds) return;
+  throw Error(ErrorCode::invalid_seed,
+              fmt::format("{} of {} seeds lie outside the domain's box; if they are meant to lie there, give "
+                          "--allow-outside",
+                          with_commas(outside), with_commas(seeds)));
 }
 
 }  // namespace powercell::app

@@ -2,6 +2,7 @@
 /// What the tool says of seeds that miss the domain, and the options that would bring them in.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,5 +22,9 @@ struct Miss {
 /// \param table  the seeds as they were read, in other coordinates if `transformed`
 std::optional<Miss> find_miss(const io::SeedBox& box, const std::vector<double>& positions,
                               const io::SeedTable& table, bool transformed);
+
+/// Of seeds that are not in memory together. \throw Error invalid_seed if fewer than one in twenty is in the
+/// box
+void require_inside(std::uint64_t outside, std::uint64_t seeds);
 
 }  // namespace powercell::app

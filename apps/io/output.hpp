@@ -2,9 +2,11 @@
 /// Writing a diagram in any format.
 #pragma once
 
+#include <cstdint>
 #include <powercell/domain.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,6 +14,13 @@
 #include "apps/io/picture_style.hpp"
 
 namespace powercell::io {
+
+/// Where there are cells of some seeds only, of these, row by row: their indices, by which borders name
+/// seeds, and the numbers that a file has for them. Empty if row k is of seed k.
+struct SelectedRows {
+  std::span<const std::uint32_t> seed;
+  std::span<const std::uint64_t> id;
+};
 
 /// A computed diagram of n seeds. Nothing is owned.
 struct DiagramOutput {
@@ -28,6 +37,7 @@ struct DiagramOutput {
   /// Whether a .vtu of a volume has one polyhedron for each cell in place of one for each convex piece.
   bool whole_cells = false;
   PictureStyle style = {};
+  SelectedRows rows = {};  ///< for a .vtu
 };
 
 /// Extensions that `write_output` accepts: ".svg .png ...".

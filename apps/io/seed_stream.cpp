@@ -12,27 +12,27 @@ namespace {
 constexpr std::uint64_t rows_at_once = std::uint64_t{1} << 16;
 
 /// \throw Error for what is not read some rows at a time
-const std::string& streamable(const std::string& path, const ColumnChoice& choice) {
+const std::string& streamable(const std::string& path, const ColumnChoice& choice,
+                              const std::string& otherwise) {
   if (is_random_spec(path))
     throw Error(ErrorCode::invalid_argument,
-                path + ": random seeds are made in memory; leave --memory out, or save seeds in a file");
+                path + ": random seeds are made in memory; " + otherwise + ", or save seeds in a file");
   const std::string extension = lower_extension(path);
   if (path == "-" || is_geopackage(path) || extension == ".geojson" || extension == ".json" ||
       extension == ".npz")
-    fail_file(path,
-              "is not read piece by piece, as an .npy or a CSV is; save its seeds so, or leave --memory out");
+    fail_file(path, "is not read piece by piece, as an .npy or a CSV is; save its seeds so, or " + otherwise);
   if (!choice.id.empty())
     throw Error(ErrorCode::invalid_argument,
-                path +
-                    ": ids are kept in memory; leave --id-column out and name seeds by their index, or leave "
-                    "--memory out");
+                path + ": ids are kept in memory; leave --id-column out and name seeds by their index, or " +
+                    otherwise);
   return path;
 }
 
 }  // namespace
 
-SeedStream::SeedStream(const std::string& path, int dimension, const ColumnChoice& choice)
-    : path_(streamable(path, choice)), dimension_(dimension), choice_(choice), file_(path) {
+SeedStream::SeedStream(const std::string& path, int dimension, const ColumnChoice& choice,
+                       const std::string& otherwise)
+    : path_(streamable(path, choice, otherwise)), dimension_(dimension), choice_(choice), file_(path) {
   for (const std::string& column :
        {choice.position[0], choice.position[1], choice.position[2], choice.weight, choice.radius})
     choice_name_ += ", " + column;

@@ -18,8 +18,10 @@ namespace powercell::io {
 /// Seeds of an .npy, or of text or CSV, some at a time. Text is read once to count its seeds.
 class SeedStream {
  public:
+  /// \param otherwise  what to do with other kinds of seeds, for the messages: "leave --memory out"
   /// \throw Error invalid_file, invalid_seed, invalid_argument (other kinds of seeds)
-  SeedStream(const std::string& path, int dimension, const ColumnChoice& choice);
+  SeedStream(const std::string& path, int dimension, const ColumnChoice& choice,
+             const std::string& otherwise);
 
   std::uint64_t count() const { return count_; }
   const SeedColumns& columns() const { return columns_; }  ///< of text

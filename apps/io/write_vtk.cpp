@@ -47,6 +47,16 @@ void write_figures(VtkFile& file, const DiagramOutput& output, const std::vector
   file.array("measure", view(measure));
 }
 
+void write_seed_numbers(VtkFile& file, const DiagramOutput& output, const std::vector<std::uint32_t>& seeds) {
+  if (output.rows.id.empty()) {
+    file.array("seed", view(seeds));
+    return;
+  }
+  std::vector<std::int64_t> ids;
+  for (const std::uint32_t seed : seeds) ids.push_back(static_cast<std::int64_t>(output.rows.id[seed]));
+  file.array("seed", view(ids));
+}
+
 /// The columns of numbers of the seeds' table, for the seeds of the elements. Text is left out: not every
 /// reader accepts arrays of strings.
 void write_kept(VtkFile& file, const DiagramOutput& output, const std::vector<std::uint32_t>& seeds) {
@@ -94,7 +104,7 @@ void write_vtu(const std::string& path, const DiagramOutput& output) {
   }
   file.close("Cells");
   file.open("CellData", "Scalars=\"seed\"");
-  file.array("seed", view(grid.seed));
+  write_seed_numbers(file, output, grid.seed);
   if (!output.whole_cells) file.array("region", view(grid.region));
   write_figures(file, output, grid.seed);
   if (!output.whole_cells) file.array("piece_measure", view(grid.size));

@@ -36,6 +36,14 @@ void VtkFile::close(std::string_view element) {
   file_.write(">\n");
 }
 
+void VtkFile::empty(std::string_view element, std::string_view attributes) {
+  file_.write('<');
+  file_.write(element);
+  file_.write(' ');
+  file_.write(attributes);
+  file_.write("/>\n");
+}
+
 // The format: a header of 64-bit integers (number of blocks, size of a block, size of the last block if it is
 // shorter, else 0, and the compressed size of each block), then the blocks; header and blocks are separate
 // base64 runs.

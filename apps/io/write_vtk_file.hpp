@@ -15,12 +15,14 @@ namespace powercell::io {
 /// (with VTK's raw appended data it would not be) and every reader of the format accepts it.
 class VtkFile {
  public:
-  /// \param type "UnstructuredGrid" or "PolyData"
+  /// \param type "UnstructuredGrid", "PolyData" or "PUnstructuredGrid"
   VtkFile(const std::string& path, std::string_view type);
 
   /// Opens an element. \param attributes  e.g. `NumberOfPoints="8"`, already escaped
   void open(std::string_view element, std::string_view attributes = {});
   void close(std::string_view element);
+  /// An element without content.
+  void empty(std::string_view element, std::string_view attributes);
 
   template <class T>
   void array(std::string_view name, std::span<const T> values, int components = 1) {

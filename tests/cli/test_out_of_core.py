@@ -4,39 +4,16 @@
 usage: test_out_of_core.py PATH_OF_POWERCELL [unittest options]
 """
 
-import ast
 import os
 import random
 import signal
-import struct
 import subprocess
 import time
 import unittest
 
-from tool import TOOL, ToolTest
+from tool import TOOL, ToolTest, npy, read_npy
 
 MEMORY = "290M"  # so little that 30,000 seeds are some pieces
-
-
-def npy(rows):
-    header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({len(rows)}, {len(rows[0]) if rows else 4}), }}"
-    header += " " * (-(len(header) + 11) % 64) + "\n"
-    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() +
-            b"".join(struct.pack(f"<{len(row)}d", *row) for row in rows))
-
-
-def read_npy(path):
-    """The rows of an array of one dimension."""
-    data = path.read_bytes()
-    size = struct.unpack_from("<H", data, 8)[0]
-    assert data[:8] == b"\x93NUMPY\x01\x00" and (10 + size) % 64 == 0
-    header = ast.literal_eval(data[10:10 + size].decode())
-    codes = {"|u1": "B", "<u4": "I", "<i4": "i", "<i8": "q", "<f8": "d"}
-    types = header["descr"]
-    form = "<" + "".join(codes[t] for _, t in types) if isinstance(types, list) else "<" + codes[types]
-    rows = list(struct.iter_unpack(form, data[10 + size:]))
-    assert (len(rows),) == header["shape"] and not header["fortran_order"]
-    return rows if isinstance(types, list) else [row[0] for row in rows]
 
 
 class OutOfCore(ToolTest):

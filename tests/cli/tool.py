@@ -3,6 +3,7 @@
 A script that imports this has the path of the tool as its first argument.
 """
 
+import ast
 import csv
 import dataclasses
 import json
@@ -51,6 +52,28 @@ def png(rows, bits=8):
     data = b"".join(b"\0" + b"".join(struct.pack(code, v) for v in row) for row in rows)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)) +
             chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+
+
+def npy(rows):
+    """An array of numbers in a file of NumPy."""
+    header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({len(rows)}, {len(rows[0]) if rows else 4}), }}"
+    header += " " * (-(len(header) + 11) % 64) + "\n"
+    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() +
+            b"".join(struct.pack(f"<{len(row)}d", *row) for row in rows))
+
+
+def read_npy(path):
+    """The rows of an array of one dimension."""
+    data = path.read_bytes()
+    size = struct.unpack_from("<H", data, 8)[0]
+    assert data[:8] == b"\x93NUMPY\x01\x00" and (10 + size) % 64 == 0
+    header = ast.literal_eval(data[10:10 + size].decode())
+    codes = {"|u1": "B", "<u4": "I", "<i4": "i", "<i8": "q", "<f8": "d"}
+    types = header["descr"]
+    form = "<" + "".join(codes[t] for _, t in types) if isinstance(types, list) else "<" + codes[types]
+    rows = list(struct.iter_unpack(form, data[10 + size:]))
+    assert (len(rows),) == header["shape"] and not header["fortran_order"]
+    return rows if isinstance(types, list) else [row[0] for row in rows]
 
 
 @dataclasses.dataclass

@@ -29,5 +29,12 @@ foreach(ranks 1 3)
   list(APPEND mpi_tests example_particles_mpi_${ranks})
 endforeach()
 
+# The tool on ranks.
+if(TARGET powercell_mpi_tool)
+  add_test(NAME cli_ranks COMMAND ${POWERCELL_SYSTEM_PYTHON} ${PROJECT_SOURCE_DIR}/tests/cli/test_ranks.py
+    $<TARGET_FILE:powercell_tool> $<TARGET_FILE:powercell_mpi_tool> ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG})
+  list(APPEND mpi_tests cli_ranks)
+endif()
+
 # A rank that fails a test leaves others waiting, until the time is up.
 set_tests_properties(${mpi_tests} mpi_killed PROPERTIES ENVIRONMENT "${mpi_environment}" TIMEOUT 300)
