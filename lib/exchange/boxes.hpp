@@ -39,6 +39,20 @@ inline Box box_around(const double* point, std::size_t count, std::size_t d) {
   return box;
 }
 
+/// Extends a box so that it contains another one.
+inline void extend(Box& box, const BoxView& by, std::size_t d) {
+  for (std::size_t k = 0; k < d; ++k) {
+    box.low[k] = std::min(box.low[k], by.low[k]);
+    box.high[k] = std::max(box.high[k], by.high[k]);
+  }
+}
+
+inline double longest_edge(const BoxView& box, std::size_t d) {
+  double edge = 0;
+  for (std::size_t k = 0; k < d; ++k) edge = std::max(edge, box.high[k] - box.low[k]);
+  return edge;
+}
+
 /// The square of the distance between two boxes.
 inline double gap2(const BoxView& a, const BoxView& b, std::size_t d) {
   double sum = 0;

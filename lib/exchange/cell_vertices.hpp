@@ -31,9 +31,6 @@ struct VertexHash {
   }
 };
 
-/// Smaller distances count as this, so that squares do not underflow.
-constexpr double least_radius = 1e-145;
-
 /// The distance of the farthest vertex of a cell from its seed, at least `least_radius`.
 /// \param row  of the cell in `cells` \param seed  its position
 double radius_of(const Cells& cells, std::size_t row, const double* seed);

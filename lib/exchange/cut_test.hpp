@@ -21,6 +21,9 @@ constexpr double power_error = 0x1p-47;
 /// More than what products lose that underflow.
 constexpr double underflow = 1e-290;
 
+/// Smaller distances count as this, so that squares do not underflow.
+constexpr double least_radius = 1e-145;
+
 /// A point of a cell, seen from the seed of the cell.
 class CutTest {
  public:

@@ -7,9 +7,16 @@
 #include <vector>
 
 #include "lib/base/bytes.hpp"
+#include "lib/exchange/boxes.hpp"
 #include "lib/seeds/packed_tree.hpp"
 
 namespace powercell::exchange {
+
+/// The part of a shard that seeds of another may concern, with the question for an outline of these.
+struct NearPart {
+  Box box;
+  double lightest = 0;  ///< weight of a seed there
+};
 
 /// Leaves of a shard's tree at its rim, with the question which seeds of another are likely neighbours.
 struct Rim {
@@ -17,9 +24,10 @@ struct Rim {
   /// Per leaf: rows of positions, of eight seeds; some more than once if it has fewer.
   std::vector<double> seed;
   std::uint64_t all = 0;  ///< leaves of the tree
+  double lightest = 0;    ///< weight of a seed of these leaves
 
   std::size_t leaves() const { return spacing.size(); }
-  std::size_t bytes() const { return bytes_of(spacing) + bytes_of(seed) + sizeof all; }
+  std::size_t bytes() const { return bytes_of(spacing) + bytes_of(seed) + sizeof all + sizeof lightest; }
 };
 
 /// Seeds near the rim of another shard.
@@ -49,6 +57,7 @@ struct Reply {
   /// Per vertex of the request: 1 if a seed sent now could cut it off, 0 if no seed but those sent before
   /// could.
   std::vector<std::uint8_t> found;
+  PackedTree outline;  ///< of all its seeds, if the asker has none yet
 
   std::size_t bytes() const { return bytes_of(id) + bytes_of(seed) + bytes_of(found); }
 };

@@ -1,8 +1,9 @@
 #include "lib/exchange/outline.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include "lib/exchange/messages.hpp"
+#include "lib/exchange/tree_of_boxes.hpp"
 #include "lib/exchange/tree_walk.hpp"
 
 namespace powercell::exchange {
@@ -12,6 +13,52 @@ std::size_t outline_level(const PackedTree& tree, std::size_t most_nodes) {
   while (level + 1 < tree.levels() && tree.level_offset[level + 1] - tree.level_offset[level] > most_nodes)
     ++level;
   return level;
+}
+
+TreeCut level_cut(const PackedTree& tree, std::size_t level) {
+  TreeCut cut;
+  for (std::uint32_t node = 0; node < tree.level_offset[level + 1] - tree.level_offset[level]; ++node)
+    cut.push_back({node, static_cast<std::uint32_t>(level)});
+  return cut;
+}
+
+namespace {
+
+class CutNear {
+ public:
+  CutNear(const PackedTree& tree, std::size_t level, const NearPart& part)
+      : tree_(tree), walk_(tree), level_(level), part_(part) {}
+
+  void add(std::uint32_t node, std::uint32_t level) {
+    if (level > level_ && is_near(walk_.number(node, level)))
+      walk_.for_children({node, level, 0}, [&](std::uint32_t child) { add(child, level - 1); });
+    else
+      cut_.push_back({node, level});
+  }
+  TreeCut take() && { return std::move(cut_); }
+
+ private:
+  bool is_near(std::uint32_t number) const {
+    const BoxView box = box_of(tree_, number);
+    const auto d = static_cast<std::size_t>(tree_.dimension);
+    const double above = tree_.weight[number] - part_.lightest,
+                 reach = longest_edge(box, d) + (above > 0 ? std::sqrt(above) : 0);
+    return gap2(box, part_.box.view(), d) <= reach * reach;
+  }
+
+  const PackedTree& tree_;
+  Walk walk_;
+  std::size_t level_;
+  const NearPart& part_;
+  TreeCut cut_;
+};
+
+}  // namespace
+
+TreeCut cut_near(const PackedTree& tree, std::size_t level, const NearPart& part) {
+  CutNear cut(tree, level, part);
+  cut.add(0, static_cast<std::uint32_t>(tree.levels() - 1));
+  return std::move(cut).take();
 }
 
 PackedTree outline_of(const PackedTree& tree, std::size_t most_nodes) {
@@ -30,76 +77,28 @@ PackedTree outline_of(const PackedTree& tree, std::size_t most_nodes) {
   return top;
 }
 
+PackedTree outline_of(const PackedTree& tree, const TreeCut& cut) {
+  TreeOfBoxes boxes(tree.dimension);
+  for (const TreeNode& node : cut) {
+    const std::uint32_t number = tree.level_offset[node.level] + node.node;
+    boxes.add(box_of(tree, number), tree.weight[number]);
+  }
+  return std::move(boxes).finish();
+}
+
 std::size_t outline_bytes(const PackedTree& outline) {
   return bytes_of(outline.level_offset) + bytes_of(outline.low) + bytes_of(outline.high) +
          bytes_of(outline.weight);
 }
 
-namespace {
-
-/// Whether seeds in a node could cut off a point.
 bool node_may_cut(const PackedTree& outline, std::uint32_t node, const CutTest& point) {
   const auto d = static_cast<std::size_t>(outline.dimension);
   return !(point.power(&outline.low[node * d], &outline.high[node * d], outline.weight[node]) >
            point.limit());
 }
 
-}  // namespace
-
 bool may_cut(const PackedTree& outline, const CutTest& point) {
   return has_open_leaf(outline, [&](std::uint32_t node) { return node_may_cut(outline, node, point); });
-}
-
-bool NearBoxes::may_meet(const BoxView& box, const CutTest& farthest) const {
-  for (int shard = 0; shard < static_cast<int>(others_.outlines->size()); ++shard) {
-    if (shard == self_) continue;
-    const PackedTree& boxes = outline(shard);
-    const auto d = static_cast<std::size_t>(boxes.dimension);
-    if (has_open_leaf(boxes, [&](std::uint32_t node) {
-          return farthest.may_meet(gap2(box, box_of(boxes, node), d), boxes.weight[node]);
-        }))
-      return true;
-  }
-  return false;
-}
-
-void NearBoxes::set(const CutTest& cell) {
-  shards_.clear();
-  end_.clear();
-  box_.clear();
-  complete_ = true;
-  for (int shard = 0; shard < static_cast<int>(others_.outlines->size()); ++shard) {
-    if (shard == self_) continue;
-    const PackedTree& boxes = outline(shard);
-    const auto d = static_cast<std::size_t>(boxes.dimension);
-    const std::size_t before = box_.size();
-    visit_leaves(
-        boxes,
-        [&](std::uint32_t node) {
-          return cell.may_meet(&boxes.low[node * d], &boxes.high[node * d], boxes.weight[node]);
-        },
-        [&](std::uint32_t node) {
-          box_.push_back(node);
-          complete_ = complete_ && box_.size() <= most_boxes;
-          return complete_;
-        });
-    if (box_.size() == before) continue;
-    shards_.push_back(shard);
-    end_.push_back(box_.size());
-  }
-}
-
-void NearBoxes::shards_at(const CutTest& point, std::vector<int>& shards) const {
-  shards.clear();
-  for (std::size_t s = 0; s < shards_.size(); ++s) {
-    const PackedTree& boxes = outline(shards_[s]);
-    const auto first = box_.begin() + static_cast<std::ptrdiff_t>(s == 0 ? 0 : end_[s - 1]),
-               last = box_.begin() + static_cast<std::ptrdiff_t>(end_[s]);
-    if (complete_
-            ? std::any_of(first, last, [&](std::uint32_t node) { return node_may_cut(boxes, node, point); })
-            : may_cut(boxes, point))
-      shards.push_back(shards_[s]);
-  }
 }
 
 bool may_contain(const PackedTree& outline, const double* position) {

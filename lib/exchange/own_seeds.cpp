@@ -16,8 +16,18 @@
 namespace powercell::exchange {
 namespace {
 
-/// Nodes of the level that an outline of the rest has far from what was sent.
-constexpr std::size_t rest_nodes = 512;
+/// Nodes of the lowest level of an outline. That of the rest has lower ones at the rim.
+constexpr std::size_t outline_nodes = 512;
+
+/// The part with the seeds whose cells are asked about.
+NearPart part_of(const Request& request, std::size_t d) {
+  NearPart part{box_around(request.cell.data(), 1, d), request.cell[d]};
+  for (std::size_t at = 0; at < request.cell.size(); at += d + 2) {
+    extend(part.box, {&request.cell[at], &request.cell[at]}, d);
+    part.lightest = std::min(part.lightest, request.cell[at + d]);
+  }
+  return part;
+}
 
 }  // namespace
 
@@ -52,21 +62,29 @@ Rim OwnSeeds::rim(const PackedTree& other) const {
   return find_rim(in_tree(), other);
 }
 
+PackedTree OwnSeeds::outline(int asker, const NearPart& part) {
+  sent_to(asker);
+  return outline_of(tree_, cut_near(tree_, outline_level(tree_, outline_nodes), part));
+}
+
 Halo OwnSeeds::near(int asker, const Rim& rim) {
   Halo halo;
-  if (set_.size() == 0) return halo;
+  if (set_.size() == 0 || rim.leaves() == 0) return halo;
+  const std::size_t d = width_ - 1;
+  const TreeCut cut =
+      cut_near(tree_, outline_level(tree_, outline_nodes),
+               {box_around(rim.seed.data(), rim.leaves() * PackedTree::fan, d), rim.lightest});
+  Sent& sent = sent_to(asker);
   if (NearRim(in_tree()).is_everywhere(rim)) {
-    halo.rest = outline_of(tree_, rest_nodes);
+    halo.rest = outline_of(tree_, cut);
     return halo;
   }
   const std::vector<std::uint32_t> ranks = ranks_near(in_tree(), rim, threads_);
-  Sent& sent = sent_[asker];
-  sent.resize(set_.size());
   for (const std::uint32_t rank : ranks) {
     sent[rank] = 1;
     send(rank, halo.id, halo.seed);
   }
-  halo.rest = outline_of_rest(in_tree(), outline_level(tree_, rest_nodes), rim, ranks);
+  halo.rest = outline_of_rest(in_tree(), cut, rim, ranks);
   return halo;
 }
 
@@ -78,11 +96,11 @@ void OwnSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::ve
 }
 
 Reply OwnSeeds::answer(int asker, const Request& request) {
-  Sent& sent = sent_[asker];
-  sent.resize(set_.size());
+  Reply reply;
+  if (!sent_.contains(asker)) reply.outline = outline(asker, part_of(request, width_ - 1));
+  Sent& sent = sent_to(asker);
   const auto may_send = [&](std::uint32_t rank) { return sent[rank] == 0 && hidden_[set_.input[rank]] == 0; };
   FirstSeeds first = first_seeds(in_tree(), request, may_send, threads_);
-  Reply reply;
   reply.found = std::move(first.found);
   for (const std::uint32_t rank : first.rank) {
     if (sent[rank] != 0) continue;
@@ -92,14 +110,14 @@ Reply OwnSeeds::answer(int asker, const Request& request) {
   return reply;
 }
 
-std::vector<std::uint64_t> OwnSeeds::take_hidden(int asker) {
-  std::vector<std::uint64_t> ids;
-  Sent& sent = sent_[asker];
-  for (std::uint32_t rank = 0; rank < sent.size(); ++rank) {
-    if (sent[rank] != 1 || hidden_[set_.input[rank]] == 0) continue;
-    sent[rank] = 2;
-    ids.push_back(id_[set_.input[rank]]);
-  }
+std::map<int, std::vector<std::uint64_t>> OwnSeeds::take_hidden() {
+  std::map<int, std::vector<std::uint64_t>> ids;
+  for (auto& [asker, sent] : sent_)
+    for (std::uint32_t rank = 0; rank < sent.size(); ++rank) {
+      if (sent[rank] != 1 || hidden_[set_.input[rank]] == 0) continue;
+      sent[rank] = 2;
+      ids[asker].push_back(id_[set_.input[rank]]);
+    }
   return ids;
 }
 

@@ -40,16 +40,22 @@ class OwnSeeds {
   void set_hidden(std::size_t i) { hidden_[i] = 1; }
   bool is_hidden(std::size_t i) const { return hidden_[i] != 0; }
 
+  /// In the order of the tree.
+  TreeSeeds in_tree() const { return {set_, tree_}; }
+
   /// The rim towards another shard. \param other  its outline
   Rim rim(const PackedTree& other) const;
+  /// An outline of all seeds for another shard. \param asker  its number \param part  where its seeds are
+  /// \pre there are seeds
+  PackedTree outline(int asker, const NearPart& part);
   /// The seeds near the rim of another shard; none if that is everywhere.
   /// \param asker  its number \pre none were sent to it
   Halo near(int asker, const Rim& rim);
-  /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex.
-  /// \param asker  the number of the shard that asks
+  /// For each vertex the seed whose bisector is the first on the way from the cell's seed to the vertex; and
+  /// an outline, if the shard that asks has none. \param asker  its number
   Reply answer(int asker, const Request& request);
-  /// Ids of hidden seeds that were sent to `asker`, each once.
-  std::vector<std::uint64_t> take_hidden(int asker);
+  /// By number of a shard: ids of hidden seeds that were sent to it, each once.
+  std::map<int, std::vector<std::uint64_t>> take_hidden();
   /// Per seed of the question: 1 if a seed here at the same position is heavier, or as heavy with a lower id.
   std::vector<std::uint8_t> better_twins(const Twins& twins) const;
   /// Seeds sent to all others, counted once for each.
@@ -58,7 +64,11 @@ class OwnSeeds {
  private:
   using Sent = std::vector<std::uint8_t>;  // by rank
 
-  TreeSeeds in_tree() const { return {set_, tree_}; }
+  Sent& sent_to(int asker) {
+    Sent& sent = sent_[asker];
+    sent.resize(set_.size());
+    return sent;
+  }
   /// Appends a seed to a message.
   void send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::vector<double>& rows);
 
@@ -70,7 +80,8 @@ class OwnSeeds {
   std::vector<std::uint8_t> hidden_;
   SeedSet set_;
   PackedTree tree_;
-  std::map<int, Sent> sent_;  // by asker: 1 if sent, 2 if it was told too that the seed is hidden
+  /// By number of the shards that have an outline: 1 if sent, 2 if it was told too that the seed is hidden.
+  std::map<int, Sent> sent_;
   std::uint64_t sent_count_ = 0;
 };
 

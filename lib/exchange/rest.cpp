@@ -73,17 +73,15 @@ class Rest {
 
 }  // namespace
 
-PackedTree outline_of_rest(const TreeSeeds& seeds, std::size_t level, const Rim& rim,
+PackedTree outline_of_rest(const TreeSeeds& seeds, const TreeCut& cut, const Rim& rim,
                            std::span<const std::uint32_t> sent) {
-  return outline_of_rest(seeds, level, tree_of(rim, seeds.tree.dimension), sent);
+  return outline_of_rest(seeds, cut, tree_of(rim, seeds.tree.dimension), sent);
 }
 
-PackedTree outline_of_rest(const TreeSeeds& seeds, std::size_t level, const PackedTree& rim,
+PackedTree outline_of_rest(const TreeSeeds& seeds, const TreeCut& cut, const PackedTree& rim,
                            std::span<const std::uint32_t> sent) {
-  const PackedTree& tree = seeds.tree;
   Rest rest(seeds, rim, sent);
-  for (std::uint32_t node = 0; node < tree.level_offset[level + 1] - tree.level_offset[level]; ++node)
-    rest.add(node, static_cast<std::uint32_t>(level));
+  for (const TreeNode& node : cut) rest.add(node.node, node.level);
   return std::move(rest).finish();
 }
 

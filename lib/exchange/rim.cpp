@@ -52,7 +52,49 @@ class Spacing {
   double leaf_edge_, wide_edge_;  // of boxes of 8 and 64 seeds, in units of their spacing
 };
 
+/// The least weight of the seeds of a leaf.
+double lightest_of(const TreeSeeds& seeds, std::size_t leaf) {
+  const auto at = [&](std::size_t k) {
+    return seeds.weights.begin() + static_cast<std::ptrdiff_t>(seeds.first_of(k));
+  };
+  return *std::min_element(at(leaf), at(leaf + 1));
+}
+
 }  // namespace
+
+CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, double reach) {
+  const std::size_t d = seeds.dimension();
+  std::array<double, 4> farthest{};
+  for (std::size_t k = 0; k < d; ++k)
+    farthest[k] = std::max(std::abs(seeds.tree.low[leaf * d + k]), std::abs(seeds.tree.high[leaf * d + k]));
+  farthest[d] = lightest_of(seeds, leaf);
+  return {farthest.data(), reach, seeds.tree.dimension};
+}
+
+std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& others) {
+  const PackedTree& tree = seeds.tree;
+  std::map<int, NearPart> parts;
+  if (tree.levels() == 0) return parts;
+  const std::size_t d = seeds.dimension();
+  const Spacing spacing(tree);
+  for (std::uint32_t leaf = 0; leaf < tree.level_offset[1]; ++leaf) {
+    const BoxView box = box_of(tree, leaf);
+    // Of seeds as light as the lightest one, those up to `farthest` spacings away may meet such a cell (39b).
+    const CutTest cell = farthest_cell(seeds, leaf, std::max(farthest / 2 * spacing(leaf), least_radius));
+    const auto is_near = [&](const PackedTree& boxes, std::uint32_t node) {
+      return cell.may_meet(gap2(box, box_of(boxes, node), d), boxes.weight[node]);
+    };
+    others.visit(is_near, [&](int shard) {
+      const double lightest = lightest_of(seeds, leaf);
+      const auto [part, is_new] = parts.try_emplace(shard, NearPart{{}, lightest});
+      if (is_new) part->second.box = box_around(box.low, 1, d);
+      extend(part->second.box, box, d);
+      part->second.lightest = std::min(part->second.lightest, lightest);
+      return true;
+    });
+  }
+  return parts;
+}
 
 Rim find_rim(const TreeSeeds& seeds, const PackedTree& other) {
   const PackedTree& tree = seeds.tree;
@@ -67,7 +109,9 @@ Rim find_rim(const TreeSeeds& seeds, const PackedTree& other) {
                          [&](std::uint32_t b) { return gap2(box, box_of(other, b), d) <= limit * limit; });
   };
   rim.all = tree.level_offset[1];
+  rim.lightest = std::numeric_limits<double>::infinity();
   visit_leaves(tree, is_near, [&](std::uint32_t leaf) {
+    rim.lightest = std::min(rim.lightest, lightest_of(seeds, leaf));
     rim.spacing.push_back(spacing(leaf));
     for (std::uint32_t k = 0; k < PackedTree::fan; ++k) {
       const std::size_t rank = std::min<std::size_t>(leaf * PackedTree::fan + k, seeds.size() - 1);

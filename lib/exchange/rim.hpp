@@ -5,13 +5,24 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
+#include "lib/exchange/cut_test.hpp"
 #include "lib/exchange/messages.hpp"
+#include "lib/exchange/other_shards.hpp"
 #include "lib/exchange/tree_seeds.hpp"
 
 namespace powercell::exchange {
+
+/// The other shards that seeds of a shard are near, or that have seeds heavy enough to matter to them, as far
+/// as the first outlines tell, each with the part that these seeds are in.
+std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& others);
+
+/// A cell that reaches as far as any of the seeds of a leaf, whose own reach is at most `reach`: of a seed as
+/// light and as far from the origin as any.
+CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, double reach);
 
 /// The leaves of a shard's tree that are near the boxes of another's outline.
 Rim find_rim(const TreeSeeds& seeds, const PackedTree& other);

@@ -17,9 +17,9 @@ constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 2000};
 
 Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension,
              int threads)
-    : number_(number),
-      width_(static_cast<std::size_t>(dimension) + 1),
+    : width_(static_cast<std::size_t>(dimension) + 1),
       own_(ids, seeds, dimension, threads),
+      others_(number),
       open_(own_.size()),
       rows_(own_.size()) {
   std::iota(open_.begin(), open_.end(), Handle{0});
@@ -28,6 +28,11 @@ Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& se
   measures_.centroid.resize(own_.size() * (width_ - 1), std::numeric_limits<double>::quiet_NaN());
   measures_.second_moment.resize(own_.size());
   measures_.status.resize(own_.size(), SeedStatus::hidden);
+}
+
+void Shard::meet(std::shared_ptr<const FirstOutlines> first) {
+  others_.meet(std::move(first));
+  near_parts_ = near_shards(own_.in_tree(), others_);
 }
 
 std::vector<Handle> Shard::at_hand(bool all) const {
@@ -72,7 +77,7 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   }
   if (!open_.empty()) {
     compute(diagram, handles, {.adjacency = true, .cells = true});
-    NearBoxes near(others_, number_);
+    NearBoxes near(others_);
     for (std::size_t k = 0; k < open_.size(); ++k)
       if (measures_.status[open_[k]] == SeedStatus::ok)
         ask(*diagram.results->cells, k, handles, near, requests);
@@ -110,22 +115,14 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
 }
 
 void Shard::close_far_cells(const std::vector<double>& reach) {
-  NearBoxes near(others_, number_);
+  NearBoxes near(others_);
   const PackedTree& tree = own_.tree();
   std::vector<bool> is_near(own_.size());
-  std::vector<double> farthest(width_);
   for (std::uint32_t leaf = 0; leaf < tree.level_offset[1]; ++leaf) {
     // Few leaves are near others, and what can cut none of their cells is found for all of them at once.
-    const BoxView box = box_of(tree, leaf);
-    for (std::size_t k = 0; k + 1 < width_; ++k)
-      farthest[k] = std::max(std::abs(box.low[k]), std::abs(box.high[k]));
-    farthest.back() = std::numeric_limits<double>::infinity();
     double most = least_radius;
-    for (const std::uint32_t cell : own_.in_leaf(leaf)) {
-      farthest.back() = std::min(farthest.back(), own_.row(cell)[width_ - 1]);
-      most = std::max(most, reach[cell]);
-    }
-    if (!near.may_meet(box, CutTest(farthest.data(), most, measures_.dimension))) continue;
+    for (const std::uint32_t cell : own_.in_leaf(leaf)) most = std::max(most, reach[cell]);
+    if (!near.may_meet(box_of(tree, leaf), farthest_cell(own_.in_tree(), leaf, most))) continue;
     for (const std::uint32_t cell : own_.in_leaf(leaf)) {
       if (measures_.status[cell] != SeedStatus::ok) continue;
       near.set(CutTest(own_.row(cell), std::max(reach[cell], least_radius), measures_.dimension));
@@ -142,7 +139,7 @@ bool Shard::keep_nearest(CutTest& test, const Point& vertex) {
     test.move_to({along * vertex[0], along * vertex[1], along * vertex[2]});
     std::vector<int> nearer;
     for (const int shard : asked_)
-      if (may_cut(others_.of(shard), test)) nearer.push_back(shard);
+      if (may_cut(others_.rest_of(shard), test)) nearer.push_back(shard);
     if (nearer.empty()) break;
     asked_ = std::move(nearer);
   }
@@ -198,9 +195,8 @@ void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> han
 
 std::map<int, Rim> Shard::rims() const {
   std::map<int, Rim> rims;
-  for (int shard = 0; shard < static_cast<int>(others_.outlines->size()); ++shard) {
-    if (shard == number_) continue;
-    Rim rim = own_.rim(others_.of(shard));
+  for (const auto& [shard, part] : near_parts_) {
+    Rim rim = own_.rim(others_.rest_of(shard));
     if (rim.leaves() > 0) rims.emplace(shard, std::move(rim));
   }
   return rims;
@@ -208,7 +204,7 @@ std::map<int, Rim> Shard::rims() const {
 
 void Shard::take(int from, Halo&& halo) {
   take_seeds(halo.id, halo.seed);
-  others_.rest[from] = std::move(halo.rest);
+  others_.take_rest(from, std::move(halo.rest));
 }
 
 void Shard::take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows) {
@@ -217,8 +213,9 @@ void Shard::take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<
   foreign_hidden_.resize(foreign_id_.size());
 }
 
-void Shard::take(int from, const Reply& reply) {
+void Shard::take(int from, Reply&& reply) {
   take_seeds(reply.id, reply.seed);
+  if (reply.outline.levels() > 0) take(from, std::move(reply.outline));
   const std::vector<Vertex*>& asked = asked_of_.at(from);
   for (std::size_t v = 0; v < asked.size(); ++v)
     if (reply.found[v] != 0) asked[v]->found = true;
@@ -263,12 +260,16 @@ std::map<int, Twins> Shard::twins() const {
   for (Handle cell = 0; cell < own_.size(); ++cell) {
     if (measures_.status[cell] != SeedStatus::hidden) continue;
     const double* const row = own_.row(cell);
-    for (std::size_t s = 0; s < others_.outlines->size(); ++s) {
-      if (static_cast<int>(s) == number_ || !may_contain((*others_.outlines)[s], row)) continue;
-      Twins& twins = questions[static_cast<int>(s)];
+    const auto open = [row](const PackedTree& boxes, std::uint32_t node) {
+      return contains(boxes, node, row);
+    };
+    others_.visit(open, [&](int shard) {
+      if (!may_contain(others_.all_of(shard), row)) return true;
+      Twins& twins = questions[shard];
       twins.id.push_back(own_.id(cell));
       twins.seed.insert(twins.seed.end(), row, row + width_);
-    }
+      return true;
+    });
   }
   return questions;
 }

@@ -9,8 +9,9 @@
 
 #include "lib/diagram/state.hpp"
 #include "lib/exchange/cell_vertices.hpp"
-#include "lib/exchange/outline.hpp"
+#include "lib/exchange/other_shards.hpp"
 #include "lib/exchange/own_seeds.hpp"
+#include "lib/exchange/rim.hpp"
 
 namespace powercell::exchange {
 
@@ -24,7 +25,8 @@ struct ShardCells {
 
 /// All shards take the same steps, one after the other or each on a machine of its own:
 ///
-///     meet() the outlines of the seeds of all
+///     meet() the boxes of the seeds of all
+///     send near_parts(), answer them by OwnSeeds::outline(), take() the outlines
 ///     send rims(), answer them by OwnSeeds::near(), take() the halos; this saves rounds and may be left out
 ///     while some shard has open cells:
 ///       while some shard has: clip(); send the requests, answer() them, take() the replies; settle()
@@ -35,12 +37,15 @@ class Shard {
   /// \param number  among all shards \throw Error as OwnSeeds
   Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads);
 
-  int number() const { return number_; }
+  int number() const { return others_.self(); }
   OwnSeeds& own() { return own_; }
   const OwnSeeds& own() const { return own_; }
   std::size_t open_cells() const { return open_.size(); }
   std::uint64_t clipped_cells() const { return clipped_; }  ///< counted each time
-  void meet(Outlines outlines) { others_.outlines = std::move(outlines); }
+  void meet(std::shared_ptr<const FirstOutlines> first);
+  /// Questions to the shards of some numbers for their outlines.
+  const std::map<int, NearPart>& near_parts() const { return near_parts_; }
+  void take(int from, PackedTree&& outline) { others_.take_outline(from, std::move(outline)); }
   /// Questions to the shards of some numbers which of their seeds are near.
   std::map<int, Rim> rims() const;
   void take(int from, Halo&& halo);
@@ -48,7 +53,7 @@ class Shard {
   /// Clips the open cells among all seeds at hand. \return requests to the shards of some numbers
   /// \param diagram  in the domain; its seeds and selection are replaced \throw Error as Diagram
   std::map<int, Request> clip(Diagram::State& diagram);
-  void take(int from, const Reply& reply);
+  void take(int from, Reply&& reply);
   /// Closes the cells of which no vertex can be cut off any more.
   void settle();
 
@@ -121,10 +126,10 @@ class Shard {
   /// the seed. The others are asked later, if they still matter. \return whether none was removed
   bool keep_nearest(CutTest& test, const Point& vertex);
 
-  int number_;
   std::size_t width_;  // of a row of position and weight
   OwnSeeds own_;
-  OthersSeeds others_;
+  OtherShards others_;
+  std::map<int, NearPart> near_parts_;  // near others
 
   std::vector<std::uint64_t> foreign_id_;
   std::vector<double> foreign_rows_;

@@ -6,9 +6,6 @@
 namespace powercell::exchange {
 namespace {
 
-/// Nodes of an outline's lowest level.
-constexpr std::size_t outline_nodes = 512;
-
 Bytes packed_outline(const PackedTree& outline) {
   const std::vector<std::uint64_t> sizes{static_cast<std::uint64_t>(outline.dimension), outline.seeds};
   return packed(sizes, outline.level_offset, outline.low, outline.high, outline.weight);
@@ -28,32 +25,60 @@ PackedTree outline_from(const Bytes& bytes) {
 Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& post, const Guess& guess)
     : diagram_(diagram), post_(post) {
   const int first = post.first(), dimension = diagram.setup.domain.dimension();
-  std::vector<Bytes> own;
-  for (const ShardSeeds& seeds : here) {
-    const Shard& shard = shards_.emplace_back(first + static_cast<int>(shards_.size()), seeds.ids,
-                                              seeds.seeds, dimension, diagram.setup.options.threads);
-    const PackedTree outline = outline_of(shard.own().tree(), outline_nodes);
-    report_.outlines += outline_bytes(outline) * (static_cast<std::size_t>(post.shards()) - 1);
-    own.push_back(packed_outline(outline));
-  }
-  const auto outlines = std::make_shared<std::vector<PackedTree>>();
-  for (const Bytes& of_shard : post.share(std::move(own))) outlines->push_back(outline_from(of_shard));
-  for (Shard& shard : shards_) shard.meet(outlines);
+  shards_.reserve(here.size());
+  for (const ShardSeeds& seeds : here)
+    shards_.emplace_back(first + static_cast<int>(shards_.size()), seeds.ids, seeds.seeds, dimension,
+                         diagram.setup.options.threads);
+  share_boxes();
+  fetch_outlines();
   fetch_rims(guess);
+}
+
+void Steps::share_boxes() {
+  std::vector<Bytes> own;
+  for (const Shard& shard : shards_) {
+    const PackedTree box = outline_of(shard.own().tree(), 1);
+    report_.outlines += outline_bytes(box) * (static_cast<std::size_t>(post_.shards()) - 1);
+    own.push_back(packed_outline(box));
+  }
+  std::vector<PackedTree> boxes;
+  for (const Bytes& of_shard : post_.share(std::move(own))) boxes.push_back(outline_from(of_shard));
+  const auto outlines = std::make_shared<FirstOutlines>(std::move(boxes), diagram_.setup.domain.dimension());
+  for (Shard& shard : shards_) shard.meet(outlines);
+}
+
+void Steps::fetch_outlines() {
+  std::vector<Post::Letters> letters(shards_.size());
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (const auto& [to, part] : shards_[s].near_parts()) letters[s][to] = packed(std::vector{part});
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (auto& [from, letter] : letters[s]) {
+      std::vector<NearPart> part;
+      unpack(letter, part);
+      const PackedTree outline = shards_[s].own().outline(from, part.at(0));
+      report_.outlines += sizeof(NearPart) + outline_bytes(outline);
+      letter = packed_outline(outline);
+    }
+  letters = post_.deliver(std::move(letters));
+  for (std::size_t s = 0; s < shards_.size(); ++s)
+    for (auto& [from, letter] : letters[s]) shards_[s].take(from, outline_from(std::exchange(letter, {})));
 }
 
 void Steps::fetch_rims(const Guess& guess) {
   std::vector<Post::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (const auto& [to, rim] : guess(shards_[s]))
-      letters[s][to] = packed(rim.spacing, rim.seed, std::vector{rim.all});
+      letters[s][to] = packed(rim.spacing, rim.seed, std::vector{rim.all}, std::vector{rim.lightest});
   letters = post_.deliver(std::move(letters));
   for (std::size_t s = 0; s < shards_.size(); ++s)
     for (auto& [from, letter] : letters[s]) {
       Rim rim;
       std::vector<std::uint64_t> all;
-      unpack(letter, rim.spacing, rim.seed, all);
+      std::vector<double> lightest;
+      unpack(letter, rim.spacing, rim.seed, all, lightest);
       rim.all = all.at(0);
+      rim.lightest = lightest.at(0);
       const Halo halo = shards_[s].own().near(from, rim);
       report_.requests += rim.bytes();
       report_.replies += halo.bytes();
@@ -104,7 +129,8 @@ Post::Letters Steps::answers(std::size_t s, Post::Letters& requests) {
     report_.vertices += reply.found.size();
     report_.requests += request.bytes();
     report_.replies += reply.bytes();
-    replies[from] = packed(reply.id, reply.seed, reply.found);
+    report_.outlines += outline_bytes(reply.outline);
+    replies[from] = packed(reply.id, reply.seed, reply.found, packed_outline(reply.outline));
   }
   return replies;
 }
@@ -121,8 +147,10 @@ void Steps::round() {
   for (std::size_t s = 0; s < shards_.size(); ++s) {
     for (const auto& [from, letter] : letters[s]) {
       Reply reply;
-      unpack(letter, reply.id, reply.seed, reply.found);
-      shards_[s].take(from, reply);
+      Bytes outline;
+      unpack(letter, reply.id, reply.seed, reply.found, outline);
+      reply.outline = outline_from(outline);
+      shards_[s].take(from, std::move(reply));
     }
     shards_[s].settle();
   }
@@ -131,10 +159,7 @@ void Steps::round() {
 void Steps::end_hidden() {
   std::vector<Post::Letters> letters(shards_.size());
   for (std::size_t s = 0; s < shards_.size(); ++s)
-    for (int to = 0; to < post_.shards(); ++to) {
-      if (to == post_.first() + static_cast<int>(s)) continue;
-      const std::vector<std::uint64_t> hidden = shards_[s].own().take_hidden(to);
-      if (hidden.empty()) continue;
+    for (const auto& [to, hidden] : shards_[s].own().take_hidden()) {
       report_.ending += bytes_of(hidden);
       letters[s][to] = packed(hidden);
     }

@@ -33,6 +33,10 @@ class Steps {
   const ExchangeReport& report() const { return report_; }
 
  private:
+  /// Tells all shards in which box the seeds of each are.
+  void share_boxes();
+  /// Fetches finer outlines of near shards.
+  void fetch_outlines();
   /// Fetches the seeds that cells at the rims of shards need, as far as positions tell.
   void fetch_rims(const Guess& guess);
   /// Whether some shard, wherever it is, has open cells.

@@ -26,11 +26,8 @@ constexpr double near_part = 0.125;
 PackedTree rim_of(const PackedTree& own) {
   PackedTree rim = exchange::outline_of(own, outline_nodes);
   const auto d = static_cast<std::size_t>(rim.dimension);
-  for (std::size_t node = 0; node < rim.weight.size(); ++node) {
-    double edge = 0;
-    for (std::size_t k = 0; k < d; ++k) edge = std::max(edge, rim.high[node * d + k] - rim.low[node * d + k]);
-    rim.weight[node] = near_part * edge;
-  }
+  for (std::uint32_t node = 0; node < rim.weight.size(); ++node)
+    rim.weight[node] = near_part * exchange::longest_edge(exchange::box_of(rim, node), d);
   return rim;
 }
 
@@ -73,7 +70,8 @@ PackedTree OtherSeeds::outline_without(const std::vector<std::uint32_t>& ranks, 
   out.insert(out.begin(), ranks.begin(), middle);
   out.insert(out.end(), middle, ranks.end());
   const exchange::TreeSeeds seeds = store_.seeds();
-  return exchange::outline_of_rest(seeds, exchange::outline_level(seeds.tree, outline_nodes), near, out);
+  const std::size_t level = exchange::outline_level(seeds.tree, outline_nodes);
+  return exchange::outline_of_rest(seeds, exchange::level_cut(seeds.tree, level), near, out);
 }
 
 PackedTree OtherSeeds::begin(std::size_t piece, const PackedTree& own) {

@@ -182,8 +182,8 @@ class Computation {
     // The piece is shard 0, all other seeds are shard 1.
     Shard shard(0, own.id, {source_.dimension, own.positions, own.weights}, source_.dimension,
                 options_.diagram.threads);
-    shard.meet(std::make_shared<std::vector<PackedTree>>(
-        std::vector<PackedTree>{{}, others.begin(piece, shard.own().tree())}));
+    shard.meet(std::make_shared<exchange::FirstOutlines>(
+        std::vector<PackedTree>{{}, others.begin(piece, shard.own().tree())}, source_.dimension));
     for (const auto& [to, rim] : shard.rims()) shard.take(to, others.near(rim));
     while (shard.open_cells() > 0) {
       while (shard.open_cells() > 0) round(shard, others);

@@ -87,6 +87,7 @@ TEST_CASE("answers: a seed is sent once, and only if it cuts or touches on the w
       y[k] = radius * static_cast<double>(request.vertex.back());
     }
     const exchange::Reply reply = own.answer(7, request);
+    CHECK((reply.outline.levels() > 0) == (round == 0));  // who has one needs no other
     REQUIRE(reply.found.size() == 1);
     REQUIRE(reply.id.size() == reply.found[0]);
     for (const std::uint64_t id : reply.id) {

@@ -157,12 +157,16 @@ TEST_CASE("guesses: seeds in a rim are asked about near another shard, and not i
     const std::vector<exchange::ShardSeeds> view = shares.view();
     const OwnSeeds one(view[0].ids, view[0].seeds, 2, 1);
     OwnSeeds other(view[1].ids, view[1].seeds, 2, 1);
-    const PackedTree outline = exchange::outline_of(other.tree(), 512);
-    const Rim rim = one.rim(outline);
+    const Rim rim = one.rim(exchange::outline_of(other.tree(), 512));
     CHECK(rim.seed.size() == rim.leaves() * per_leaf * 2);
     CHECK(rim.leaves() <= rim.all);
     const Halo halo = other.near(0, rim);
-    if (halo.id.empty()) CHECK(halo.rest.low == outline.low);
+    if (halo.id.empty()) {
+      const exchange::NearPart part{exchange::box_around(rim.seed.data(), rim.leaves() * per_leaf, 2),
+                                    rim.lightest};
+      CHECK(halo.rest.low ==
+            exchange::outline_of(other.tree(), exchange::cut_near(other.tree(), 0, part)).low);
+    }
     return std::pair(rim.leaves(), halo.id.size());
   };
   const auto [leaves, sent] = near_between(halves);

@@ -1,0 +1,106 @@
+/// \file
+/// What a shard knows of the seeds of the others. Internal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "lib/exchange/outline.hpp"
+#include "lib/exchange/tree_of_boxes.hpp"
+#include "lib/exchange/tree_walk.hpp"
+
+namespace powercell::exchange {
+
+/// What all shards tell all others at first, with a tree over these, so that far ones cost nothing.
+class FirstOutlines {
+ public:
+  /// \param outline  by shard, of all its seeds; one without levels if it has none
+  FirstOutlines(std::vector<PackedTree> outline, int dimension);
+
+  std::size_t shards() const { return outline_.size(); }
+  const PackedTree& of(int shard) const { return outline_[static_cast<std::size_t>(shard)]; }
+  /// The lowest level has the boxes of shards that have seeds.
+  const PackedTree& tree() const { return tree_; }
+  /// Of a node of that level.
+  int shard(std::uint32_t node) const { return shard_[node]; }
+
+ private:
+  std::vector<PackedTree> outline_;
+  std::vector<int> shard_;
+  PackedTree tree_;
+};
+
+/// The outlines that one shard has of the others.
+class OtherShards {
+ public:
+  /// \param self  the shard that has them
+  explicit OtherShards(int self) : self_(self) {}
+  int self() const { return self_; }
+
+  void meet(std::shared_ptr<const FirstOutlines> first) { first_ = std::move(first); }
+  const FirstOutlines& first() const { return *first_; }
+  /// A finer outline of all seeds of a shard.
+  void take_outline(int shard, PackedTree&& outline) { finer_[shard] = std::move(outline); }
+  /// An outline of those that it has not sent.
+  void take_rest(int shard, PackedTree&& rest) { rest_[shard] = std::move(rest); }
+
+  /// The finest outline of all seeds of a shard.
+  const PackedTree& all_of(int shard) const { return found(finer_, shard, first_->of(shard)); }
+  /// The finest outline of those that it has not sent.
+  const PackedTree& rest_of(int shard) const { return found(rest_, shard, all_of(shard)); }
+
+  /// Calls use(shard) for the shards whose first box, with all boxes above it, is open(tree, number), until
+  /// it returns false.
+  template <class Open, class Use>
+  void visit(const Open& open, const Use& use) const {
+    const PackedTree& tree = first_->tree();
+    visit_leaves(
+        tree, [&](std::uint32_t number) { return open(tree, number); },
+        [&](std::uint32_t node) {
+          const int shard = first_->shard(node);
+          return shard == self_ || use(shard);
+        });
+  }
+
+ private:
+  static const PackedTree& found(const std::map<int, PackedTree>& in, int shard, const PackedTree& other) {
+    const auto at = in.find(shard);
+    return at == in.end() ? other : at->second;
+  }
+
+  int self_;
+  std::shared_ptr<const FirstOutlines> first_;
+  std::map<int, PackedTree> finer_, rest_;
+};
+
+/// The boxes of outlines that could cut a cell.
+class NearBoxes {
+ public:
+  explicit NearBoxes(const OtherShards& others) : others_(others) {}
+
+  /// Whether there are boxes for a cell of a seed in the box.
+  /// \param farthest  that reaches as far as any, of a seed as light and as far from the origin as any
+  bool may_meet(const BoxView& box, const CutTest& farthest) const;
+  /// Finds the boxes for a cell.
+  void set(const CutTest& cell);
+  bool empty() const { return shards_.empty(); }
+  /// Whether there are few.
+  bool few() const { return complete_; }
+  /// The shards that could cut off a point of that cell, or touch it.
+  void shards_at(const CutTest& point, std::vector<int>& shards) const;
+
+ private:
+  static constexpr std::size_t most_boxes = 96;  // more are searched from the roots
+
+  const OtherShards& others_;
+  std::vector<int> shards_;         // whose boxes they are
+  std::vector<std::size_t> end_;    // per shard: of its boxes
+  std::vector<std::uint32_t> box_;  // nodes of the outline of their shard
+  bool complete_ = true;            // whether box_ has all boxes
+};
+
+}  // namespace powercell::exchange
