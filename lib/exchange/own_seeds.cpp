@@ -12,6 +12,7 @@
 #include "lib/exchange/rest.hpp"
 #include "lib/exchange/rim.hpp"
 #include "lib/exchange/tree_walk.hpp"
+#include "lib/neighbors/hidden_seeds.hpp"
 
 namespace powercell::exchange {
 namespace {
@@ -56,6 +57,24 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
   hidden_.resize(id_.size());
   set_ = make_seed_set({dimension, positions, weights}, dimension, threads);
   tree_ = build_packed_tree(set_, threads);
+  for (const std::uint32_t i : set_.duplicate) set_hidden(i);
+}
+
+void OwnSeeds::set_hidden_aside(const Setup& setup) {
+  if (!may_hide_many(set_)) return;
+  SeedBuffers buffers(setup.device.context());
+  buffers.upload(setup.on_device.frame(), set_, tree_, threads_);
+  const std::vector<std::uint8_t> hidden = hidden_seeds({setup.on_device, buffers, set_, tree_});
+  SeedSet left = without_hidden(set_, hidden, threads_);
+  if (left.size() == set_.size()) return;
+  for (std::size_t rank = 0; rank < hidden.size(); ++rank)
+    if (hidden[rank] != 0) set_hidden(set_.input[rank]);
+  whole_ = Whole{std::exchange(set_, std::move(left)), std::move(tree_)};
+  tree_ = build_packed_tree(set_, threads_);
+}
+
+PackedTree OwnSeeds::box() const {
+  return outline_of(whole().tree, 1);
 }
 
 Rim OwnSeeds::rim(const PackedTree& other) const {
@@ -64,7 +83,8 @@ Rim OwnSeeds::rim(const PackedTree& other) const {
 
 PackedTree OwnSeeds::outline(int asker, const NearPart& part) {
   sent_to(asker);
-  return outline_of(tree_, cut_near(tree_, outline_level(tree_, outline_nodes), part));
+  const PackedTree& tree = whole().tree;
+  return outline_of(tree, cut_near(tree, outline_level(tree, outline_nodes), part));
 }
 
 Halo OwnSeeds::near(int asker, const Rim& rim) {
@@ -122,19 +142,20 @@ std::map<int, std::vector<std::uint64_t>> OwnSeeds::take_hidden() {
 }
 
 std::vector<std::uint8_t> OwnSeeds::better_twins(const Twins& twins) const {
-  const TreeSeeds seeds = in_tree();
+  const TreeSeeds seeds = whole();
+  const SeedSet& set = whole_ ? whole_->set : set_;
   const std::size_t d = seeds.dimension();
   std::vector<std::uint8_t> better(twins.id.size());
   for (std::size_t k = 0; k < better.size(); ++k) {
     const double* const row = &twins.seed[k * width_];
     visit_leaves(
-        tree_, [&](std::uint32_t node) { return contains(tree_, node, row); },
+        seeds.tree, [&](std::uint32_t node) { return contains(seeds.tree, node, row); },
         [&](std::uint32_t leaf) {
           for (std::size_t rank = seeds.first_of(leaf); rank < seeds.first_of(leaf + std::size_t{1});
                ++rank) {
             if (!std::equal(row, row + d, seeds.position(rank))) continue;
-            const double weight = set_.weights[rank];
-            better[k] = weight > row[d] || (weight == row[d] && id_[set_.input[rank]] < twins.id[k]);
+            const double weight = set.weights[rank];
+            better[k] = weight > row[d] || (weight == row[d] && id_[set.input[rank]] < twins.id[k]);
             return false;  // there is no other at the same position
           }
           return true;

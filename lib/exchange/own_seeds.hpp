@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <powercell/seeds.hpp>
 #include <span>
 #include <vector>
 
+#include "lib/diagram/setup.hpp"
 #include "lib/exchange/messages.hpp"
 #include "lib/exchange/tree_seeds.hpp"
 #include "lib/seeds/packed_tree.hpp"
@@ -16,7 +18,8 @@
 
 namespace powercell::exchange {
 
-/// Seeds in ascending order of their ids, with a tree of those that are no duplicates of each other.
+/// Seeds in ascending order of their ids, with a tree of those that are no duplicates of each other, and are
+/// not known to be hidden by each other.
 class OwnSeeds {
  public:
   /// \param ids  of the seeds, each once \throw Error invalid_argument (sizes; an id that is there twice),
@@ -30,6 +33,13 @@ class OwnSeeds {
   /// Rows of position and weight.
   const double* row(std::size_t i) const { return &rows_[i * width_]; }
   const PackedTree& tree() const { return tree_; }
+  /// Sets seeds aside that are proved hidden among all, where they are many: they need no cells, and nobody
+  /// needs to be sent them. \pre nothing was sent \throw Error as hidden_seeds
+  void set_hidden_aside(const Setup& setup);
+  /// Those that have a better one here at their position.
+  std::span<const std::uint32_t> duplicates() const { return set_.duplicate; }
+  /// The box of all seeds, those set aside too; without levels if there is none.
+  PackedTree box() const;
   /// The seeds of a leaf of the tree.
   std::span<const std::uint32_t> in_leaf(std::size_t leaf) const {
     const std::size_t first = leaf * PackedTree::fan;
@@ -62,6 +72,13 @@ class OwnSeeds {
   std::uint64_t sent() const { return sent_count_; }
 
  private:
+  /// All seeds but duplicates, where some of them were set aside.
+  struct Whole {
+    SeedSet set;
+    PackedTree tree;
+  };
+  TreeSeeds whole() const { return whole_ ? TreeSeeds{whole_->set, whole_->tree} : in_tree(); }
+
   using Sent = std::vector<std::uint8_t>;  // by rank
 
   Sent& sent_to(int asker) {
@@ -80,6 +97,7 @@ class OwnSeeds {
   std::vector<std::uint8_t> hidden_;
   SeedSet set_;
   PackedTree tree_;
+  std::optional<Whole> whole_;
   /// By number of the shards that have an outline: 1 if sent, 2 if it was told too that the seed is hidden.
   std::map<int, Sent> sent_;
   std::uint64_t sent_count_ = 0;

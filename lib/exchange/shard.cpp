@@ -23,11 +23,18 @@ Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& se
       open_(own_.size()),
       rows_(own_.size()) {
   std::iota(open_.begin(), open_.end(), Handle{0});
+  std::erase_if(open_, [this](Handle cell) { return own_.is_hidden(cell); });
   measures_.dimension = dimension;
   measures_.mass.resize(own_.size());
   measures_.centroid.resize(own_.size() * (width_ - 1), std::numeric_limits<double>::quiet_NaN());
   measures_.second_moment.resize(own_.size());
   measures_.status.resize(own_.size(), SeedStatus::hidden);
+  for (const std::uint32_t i : own_.duplicates()) measures_.status[i] = SeedStatus::duplicate;
+}
+
+void Shard::set_hidden_aside(const Setup& setup) {
+  own_.set_hidden_aside(setup);
+  std::erase_if(open_, [this](Handle cell) { return own_.is_hidden(cell); });
 }
 
 void Shard::meet(std::shared_ptr<const FirstOutlines> first) {
@@ -40,7 +47,7 @@ std::vector<Handle> Shard::at_hand(bool all) const {
   const auto count = static_cast<Handle>(own_.size() + foreign_id_.size());
   if (all) {
     for (Handle h = 0; h < count; ++h)
-      if (round_ == 0 || !is_gone(h)) handles.push_back(h);
+      if (!is_gone(h)) handles.push_back(h);
   } else {
     std::vector<bool> needed(count);
     for (const Handle cell : open_) {
@@ -73,7 +80,9 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   // Of a large shard most cells are far from all others, so that their geometry is not needed.
   if (round_ == 0 && own_.size() >= least_with_far_cells[width_ - 3]) {
     compute(diagram, handles, {.adjacency = true, .reach = true});
-    close_far_cells(*diagram.results->reach);
+    std::vector<double> reach(own_.size());
+    for (std::size_t k = 0; k < open_.size(); ++k) reach[open_[k]] = (*diagram.results->reach)[k];
+    close_far_cells(reach);
   }
   if (!open_.empty()) {
     compute(diagram, handles, {.adjacency = true, .cells = true});

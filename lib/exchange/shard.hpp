@@ -25,7 +25,7 @@ struct ShardCells {
 
 /// All shards take the same steps, one after the other or each on a machine of its own:
 ///
-///     meet() the boxes of the seeds of all
+///     set_hidden_aside(), which may be left out; meet() the boxes of the seeds of all
 ///     send near_parts(), answer them by OwnSeeds::outline(), take() the outlines
 ///     send rims(), answer them by OwnSeeds::near(), take() the halos; this saves rounds and may be left out
 ///     while some shard has open cells:
@@ -42,6 +42,9 @@ class Shard {
   const OwnSeeds& own() const { return own_; }
   std::size_t open_cells() const { return open_.size(); }
   std::uint64_t clipped_cells() const { return clipped_; }  ///< counted each time
+  /// Closes the cells of seeds that are hidden by others of the shard, as far as this is known without
+  /// clipping. \throw Error as OwnSeeds::set_hidden_aside
+  void set_hidden_aside(const Setup& setup);
   void meet(std::shared_ptr<const FirstOutlines> first);
   /// Questions to the shards of some numbers for their outlines.
   const std::map<int, NearPart>& near_parts() const { return near_parts_; }
@@ -115,7 +118,7 @@ class Shard {
   void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
   /// Adds seeds of others to those at hand.
   void take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows);
-  /// Leaves those cells open that other shards may cut, by how far they reach. \param reach  of all own cells
+  /// Leaves those cells open that other shards may cut, by how far they reach. \param reach  by own seed
   void close_far_cells(const std::vector<double>& reach);
   /// Adds the vertices of a cell to the requests that no shard was asked about yet.
   void ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,

@@ -29,6 +29,7 @@ Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& po
   for (const ShardSeeds& seeds : here)
     shards_.emplace_back(first + static_cast<int>(shards_.size()), seeds.ids, seeds.seeds, dimension,
                          diagram.setup.options.threads);
+  for (Shard& shard : shards_) shard.set_hidden_aside(diagram.setup);
   share_boxes();
   fetch_outlines();
   fetch_rims(guess);
@@ -37,7 +38,7 @@ Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& po
 void Steps::share_boxes() {
   std::vector<Bytes> own;
   for (const Shard& shard : shards_) {
-    const PackedTree box = outline_of(shard.own().tree(), 1);
+    const PackedTree box = shard.own().box();
     report_.outlines += outline_bytes(box) * (static_cast<std::size_t>(post_.shards()) - 1);
     own.push_back(packed_outline(box));
   }

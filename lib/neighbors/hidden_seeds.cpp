@@ -30,19 +30,6 @@ bool is_beyond(const SeedSet& seeds, std::size_t a, std::size_t b) {
   return distance2 < seeds.weights[b] - seeds.weights[a];
 }
 
-/// An estimate from neighbours along the curve. Of seeds of white noise that lie beyond a bisector, a quarter
-/// to a half are hidden.
-bool may_hide_many(const SeedSet& seeds) {
-  std::size_t tested = 0, beyond = 0;
-  for (std::size_t a = ranks_beside; a + ranks_beside < seeds.size(); a += seeds.size() / sample_seeds) {
-    bool any = false;
-    for (std::size_t b = a - ranks_beside; b <= a + ranks_beside; ++b) any = any || is_beyond(seeds, a, b);
-    ++tested;
-    beyond += any ? 1 : 0;
-  }
-  return static_cast<double>(beyond) > 2 * least_share * static_cast<double>(tested);
-}
-
 class HiddenSearch {
  public:
   explicit HiddenSearch(const Scene& scene)
@@ -89,6 +76,19 @@ std::vector<std::uint8_t> hidden_seeds(const Scene& scene) {
   std::vector<std::uint8_t> hidden = HiddenSearch(scene).find(1);
   hidden.resize(scene.seeds.size());
   return hidden;
+}
+
+bool may_hide_many(const SeedSet& seeds) {
+  // Of seeds of white noise that lie beyond a bisector, a quarter to a half are hidden.
+  const std::size_t stride = std::max<std::size_t>(1, seeds.size() / sample_seeds);
+  std::size_t tested = 0, beyond = 0;
+  for (std::size_t a = ranks_beside; a + ranks_beside < seeds.size(); a += stride) {
+    bool any = false;
+    for (std::size_t b = a - ranks_beside; b <= a + ranks_beside; ++b) any = any || is_beyond(seeds, a, b);
+    ++tested;
+    beyond += any ? 1 : 0;
+  }
+  return static_cast<double>(beyond) > 2 * least_share * static_cast<double>(tested);
 }
 
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene) {

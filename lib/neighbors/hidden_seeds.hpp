@@ -17,6 +17,9 @@ std::vector<std::uint8_t> hidden_seeds(const Scene& scene);
 /// The same, or an empty vector where the search does not pay: few seeds, or few hidden ones in a sample.
 std::vector<std::uint8_t> hidden_seeds_if_many(const Scene& scene);
 
+/// Whether many seeds are likely hidden, by an estimate from neighbours in their order.
+bool may_hide_many(const SeedSet& seeds);
+
 /// The seeds for which `hidden`, by rank, is 0, in their order.
 SeedSet without_hidden(const SeedSet& seeds, const std::vector<std::uint8_t>& hidden, int threads);
 

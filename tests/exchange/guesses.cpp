@@ -107,6 +107,44 @@ TEST_CASE("guesses: large shards need few rounds and clip few cells twice") {
   }
 }
 
+TEST_CASE("guesses: seeds that a shard's own ones hide are set aside and not sent") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const int dimension : {2, 3}) {
+    CAPTURE(dimension);
+    const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W2, 3000, dimension, random);
+    Diagram diagram = diagram_of(unit_box(dimension), seeds);
+    const Diagram::State state(test_device(), unit_box(dimension), {});
+    OwnSeeds own = own_of(seeds);
+    own.set_hidden_aside(state.setup);
+    std::size_t aside = 0;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      if (!own.is_hidden(i)) continue;
+      ++aside;
+      CHECK(diagram.measures().status[i] == SeedStatus::hidden);
+    }
+    CHECK(2 * aside > diagram.measures().count(SeedStatus::hidden));
+    CHECK(own.in_tree().size() == seeds.size() - aside);
+    const Halo halo = own.near(1, rim_in(0.3, 0.7, dimension, random));
+    CHECK(halo.id.size() > 5);
+    for (const std::uint64_t id : halo.id) CHECK(!own.is_hidden(id));
+  }
+}
+
+TEST_CASE("guesses: cells, and twins of hidden seeds, in large shards of which many seeds are hidden") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W2, 4500, 3, random);
+  for (std::size_t i = 0; i < 500; ++i)  // lighter, as heavy or heavier than another one
+    seeds.push({seeds.coordinate(i, 0), seeds.coordinate(i, 1), seeds.coordinate(i, 2)},
+               seeds.weights[i] + (static_cast<double>(random.index(3)) - 1) * 1e-4);
+  Diagram diagram = diagram_of(unit_box(3), seeds);
+  REQUIRE(diagram.measures().count(SeedStatus::duplicate) == 500);
+  const exchange::ExchangeReport report = check_shares(diagram, along_curve(seeds, 2));
+  CHECK(report.clipped < seeds.size());
+  check_shares(diagram, at_random(seeds, 2, random));
+}
+
 TEST_CASE("guesses: the outline of the rest has every seed that was not sent") {
   INFO(replay_hint());
   Random random(test_seed());
