@@ -70,9 +70,10 @@ TEST_CASE("outlines: one that is fine near a part has every seed, and the part's
       CHECK(cut.size() < own.tree().level_offset[1]);
       std::size_t next = 0;  // of the ranks
       for (const exchange::TreeNode& node : cut) {
-        const auto [first, last] = own.in_tree().ranks_of(own.tree().level_offset[node.level] + node.node);
-        REQUIRE(first == next);
-        next = last;
+        const std::pair<std::size_t, std::size_t> ranks =
+            own.in_tree().ranks_of(own.tree().level_offset[node.level] + node.node);
+        REQUIRE(ranks.first == next);
+        next = ranks.second;
       }
       CHECK(next == seeds.size());
       for (std::size_t i = 0; i < seeds.size(); ++i) {
