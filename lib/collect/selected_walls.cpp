@@ -37,9 +37,8 @@ void SelectedWalls::add(std::span<const std::uint32_t> pair_row, std::span<const
       const std::int32_t border = batch.borders(row)[f];
       if (border < 0) continue;
       const auto neighbor = static_cast<std::uint32_t>(border);
-      walls_.push_back({seeds_.input[neighbor],
-                        placement_ ? placement_->shift_of_wall(pair_seed[k], neighbor) : Shift{},
-                        batch.walls(row)[f]});
+      walls_.push_back({placement_.images.seeds.input[neighbor],
+                        placement_.shift_of_wall(pair_seed[k], neighbor), batch.walls(row)[f]});
     }
     walls.count = walls_.size() - walls.first;
   }
@@ -75,14 +74,14 @@ Adjacency SelectedWalls::finish(std::span<const std::uint32_t> place, const std:
   std::partial_sum(out.offset.begin(), out.offset.end(), out.offset.begin());
   out.neighbor.resize(out.offset.back());
   out.wall.resize(out.offset.back());
-  if (placement_) out.shift.resize(out.offset.back());
+  out.shift.resize(out.offset.back());
   for_rows([&](std::size_t row) {
     std::uint64_t to = out.offset[place[row]];
     for (std::size_t k = 0; k < row_[row].count; ++k, ++to) {
       const Wall& wall = walls_[row_[row].first + k];
       out.neighbor[to] = wall.neighbor;
       out.wall[to] = wall.measure * unit;
-      if (placement_) out.shift[to] = wall.shift;
+      out.shift[to] = wall.shift;
     }
   });
   return out;

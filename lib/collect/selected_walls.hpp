@@ -1,5 +1,5 @@
 /// \file
-/// Collects the walls of the cells of some seeds, as seen from these cells. Internal.
+/// Collects the walls of the cells of some seeds in a periodic domain, as seen from these cells. Internal.
 #pragma once
 
 #include <array>
@@ -10,16 +10,15 @@
 
 #include "lib/clip/pieces.hpp"
 #include "lib/periodic/images.hpp"
-#include "lib/seeds/seed_set.hpp"
 
 namespace powercell {
 
 class SelectedWalls {
  public:
-  /// Keeps the references. \param rows  selected  \param placement  of a periodic domain, else null
-  SelectedWalls(const SeedSet& seeds, std::size_t rows, const Placement* placement, int threads)
-      : seeds_(seeds), placement_(placement), threads_(threads), row_(rows) {
-    walls_.reserve(rows * usual_walls[seeds.dimension == 2 ? 0 : 1]);
+  /// Keeps the references. \param rows  selected
+  SelectedWalls(const Placement& placement, std::size_t rows, int threads)
+      : placement_(placement), threads_(threads), row_(rows) {
+    walls_.reserve(rows * usual_walls[placement.images.seeds.dimension == 2 ? 0 : 1]);
   }
 
   /// Adds the pieces of a chunk. Rows ascend over all chunks. \param pair_row  of each pair
@@ -54,8 +53,7 @@ class SelectedWalls {
   /// Sorts the walls of a row, sums those with the same image of a seed, and drops those of measure 0.
   void settle(Row& row);
 
-  const SeedSet& seeds_;
-  const Placement* placement_;
+  const Placement& placement_;
   int threads_;
   std::vector<Row> row_;
   std::vector<Wall> walls_;

@@ -85,6 +85,13 @@ class WallCollector {
   Adjacency finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,
                    double negligible);
 
+  /// The walls of the cells of some seeds, as seen from these cells: each is a rank for this collector, and
+  /// its neighbours are ranks of `seeds`. Rows are in the order of the selection, walls times `unit`.
+  /// \param place   of each cell in the selection
+  /// \param status  by place: walls of cells that are not ok are left out
+  Adjacency finish_selected(const SeedSet& seeds, std::span<const std::uint32_t> place,
+                            const std::vector<SeedStatus>& status, double unit);
+
   /// The memory, for another collector. This one must not be used any more.
   WallRows::Memory release() && { return std::move(rows_).release(); }
 
@@ -119,6 +126,10 @@ class WallCollector {
   std::vector<std::int32_t> open_neighbor_;
   std::vector<double> open_measure_;
 };
+
+/// The walls as each cell sees them, as WallCollector::finish_selected. Modifies `rows`.
+Adjacency list_walls(WallRows& rows, const SeedSet& seeds, std::span<const std::uint32_t> place,
+                     const std::vector<SeedStatus>& status, double unit, int threads);
 
 /// Combines the two sides of each wall, as WallCollector::finish. Modifies `rows`.
 Adjacency match_walls(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status,

@@ -44,21 +44,17 @@ class Pass {
         workspace_(workspace),
         exact_(setup.options.decisions == Decisions::exact || setup.boundary),
         measures_(setup.on_device, row_seeds(), setup.domain.measure(), setup.threads),
-        walls_(collects_walls() && !active.images() && !plan.selected ? active.seeds().size() : 0,
-               setup.threads, std::exchange(workspace.walls, {})),
+        walls_(collects_walls() && !active.images() ? row_seeds().size() : 0, setup.threads,
+               std::exchange(workspace.walls, {})),
         geometry_(plan.solid ? setup.clip_mesh : setup.domain.mesh(), active.seeds(),
                   setup.on_device.frame()) {
-    if (!active.images()) {
-      if (plan.selected && want.adjacency)
-        selected_walls_.emplace(active.seeds(), row_seeds().size(), nullptr, setup.threads);
-      return;
-    }
+    if (!active.images()) return;
     placement_.emplace(active.placement());
     geometry_.place(*placement_);
     proof_.emplace(*setup.period(), *active.images(),
                    setup.float32() ? proved_reach_error_float : proved_reach_error_double);
     if (want.adjacency && plan.selected)
-      selected_walls_.emplace(active.seeds(), row_seeds().size(), &*placement_, setup.threads);
+      selected_walls_.emplace(*placement_, row_seeds().size(), setup.threads);
     else if (want.adjacency)
       periodic_walls_.emplace(*placement_, setup.threads);
   }
@@ -171,8 +167,8 @@ void Pass::collect(const ClipChunk& chunk, const PieceSet& pieces) {
     selected_walls_->add(chunk.pair_row, chunk.pair_seed, pieces);
   else if (periodic_walls_)
     periodic_walls_->add(chunk.pair_seed, pieces);
-  else if (collects_walls() && !plan_.selected)
-    walls_.add(chunk.pair_seed, pieces);
+  else if (collects_walls())
+    walls_.add(chunk.pair_row, pieces);
   if (want_.cells) geometry_.add(chunk.pair_seed, chunk.pair_region, pieces);
 }
 
@@ -363,7 +359,7 @@ void Pass::keep_wall_memory() {
   WallRows::Memory memory = std::move(walls_).release();
   std::size_t bytes = 0;
   for (const auto& words : memory) bytes += words.bytes();
-  if (bytes <= kept_bytes) workspace_.walls = std::move(memory);
+  if (workspace_.keeps_walls || bytes <= kept_bytes) workspace_.walls = std::move(memory);
 }
 
 void Pass::place_centroids(Measures& measures) const {
@@ -413,6 +409,8 @@ Clipped Pass::finish() {
     results.adjacency = selected_walls_->finish(seeds.input, measures.status, unit);
   else if (periodic_walls_)
     results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
+  else if (want_.adjacency && plan_.selected)
+    results.adjacency = walls_.finish_selected(active_.seeds(), seeds.input, measures.status, unit);
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
   if (want_.cells && plan_.solid)

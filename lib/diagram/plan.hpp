@@ -79,6 +79,7 @@ struct Workspace {
   std::unique_ptr<Candidates> search;
   std::optional<ClipMemory> facets;  ///< of clipping the boundary of a solid
   WallRows::Memory walls;
+  bool keeps_walls = false;  ///< `walls` however large, because the next pass follows at once
 };
 
 /// Candidates for any pairs in a domain of one region. \throw Error as make_plan

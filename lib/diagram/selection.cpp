@@ -28,16 +28,17 @@ void append_rows(const std::vector<T>& all, const Selection& selection, std::siz
 }  // namespace
 
 Selection checked_selection(std::span<const std::uint32_t> seeds, std::size_t count) {
-  std::vector<bool> seen(count);
+  std::vector<std::uint8_t> seen(count);
+  const auto refuse = [](std::size_t entry, const std::string& why) {
+    throw Error(ErrorCode::invalid_argument,
+                "entry " + std::to_string(entry) + " of the selection is " + why);
+  };
   for (std::size_t k = 0; k < seeds.size(); ++k) {
-    const std::string name = "entry " + std::to_string(k) + " of the selection";
     if (seeds[k] >= count)
-      throw Error(ErrorCode::invalid_argument, name + " is " + std::to_string(seeds[k]) + ", and there are " +
-                                                   std::to_string(count) + " seeds, counted from 0");
-    if (seen[seeds[k]])
-      throw Error(ErrorCode::invalid_argument,
-                  name + " is seed " + std::to_string(seeds[k]) + " again; select each seed once");
-    seen[seeds[k]] = true;
+      refuse(k, std::to_string(seeds[k]) + ", and there are " + std::to_string(count) +
+                    " seeds, counted from 0");
+    if (seen[seeds[k]] != 0) refuse(k, "seed " + std::to_string(seeds[k]) + " again; select each seed once");
+    seen[seeds[k]] = 1;
   }
   return {seeds.begin(), seeds.end()};
 }
