@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/exchange/axes.hpp"
 #include "lib/seeds/packed_tree.hpp"
 
 namespace powercell::exchange {
@@ -55,12 +56,10 @@ inline double longest_edge(const BoxView& box, std::size_t d) {
 
 /// The square of the distance between two boxes.
 inline double gap2(const BoxView& a, const BoxView& b, std::size_t d) {
-  double sum = 0;
-  for (std::size_t k = 0; k < d; ++k) {
-    const double gap = std::max({a.low[k] - b.high[k], b.low[k] - a.high[k], 0.0});
-    sum += gap * gap;
-  }
-  return sum;
+  return sum_along(d, [&](std::size_t k) {
+    const double gap = std::max(std::max(a.low[k] - b.high[k], b.low[k] - a.high[k]), 0.0);
+    return gap * gap;
+  });
 }
 
 }  // namespace powercell::exchange

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lib/exchange/axes.hpp"
+
 namespace powercell::exchange {
 
 using Point = std::array<double, 3>;
@@ -58,19 +60,17 @@ class CutTest {
   /// (39a), left side: of the seed at `position`, or at least this for all seeds in the box from `low` to
   /// `high`, the heaviest of which is given.
   double power(const double* low, const double* high, double heaviest) const {
-    double gap2 = 0;
-    for (std::size_t k = 0; k < dimension_; ++k) {
-      const double gap = std::max({low[k] - seed_[k] - at_[k], at_[k] - (high[k] - seed_[k]), 0.0});
-      gap2 += gap * gap;
-    }
+    const double gap2 = sum_along(dimension_, [&](std::size_t k) {
+      const double gap = std::max(std::max(low[k] - seed_[k] - at_[k], at_[k] - (high[k] - seed_[k])), 0.0);
+      return gap * gap;
+    });
     return gap2 * gap_factor_ - heaviest - power_error * std::abs(heaviest);
   }
   double power(const double* position, double weight) const {
-    double gap2 = 0;
-    for (std::size_t k = 0; k < dimension_; ++k) {
+    const double gap2 = sum_along(dimension_, [&](std::size_t k) {
       const double gap = position[k] - seed_[k] - at_[k];
-      gap2 += gap * gap;
-    }
+      return gap * gap;
+    });
     return gap2 * gap_factor_ - weight - power_error * std::abs(weight);
   }
 
@@ -88,11 +88,10 @@ class CutTest {
 
   /// Whether a seed in the box could cut the cell anywhere, or touch it. (39b)
   bool may_meet(const double* low, const double* high, double heaviest) const {
-    double gap2 = 0;
-    for (std::size_t k = 0; k < dimension_; ++k) {
-      const double gap = std::max({low[k] - seed_[k], seed_[k] - high[k], 0.0});
-      gap2 += gap * gap;
-    }
+    const double gap2 = sum_along(dimension_, [&](std::size_t k) {
+      const double gap = std::max(std::max(low[k] - seed_[k], seed_[k] - high[k]), 0.0);
+      return gap * gap;
+    });
     return may_meet(gap2, heaviest);
   }
   /// The same for a box at a distance from the seed whose square is `gap2`.

@@ -3,6 +3,15 @@
 #include <algorithm>
 
 namespace powercell::exchange {
+namespace {
+
+/// Whether seeds in a node could cut a cell.
+bool cell_may_meet(const PackedTree& boxes, std::uint32_t node, const CutTest& cell) {
+  const BoxView box = box_of(boxes, node);
+  return cell.may_meet(box.low, box.high, boxes.weight[node]);
+}
+
+}  // namespace
 
 FirstOutlines::FirstOutlines(std::vector<PackedTree> outline, int dimension) : outline_(std::move(outline)) {
   TreeOfBoxes boxes(dimension);
@@ -16,11 +25,8 @@ FirstOutlines::FirstOutlines(std::vector<PackedTree> outline, int dimension) : o
   tree_ = std::move(boxes).finish();
 }
 
-bool NearBoxes::may_meet(const BoxView& box, const CutTest& farthest) const {
-  const auto open = [&](const PackedTree& boxes, std::uint32_t node) {
-    return farthest.may_meet(gap2(box, box_of(boxes, node), static_cast<std::size_t>(boxes.dimension)),
-                             boxes.weight[node]);
-  };
+template <class Open>
+bool NearBoxes::has_box(const Open& open) const {
   bool found = false;
   others_.visit(open, [&](int shard) {
     const PackedTree& boxes = others_.rest_of(shard);
@@ -30,14 +36,26 @@ bool NearBoxes::may_meet(const BoxView& box, const CutTest& farthest) const {
   return found;
 }
 
+bool NearBoxes::may_meet(const BoxView& box, const CutTest& farthest) const {
+  return has_box([&](const PackedTree& boxes, std::uint32_t node) {
+    return farthest.may_meet(gap2(box, box_of(boxes, node), static_cast<std::size_t>(boxes.dimension)),
+                             boxes.weight[node]);
+  });
+}
+
+bool NearBoxes::may_meet(const CutTest& cell) const {
+  return has_box([&](const PackedTree& boxes, std::uint32_t node) {
+    return cell_may_meet(boxes, node, cell);
+  });
+}
+
 void NearBoxes::set(const CutTest& cell) {
   shards_.clear();
   end_.clear();
   box_.clear();
   complete_ = true;
   const auto open = [&](const PackedTree& boxes, std::uint32_t node) {
-    const BoxView box = box_of(boxes, node);
-    return cell.may_meet(box.low, box.high, boxes.weight[node]);
+    return cell_may_meet(boxes, node, cell);
   };
   others_.visit(open, [&](int shard) {
     const PackedTree& boxes = others_.rest_of(shard);

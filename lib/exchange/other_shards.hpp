@@ -85,6 +85,8 @@ class NearBoxes {
   /// Whether there are boxes for a cell of a seed in the box.
   /// \param farthest  that reaches as far as any, of a seed as light and as far from the origin as any
   bool may_meet(const BoxView& box, const CutTest& farthest) const;
+  /// Whether there are boxes for a cell.
+  bool may_meet(const CutTest& cell) const;
   /// Finds the boxes for a cell.
   void set(const CutTest& cell);
   bool empty() const { return shards_.empty(); }
@@ -95,6 +97,9 @@ class NearBoxes {
 
  private:
   static constexpr std::size_t most_boxes = 96;  // more are searched from the roots
+  /// Whether an outline has a leaf that, like all nodes above it, is open(tree, number).
+  template <class Open>
+  bool has_box(const Open& open) const;
 
   const OtherShards& others_;
   std::vector<int> shards_;         // whose boxes they are

@@ -33,27 +33,31 @@ NearPart part_of(const Request& request, std::size_t d) {
 }  // namespace
 
 OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads)
-    : threads_(thread_count(threads)), width_(static_cast<std::size_t>(dimension) + 1), given_(ids.size()) {
+    : threads_(thread_count(threads)), width_(static_cast<std::size_t>(dimension) + 1), id_(ids.size()) {
   if (ids.size() != seeds.size())
     throw Error(ErrorCode::invalid_argument, std::to_string(ids.size()) + " ids for " +
                                                  std::to_string(seeds.size()) + " seeds of a shard");
-  std::iota(given_.begin(), given_.end(), std::size_t{0});
-  if (!std::is_sorted(ids.begin(), ids.end()))
+  if (!std::is_sorted(ids.begin(), ids.end())) {
+    given_.resize(ids.size());
+    std::iota(given_.begin(), given_.end(), std::size_t{0});
     std::sort(given_.begin(), given_.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  }
   const std::size_t d = width_ - 1;
   std::vector<double> positions(ids.size() * d), weights(ids.size());
-  id_.resize(ids.size());
   rows_.resize(ids.size() * width_);
-  for (std::size_t i = 0; i < given_.size(); ++i) {
-    const std::size_t k = given_[i];
-    id_[i] = ids[k];
-    if (i > 0 && id_[i - 1] == id_[i])
-      throw Error(ErrorCode::invalid_argument, "two seeds have the id " + std::to_string(ids[k]));
-    weights[i] = seeds.weights.empty() ? 0 : seeds.weights[k];
-    std::copy_n(&seeds.positions[k * d], d, &positions[i * d]);
-    std::copy_n(&seeds.positions[k * d], d, &rows_[i * width_]);
-    rows_[i * width_ + d] = weights[i];
-  }
+  parallel_for(threads_for(size(), threads_), size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t k = given(i);
+      id_[i] = ids[k];
+      weights[i] = seeds.weights.empty() ? 0 : seeds.weights[k];
+      for (std::size_t c = 0; c < d; ++c)
+        rows_[i * width_ + c] = positions[i * d + c] = seeds.positions[k * d + c];
+      rows_[i * width_ + d] = weights[i];
+    }
+  });
+  const auto twice = std::adjacent_find(id_.begin(), id_.end());
+  if (twice != id_.end())
+    throw Error(ErrorCode::invalid_argument, "two seeds have the id " + std::to_string(*twice));
   hidden_.resize(id_.size());
   set_ = make_seed_set({dimension, positions, weights}, dimension, threads);
   tree_ = build_packed_tree(set_, threads);

@@ -29,7 +29,9 @@ class OwnSeeds {
   std::size_t size() const { return id_.size(); }
   std::uint64_t id(std::size_t i) const { return id_[i]; }
   /// The place of seed i among those given.
-  std::size_t given(std::size_t i) const { return given_[i]; }
+  std::size_t given(std::size_t i) const { return given_.empty() ? i : given_[i]; }
+  /// Whether they were given in the order of their ids.
+  bool given_in_order() const { return given_.empty(); }
   /// Rows of position and weight.
   const double* row(std::size_t i) const { return &rows_[i * width_]; }
   const PackedTree& tree() const { return tree_; }
@@ -92,7 +94,7 @@ class OwnSeeds {
   int threads_;
   std::size_t width_;  // of a row
   std::vector<std::uint64_t> id_;
-  std::vector<std::size_t> given_;
+  std::vector<std::size_t> given_;  // empty if in order
   std::vector<double> rows_;
   std::vector<std::uint8_t> hidden_;
   SeedSet set_;

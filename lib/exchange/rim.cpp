@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/base/vector_copies.hpp"
 #include "lib/exchange/boxes.hpp"
 #include "lib/exchange/tree_walk.hpp"
 
@@ -43,8 +44,8 @@ class Spacing {
   /// The mean edge of a node's box.
   double edge(std::uint32_t number) const {
     const auto d = static_cast<std::size_t>(tree_.dimension);
-    double sum = 0;
-    for (std::size_t k = 0; k < d; ++k) sum += tree_.high[number * d + k] - tree_.low[number * d + k];
+    const double sum =
+        sum_along(d, [&](std::size_t k) { return tree_.high[number * d + k] - tree_.low[number * d + k]; });
     return sum / static_cast<double>(d);
   }
 
@@ -141,12 +142,11 @@ bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {
   const Spacing spacing(tree_);
   leaves_.clear();
   const auto is_near = [&](std::uint32_t node) {
-    if (own_.second > 0) {
-      const auto [first, last] = seeds_.ranks_of(node);
-      if (own_.first <= first && last <= own_.second) return false;
-    }
     const double h = spacing(node), most = std::max(depth * h, far + layer * h);
-    return gap2(around.view(), box_of(tree_, node), d) <= most * most;
+    if (gap2(around.view(), box_of(tree_, node), d) > most * most) return false;
+    if (own_.second == 0) return true;
+    const auto [first, last] = seeds_.ranks_of(node);
+    return first < own_.first || own_.second < last;
   };
   visit_leaves(tree_, is_near, [&](std::uint32_t leaf) {
     leaves_.push_back(leaf);
@@ -155,25 +155,29 @@ bool NearRim::find_leaves(const Rim& rim, std::size_t k, double far) {
   return leaves_.size() <= most_leaves;
 }
 
+POWERCELL_VECTOR_COPIES
 NearRim::Row NearRim::measure(const double* rim_seeds) {
   const std::size_t d = seeds_.dimension();
+  std::array<Row, 3> rim;  // by axis, so that the loops below are over vectors
+  for (std::size_t k = 0; k < d; ++k)
+    for (std::size_t a = 0; a < PackedTree::fan; ++a) rim[k][a] = rim_seeds[a * d + k];
   Row least;
   least.fill(std::numeric_limits<double>::infinity());
   distance2_.clear();
   for (const std::uint32_t leaf : leaves_)
     for (std::size_t rank = seeds_.first_of(leaf); rank < seeds_.first_of(leaf + std::size_t{1}); ++rank) {
-      Row& row = distance2_.emplace_back();
+      Row row{};
       if (is_own(rank)) {
         row.fill(std::numeric_limits<double>::infinity());
-        continue;
+      } else {
+        for (std::size_t k = 0; k < d; ++k)
+          for (std::size_t a = 0; a < row.size(); ++a) {
+            const double gap = seeds_.positions[rank * d + k] - rim[k][a];
+            row[a] += gap * gap;
+          }
+        for (std::size_t a = 0; a < row.size(); ++a) least[a] = std::min(least[a], row[a]);
       }
-      for (std::size_t a = 0; a < row.size(); ++a) {
-        for (std::size_t k = 0; k < d; ++k) {
-          const double gap = seeds_.positions[rank * d + k] - rim_seeds[a * d + k];
-          row[a] += gap * gap;
-        }
-        least[a] = std::min(least[a], row[a]);
-      }
+      distance2_.push_back(row);
     }
   return least;
 }
@@ -195,9 +199,9 @@ void NearRim::find(const Rim& rim, std::size_t k, std::vector<std::uint32_t>& ra
     }
     for (std::size_t rank = seeds_.first_of(leaf); rank < seeds_.first_of(leaf + std::size_t{1});
          ++rank, ++at) {
-      bool is_likely = false;
-      for (std::size_t a = 0; a < limit2.size(); ++a) is_likely = is_likely || distance2_[at][a] <= limit2[a];
-      if (is_likely) ranks.push_back(static_cast<std::uint32_t>(rank));
+      unsigned likely = 0;  // without branches
+      for (std::size_t a = 0; a < limit2.size(); ++a) likely |= distance2_[at][a] <= limit2[a] ? 1 : 0;
+      if (likely != 0) ranks.push_back(static_cast<std::uint32_t>(rank));
     }
   }
 }

@@ -6,10 +6,13 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "lib/base/memory.hpp"
+
 namespace powercell::exchange {
 namespace {
 
-constexpr std::size_t far_vertices = 6;  // that are asked about at a time
+constexpr std::size_t shared_leaves = 1024;  // of eight cells; with fewer, threads cost more than they save
+constexpr std::size_t far_vertices = 6;      // that are asked about at a time
 /// Seeds of a shard in the plane and in space.
 constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 2000};
 
@@ -17,7 +20,8 @@ constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 2000};
 
 Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension,
              int threads)
-    : width_(static_cast<std::size_t>(dimension) + 1),
+    : threads_(thread_count(threads)),
+      width_(static_cast<std::size_t>(dimension) + 1),
       own_(ids, seeds, dimension, threads),
       others_(number),
       open_(own_.size()),
@@ -70,13 +74,16 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   if (open_.empty()) return requests;
   // Where the domain is convex, a cell is determined by its walls and the seeds that came since.
   const std::vector<Handle> handles = at_hand(all_needed_ || diagram.setup.domain.region_count() > 1);
-  std::vector<double> positions(handles.size() * (width_ - 1)), weights(handles.size());
-  for (std::size_t k = 0; k < handles.size(); ++k) {
-    const double* const row = row_of(handles[k]);
-    std::copy_n(row, width_ - 1, &positions[k * (width_ - 1)]);
-    weights[k] = row[width_ - 1];
-  }
-  diagram.set_seeds({static_cast<int>(width_) - 1, positions, weights});
+  const std::size_t d = width_ - 1;
+  std::vector<double> positions(handles.size() * d), weights(handles.size());
+  share(handles.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const double* const row = row_of(handles[k]);
+      std::copy_n(row, d, &positions[k * d]);
+      weights[k] = row[d];
+    }
+  });
+  diagram.set_seeds({measures_.dimension, positions, weights});
   // Of a large shard most cells are far from all others, so that their geometry is not needed.
   if (round_ == 0 && own_.size() >= least_with_far_cells[width_ - 3]) {
     compute(diagram, handles, {.adjacency = true, .reach = true});
@@ -108,37 +115,44 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
   diagram.compute(want);
   const Measures& from = *diagram.results->measures;
   Adjacency& adjacency = *diagram.results->adjacency;
-  for (std::size_t k = 0; k < open_.size(); ++k) {
-    const Handle cell = open_[k];
-    measures_.mass[cell] = from.mass[k];
-    std::copy_n(&from.centroid[k * d], d, &measures_.centroid[cell * d]);
-    measures_.second_moment[cell] = from.second_moment[k];
-    measures_.status[cell] = from.status[k];
-    if (from.status[k] != SeedStatus::ok) own_.set_hidden(cell);
-    rows_[cell] = {adjacency.offset[k],
-                   static_cast<std::uint32_t>(adjacency.offset[k + 1] - adjacency.offset[k]),
-                   static_cast<std::uint32_t>(walls_.size())};
-  }
-  for (std::uint32_t& neighbor : adjacency.neighbor) neighbor = handle[neighbor];
+  share(open_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Handle cell = open_[k];
+      measures_.mass[cell] = from.mass[k];
+      std::copy_n(&from.centroid[k * d], d, &measures_.centroid[cell * d]);
+      measures_.second_moment[cell] = from.second_moment[k];
+      measures_.status[cell] = from.status[k];
+      if (from.status[k] != SeedStatus::ok) own_.set_hidden(cell);
+      rows_[cell] = {adjacency.offset[k],
+                     static_cast<std::uint32_t>(adjacency.offset[k + 1] - adjacency.offset[k]),
+                     static_cast<std::uint32_t>(walls_.size())};
+    }
+  });
+  share(adjacency.neighbor.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) adjacency.neighbor[k] = handle[adjacency.neighbor[k]];
+  });
   walls_.push_back({std::move(adjacency.neighbor), std::move(adjacency.wall)});
 }
 
 void Shard::close_far_cells(const std::vector<double>& reach) {
-  NearBoxes near(others_);
+  const NearBoxes near(others_);
   const PackedTree& tree = own_.tree();
-  std::vector<bool> is_near(own_.size());
-  for (std::uint32_t leaf = 0; leaf < tree.level_offset[1]; ++leaf) {
+  std::vector<std::uint8_t> is_near(own_.size());
+  const auto look_at = [&](std::uint32_t leaf) {
     // Few leaves are near others, and what can cut none of their cells is found for all of them at once.
     double most = least_radius;
     for (const std::uint32_t cell : own_.in_leaf(leaf)) most = std::max(most, reach[cell]);
-    if (!near.may_meet(box_of(tree, leaf), farthest_cell(own_.in_tree(), leaf, most))) continue;
-    for (const std::uint32_t cell : own_.in_leaf(leaf)) {
-      if (measures_.status[cell] != SeedStatus::ok) continue;
-      near.set(CutTest(own_.row(cell), std::max(reach[cell], least_radius), measures_.dimension));
-      is_near[cell] = !near.empty();
-    }
-  }
-  std::erase_if(open_, [&](Handle cell) { return !is_near[cell]; });
+    if (!near.may_meet(box_of(tree, leaf), farthest_cell(own_.in_tree(), leaf, most))) return;
+    for (const std::uint32_t cell : own_.in_leaf(leaf))
+      if (measures_.status[cell] == SeedStatus::ok)
+        is_near[cell] =
+            near.may_meet(CutTest(own_.row(cell), std::max(reach[cell], least_radius), measures_.dimension));
+  };
+  const std::size_t leaves = tree.level_offset[1];
+  parallel_for(threads_for(leaves, threads_, shared_leaves), leaves, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) look_at(static_cast<std::uint32_t>(leaf));
+  });
+  std::erase_if(open_, [&](Handle cell) { return is_near[cell] == 0; });
 }
 
 bool Shard::keep_nearest(CutTest& test, const Point& vertex) {
@@ -291,38 +305,44 @@ void Shard::mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>&
   }
 }
 
-ShardCells Shard::cells(double domain_measure) const {
-  const std::size_t d = width_ - 1, n = own_.size();
+ShardCells Shard::take_cells(double domain_measure, bool walls) {
+  const std::size_t n = own_.size();
   ShardCells cells;
-  Measures& to = cells.measures;
-  to.dimension = measures_.dimension;
-  to.domain_measure = domain_measure;
-  to.mass.resize(n);
-  to.second_moment.resize(n);
-  to.status.resize(n);
-  to.centroid.resize(n * d);
+  cells.measures = take_measures();
+  cells.measures.domain_measure = domain_measure;
   cells.offset.resize(n + 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t at = own_.given(i);
-    to.mass[at] = measures_.mass[i];
-    to.second_moment[at] = measures_.second_moment[i];
-    to.status[at] = measures_.status[i];
-    std::copy_n(&measures_.centroid[i * d], d, &to.centroid[at * d]);
-    cells.offset[at + 1] = rows_[i].count;
-  }
+  for (std::size_t i = 0; i < n; ++i) cells.offset[own_.given(i) + 1] = rows_[i].count;
   std::partial_sum(cells.offset.begin(), cells.offset.end(), cells.offset.begin());
-  cells.neighbor.resize(cells.offset.back());
-  cells.wall.resize(cells.offset.back());
-  for (Handle i = 0; i < n; ++i) {
-    const std::uint64_t at = cells.offset[own_.given(i)];
-    const std::span<const Handle> neighbors = neighbors_of(i);
-    std::transform(neighbors.begin(), neighbors.end(),
-                   cells.neighbor.begin() + static_cast<std::ptrdiff_t>(at),
-                   [this](Handle h) { return id_of(h); });
-    if (!neighbors.empty())
+  if (!walls) return cells;
+  resize_populated(cells.neighbor, cells.offset.back(), threads_);
+  resize_populated(cells.wall, cells.offset.back(), threads_);
+  share(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::span<const Handle> neighbors = neighbors_of(static_cast<Handle>(i));
+      if (neighbors.empty()) continue;
+      const std::uint64_t at = cells.offset[own_.given(i)];
+      std::transform(neighbors.begin(), neighbors.end(), &cells.neighbor[at],
+                     [this](Handle h) { return id_of(h); });
       std::copy_n(&walls_[rows_[i].walls].wall[rows_[i].begin], neighbors.size(), &cells.wall[at]);
-  }
+    }
+  });
   return cells;
+}
+
+Measures Shard::take_measures() {
+  if (own_.given_in_order()) return std::move(measures_);
+  const std::size_t d = width_ - 1, n = own_.size();
+  Measures measures = measures_;
+  share(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t at = own_.given(i);
+      measures.mass[at] = measures_.mass[i];
+      measures.second_moment[at] = measures_.second_moment[i];
+      measures.status[at] = measures_.status[i];
+      std::copy_n(&measures_.centroid[i * d], d, &measures.centroid[at * d]);
+    }
+  });
+  return measures;
 }
 
 std::vector<std::uint64_t> Shard::foreign_neighbors() const {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "lib/base/threads.hpp"
 #include "lib/diagram/state.hpp"
 #include "lib/exchange/cell_vertices.hpp"
 #include "lib/exchange/other_shards.hpp"
@@ -31,7 +32,7 @@ struct ShardCells {
 ///     while some shard has open cells:
 ///       while some shard has: clip(); send the requests, answer() them, take() the replies; settle()
 ///       send take_hidden(), forget() what comes; reopen()
-///     send twins(), answer them by better_twins(), mark_duplicates(); cells()
+///     send twins(), answer them by better_twins(), mark_duplicates(); take_cells()
 class Shard {
  public:
   /// \param number  among all shards \throw Error as OwnSeeds
@@ -69,7 +70,9 @@ class Shard {
   std::map<int, Twins> twins() const;
   void mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>& better);
 
-  ShardCells cells(double domain_measure) const;
+  /// To be called once, at the end. \param walls  whether to list neighbours and walls, not only to count
+  /// them
+  ShardCells take_cells(double domain_measure, bool walls = true);
   std::size_t foreign_seeds() const { return foreign_id_.size(); }  ///< fetched in all
   /// Ids of those of these that have a wall in the end.
   std::vector<std::uint64_t> foreign_neighbors() const;
@@ -118,6 +121,13 @@ class Shard {
   void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
   /// Adds seeds of others to those at hand.
   void take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows);
+  /// Calls body(begin, end) on all threads for ranges of `count` items.
+  template <class Body>
+  void share(std::size_t count, const Body& body) const {
+    parallel_for(threads_for(count, threads_), count, body);
+  }
+  /// In the order in which the seeds were given.
+  Measures take_measures();
   /// Leaves those cells open that other shards may cut, by how far they reach. \param reach  by own seed
   void close_far_cells(const std::vector<double>& reach);
   /// Adds the vertices of a cell to the requests that no shard was asked about yet.
@@ -129,6 +139,7 @@ class Shard {
   /// the seed. The others are asked later, if they still matter. \return whether none was removed
   bool keep_nearest(CutTest& test, const Point& vertex);
 
+  int threads_;
   std::size_t width_;  // of a row of position and weight
   OwnSeeds own_;
   OtherShards others_;

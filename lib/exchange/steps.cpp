@@ -105,8 +105,8 @@ std::vector<ShardCells> Steps::run() {
   }
   mark_duplicates();
   std::vector<ShardCells> cells;
-  for (const Shard& shard : shards_) {
-    cells.push_back(shard.cells(diagram_.setup.domain.measure()));
+  for (Shard& shard : shards_) {
+    cells.push_back(shard.take_cells(diagram_.setup.domain.measure()));
     report_.clipped += shard.clipped_cells();
     report_.fetched += shard.foreign_seeds();
     report_.neighbors += shard.foreign_neighbors().size();

@@ -193,7 +193,7 @@ class Computation {
     report_.neighbors += foreign.size();
     report_.clipped += shard.clipped_cells();
     traffic_.written +=
-        write_piece(path, own.id, shard.cells(diagram_.setup.domain.measure()), foreign, options_.walls);
+        write_piece(path, own.id, shard.take_cells(diagram_.setup.domain.measure()), foreign, options_.walls);
     store.drop();
   }
 
