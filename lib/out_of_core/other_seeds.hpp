@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <powercell/results.hpp>
+#include <span>
 #include <vector>
 
 #include "lib/exchange/messages.hpp"
@@ -15,7 +16,9 @@ namespace powercell::out_of_core {
 class Statuses {
  public:
   explicit Statuses(std::size_t seeds) : known_(seeds) {}
-  void set(std::uint64_t id, SeedStatus status) { known_[id] = status == SeedStatus::hidden ? 1 : 0; }
+  void set(std::span<const std::uint64_t> ids, std::span<const SeedStatus> statuses) {
+    for (std::size_t k = 0; k < ids.size(); ++k) known_[ids[k]] = statuses[k] == SeedStatus::hidden ? 1 : 0;
+  }
   bool is_hidden(std::uint64_t id) const { return known_[id] != 0; }
 
  private:

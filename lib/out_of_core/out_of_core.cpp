@@ -82,6 +82,7 @@ class Computation {
       throw Error(ErrorCode::unsupported, "seeds out of core need double precision");
     piece_seeds_ = seeds_of_piece(source.count, source.dimension, domain.region_count() > 1, options.memory,
                                   options.piece_seeds);
+    diagram_.workspace.keeps_walls = true;  // of the next piece
     traffic_.progress = [this](double done) {
       if (!fraction_.report(done))
         throw Error(ErrorCode::interrupted, "the computation was stopped by its progress callback");
@@ -140,29 +141,34 @@ class Computation {
     report_.pieces = store.pieces();
     Statuses statuses(source_.count);
     OtherSeeds others(store, statuses, options_.diagram.threads);
-    std::uint64_t seeds = store.duplicates();
+    PieceWriter writer;  // of a piece while the next one is computed
     for (std::size_t p = 0; p < store.pieces(); ++p) {
-      const std::string path = folder.file(name_of(p));
       fraction_.part(at_piece(p), at_piece(p + 1));
       if (folder.has(name_of(p))) {
         ++report_.kept;
+        const PieceFile file(folder.file(name_of(p)), source_.dimension);
+        statuses.set(file.id, file.status);
       } else {
-        compute_piece(store, p, others, path);
+        PieceCells cells = compute_piece(store, p, others);
+        statuses.set(cells.id, cells.cells.measures.status);
+        writer.write(folder.file(name_of(p)), std::move(cells));
       }
-      const PieceFile& file = files_.emplace_back(path, source_.dimension);
-      for (std::size_t i = 0; i < file.size(); ++i) statuses.set(file.id[i], file.status[i]);
-      seeds += file.size();
-      file.drop();
     }
+    writer.finish();
+    std::uint64_t seeds = store.duplicates();
+    for (std::size_t p = 0; p < store.pieces(); ++p)
+      seeds += files_.emplace_back(folder.file(name_of(p)), source_.dimension).size();
     // A flat cell may have walls with cells of pieces that were finished before it was known to be flat.
     for (std::size_t p = 0; p < store.pieces(); ++p) {
       const auto is_hidden = [&](std::uint64_t id) { return statuses.is_hidden(id); };
       if (std::none_of(files_[p].foreign.begin(), files_[p].foreign.end(), is_hidden)) continue;
       ++report_.again;
       const std::string path = folder.file(name_of(p));
-      compute_piece(store, p, others, path);
+      writer.write(path, compute_piece(store, p, others));
+      writer.finish();
       files_[p] = PieceFile(path, source_.dimension);
     }
+    traffic_.written += writer.bytes();
     report_.fetched = others.sent();
     if (seeds != source_.count)
       throw Error(ErrorCode::internal, options_.folder + ": its pieces have " + std::to_string(seeds) +
@@ -175,9 +181,9 @@ class Computation {
     return sorted_at + (computed_at - sorted_at) * static_cast<double>(piece) / pieces;
   }
 
-  void compute_piece(const Store& store, std::size_t piece, OtherSeeds& others, const std::string& path) {
+  PieceCells compute_piece(const Store& store, std::size_t piece, OtherSeeds& others) {
     using exchange::Shard;
-    const SeedBlock own = store.by_id(piece);
+    SeedBlock own = store.by_id(piece, diagram_.setup.threads);
     traffic_.read += own.size() * (static_cast<std::size_t>(source_.dimension) + 2) * sizeof(double);
     // The piece is shard 0, all other seeds are shard 1.
     Shard shard(0, own.id, {source_.dimension, own.positions, own.weights}, source_.dimension,
@@ -189,12 +195,12 @@ class Computation {
       while (shard.open_cells() > 0) round(shard, others);
       shard.reopen();
     }
-    const std::vector<std::uint64_t> foreign = shard.foreign_neighbors();
+    store.drop();
+    std::vector<std::uint64_t> foreign = shard.foreign_neighbors();
     report_.neighbors += foreign.size();
     report_.clipped += shard.clipped_cells();
-    traffic_.written +=
-        write_piece(path, own.id, shard.take_cells(diagram_.setup.domain.measure()), foreign, options_.walls);
-    store.drop();
+    return {std::move(own.id), shard.take_cells(diagram_.setup.domain.measure(), options_.walls),
+            std::move(foreign)};
   }
 
   void round(exchange::Shard& shard, OtherSeeds& others) {

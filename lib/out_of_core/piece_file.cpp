@@ -1,36 +1,46 @@
 #include "lib/out_of_core/piece_file.hpp"
 
+#include <utility>
+
 namespace powercell::out_of_core {
 namespace {
 
 /// Numbers at the head of a file: of cells, of foreign neighbours, of walls, of those that are written.
 using Counts = std::array<std::uint64_t, 4>;
 
-}  // namespace
-
-std::uint64_t write_piece(const std::string& path, std::span<const std::uint64_t> ids,
-                          const exchange::ShardCells& cells, const std::vector<std::uint64_t>& foreign,
-                          bool walls) {
+/// \return bytes written
+std::uint64_t write_file(const std::string& path, const PieceCells& piece) {
+  const exchange::ShardCells& cells = piece.cells;
   const Measures& measures = cells.measures;
-  std::vector<std::uint32_t> count(ids.size());
+  std::vector<std::uint32_t> count(piece.id.size());
   for (std::size_t i = 0; i < count.size(); ++i)
     count[i] = static_cast<std::uint32_t>(cells.offset[i + 1] - cells.offset[i]);
   FileWriter file(path, FileWriter::Kind::kept);
   // Longer numbers come first, so that all are where their type may be.
-  file.write_all(Counts{ids.size(), foreign.size(), cells.offset.back(), walls ? cells.neighbor.size() : 0});
-  file.write_all(ids);
+  file.write_all(Counts{piece.id.size(), piece.foreign.size(), cells.offset.back(), cells.neighbor.size()});
+  file.write_all(piece.id);
   file.write_all(measures.mass);
   file.write_all(measures.centroid);
   file.write_all(measures.second_moment);
-  file.write_all(foreign);
-  if (walls) {
-    file.write_all(cells.neighbor);
-    file.write_all(cells.wall);
-  }
+  file.write_all(piece.foreign);
+  file.write_all(cells.neighbor);
+  file.write_all(cells.wall);
   file.write_all(count);
   file.write_all(measures.status);
   file.close();
   return file.bytes();
+}
+
+}  // namespace
+
+void PieceWriter::write(std::string path, PieceCells&& piece) {
+  finish();
+  // Where the system gives no thread, finish() writes.
+  last_ = std::async([path = std::move(path), piece = std::move(piece)] { return write_file(path, piece); });
+}
+
+void PieceWriter::finish() {
+  if (last_.valid()) bytes_ += last_.get();
 }
 
 PieceFile::PieceFile(const std::string& path, int dimension) : file_(path) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <future>
 #include <powercell/results.hpp>
 #include <span>
 #include <string>
@@ -14,14 +15,28 @@
 
 namespace powercell::out_of_core {
 
-/// Writes the file as a whole or not at all. \param ids  ascending
-/// \param foreign  ids of seeds of other pieces with a wall with one of these
-/// \param walls  whether to write neighbours and walls  \return bytes written
-std::uint64_t write_piece(const std::string& path, std::span<const std::uint64_t> ids,
-                          const exchange::ShardCells& cells, const std::vector<std::uint64_t>& foreign,
-                          bool walls);
+/// The cells of a piece in memory.
+struct PieceCells {
+  std::vector<std::uint64_t> id;       ///< ascending
+  exchange::ShardCells cells;          ///< neighbours and walls may have been left out
+  std::vector<std::uint64_t> foreign;  ///< ids of seeds of other pieces with a wall with one of these
+};
 
-/// What write_piece() has written.
+/// Writes files of pieces, each as a whole or not at all, while the caller goes on.
+class PieceWriter {
+ public:
+  /// Waits for the file before. \throw Error write_failed (of that one)
+  void write(std::string path, PieceCells&& piece);
+  /// Waits for the last file. \throw Error write_failed
+  void finish();
+  std::uint64_t bytes() const { return bytes_; }  ///< of finished files
+
+ private:
+  std::future<std::uint64_t> last_;  // gives its bytes; its end waits for the file
+  std::uint64_t bytes_ = 0;
+};
+
+/// What a PieceWriter has written.
 class PieceFile {
  public:
   /// \throw Error invalid_file

@@ -1,12 +1,14 @@
 #include "lib/out_of_core/sorting.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "lib/base/threads.hpp"
 #include "lib/diagram/input.hpp"
 #include "lib/out_of_core/store.hpp"
 #include "lib/seeds/hilbert.hpp"
@@ -172,16 +174,16 @@ class Sorter {
     for (std::size_t k = 0; k <= last.size(); ++k)
       files.emplace_back(folder_.file(part_name(level_, k)), FileWriter::Kind::scratch);
     std::uint64_t seen = 0;
-    std::vector<double> row(d_ + 1);
+    std::vector<std::byte> row(row_bytes());
     blocks([&](const SeedBlock& block) {
       const std::vector<std::uint64_t> keys =
           hilbert_keys(block.positions, source_.dimension, survey.low, survey.high, setup_.threads);
       for (std::size_t i = 0; i < block.size(); ++i) {
         FileWriter& file = files[static_cast<std::size_t>(
             std::lower_bound(last.begin(), last.end(), keys[i]) - last.begin())];
-        std::copy_n(&block.positions[i * d_], d_, row.begin());
-        row[d_] = block.weights[i];
-        file.write_one(block.id[i]);
+        std::memcpy(row.data(), &block.id[i], sizeof(double));
+        std::memcpy(&row[sizeof(double)], &block.positions[i * d_], d_ * sizeof(double));
+        std::memcpy(&row[(d_ + 1) * sizeof(double)], &block.weights[i], sizeof(double));
         file.write_all(row);
       }
       seen += block.size();
@@ -210,7 +212,12 @@ class Sorter {
     });
     const SeedSet set =
         make_seed_set({source_.dimension, all.positions, all.weights}, source_.dimension, setup_.threads);
-    store_.add(all, set.input, source_.dimension);
+    std::vector<std::uint64_t> ids(set.size());
+    parallel_for(threads_for(ids.size(), setup_.threads), ids.size(),
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t rank = begin; rank < end; ++rank) ids[rank] = all.id[set.input[rank]];
+                 });
+    store_.add(ids, set.positions, set.weights);
     store_.add_duplicates(set.duplicate.size());
   }
 
@@ -219,8 +226,8 @@ class Sorter {
     blocks([&](const SeedBlock& block) {
       const auto best = std::find(block.id.begin(), block.id.end(), survey.best->first);
       if (best == block.id.end()) return;
-      const auto at = static_cast<std::uint32_t>(best - block.id.begin());
-      store_.add(block, {&at, 1}, source_.dimension);
+      const std::size_t at = static_cast<std::size_t>(best - block.id.begin());
+      store_.add({&block.id[at], 1}, {&block.positions[at * d_], d_}, {&block.weights[at], 1});
     });
     store_.add_duplicates(count - 1);
   }

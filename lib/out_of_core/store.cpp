@@ -1,9 +1,10 @@
 #include "lib/out_of_core/store.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <powercell/error.hpp>
 
+#include "lib/base/radix_sort.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/exchange/tree_of_boxes.hpp"
 
 namespace powercell::out_of_core {
@@ -22,14 +23,13 @@ StoreWriter::StoreWriter(const LockedFolder& folder)
       positions_(folder.file(positions_name), FileWriter::Kind::kept),
       weights_(folder.file(weights_name), FileWriter::Kind::kept) {}
 
-void StoreWriter::add(const SeedBlock& seeds, std::span<const std::uint32_t> order, int dimension) {
-  const auto d = static_cast<std::size_t>(dimension);
-  for (const std::uint32_t k : order) {
-    ids_.write_one(seeds.id[k]);
-    positions_.write_all(std::span(seeds.positions).subspan(k * d, d));
-    weights_.write_one(seeds.weights[k]);
-  }
-  if (!order.empty()) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + order.size());
+void StoreWriter::add(std::span<const std::uint64_t> ids, std::span<const double> positions,
+                      std::span<const double> weights) {
+  if (ids.empty()) return;
+  ids_.write_all(ids);
+  positions_.write_all(positions);
+  weights_.write_all(weights);
+  ends_.push_back((ends_.empty() ? 0 : ends_.back()) + ids.size());
 }
 
 std::uint64_t StoreWriter::close() {
@@ -78,19 +78,23 @@ void Store::build_tree(int dimension) {
   tree_.seeds = size();
 }
 
-SeedBlock Store::by_id(std::size_t piece) const {
+SeedBlock Store::by_id(std::size_t piece, int threads) const {
   const auto [first, last] = ranks(piece);
   const std::size_t d = seeds().dimension(), count = last - first;
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), first);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids_[a] < ids_[b]; });
+  std::vector<KeyedIndex> order(count), scratch(count);
+  for (std::size_t k = 0; k < count; ++k) order[k] = {ids_[first + k], static_cast<std::uint32_t>(k)};
+  sort_by_key(order, scratch, threads);
   SeedBlock block{std::vector<std::uint64_t>(count), std::vector<double>(count * d),
                   std::vector<double>(count)};
-  for (std::size_t k = 0; k < count; ++k) {
-    block.id[k] = ids_[order[k]];
-    std::copy_n(&positions_[order[k] * d], d, &block.positions[k * d]);
-    block.weights[k] = weights_[order[k]];
-  }
+  const double *const positions = &positions_[first * d], *const weights = &weights_[first];
+  parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t from = order[k].index;
+      block.id[k] = order[k].key;
+      std::copy_n(positions + from * d, d, &block.positions[k * d]);
+      block.weights[k] = weights[from];
+    }
+  });
   return block;
 }
 

@@ -28,8 +28,9 @@ class StoreWriter {
  public:
   explicit StoreWriter(const LockedFolder& folder);
 
-  /// Adds a piece: seeds that are no duplicates. \param order  of them along the curve
-  void add(const SeedBlock& seeds, std::span<const std::uint32_t> order, int dimension);
+  /// Adds a piece: seeds along the curve, none of them a duplicate; nothing if there are none.
+  void add(std::span<const std::uint64_t> ids, std::span<const double> positions,
+           std::span<const double> weights);
   void add_duplicates(std::uint64_t count) { duplicates_ += count; }
   /// The store is there as a whole from here on. \return bytes written
   std::uint64_t close();
@@ -59,7 +60,7 @@ class Store {
   std::uint64_t id(std::size_t rank) const { return ids_[rank]; }
   exchange::TreeSeeds seeds() const { return {tree_, positions_, weights_}; }
   /// The seeds of a piece by ascending id.
-  SeedBlock by_id(std::size_t piece) const;
+  SeedBlock by_id(std::size_t piece, int threads) const;
   /// Gives the memory of what was looked at back.
   void drop() const;
 
