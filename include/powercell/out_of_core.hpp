@@ -49,7 +49,7 @@ struct OutOfCoreOptions {
   /// pieces follow from it.
   std::uint64_t memory = std::uint64_t{4} << 30;
   bool walls = false;             ///< give neighbours and walls too
-  std::uint64_t piece_seeds = 0;  ///< most seeds of a piece, as far as memory allows; 0 for 2^20
+  std::uint64_t piece_seeds = 0;  ///< most seeds of a piece, as far as memory allows; 0 for 2^22
 };
 
 /// What a computation came to, and what it took; where it has gone on, `kept` pieces of those before it.
