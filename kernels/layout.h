@@ -12,6 +12,9 @@
 /* Added to one of the first three: rounding may have decided (docs/mathematics.md, "Certain decisions"). */
 #define PIECE_UNCERTAIN 8
 
+/* Instead of a pair, for a row of which nothing is wanted. */
+#define NO_PAIR 0xffffffffu
+
 /* What a cut did. */
 #define CUT_NONE 0
 #define CUT_SHRUNK 1
@@ -118,6 +121,9 @@ typedef struct {
    known: a power of one half (SEARCH_MARGIN in base/real.cl). */
 #define MARGIN_BITS_DOUBLE 20
 #define MARGIN_BITS_FLOAT 5
+
+/* The kind of a border that is a wall (powercell::Border::Kind). */
+#define BORDER_WALL 0
 
 /* Behind a facet of a region lies nothing, or a region: then the corner of it that is not on the facet
    (surfaces), or any number from 0. */

@@ -60,6 +60,31 @@ struct DeviceUncertain {
   cl_mem seeds = nullptr;
 };
 
+/// The geometry of the cells as convex pieces, as Cells has it, in buffers of the caller, of the context of
+/// the device. Only seeds whose status is ok have pieces: one for each region of the domain that the cell
+/// meets, in an order that depends on the seeds and the domain alone. Faces are those that each cell was
+/// clipped to: they are not matched with those of its neighbours, as DeviceAdjacency is. Cells of random
+/// seeds in space have 15.5 faces and 27 vertices on average, in the plane 6; cut into several regions, more.
+///
+/// If some buffers are too small, then the first cells are written, as many as fit all of them, and nothing
+/// of the others; `counts` and `cell_offset` are right all the same.
+struct DeviceCells {
+  /// Written: 4 cl_ulong, how many pieces, vertices, faces and entries of `loop` all cells have, also where
+  /// they do not fit.
+  cl_mem counts = nullptr;
+  cl_mem cell_offset = nullptr;  ///< written: n + 1 cl_ulong; cell i owns [cell_offset[i], cell_offset[i+1])
+  cl_mem region = nullptr;       ///< written: a cl_uint a piece, the region of the domain it lies in
+  cl_mem vertex_offset = nullptr;  ///< written: cl_ulong, one more than pieces
+  cl_mem vertices = nullptr;     ///< written: d reals a vertex, row-major; in a periodic domain near the seed
+  cl_mem face_offset = nullptr;  ///< written: cl_ulong, one more than pieces
+  cl_mem border = nullptr;       ///< written: 2 cl_uint a face, as Border: the kind and the index
+  /// In a periodic domain, where it is needed; else null. Written: 3 cl_int a face, as Cells::shift.
+  cl_mem shift = nullptr;
+  /// These two for cells of dimension 3, where they are needed; else null.
+  cl_mem loop_offset = nullptr;  ///< written: cl_ulong, one more than faces
+  cl_mem loop = nullptr;         ///< written: cl_uint, indices from 0 within the vertices of the piece
+};
+
 /// What a diagram writes, in buffers of the caller, of the context of the device.
 struct DeviceResults {
   /// Written: n x (2 + d) reals, row-major: mass (length^d' for cells of dimension d'), centroid (d
@@ -69,11 +94,13 @@ struct DeviceResults {
   cl_mem status = nullptr;         ///< written: n cl_uint, each a DeviceSeedStatus
   DeviceAdjacency adjacency = {};  ///< where it is wanted, in the same pass; else null
   DeviceUncertain uncertain = {};  ///< where it is wanted; else null
+  DeviceCells cells = {};          ///< where it is wanted, in two more passes; else null
 };
 
-/// Power diagrams from device memory to device memory: seeds, measures and walls are cl_mem, and nothing is
-/// copied to the host in between. Calls enqueue on the queue of the device (device_from_queue) and return
-/// without waiting for it, with two exceptions (set_pair_capacity, set_image_capacity).
+/// Power diagrams from device memory to device memory: seeds, measures, walls and geometry are cl_mem, and
+/// nothing is copied to the host in between. Calls enqueue on the queue of the device (device_from_queue) and
+/// return without waiting for it, with two exceptions (set_pair_capacity, set_image_capacity); the first call
+/// that asks for cells builds their kernels besides, which waits.
 ///
 /// Scratch memory is kept from call to call and reused in the order of the queue. Not thread-safe; use one
 /// object per thread. Results do not depend on the sizes of work-groups and launches, bit for bit.
@@ -147,21 +174,22 @@ class POWERCELL_API DeviceDiagram {
 
   /// Computes the cells of the list results.uncertain as Diagram does with exact decisions, from all seeds,
   /// and puts them into the caller's results. Then every status, and the adjacency where it is given, is that
-  /// of such a Diagram without the invalid seeds; measures of the listed cells are the Diagram's, rounded to
-  /// the precision, and those of the others differ from its by rounding. No cell is unfinished any more;
+  /// of such a Diagram without the invalid seeds, and so are the pieces and faces of cells where these are
+  /// given; measures and vertices of the listed cells are the Diagram's, rounded to the precision, and those
+  /// of the others differ from its by rounding. No cell is unfinished any more;
   /// invalid seeds stay invalid.
   ///
-  /// Waits for the queue, and works on the host: seeds, measures, statuses and rows are read, and results
-  /// are written back. Rows may change their lengths, so all rows are written anew, from `offset` on. The
+  /// Waits for the queue, and works on the host: seeds, measures, statuses, rows and cells are read, and
+  /// results are written back. Rows and cells may change their lengths, so all are written anew. The
   /// Diagram is kept for the next call; where the positions are the same, so are its order and tree.
   /// \param positions, weights, n  as given to enqueue() before
   /// \param results  as written by that call, with the list
   /// \return how many cells were computed: 0 where the list is empty, for which only its count is read; all
   ///   valid ones where seeds that are different were one to the device
   /// \throw Error invalid_argument (a buffer that is missing, too small or of another context; a list that is
-  ///   too small for all uncertain seeds, or rows for all entries, in which case enqueue() again with more
-  ///   room; a list that enqueue() has not written); out_of_device_memory, opencl, interrupted. Results are
-  ///   changed only if writing them fails, in the end: then enqueue() again.
+  ///   too small for all uncertain seeds, rows for all entries, or buffers for all cells, in which case
+  ///   enqueue() again with more room; a list that enqueue() has not written); out_of_device_memory, opencl,
+  ///   interrupted. Results are changed only if writing them fails, in the end: then enqueue() again.
   std::uint32_t repair(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results);
 
   struct State;  ///< library-internal

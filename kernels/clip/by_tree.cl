@@ -5,7 +5,9 @@
 __kernel void clip_by_tree_kernel(PIECE_ARGUMENTS, TREE_ARGUMENTS) {
   const uint row = (uint)get_global_id(0);
   if (row >= count) return;
-  const uint pair = active[row], i = pair_seed[pair];
+  const uint pair = active[row];
+  if (pair == NO_PAIR) return;
+  const uint i = pair_seed[pair];
   const tree_t tree = TREE_OF_ARGUMENTS;
   const blocks_t blocks = BLOCKS_OF_ARGUMENTS;
   const output_t out = OUTPUT_OF_ARGUMENTS;

@@ -158,9 +158,23 @@ TreeBlocks::Tree DeviceDiagram::State::device_tree() const {
           tree_.levels()};
 }
 
+std::uint64_t DeviceDiagram::State::launch_pairs() const {
+  return options.chunk_pairs > 0 ? options.chunk_pairs : device.context()->settings().launch_pairs;
+}
+
+DeviceGeometry::Clipped DeviceDiagram::State::clipped(std::uint32_t n) const {
+  return {n,
+          seeds_,
+          pairs_,
+          images_ ? &*images_ : nullptr,
+          blocks_,
+          device_tree(),
+          piece_status_.handle(),
+          moments_.handle()};
+}
+
 void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uint32_t n) {
-  const std::uint64_t most =
-      options.chunk_pairs > 0 ? options.chunk_pairs : device.context()->settings().launch_pairs;
+  const std::uint64_t most = launch_pairs();
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
@@ -209,7 +223,9 @@ void DeviceDiagram::State::order_seeds(cl_mem positions, cl_mem weights, std::ui
 
 void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n,
                                    const DeviceResults& results, Rooms rooms, cl_event* done) {
-  const bool rows = wants_rows(results), list = wants_list(results);
+  const bool rows = wants_rows(results), list = wants_list(results), cells = wants_cells(results);
+  if (cells && !geometry_)
+    geometry_.emplace(domain_buffers, variant(device, domain, precision, {1, 1}), launch_pairs());
   order_seeds(positions, weights, n);
   tree_.enqueue(points_, points_, points_count_);
   blocks_.enqueue(device_tree(), n);
@@ -217,16 +233,24 @@ void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32
   rows ? walls_.begin(stored_walls(), pairs_.capacity, n, images_ ? &*images_ : nullptr)
        : walls_.begin_without();
   clip(n);
+  if (cells) geometry_->count(clipped(n));
   if (rows) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, results.adjacency);
   for_host_.resize(n);
   finish_
       .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,
             frame_, positions, results.measures, results.status, for_host_)
-      .submit(n, 0, rows || list ? nullptr : done);
+      .submit(n, 0, rows || list || cells ? nullptr : done);
   if (list)
     compaction_.enqueue(for_host_.handle(), n, 1, results.uncertain.seeds, rooms.uncertain,
-                        results.uncertain.count, 0, rows ? nullptr : done);
-  if (rows) walls_.write(seeds_, results.status, frame_.handle(), n, results.adjacency, rooms.rows, done);
+                        results.uncertain.count, 0, rows || cells ? nullptr : done);
+  if (rows)
+    walls_.write(seeds_, results.status, frame_.handle(), n, results.adjacency, rooms.rows,
+                 cells ? nullptr : done);
+  if (cells)
+    geometry_->write(clipped(n), results.status, frame_.handle(), positions, results.cells, rooms.cells);
+  if (cells && done)
+    cl::check(clEnqueueMarkerWithWaitList(device.context()->queue(), 0, nullptr, done),
+              "enqueueing a marker");
 }
 
 }  // namespace powercell

@@ -5,6 +5,7 @@
 #include <optional>
 #include <powercell/opencl.hpp>
 
+#include "lib/diagram/device_geometry.hpp"
 #include "lib/diagram/device_repair.hpp"
 #include "lib/diagram/device_walls.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
@@ -45,6 +46,8 @@ struct DeviceDiagram::State {
   void clip(std::uint32_t n);
   /// Launches one capacity over all pairs, or over those in list_.
   void clip_with(std::size_t capacity, bool listed, std::uint32_t n);
+  std::uint64_t launch_pairs() const;
+  DeviceGeometry::Clipped clipped(std::uint32_t n) const;
 
   cl::RawBuffer frame_;
   DeviceSeeds seeds_;
@@ -55,6 +58,7 @@ struct DeviceDiagram::State {
   TreeBlocks blocks_;
   DevicePairs pairs_;
   DeviceWalls walls_;
+  std::optional<DeviceGeometry> geometry_;  // made on first use
   Compaction compaction_;
   cl::Kernel finish_;
   std::vector<cl::Kernel> clip_;  // by number of the capacity

@@ -76,6 +76,44 @@ std::uint32_t room_for_list(const DeviceDiagram::State& s, std::uint32_t n, cons
   return in_32_bits(values_in(list.seeds, sizeof(cl_uint), "uncertain seeds"));
 }
 
+/// How many values fit a buffer of the caller, which there is. \throw Error invalid_argument
+std::size_t room_in(const cl::Context& context, cl_mem memory, std::size_t bytes_each, const char* name) {
+  require_buffer(context, memory, bytes_each, name);
+  return values_in(memory, bytes_each, name);
+}
+
+/// What the caller's cells have room for. \throw Error invalid_argument
+CellRooms room_for_cells(const DeviceDiagram::State& s, std::uint32_t n, const DeviceCells& cells) {
+  const cl::Context& context = *s.device.context();
+  const bool volume = s.domain.cell_dimension() == 3, periodic = s.domain.is_periodic();
+  if (cells.shift && !periodic)
+    throw Error(ErrorCode::invalid_argument,
+                "faces have shifts in periodic domains only; pass no buffer of shifts for this one");
+  if ((cells.loop_offset || cells.loop) && !volume)
+    throw Error(ErrorCode::invalid_argument,
+                "faces have loops in cells of dimension 3 only; pass no buffers of loops for this domain");
+  require_buffer(context, cells.counts, 4 * sizeof(cl_ulong), "the counts of cells");
+  require_buffer(context, cells.cell_offset, (std::size_t{n} + 1) * sizeof(cl_ulong), "the offsets of cells");
+  if (n == 0) return {};
+  const auto room = [&](cl_mem memory, std::size_t bytes_each, const char* name) {
+    return room_in(context, memory, bytes_each, name);
+  };
+  const auto offsets = [&](cl_mem memory, const char* name) {
+    return room_in(context, memory, sizeof(cl_ulong), name) - 1;
+  };
+  const std::size_t vertex = static_cast<std::size_t>(s.domain.dimension()) * s.real_bytes();
+  CellRooms rooms{std::min({room(cells.region, sizeof(cl_uint), "the regions of pieces"),
+                            offsets(cells.vertex_offset, "the offsets of vertices"),
+                            offsets(cells.face_offset, "the offsets of faces")}),
+                  room(cells.vertices, vertex, "vertices"),
+                  room(cells.border, 2 * sizeof(cl_uint), "the borders of faces"), 0};
+  if (periodic) rooms.faces = std::min(rooms.faces, room(cells.shift, shift_bytes, "the shifts of faces"));
+  if (!volume) return rooms;
+  rooms.faces = std::min(rooms.faces, offsets(cells.loop_offset, "the offsets of loops"));
+  rooms.loop = room(cells.loop, sizeof(cl_uint), "loops");
+  return rooms;
+}
+
 /// \throw Error invalid_argument
 Rooms checked(const DeviceDiagram::State& s, const Job& job) {
   if (job.n > most_seeds_of_diagram)
@@ -93,17 +131,23 @@ Rooms checked(const DeviceDiagram::State& s, const Job& job) {
     require_buffer(context, results.status, job.n * sizeof(cl_uint), "status");
   }
   return {wants_rows(results) ? room_for_rows(s, job.n, results.adjacency) : 0,
-          wants_list(results) ? room_for_list(s, job.n, results.uncertain) : 0};
+          wants_list(results) ? room_for_list(s, job.n, results.uncertain) : 0,
+          wants_cells(results) ? room_for_cells(s, job.n, results.cells) : CellRooms{}};
 }
 
 /// The diagram of no seeds.
 void enqueue_nothing(const cl::Context& context, const DeviceResults& results, cl_event* done) {
-  const cl_uint zero = 0;
-  for (const cl_mem memory : {results.adjacency.offset, results.uncertain.count})
+  const auto write_zeros = [&](cl_mem memory, std::size_t bytes) {
+    const cl_uint zero = 0;
     if (memory)
-      cl::check(clEnqueueFillBuffer(context.queue(), memory, &zero, sizeof zero, 0, sizeof zero, 0, nullptr,
-                                    nullptr),
-                "writing the results of no seeds");
+      cl::check(
+          clEnqueueFillBuffer(context.queue(), memory, &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
+          "writing the results of no seeds");
+  };
+  write_zeros(results.adjacency.offset, sizeof(cl_uint));
+  write_zeros(results.uncertain.count, sizeof(cl_uint));
+  write_zeros(results.cells.counts, 4 * sizeof(cl_ulong));
+  write_zeros(results.cells.cell_offset, sizeof(cl_ulong));
   if (done) cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
 }
 

@@ -8,6 +8,7 @@
 
 #include "lib/cl/transfers.hpp"
 #include "lib/diagram/merge_rows.hpp"
+#include "lib/diagram/repair_cells.hpp"
 #include "lib/diagram/state.hpp"
 
 namespace powercell {
@@ -116,6 +117,14 @@ DeviceRows<Real> read_rows(const std::shared_ptr<cl::Context>& context, const De
   return rows;
 }
 
+template <class Real>
+void write_rows(const cl::Context& context, const DeviceAdjacency& to, const DeviceRows<Real>& rows) {
+  write(context, to.offset, rows.offset);
+  write(context, to.neighbor, rows.neighbor);
+  write(context, to.wall, rows.wall);
+  if (rows.has_shifts) write(context, to.shift, rows.shift);
+}
+
 }  // namespace
 
 DeviceRepair::DeviceRepair(const Device& device, const Domain& domain, Options options)
@@ -146,14 +155,14 @@ std::uint32_t DeviceRepair::run(cl_mem positions, cl_mem weights, std::uint32_t 
   reads.add(results.uncertain.seeds, list.data(), count * sizeof(cl_uint));
   reads.wait();
   return diagram_.precision() == Precision::float32
-             ? repair<float>(positions, weights, n, results, std::move(list), rooms.rows)
-             : repair<double>(positions, weights, n, results, std::move(list), rooms.rows);
+             ? repair<float>(positions, weights, n, results, std::move(list), rooms)
+             : repair<double>(positions, weights, n, results, std::move(list), rooms);
 }
 
 template <class Real>
 std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32_t n,
                                    const DeviceResults& results, std::vector<std::uint32_t> list,
-                                   std::uint32_t room) {
+                                   const Rooms& rooms) {
   const std::shared_ptr<cl::Context>& context = diagram_.device().context();
   const auto d = static_cast<std::size_t>(diagram_.domain().dimension());
   std::vector<Real> position(n * d), weight(n), measures(n * (2 + d));
@@ -166,7 +175,11 @@ std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32
   reads.wait();
 
   DeviceRows<Real> rows;
-  if (wants_rows(results)) rows = read_rows<Real>(context, results.adjacency, n, room);
+  if (wants_rows(results)) rows = read_rows<Real>(context, results.adjacency, n, rooms.rows);
+  constexpr bool float32 = sizeof(Real) == sizeof(float);
+  Cells cells;
+  if (wants_cells(results))
+    cells = read_cells(context, results.cells, n, diagram_.domain().dimension(), float32, rooms.cells);
 
   Seeds seeds(position, weight, d, status);
   set_seeds(std::move(seeds.positions), seeds.weights);
@@ -180,22 +193,22 @@ std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32
     list = valid_seeds(status);
     diagram_.select(list);
   }
-  diagram_.compute(wants_rows(results), false);
+  diagram_.compute(wants_rows(results), wants_cells(results));
   put_measures(diagram_.measures(), list, measures, status);
   if (wants_rows(results)) {
     std::vector<bool> has_cell(n);
     for (std::size_t i = 0; i < n; ++i) has_cell[i] = status[i] == static_cast<cl_uint>(SeedStatus::ok);
-    rows = merge_rows(rows, list, diagram_.adjacency(), has_cell, room);
+    rows = merge_rows(rows, list, diagram_.adjacency(), has_cell, rooms.rows);
+  }
+  if (wants_cells(results)) {
+    cells = merge_cells(cells, list, diagram_.cells());
+    require_room(cells, rooms.cells);
   }
   // Nothing is written before everything is known.
   write(*context, results.measures, measures);
   write(*context, results.status, status);
-  if (wants_rows(results)) {
-    write(*context, results.adjacency.offset, rows.offset);
-    write(*context, results.adjacency.neighbor, rows.neighbor);
-    write(*context, results.adjacency.wall, rows.wall);
-    if (rows.has_shifts) write(*context, results.adjacency.shift, rows.shift);
-  }
+  if (wants_rows(results)) write_rows(*context, results.adjacency, rows);
+  if (wants_cells(results)) write_cells(*context, results.cells, cells, float32);
   return static_cast<std::uint32_t>(list.size());
 }
 

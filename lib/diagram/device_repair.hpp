@@ -6,12 +6,15 @@
 #include <powercell/opencl.hpp>
 #include <vector>
 
+#include "lib/diagram/device_geometry.hpp"
+
 namespace powercell {
 
 /// How much fits the caller's buffers.
 struct Rooms {
   std::uint32_t rows = 0;       ///< entries of DeviceAdjacency
   std::uint32_t uncertain = 0;  ///< seeds of DeviceUncertain
+  CellRooms cells = {};
 };
 
 inline bool wants_rows(const DeviceResults& r) {
@@ -19,6 +22,12 @@ inline bool wants_rows(const DeviceResults& r) {
 }
 inline bool wants_list(const DeviceResults& r) {
   return r.uncertain.count || r.uncertain.seeds;
+}
+
+inline bool wants_cells(const DeviceResults& r) {
+  const DeviceCells& c = r.cells;
+  return c.counts || c.cell_offset || c.region || c.vertex_offset || c.vertices || c.face_offset ||
+         c.border || c.shift || c.loop_offset || c.loop;
 }
 
 /// Computes cells with a Diagram, which is kept, and so are its programs, its memory and, for seeds at the
@@ -36,7 +45,7 @@ class DeviceRepair {
   /// \return how many cells were computed
   template <class Real>
   std::uint32_t repair(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
-                       std::vector<std::uint32_t> list, std::uint32_t room);
+                       std::vector<std::uint32_t> list, const Rooms& rooms);
   void set_seeds(std::vector<double> positions, const std::vector<double>& weights);
 
   Diagram diagram_;

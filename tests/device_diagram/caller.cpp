@@ -120,13 +120,13 @@ void Job::enqueue(DeviceDiagram& diagram, cl_uint wait_count, const cl_event* wa
 void Job::enqueue(DeviceDiagram& diagram, const Wanted& wanted) const {
   diagram.enqueue(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
                   static_cast<std::uint32_t>(count_),
-                  {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain});
+                  {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain, wanted.cells});
 }
 
 std::uint32_t Job::repair(DeviceDiagram& diagram, const Wanted& wanted) const {
-  return diagram.repair(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
-                        static_cast<std::uint32_t>(count_),
-                        {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain});
+  return diagram.repair(
+      positions_.handle(), weighted_ ? weights_.handle() : nullptr, static_cast<std::uint32_t>(count_),
+      {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain, wanted.cells});
 }
 
 Output Job::read() const {

@@ -110,6 +110,7 @@ class List {
 struct Wanted {
   DeviceAdjacency adjacency = {};
   DeviceUncertain uncertain = {};
+  DeviceCells cells = {};
 };
 
 /// Seeds and results of one call in device memory.
