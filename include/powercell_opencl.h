@@ -98,12 +98,31 @@ typedef struct pc_device_uncertain {
   cl_mem seeds; /**< written: cl_uint each, their indices, ascending; as many as fit the buffer */
 } pc_device_uncertain;
 
+/** The geometry of the cells as convex pieces, as pc_cells has it; only seeds whose status is ok have pieces
+ * (powercell::DeviceCells). If some buffers are too small, then the first cells are written, as many as fit
+ * all of them, and nothing of the others. */
+typedef struct pc_device_cells {
+  cl_mem counts; /**< written: 4 cl_ulong, how many pieces, vertices, faces and entries of `loop` all cells
+                    have, also where they do not fit */
+  cl_mem cell_offset;   /**< written: n + 1 cl_ulong, always right; cell i owns the pieces
+                             [cell_offset[i], cell_offset[i+1]) */
+  cl_mem region;        /**< written: a cl_uint a piece, the region of the domain it lies in */
+  cl_mem vertex_offset; /**< written: cl_ulong, one more than pieces */
+  cl_mem vertices;      /**< written: d reals a vertex, row-major; in a periodic domain near the seed */
+  cl_mem face_offset;   /**< written: cl_ulong, one more than pieces */
+  cl_mem border; /**< written: 2 cl_uint a face, the pc_border_kind and the index, as pc_border has them */
+  cl_mem shift;  /**< in a periodic domain, else NULL; written: 3 cl_int a face, as in pc_cells */
+  cl_mem loop_offset; /**< of cells of dimension 3, else NULL; written: cl_ulong, one more than faces */
+  cl_mem loop;        /**< likewise; written: cl_uint, indices from 0 within the vertices of the piece */
+} pc_device_cells;
+
 /** What a diagram writes, in buffers of the caller. */
 typedef struct pc_device_results {
   cl_mem measures;               /**< as in pc_device_diagram_enqueue() */
   cl_mem status;                 /**< the same */
   pc_device_adjacency adjacency; /**< where it is wanted, in the same pass; else NULL each */
   pc_device_uncertain uncertain; /**< where it is wanted; else NULL each */
+  pc_device_cells cells;         /**< where it is wanted, in two more passes; else NULL each */
 } pc_device_results;
 
 /** As pc_device_diagram_enqueue(), with all that is wanted. */
@@ -119,7 +138,8 @@ POWERCELL_API pc_status pc_device_diagram_enqueue_results(pc_device_diagram* dia
  * \param results  as written by that call, with the list
  * \param computed  if not NULL: how many cells were computed
  * \return PC_INVALID_ARGUMENT where the list was too small for all uncertain seeds, or the rows are for all
- *   entries: pc_last_error() says how much room is needed; the results are unchanged */
+ *   entries, or the buffers of cells for all cells: pc_last_error() says how much room is needed; the results
+ * are unchanged */
 POWERCELL_API pc_status pc_device_diagram_repair(pc_device_diagram* diagram, cl_mem positions, cl_mem weights,
                                                  uint32_t n, const pc_device_results* results,
                                                  uint32_t* computed);
