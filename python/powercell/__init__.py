@@ -36,6 +36,7 @@ from ._device import (  # noqa: E402
     measure_device_latencies,
     measure_device_rates,
 )
+from ._device_cells import DeviceCells  # noqa: E402
 from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceStatus, DeviceUncertain  # noqa: E402
 from ._diagram import Diagram, regular_triangulation  # noqa: E402
 from ._distributed import DistributedCells, compute_distributed  # noqa: E402
@@ -61,6 +62,7 @@ __all__ = [
     "DensityIntegrals",
     "Device",
     "DeviceAdjacency",
+    "DeviceCells",
     "DeviceDiagram",
     "DeviceMeasures",
     "DeviceLatencies",

@@ -8,6 +8,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _looks
+from ._device_cells import DeviceCells
 from ._errors import Error
 
 
@@ -138,6 +139,8 @@ class DeviceMeasures:
         If :meth:`DeviceDiagram.compute` was asked for it.
     uncertain : DeviceUncertain or None
         The same.
+    cells : DeviceCells or None
+        The same.
     event : pyopencl.Event
         Of the last command.
     """
@@ -149,6 +152,7 @@ class DeviceMeasures:
         status: Any,
         adjacency: Optional[DeviceAdjacency],
         uncertain: Optional[DeviceUncertain],
+        cells: Optional[DeviceCells],
         event: Any,
     ) -> None:
         self._queue = queue
@@ -156,6 +160,7 @@ class DeviceMeasures:
         self.status = status
         self.adjacency = adjacency
         self.uncertain = uncertain
+        self.cells = cells
         self.event = event
         self._parts: dict[str, Any] = {}
 
@@ -170,6 +175,7 @@ class DeviceMeasures:
             self.status,
             *((rows.indptr, rows.indices, rows.data, rows.shift) if rows else (None,) * 4),
             *((listed.count, listed.seeds) if listed else (None, None)),
+            *(self.cells._arrays() if self.cells else [None] * len(DeviceCells._NAMES)),
         ]
 
     def _columns(self, name: str, first: int, shape: tuple[int, ...]) -> Any:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _core, _looks
 from ._arrays import is_pyopencl
 from ._device import Device
+from ._device_cells import DeviceCells, room_for
 from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceUncertain, empty
 from ._domain import Domain
 from ._options import diagram_options
@@ -100,6 +101,7 @@ class DeviceDiagram:
         *,
         adjacency: Union[bool, int] = False,
         uncertain: Union[bool, int] = False,
+        cells: Union[bool, Sequence[int], np.ndarray] = False,
         out: Optional[DeviceMeasures] = None,
     ) -> DeviceMeasures:
         """Enqueues the diagram of n seeds, and returns without waiting for it.
@@ -117,9 +119,14 @@ class DeviceDiagram:
         uncertain : bool or int
             Whether the seeds that :meth:`repair` would compute are listed, or the number to make room for. True makes
             room for all seeds.
+        cells : bool, or four int
+            Whether the geometry of the cells is wanted, for which all are clipped twice more, or the numbers of
+            pieces, vertices, faces and entries of loops to make room for, as :attr:`DeviceCells.counts` has them. True
+            makes room for random seeds: of :attr:`DeviceCells.counts` of a smaller diagram one learns how much others
+            need. The first call with cells builds programs, which waits.
         out : DeviceMeasures, optional
-            Of an earlier call with as many seeds of this type: its arrays are written again, those of the adjacency
-            and of the list where it has them and they are wanted. Otherwise new ones come from the allocator of
+            Of an earlier call with as many seeds of this type: its arrays are written again, those of the adjacency,
+            the list and the cells where it has them and they are wanted. Otherwise new ones come from the allocator of
             ``positions``.
 
         Returns
@@ -141,6 +148,7 @@ class DeviceDiagram:
             *self._measures(n, positions, out),
             self._rows(adjacency, n, positions, out),
             self._list(uncertain, n, positions, out),
+            self._cells(cells, n, positions, out),
             None,
         )
         written = results._arrays()
@@ -153,7 +161,8 @@ class DeviceDiagram:
 
     def repair(self, positions: Any, weights: Optional[Any] = None, *, out: DeviceMeasures) -> int:
         """Computes the cells of the list ``out.uncertain`` exactly, and puts them into the results, which are then those
-        of a :class:`Diagram` without the invalid seeds: the statuses and, where there is one, the adjacency are exact.
+        of a :class:`Diagram` without the invalid seeds: the statuses and, where they are given, the adjacency and the
+        pieces and faces of cells are exact.
         Waits for the queue, and works on the host, with the Global Interpreter Lock released.
 
         Parameters
@@ -173,8 +182,8 @@ class DeviceDiagram:
         ValueError
             An array of the wrong shape, type or layout, by name; results without a list.
         Error
-            ``invalid_argument`` if the list has no room for all uncertain seeds, or the adjacency for its entries (how
-            many there are): nothing is changed then. ``out_of_device_memory``, ``opencl``.
+            ``invalid_argument`` if the list has no room for all uncertain seeds, the adjacency for its entries, or the
+            cells for their pieces (how many there are): nothing is changed then. ``out_of_device_memory``, ``opencl``.
         """
         if out.uncertain is None:
             raise ValueError("out has no list of uncertain seeds; give compute(uncertain=True)")
@@ -223,6 +232,22 @@ class DeviceDiagram:
         queue, allocator, unsigned = self.device.queue, positions.allocator, np.dtype(np.uint32)
         return DeviceUncertain(
             queue, empty(queue, (1,), unsigned, allocator), empty(queue, (room,), unsigned, allocator)
+        )
+
+    def _cells(self, cells: Any, n: int, positions: Any, out: Optional[DeviceMeasures]) -> Optional[DeviceCells]:
+        """The memory of the geometry, if it is wanted."""
+        room = room_for(cells, self.domain, n)
+        if room is None:
+            return None
+        if out is not None and out.cells is not None:
+            if len(out.cells.cell_offset) != n + 1:
+                raise ValueError(f"out.cells is of {len(out.cells.cell_offset) - 1} seeds; {n} are expected")
+            _check(out.cells.vertices, "out.cells.vertices", (None, self.domain.dimension), positions.dtype)
+            if cells is True or all(wanted <= there for wanted, there in zip(room, out.cells.room)):
+                return out.cells
+        queue, allocator = self.device.queue, positions.allocator
+        return DeviceCells(
+            queue, self.domain, n, room, lambda shape, dtype: empty(queue, shape, dtype, allocator), positions.dtype
         )
 
     def _rows(

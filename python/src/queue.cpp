@@ -38,8 +38,7 @@ class PyDeviceDiagram {
   }
 
   /// \param results  measures and statuses; offsets, neighbours, walls and shifts of the adjacency; number
-  /// and
-  ///   list of uncertain seeds; 0 for what is not wanted
+  ///   and list of uncertain seeds; the buffers of DeviceCells in their order; 0 for what is not wanted
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
                   const std::vector<Pointer>& events) {
@@ -67,7 +66,12 @@ class PyDeviceDiagram {
  private:
   static DeviceResults results_of(const std::vector<Pointer>& pointers) {
     const auto memory = [&](std::size_t k) { return handle_of<cl_mem>(pointers.at(k)); };
-    return {memory(0), memory(1), {memory(2), memory(3), memory(4), memory(5)}, {memory(6), memory(7)}};
+    return {memory(0),
+            memory(1),
+            {memory(2), memory(3), memory(4), memory(5)},
+            {memory(6), memory(7)},
+            {memory(8), memory(9), memory(10), memory(11), memory(12), memory(13), memory(14), memory(15),
+             memory(16), memory(17)}};
   }
 
   static DeviceDiagram made(const Device& device, const Domain& domain, const Options& options) {

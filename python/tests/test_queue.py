@@ -70,6 +70,41 @@ def test_walls_are_those_of_diagram(rng, queue, d, dtype, tolerance):
     assert few.count()[pc.DeviceStatus.UNFINISHED] > 0
 
 
+@pytest.mark.parametrize("d, periodic", [(2, False), (3, False), (3, True)])
+def test_cells_are_those_of_diagram(rng, queue, d, periodic):
+    box = pc.Domain.box([0] * d, [1] * d, periodic=periodic)
+    p = rng.random((200, d))
+    want = pc.Diagram(box, p).cells
+    diagram = pc.DeviceDiagram(box, queue)
+    seeds = cl.array.to_device(queue, p)
+    found = diagram.compute(seeds, cells=True, uncertain=True)
+    diagram.repair(seeds, out=found)
+    cells = found.cells.get()
+    assert cells["counts"].tolist() == [len(want.region), len(want.vertices), len(want.border), len(want.loop)]
+    assert np.array_equal(cells["cell_offset"], want.cell_offset)
+    assert np.array_equal(cells["vertex_offset"], want.vertex_offset)
+    assert np.array_equal(cells["face_offset"], want.face_offset)
+    assert ("loop" in cells) == (d == 3) and ("shift" in cells) == periodic
+    for i in range(200):  # faces in any order
+        faces = slice(*want.face_offset[i : i + 2])
+        columns = [np.hstack([of["border"][faces]] + ([of["shift"][faces]] if periodic else []))
+                   for of in (cells, {"border": want.border, "shift": want.shift})]  # fmt: skip
+        assert sorted(map(tuple, columns[0])) == sorted(map(tuple, columns[1]))
+        corners = [np.sort(x[slice(*want.vertex_offset[i : i + 2])], axis=0) for x in (cells["vertices"], want.vertices)]
+        assert corners[0] == pytest.approx(corners[1], abs=1e-6)
+    counts = found.cells.counts.get()
+    exact = diagram.compute(seeds, cells=counts)
+    assert np.array_equal(exact.cells.get()["border"], diagram.compute(seeds, cells=True).cells.get()["border"])
+    assert diagram.compute(seeds, cells=counts, out=exact).cells is exact.cells
+    short = diagram.compute(seeds, cells=[200, *(counts[1:] // 2)])
+    with pytest.raises(pc.Error, match=f"the cells have 200 pieces, {counts[1]} vertices") as caught:
+        short.cells.get()
+    assert caught.value.code == "invalid_argument"
+    assert diagram.compute(seeds[:0], cells=True).cells.get()["vertex_offset"].tolist() == [0]
+    with pytest.raises(ValueError, match="four numbers"):
+        diagram.compute(seeds, cells=5)
+
+
 def test_both_loaders_name_the_same_devices(queue):
     device = pc.Device.from_queue(queue)
     assert device.name == queue.device.name.strip() and device.queue is queue
