@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <powercell/error.hpp>
+#include <thread>
 #include <utility>
 
 namespace powercell::out_of_core {
@@ -114,7 +116,11 @@ LockedFolder::LockedFolder(std::string path) : path_(std::move(path)) {
   if (error) refuse(path_, "make", error.value());
   lock_ = open(file(lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) refuse(file(lock_name), "create", errno);
-  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  // A process that was killed while it started another, as compilers are, keeps it until that one has begun.
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
   ::close(lock_);
   throw Error(ErrorCode::write_failed,
               path_ + ": another process computes in this folder; wait for its end, or stop it");
