@@ -190,13 +190,15 @@ class Diagram(ToolTest):
         common = [".png", ".vtu", ".vtp", ".obj", ".ply", ".off", ".msh", ".json", ".html"]
         for shape, dimension in SHAPES.items():
             bodies = [".stl", ".tess"] if shape == "bracket.mesh" else []
-            for extension in common + bodies + ([".svg", ".pdf", ".geojson"] if dimension == 2 else []):
-                with self.subTest(shape=shape, extension=extension):
-                    name = "out" + extension
-                    report = self.report("diagram", "--domain", DATA / shape, "--seeds", "random:60", "-o", name)
-                    self.assertEqual(report["files"], [name])
+            extensions = common + bodies + ([".svg", ".pdf", ".geojson"] if dimension == 2 else [])
+            with self.subTest(shape=shape):  # in one run, which takes a tenth of the time of one each
+                names = ["out" + extension for extension in extensions]
+                report = self.report("diagram", "--domain", DATA / shape, "--seeds", "random:60",
+                                     *(word for name in names for word in ("-o", name)))
+                self.assertEqual(report["files"], names)
+                self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(names))
+                for name in names:
                     self.assertGreater((self.folder / name).stat().st_size, 200)
-                    self.assertEqual([p.name for p in self.folder.iterdir()], [name])
                     (self.folder / name).unlink()
 
     def test_whole_cells(self):

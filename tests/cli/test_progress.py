@@ -20,13 +20,13 @@ class ProgressTest(TerminalTest):
 
     def test_one_bar_for_each_command(self):
         runs = {
-            "diagram": ["--domain", "cube", "--seeds", "random:300000", "--table", "t.csv", "-o", "c.off"],
-            "transport": ["--domain", "square", "--seeds", "random:40000", "--table", "t.csv"],
-            "sample": ["-n", "8000", "-o", "p.csv"],
-            "remesh": [DATA / "pretzel.off", "--count", "2000", "-o", "m.off"],
-            "treemap": [self.tree(12000), "-o", "m.svg"],
-            "verify": ["--count", "10000"],
-            "bench": ["--quick", "--n", "200000", "--domain", "cube", "--precision", "double", "--device", "cpu"],
+            "diagram": ["--domain", "cube", "--seeds", "random:200000", "--table", "t.csv", "-o", "c.off"],
+            "transport": ["--domain", "square", "--seeds", "random:20000", "--table", "t.csv"],
+            "sample": ["-n", "4000", "-o", "p.csv"],
+            "remesh": [DATA / "pretzel.off", "--count", "1000", "-o", "m.off"],
+            "treemap": [self.tree(6000), "-o", "m.svg"],
+            "verify": ["--count", "4000"],
+            "bench": ["--quick", "--n", "100000", "--domain", "cube", "--precision", "double", "--device", "cpu"],
         }
         for command, arguments in runs.items():
             with self.subTest(command):
