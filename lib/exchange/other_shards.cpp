@@ -44,9 +44,8 @@ bool NearBoxes::may_meet(const BoxView& box, const CutTest& farthest) const {
 }
 
 bool NearBoxes::may_meet(const CutTest& cell) const {
-  return has_box([&](const PackedTree& boxes, std::uint32_t node) {
-    return cell_may_meet(boxes, node, cell);
-  });
+  return has_box(
+      [&](const PackedTree& boxes, std::uint32_t node) { return cell_may_meet(boxes, node, cell); });
 }
 
 void NearBoxes::set(const CutTest& cell) {
