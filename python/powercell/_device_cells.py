@@ -28,8 +28,8 @@ class DeviceCells:
     region : (pieces,) pyopencl.array.Array of uint32
         The region of the domain that each piece lies in.
     vertex_offset, face_offset : (pieces + 1,) pyopencl.array.Array of uint64
-    vertices : (vertices, d) pyopencl.array.Array
-        Of the type of the positions.
+    vertices : (v, d) pyopencl.array.Array
+        A row for each of the v vertices, of the type of the positions.
     border : (faces, 2) pyopencl.array.Array of uint32
         Kind and index of what is behind each face: 0 and the seed, 1 and the facet of the domain's boundary, or 2 and
         the region where the cell goes on.
