@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/base/bytes.hpp"
@@ -28,6 +29,12 @@ class Post {
 
   /// \param letters  of each shard here, to any \return to each shard here
   virtual std::vector<Letters> deliver(std::vector<Letters> letters) = 0;
+  /// The same where one shard is here.
+  Letters deliver_one(Letters letters) {
+    std::vector<Letters> own(1);
+    own[0] = std::move(letters);
+    return std::move(deliver(std::move(own))[0]);
+  }
   /// \param own  of each shard here \return of all shards
   virtual std::vector<Bytes> share(std::vector<Bytes> own) = 0;
 

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <powercell/error.hpp>
 #include <powercell/local_diagram.hpp>
 #include <string>
@@ -16,6 +17,7 @@ namespace powercell {
 namespace exchange {
 namespace {
 
+/// Seeds with their ids, in any order.
 struct NamedSeeds {
   std::size_t d;
   std::vector<std::uint64_t> ids;
@@ -87,7 +89,7 @@ class Directory {
     Post::Letters letters;
     for (const auto& [to, seeds] : sent) letters[to] = packed(seeds.ids, seeds.positions, seeds.weights);
     NamedSeeds received{own.d, {}, {}, {}};
-    for (const auto& [from, letter] : deliver(std::move(letters))) {
+    for (const auto& [from, letter] : post.deliver_one(std::move(letters))) {
       unpack(letter, received.ids, received.positions, received.weights);
       for (std::size_t k = 0; k < received.ids.size(); ++k) {
         place_[received.ids[k]] = known_.ids.size();
@@ -96,13 +98,15 @@ class Directory {
     }
   }
 
+  /// Adds the seeds of these ids. \throw Error invalid_argument if nobody has one
   void look_up(const std::vector<std::uint64_t>& wanted, NamedSeeds& seeds) {
     std::map<int, std::vector<std::uint64_t>> asked;
     for (const std::uint64_t id : wanted) asked[meeting_shard(id, post_.shards())].push_back(id);
     Post::Letters letters;
     for (const auto& [to, ids] : asked) letters[to] = packed(ids);
     NamedSeeds answer{seeds.d, {}, {}, {}};
-    for (const auto& [from, letter] : deliver(answers_to(deliver(std::move(letters))))) {
+    letters = post_.deliver_one(answers_to(post_.deliver_one(std::move(letters))));
+    for (const auto& [from, letter] : letters) {
       unpack(letter, answer.ids, answer.positions, answer.weights);
       for (std::size_t k = 0; k < answer.ids.size(); ++k) seeds.add(answer, k);
     }
@@ -127,12 +131,6 @@ class Directory {
       letters[from] = packed(answer.ids, answer.positions, answer.weights);
     }
     return letters;
-  }
-
-  Post::Letters deliver(Post::Letters letters) {
-    std::vector<Post::Letters> own(1);
-    own[0] = std::move(letters);
-    return std::move(post_.deliver(std::move(own))[0]);
   }
 
   Post& post_;
@@ -168,11 +166,13 @@ LocalDiagram local_diagram(Communicator& communicator, const Device& device, con
   return post.together([&] {
     const exchange::ShardSeeds own{ids, seeds};
     exchange::require_rows(domain, own, cells);
-    const bool is_convex = domain.region_count() == 1;
-    const DistributedCells around = is_convex ? cells : post.nested([&] {
-      return compute_distributed(communicator, device, exchange::surrounding_box(domain), ids, seeds,
-                                 {options});
-    });
+    std::optional<DistributedCells> in_box;
+    if (domain.region_count() > 1)
+      in_box = post.nested([&] {
+        return compute_distributed(communicator, device, exchange::surrounding_box(domain), ids, seeds,
+                                   {options});
+      });
+    const DistributedCells& around = in_box ? *in_box : cells;
     const exchange::NamedSeeds here = exchange::seeds_with_cells(own, cells.measures);
     exchange::NamedSeeds all = here;
     exchange::Directory(exchange::seeds_with_cells(own, around.measures), post)

@@ -191,9 +191,7 @@ Redistribution::Redistribution(const ShardSeeds& own, int dimension, int threads
 Post::Letters Redistribution::deliver(Post::Letters letters) {
   for (const auto& [to, letter] : letters)
     if (to != post_.first()) bytes_ += letter.size();
-  std::vector<Post::Letters> own(1);
-  own[0] = std::move(letters);
-  return std::move(post_.deliver(std::move(own))[0]);
+  return post_.deliver_one(std::move(letters));
 }
 
 std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int threads) {
