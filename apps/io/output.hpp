@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <powercell/domain.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
@@ -16,7 +17,7 @@
 namespace powercell::io {
 
 /// Where there are cells of some seeds only, of these, row by row: their indices, by which borders name
-/// seeds, and the numbers that a file has for them. Empty if row k is of seed k.
+/// seeds, and the numbers that a file has for them.
 struct SelectedRows {
   std::span<const std::uint32_t> seed;
   std::span<const std::uint64_t> id;
@@ -37,7 +38,7 @@ struct DiagramOutput {
   /// Whether a .vtu of a volume has one polyhedron for each cell in place of one for each convex piece.
   bool whole_cells = false;
   PictureStyle style = {};
-  SelectedRows rows = {};  ///< for a .vtu
+  std::optional<SelectedRows> rows = {};  ///< for a .vtu; without, row k is of seed k
 };
 
 /// Extensions that `write_output` accepts: ".svg .png ...".

@@ -220,7 +220,7 @@ void Sharing::add_piece(std::uint32_t cell, std::uint64_t piece) {
   const auto d = static_cast<std::size_t>(cells.dimension);
   const std::uint64_t first = cells.vertex_offset[piece];
   const auto count = static_cast<std::uint32_t>(cells.vertex_offset[piece + 1] - first);
-  const std::uint32_t seed = output_.rows.seed.empty() ? cell : output_.rows.seed[cell];
+  const std::uint32_t seed = output_.rows ? output_.rows->seed[cell] : cell;
   labels_.resize(std::max<std::size_t>(labels_.size(), count));
   facets_.resize(labels_.size());
   for (std::uint32_t v = 0; v < count; ++v) {

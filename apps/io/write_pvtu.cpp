@@ -32,7 +32,7 @@ void write_vtu_piece(const std::string& path, const VtuPiece& piece) {
       piece.diagram.domain(),   {piece.diagram.domain().dimension(), piece.positions, piece.weights},
       piece.diagram.measures(), piece.diagram.cells(),
       piece.diagram.joined(),   piece.diagram.adjacency()};
-  output.rows = {piece.seeds, piece.ids};
+  output.rows = SelectedRows{piece.seeds, piece.ids};
   write_vtu(file.string(), output);
 }
 

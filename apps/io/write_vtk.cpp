@@ -47,13 +47,14 @@ void write_figures(VtkFile& file, const DiagramOutput& output, const std::vector
   file.array("measure", view(measure));
 }
 
+/// Of 64 bits where they are numbers among the seeds of several processes.
 void write_seed_numbers(VtkFile& file, const DiagramOutput& output, const std::vector<std::uint32_t>& seeds) {
-  if (output.rows.id.empty()) {
+  if (!output.rows) {
     file.array("seed", view(seeds));
     return;
   }
   std::vector<std::int64_t> ids;
-  for (const std::uint32_t seed : seeds) ids.push_back(static_cast<std::int64_t>(output.rows.id[seed]));
+  for (const std::uint32_t seed : seeds) ids.push_back(static_cast<std::int64_t>(output.rows->id[seed]));
   file.array("seed", view(ids));
 }
 

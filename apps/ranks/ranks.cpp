@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <powercell/error.hpp>
 
 #include "apps/common.hpp"

@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import unittest
@@ -100,6 +101,16 @@ class Ranks(ToolTest):
         for k in range(seed.GetNumberOfTuples()):
             sums[seed.GetValue(k)] = sums.get(seed.GetValue(k), 0) + size.GetValue(k)
         return sums, reader.GetOutput().GetNumberOfCells()
+
+    @unittest.skipUnless(vtk, "needs VTK")
+    def test_a_rank_without_cells_has_a_piece_like_the_others(self):
+        self.seeds(2)
+        self.on(3, "diagram", "--domain", "cube", "--seeds", "s.npy", "-o", "t.pvtu")
+        types = {re.search(r'type="(\w+)" Name="seed"', path.read_text())[1] for path in (self.folder / "t").iterdir()}
+        self.assertEqual(types, {"Int64"})
+        sums, cells = self.measures("t.pvtu", vtk.vtkXMLPUnstructuredGridReader())
+        self.assertEqual((sorted(sums), cells), ([0, 1], 2))
+        self.assertAlmostEqual(sum(sums.values()), 1, delta=1e-14)
 
     @unittest.skipUnless(vtk, "needs VTK")
     def test_pieces_are_those_of_one_process(self):
