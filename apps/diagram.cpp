@@ -167,11 +167,7 @@ Command add_diagram(CLI::App& app) {
   add_inputs(*command, *arguments, true);
   add_output_files(*command, arguments->outputs, std::string(io::known_outputs()), io::check_output_format);
   add_picture_options(*command, arguments->picture, "-o");
-  command
-      ->add_option("--table", arguments->table,
-                   "CSV with one row for each seed, or an array of NumPy with its results")
-      ->type_name("FILE.csv|FILE.npy")
-      ->default_str("none");
+  add_table_file(*command, arguments->table);
   command
       ->add_option("--walls", arguments->walls,
                    "CSV with one row for each side of a wall: seed,neighbor,measure, and in a periodic "

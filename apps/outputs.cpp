@@ -42,6 +42,13 @@ void add_output_files(CLI::App& command, std::vector<std::string>& files, const 
       ->take_all();
 }
 
+void add_table_file(CLI::App& command, std::string& file) {
+  command
+      .add_option("--table", file, "CSV with one row for each seed, or an array of NumPy with its results")
+      ->type_name("FILE.csv|FILE.npy")
+      ->default_str("none");
+}
+
 void check_writable(std::vector<std::string> files, std::initializer_list<std::string> more, bool json) {
   files.insert(files.end(), more);
   std::map<fs::path, std::string> named;

@@ -22,6 +22,9 @@ namespace powercell::app {
 void add_output_files(CLI::App& command, std::vector<std::string>& files, const std::string& kinds,
                       std::function<void(const std::string&)> check);
 
+/// Adds --table.
+void add_table_file(CLI::App& command, std::string& file);
+
 /// Refuses files that cannot be created, and two names for one file. If one is `-`, reports go to the
 /// standard error from here on. \param more  further files; empty names are ignored \param json  whether a
 /// report in JSON needs the standard output \throw Error write_failed; WrongUsage

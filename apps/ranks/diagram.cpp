@@ -211,11 +211,7 @@ Command add_diagram_of_ranks(CLI::App& app, Ranks& ranks) {
                      if (io::lower_extension(path) != ".pvtu")
                        throw Error(ErrorCode::invalid_file, path + ": powercell_mpi writes .pvtu files");
                    });
-  command
-      ->add_option("--table", arguments->table,
-                   "CSV with one row for each seed, or an array of NumPy with its results")
-      ->type_name("FILE.csv|FILE.npy")
-      ->default_str("none");
+  add_table_file(*command, arguments->table);
   command
       ->add_option(
           "--walls", arguments->walls,
