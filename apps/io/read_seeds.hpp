@@ -23,6 +23,7 @@ struct ColumnChoice {
   std::string weight;
   std::string radius;  ///< weights are the squares of this column
   std::string id;
+  bool keeps_others = true;  ///< whether results repeat the other columns, for the note
   bool any() const;
   bool has_position() const;
 };

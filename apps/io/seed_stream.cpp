@@ -33,6 +33,7 @@ const std::string& streamable(const std::string& path, const ColumnChoice& choic
 SeedStream::SeedStream(const std::string& path, int dimension, const ColumnChoice& choice,
                        const std::string& otherwise)
     : path_(streamable(path, choice, otherwise)), dimension_(dimension), choice_(choice), file_(path) {
+  choice_.keeps_others = false;
   for (const std::string& column :
        {choice.position[0], choice.position[1], choice.position[2], choice.weight, choice.radius})
     choice_name_ += ", " + column;

@@ -252,7 +252,7 @@ class Chooser {
     if (named && others == 0 && columns_.weight && !choice_.any() && has_plain_names()) return {};
     if (others > 5) kept += fmt::format(" and {} more", others - 5);
     return fmt::format("seeds: {}{}{}", columns_.taken, named ? "" : " (by their order)",
-                       others > 0 ? "; kept: " + kept : "");
+                       others > 0 ? (choice_.keeps_others ? "; kept: " : "; left out: ") + kept : "");
   }
 
   bool is_geometry() const { return columns_.named && !rows_.geometry().empty(); }

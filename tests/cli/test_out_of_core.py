@@ -77,8 +77,8 @@ class OutOfCore(ToolTest):
         arrays = (self.folder / "t.npy").read_bytes()
         self.write("s.csv", "w,name,z,y,x\n" + "".join(f"{w!r},a,{z!r},{y!r},{x!r}\n" for x, y, z, w in rows))
         self.write("s.txt", "30000\n" + "".join(f"{x!r} {y!r} {z!r} {w!r}\n" for x, y, z, w in rows))
-        for name in ("s.csv", "s.txt"):
-            self.good(*self.command(seeds=name))
+        for name, note in (("s.csv", "left out: 'name'"), ("s.txt", "wrote")):
+            self.assertRegex(self.good(*self.command(seeds=name)).stdout, note)
             self.assertEqual((self.folder / "t.npy").read_bytes(), arrays)
         self.write("s.csv", "x,y,z\n1,2,3\n1,a,3\n")
         self.bad(1, r"s.csv:3: seed 1 .from 0., column 2", *self.command(seeds="s.csv"))
