@@ -23,7 +23,8 @@ struct SeedSource {
   std::string name;
   /// Reads the seeds first, first + 1, ...: as many as there are `weights`, with a row of coordinates of each
   /// in `positions`. Called in ascending order, twice for each seed when it begins and, where there was
-  /// something to go on with, not at all. What it throws ends the computation.
+  /// something to go on with, not at all; from other threads than the caller's, one at a time. What it throws
+  /// ends the computation.
   std::function<void(std::uint64_t first, std::span<double> positions, std::span<double> weights)> read;
 };
 

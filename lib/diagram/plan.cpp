@@ -215,8 +215,9 @@ Plan plan_by_selection(const Setup& setup, const Active& active, const Selection
   const Scene scene = active.scene();
   const SeedSet& seeds = active.seeds();
   Plan plan;
-  plan.selected = make_rows(
-      selection, seeds, active.images() ? active.images()->own : static_cast<std::uint32_t>(seeds.size()));
+  plan.selected = make_rows(selection, seeds,
+                            active.images() ? active.images()->own : static_cast<std::uint32_t>(seeds.size()),
+                            setup.threads);
   const std::vector<std::uint32_t>& rank = plan.selected->rank;
   setup.progress->begin_part(0, pairs_done);
   const Stopwatch watch(setup.device);

@@ -4,6 +4,9 @@
 #include <powercell/error.hpp>
 #include <string>
 
+#include "lib/base/memory.hpp"
+#include "lib/base/threads.hpp"
+
 namespace powercell {
 namespace {
 
@@ -43,20 +46,29 @@ Selection checked_selection(std::span<const std::uint32_t> seeds, std::size_t co
   return {seeds.begin(), seeds.end()};
 }
 
-SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::uint32_t own) {
+SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::uint32_t own, int threads) {
   const auto d = static_cast<std::size_t>(seeds.dimension);
   const std::vector<std::uint32_t> place = places(selection, seeds.input_count);
   SelectedRows rows;
   rows.seeds.dimension = seeds.dimension;
   rows.seeds.input_count = selection.size();
+  rows.rank.reserve(selection.size());
+  rows.seeds.input.reserve(selection.size());
   for (std::uint32_t rank = 0; rank < own; ++rank) {
-    if (place[seeds.input[rank]] == no_place) continue;
+    const std::uint32_t at = place[seeds.input[rank]];
+    if (at == no_place) continue;
     rows.rank.push_back(rank);
-    rows.seeds.input.push_back(place[seeds.input[rank]]);
-    rows.seeds.weights.push_back(seeds.weights[rank]);
-    rows.seeds.positions.insert(rows.seeds.positions.end(), &seeds.positions[rank * d],
-                                &seeds.positions[rank * d] + d);
+    rows.seeds.input.push_back(at);
   }
+  const std::size_t count = rows.rank.size();
+  resize_populated(rows.seeds.weights, count, threads);
+  resize_populated(rows.seeds.positions, count * d, threads);
+  parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      rows.seeds.weights[row] = seeds.weights[rows.rank[row]];
+      std::copy_n(&seeds.positions[rows.rank[row] * d], d, &rows.seeds.positions[row * d]);
+    }
+  });
   for (const std::uint32_t i : seeds.duplicate)
     if (place[i] != no_place) rows.seeds.duplicate.push_back(place[i]);
   std::sort(rows.seeds.duplicate.begin(), rows.seeds.duplicate.end());

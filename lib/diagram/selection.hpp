@@ -29,7 +29,7 @@ struct SelectedRows {
 
 /// \param seeds  all active ones
 /// \param own    the ranks that may have cells come before this one
-SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::uint32_t own);
+SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::uint32_t own, int threads);
 
 /// The rows of a selection, of results for all seeds.
 Measures select_rows(const Measures& all, const Selection& selection);

@@ -51,9 +51,12 @@ void FileWriter::write_bytes(const void* from, std::size_t count) {
   bytes_ += count;
 }
 
+void FileWriter::sync() {
+  if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail("write", errno);
+}
+
 void FileWriter::close() {
-  if (std::fflush(file_.get()) != 0) fail("write", errno);
-  if (kind_ == Kind::kept && fsync(fileno(file_.get())) != 0) fail("write", errno);
+  if (kind_ == Kind::kept) sync();
   if (std::fclose(file_.release()) != 0) fail("close", errno);
   if (kind_ == Kind::scratch) return;
   if (std::rename(unfinished_.c_str(), path_.c_str()) != 0) fail("rename", errno);

@@ -34,6 +34,8 @@ class FileWriter {
   void write_one(const T& value) {
     write_all(std::span(&value, 1));
   }
+  /// Waits until the disk has what was written so far, so that close() has less to wait for.
+  void sync();
   void close();
   std::uint64_t bytes() const { return bytes_; }
 

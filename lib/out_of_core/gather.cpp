@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lib/base/behind.hpp"
 #include "lib/base/sums.hpp"
 
 namespace powercell::out_of_core {
@@ -104,15 +105,19 @@ void gather(const std::vector<PieceFile>& pieces, std::uint64_t seeds, int dimen
             OutOfCoreReport& report) {
   Gatherer gatherer(pieces, dimension, domain_measure);
   CompensatedSum<double> sum;
-  for (std::uint64_t first = 0; first < seeds; first += rows) {
-    const CellRows cells = gatherer.rows(first, std::min<std::uint64_t>(rows, seeds - first));
+  const auto make = [&](std::size_t k) {
+    const std::uint64_t first = std::uint64_t{k} * rows;
+    return gatherer.rows(first, std::min<std::uint64_t>(rows, seeds - first));
+  };
+  const auto use = [&](const CellRows& cells) {
     for (const double mass : cells.measures.mass) sum.add(mass);
     report.cells += cells.measures.count(SeedStatus::ok);
     report.hidden += cells.measures.count(SeedStatus::hidden);
     report.duplicate += cells.measures.count(SeedStatus::duplicate);
-    traffic.progress(static_cast<double>(first) / static_cast<double>(seeds));
+    traffic.progress(static_cast<double>(cells.first) / static_cast<double>(seeds));
     take(cells);
-  }
+  };
+  make_ahead((seeds + rows - 1) / rows, make, use);
   for (const PieceFile& piece : pieces) traffic.read += piece.bytes();
   report.measure = sum.value();
   report.domain_measure = domain_measure;

@@ -34,13 +34,7 @@ std::uint64_t write_file(const std::string& path, const PieceCells& piece) {
 }  // namespace
 
 void PieceWriter::write(std::string path, PieceCells&& piece) {
-  finish();
-  // Where the system gives no thread, finish() writes.
-  last_ = std::async([path = std::move(path), piece = std::move(piece)] { return write_file(path, piece); });
-}
-
-void PieceWriter::finish() {
-  if (last_.valid()) bytes_ += last_.get();
+  last_.run([this, path = std::move(path), piece = std::move(piece)] { bytes_ += write_file(path, piece); });
 }
 
 PieceFile::PieceFile(const std::string& path, int dimension) : file_(path) {

@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cstdint>
-#include <future>
 #include <powercell/results.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "lib/base/behind.hpp"
 #include "lib/exchange/shard.hpp"
 #include "lib/out_of_core/files.hpp"
 
@@ -28,12 +28,12 @@ class PieceWriter {
   /// Waits for the file before. \throw Error write_failed (of that one)
   void write(std::string path, PieceCells&& piece);
   /// Waits for the last file. \throw Error write_failed
-  void finish();
-  std::uint64_t bytes() const { return bytes_; }  ///< of finished files
+  void finish() { last_.finish(); }
+  std::uint64_t bytes() const { return bytes_; }  ///< of all files, after finish()
 
  private:
-  std::future<std::uint64_t> last_;  // gives its bytes; its end waits for the file
   std::uint64_t bytes_ = 0;
+  Behind last_;
 };
 
 /// What a PieceWriter has written.

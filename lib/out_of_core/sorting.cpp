@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "lib/base/behind.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/diagram/input.hpp"
 #include "lib/out_of_core/store.hpp"
@@ -52,31 +54,34 @@ class Sorter {
  private:
   std::size_t row_bytes() const { return (d_ + 2) * sizeof(double); }
 
-  void resize(SeedBlock& block, std::size_t count) const {
-    block.id.resize(count);
-    block.positions.resize(count * d_);
-    block.weights.resize(count);
+  /// Calls `use` for blocks of some of `count` seeds in turn, each filled by `read(first, block)`. The next
+  /// block is read meanwhile.
+  template <class Read>
+  void in_blocks(std::uint64_t count, const Read& read, const std::function<void(const SeedBlock&)>& use) {
+    const auto make = [&](std::size_t k) {
+      const std::uint64_t first = k * block_seeds;
+      const std::size_t size = std::min<std::uint64_t>(block_seeds, count - first);
+      SeedBlock block{std::vector<std::uint64_t>(size), std::vector<double>(size * d_),
+                      std::vector<double>(size)};
+      read(first, block);
+      return block;
+    };
+    make_ahead((count + block_seeds - 1) / block_seeds, make, use);
+    traffic_.read += count * row_bytes();
   }
 
   void read_source(const std::function<void(const SeedBlock&)>& use) {
-    SeedBlock block;
-    for (std::uint64_t first = 0; first < source_.count; first += block.size()) {
-      resize(block, std::min<std::uint64_t>(block_seeds, source_.count - first));
-      for (std::size_t k = 0; k < block.size(); ++k) block.id[k] = first + k;
+    const auto read = [this](std::uint64_t first, SeedBlock& block) {
+      std::iota(block.id.begin(), block.id.end(), first);
       source_.read(first, block.positions, block.weights);
-      traffic_.read += block.size() * row_bytes();
-      use(block);
-    }
+    };
+    in_blocks(source_.count, read, use);
   }
 
   /// Rows of id, position and weight.
   void read_part(const std::string& path, const std::function<void(const SeedBlock&)>& use) {
     const MappedFile file(path);
-    traffic_.read += file.bytes();
-    SeedBlock block;
-    const std::size_t count = file.bytes() / row_bytes();
-    for (std::size_t first = 0; first < count; first += block.size()) {
-      resize(block, std::min(block_seeds, count - first));
+    const auto read = [&](std::uint64_t first, SeedBlock& block) {
       for (std::size_t k = 0; k < block.size(); ++k) {
         const std::size_t at = (first + k) * row_bytes();
         block.id[k] = file.numbers<std::uint64_t>(at, 1)[0];
@@ -84,9 +89,9 @@ class Sorter {
         std::copy_n(row.begin(), d_, &block.positions[k * d_]);
         block.weights[k] = row[d_];
       }
-      use(block);
       file.drop();
-    }
+    };
+    in_blocks(file.bytes() / row_bytes(), read, use);
   }
 
   /// Seeds along the curve. \param all  whether these are all seeds, which nobody has checked yet
@@ -210,15 +215,15 @@ class Sorter {
       all.positions.insert(all.positions.end(), block.positions.begin(), block.positions.end());
       all.weights.insert(all.weights.end(), block.weights.begin(), block.weights.end());
     });
-    const SeedSet set =
+    SeedSet set =
         make_seed_set({source_.dimension, all.positions, all.weights}, source_.dimension, setup_.threads);
     std::vector<std::uint64_t> ids(set.size());
     parallel_for(threads_for(ids.size(), setup_.threads), ids.size(),
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t rank = begin; rank < end; ++rank) ids[rank] = all.id[set.input[rank]];
                  });
-    store_.add(ids, set.positions, set.weights);
     store_.add_duplicates(set.duplicate.size());
+    store_.add({std::move(ids), std::move(set.positions), std::move(set.weights)});
   }
 
   /// Keeps one of many seeds at one position.
@@ -227,7 +232,8 @@ class Sorter {
       const auto best = std::find(block.id.begin(), block.id.end(), survey.best->first);
       if (best == block.id.end()) return;
       const std::size_t at = static_cast<std::size_t>(best - block.id.begin());
-      store_.add({&block.id[at], 1}, {&block.positions[at * d_], d_}, {&block.weights[at], 1});
+      const double* const position = &block.positions[at * d_];
+      store_.add({{block.id[at]}, {position, position + d_}, {block.weights[at]}});
     });
     store_.add_duplicates(count - 1);
   }

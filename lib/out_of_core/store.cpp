@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <powercell/error.hpp>
+#include <utility>
 
 #include "lib/base/radix_sort.hpp"
 #include "lib/base/threads.hpp"
@@ -23,16 +24,19 @@ StoreWriter::StoreWriter(const LockedFolder& folder)
       positions_(folder.file(positions_name), FileWriter::Kind::kept),
       weights_(folder.file(weights_name), FileWriter::Kind::kept) {}
 
-void StoreWriter::add(std::span<const std::uint64_t> ids, std::span<const double> positions,
-                      std::span<const double> weights) {
-  if (ids.empty()) return;
-  ids_.write_all(ids);
-  positions_.write_all(positions);
-  weights_.write_all(weights);
-  ends_.push_back((ends_.empty() ? 0 : ends_.back()) + ids.size());
+void StoreWriter::add(SeedBlock&& piece) {
+  if (piece.size() == 0) return;
+  ends_.push_back((ends_.empty() ? 0 : ends_.back()) + piece.size());
+  last_.run([this, piece = std::move(piece)] {
+    ids_.write_all(piece.id);
+    positions_.write_all(piece.positions);
+    weights_.write_all(piece.weights);
+    for (FileWriter* const file : {&ids_, &positions_, &weights_}) file->sync();
+  });
 }
 
 std::uint64_t StoreWriter::close() {
+  last_.finish();
   ids_.close();
   positions_.close();
   weights_.close();

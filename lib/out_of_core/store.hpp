@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/base/behind.hpp"
 #include "lib/exchange/tree_seeds.hpp"
 #include "lib/out_of_core/files.hpp"
 #include "lib/seeds/packed_tree.hpp"
@@ -23,14 +24,14 @@ struct SeedBlock {
   std::size_t size() const { return id.size(); }
 };
 
-/// Writes a store.
+/// Writes a store while the caller goes on.
 class StoreWriter {
  public:
   explicit StoreWriter(const LockedFolder& folder);
 
-  /// Adds a piece: seeds along the curve, none of them a duplicate; nothing if there are none.
-  void add(std::span<const std::uint64_t> ids, std::span<const double> positions,
-           std::span<const double> weights);
+  /// Adds a piece: seeds along the curve, none of them a duplicate; nothing if there are none. Waits for the
+  /// piece before. \throw Error write_failed (of that one)
+  void add(SeedBlock&& piece);
   void add_duplicates(std::uint64_t count) { duplicates_ += count; }
   /// The store is there as a whole from here on. \return bytes written
   std::uint64_t close();
@@ -40,6 +41,7 @@ class StoreWriter {
   FileWriter ids_, positions_, weights_;
   std::vector<std::uint64_t> ends_;
   std::uint64_t duplicates_ = 0;
+  Behind last_;
 };
 
 /// A store in memory, as far as it is looked at, with a tree of all seeds.
