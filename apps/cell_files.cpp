@@ -3,24 +3,26 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/inputs.hpp"
 #include "apps/io/write_npy.hpp"
 
 namespace powercell::app {
 
-std::vector<std::string> cell_file_names(const std::string& table, const std::string& walls) {
+std::vector<std::string> cell_file_names(const std::string& table, const std::string& walls, int shift_axes) {
   std::vector<std::string> files;
   if (!table.empty()) files.push_back(table);
   if (!walls.empty())
-    for (std::string& file : io::walls_files(walls)) files.push_back(std::move(file));
+    for (std::string& file : io::walls_files(walls, shift_axes)) files.push_back(std::move(file));
   return files;
 }
 
-CellFiles::CellFiles(std::string table, std::string walls, io::SeedStream& seeds, int dimension,
+CellFiles::CellFiles(std::string table, std::string walls, io::SeedStream& seeds, const Domain& domain,
                      RunReport& report)
     : table_(std::move(table)),
       walls_(std::move(walls)),
       seeds_(seeds),
-      dimension_(dimension),
+      dimension_(domain.dimension()),
+      shift_axes_(shift_axes(domain)),
       report_(report) {}
 
 void CellFiles::take(const CellRows& rows) {
@@ -37,7 +39,8 @@ void CellFiles::take(const CellRows& rows) {
                  rows.measures,
                  rows.offset,
                  rows.neighbor,
-                 rows.wall});
+                 rows.wall,
+                 rows.shift});
   report_.measure += rows.measures.total();
   if (rows.first + count == seeds_.count()) end(rows.measures.domain_measure);
 }
@@ -49,7 +52,7 @@ void CellFiles::take_none(double domain_measure) {
 
 void CellFiles::begin(std::uint64_t walls) {
   if (!table_.empty()) writers_.push_back(io::table_writer(table_, dimension_, seeds_.count()));
-  if (!walls_.empty()) writers_.push_back(io::walls_writer(walls_, seeds_.count(), walls));
+  if (!walls_.empty()) writers_.push_back(io::walls_writer(walls_, seeds_.count(), walls, shift_axes_));
 }
 
 void CellFiles::end(double domain_measure) {

@@ -15,14 +15,17 @@
 namespace powercell::app {
 
 /// The files of --table and --walls, either of which may be empty.
-std::vector<std::string> cell_file_names(const std::string& table, const std::string& walls);
+/// \param shift_axes  of the domain (inputs.hpp)
+std::vector<std::string> cell_file_names(const std::string& table, const std::string& walls,
+                                         int shift_axes = 0);
 
 /// Writes the files as cells come, and gives them their names with the last ones.
 class CellFiles {
  public:
   /// \param seeds  read again for a table that repeats them \param report  receives the sum of the measures;
   /// both are kept by reference
-  CellFiles(std::string table, std::string walls, io::SeedStream& seeds, int dimension, RunReport& report);
+  CellFiles(std::string table, std::string walls, io::SeedStream& seeds, const Domain& domain,
+            RunReport& report);
 
   /// Ascending, each seed once. With the last ones checks the sum of the measures.
   /// \throw Error internal (the sum), write_failed, invalid_file (the seeds were changed meanwhile)
@@ -36,7 +39,7 @@ class CellFiles {
 
   std::string table_, walls_;
   io::SeedStream& seeds_;
-  int dimension_;
+  int dimension_, shift_axes_;
   RunReport& report_;
   std::vector<double> positions_, weights_;  // of some seeds
   std::vector<std::unique_ptr<io::CellWriter>> writers_;

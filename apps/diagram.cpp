@@ -41,7 +41,7 @@ void write_files(const DiagramArguments& arguments, Diagram& diagram, const Inpu
   report.files = arguments.outputs;
   if (io::is_npy(arguments.table)) {
     const auto table = io::table_writer(arguments.table, seeds.dimension, seeds.size());
-    table->add({0, seeds, diagram.measures(), diagram.adjacency().offset, {}, {}});
+    table->add({0, seeds, diagram.measures(), diagram.adjacency().offset, {}, {}, {}});
     table->commit();
     report.files.push_back(arguments.table);
   } else if (!arguments.table.empty()) {

@@ -143,7 +143,7 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
   run.precision = precision_name(Precision::float64);
   run.neighbors = neighbors_name(options.diagram.neighbors);
   run.device = device.info().name;
-  CellFiles files(arguments.table, arguments.walls, seeds, domain.dimension(), run);
+  CellFiles files(arguments.table, arguments.walls, seeds, domain, run);
   OutOfCoreReport report;
   try {
     compute([&] {

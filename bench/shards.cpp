@@ -4,6 +4,7 @@
 // or measures differ.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -42,7 +43,11 @@ Difference compare(Diagram& diagram, const Shares& shares, const std::vector<Sha
           cells.measures.status[k] == measures.status[i] &&
           std::equal(row(cells.neighbor, cells.offset[k]), row(cells.neighbor, cells.offset[k + 1]),
                      row(adjacency.neighbor, adjacency.offset[i]),
-                     row(adjacency.neighbor, adjacency.offset[i + 1]));
+                     row(adjacency.neighbor, adjacency.offset[i + 1])) &&
+          (adjacency.shift.empty() ||
+           std::equal(row(cells.shift, cells.offset[k]), row(cells.shift, cells.offset[k + 1]),
+                      row(adjacency.shift, adjacency.offset[i]),
+                      row(adjacency.shift, adjacency.offset[i + 1])));
       difference.seeds += !same;
       difference.measure = std::max(difference.measure, std::abs(cells.measures.mass[k] - measures.mass[i]) /
                                                             std::max(mean, measures.mass[i]));
@@ -55,7 +60,15 @@ struct Work {
   WeightRange weights;
   std::size_t n;
   int dimension, repeat;
+  bool periodic;
 };
+
+Domain domain_of(const Work& work) {
+  const std::array<double, 3> low{0, 0, 0}, high{1, 1, 1};
+  const auto d = static_cast<std::size_t>(work.dimension);
+  return work.periodic ? Domain::periodic_box(std::span(low).first(d), std::span(high).first(d))
+                       : unit_box(work.dimension);
+}
 
 /// Processor seconds of a call, or `least` if they are more.
 template <class Call>
@@ -66,7 +79,7 @@ double least_seconds(double least, const Call& call) {
 }
 
 bool run(const Device& device, const Work& work, std::size_t count) {
-  const Domain domain = unit_box(work.dimension);
+  const Domain domain = domain_of(work);
   Random random(1);
   const SeedArray seeds = random_seeds(work.distribution, work.weights, work.n, work.dimension, random);
   Diagram diagram(device, domain);
@@ -102,11 +115,13 @@ bool run(const Device& device, const Work& work, std::size_t count) {
 int run_all(int argc, char** argv) {
   std::size_t n = 100000, count = 64;
   int dimension = 3, repeat = 3;
+  bool periodic = false;
   std::vector<std::string> only;
   CLI::App app("Diagrams of seeds in shards");
   app.add_option("--n", n, "Seeds")->capture_default_str();
   app.add_option("--shards", count, "Shards")->capture_default_str();
   app.add_option("--dimension", dimension, "In the unit square (2) or cube (3)")->capture_default_str();
+  app.add_flag("--periodic", periodic, "With all axes periodic");
   app.add_option("--only", only, "Cases such as white/W0");
   app.add_option("--repeat", repeat, "Times that each is computed")
       ->check(CLI::PositiveNumber)
@@ -121,7 +136,7 @@ int run_all(int argc, char** argv) {
     for (const WeightRange weights : {WeightRange::W0, WeightRange::W1, WeightRange::W2}) {
       const std::string title = name(distribution) + "/" + name(weights);
       if (!only.empty() && std::find(only.begin(), only.end(), title) == only.end()) continue;
-      good = run(device, {distribution, weights, n, dimension, repeat}, count) && good;
+      good = run(device, {distribution, weights, n, dimension, repeat, periodic}, count) && good;
     }
   return good ? 0 : 1;
 }

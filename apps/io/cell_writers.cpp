@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "apps/io/write_npy.hpp"
 #include "apps/io/write_table.hpp"
 
@@ -59,10 +61,21 @@ class NpyTable : public CellWriter {
   NpyWriter array_;
 };
 
+constexpr std::array<const char*, 3> shift_names{"sx", "sy", "sz"};
+
+std::string shift_type(int shift_axes) {
+  std::string fields;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shift_axes); ++k)
+    fields += fmt::format("{}('{}', {})", k == 0 ? "" : ", ", shift_names[k], npy_type("i4"));
+  return "[" + fields + "]";
+}
+
 class CsvWalls : public CellWriter {
  public:
-  explicit CsvWalls(const std::string& path) : file_(path, ',') {
+  CsvWalls(const std::string& path, int shift_axes)
+      : file_(path, ','), shift_axes_(static_cast<std::size_t>(shift_axes)) {
     for (const char* column : {"seed", "neighbor", "measure"}) file_.text(column);
+    for (std::size_t k = 0; k < shift_axes_; ++k) file_.text(shift_names[k]);
     file_.end_row();
   }
 
@@ -73,6 +86,8 @@ class CsvWalls : public CellWriter {
         file_.count(cells.first + i);
         file_.count(cells.neighbor[k]);
         file_.number(cells.wall[k]);
+        for (std::size_t axis = 0; axis < shift_axes_; ++axis)
+          file_.number(static_cast<double>(cells.shift[k][axis]));
         file_.end_row();
       }
   }
@@ -80,15 +95,18 @@ class CsvWalls : public CellWriter {
 
  private:
   FieldWriter file_;
+  std::size_t shift_axes_;
 };
 
 class NpyWalls : public CellWriter {
  public:
-  NpyWalls(const std::vector<std::string>& paths, std::uint64_t seeds, std::uint64_t walls)
+  NpyWalls(const std::vector<std::string>& paths, std::uint64_t seeds, std::uint64_t walls, int shift_axes)
       : indptr_(paths[0], npy_type("i8"), seeds + 1),
         indices_(paths[1], npy_type("i4"), walls),
-        data_(paths[2], npy_type("f8"), walls) {
+        data_(paths[2], npy_type("f8"), walls),
+        shift_axes_(static_cast<std::size_t>(shift_axes)) {
     indptr_.number(std::int64_t{0});
+    if (shift_axes > 0) shift_.emplace(paths[3], shift_type(shift_axes), walls);
   }
 
   void add(const CellBatch& cells) override {
@@ -97,8 +115,11 @@ class NpyWalls : public CellWriter {
     before_ += cells.neighbor.size();
     for (const std::uint64_t neighbor : cells.neighbor) indices_.number(static_cast<std::int32_t>(neighbor));
     for (const double wall : cells.wall) data_.number(wall);
+    for (const std::array<std::int32_t, 3>& shift : cells.shift)
+      for (std::size_t k = 0; k < shift_axes_; ++k) shift_->number(shift[k]);
   }
   void commit() override {
+    if (shift_) shift_->commit();
     indptr_.commit();
     indices_.commit();
     data_.commit();
@@ -106,6 +127,8 @@ class NpyWalls : public CellWriter {
 
  private:
   NpyWriter indptr_, indices_, data_;
+  std::optional<NpyWriter> shift_;
+  std::size_t shift_axes_;
   std::uint64_t before_ = 0;  // walls of the cells so far
 };
 
@@ -116,15 +139,19 @@ std::unique_ptr<CellWriter> table_writer(const std::string& path, int dimension,
   return std::make_unique<CsvTable>(path, dimension);
 }
 
-std::vector<std::string> walls_files(const std::string& path) {
+std::vector<std::string> walls_files(const std::string& path, int shift_axes) {
   if (!is_npy(path)) return {path};
   const std::string stem = path.substr(0, path.size() - std::string_view(".npy").size());
-  return {stem + ".indptr.npy", stem + ".indices.npy", stem + ".data.npy"};
+  std::vector<std::string> files{stem + ".indptr.npy", stem + ".indices.npy", stem + ".data.npy"};
+  if (shift_axes > 0) files.push_back(stem + ".shift.npy");
+  return files;
 }
 
-std::unique_ptr<CellWriter> walls_writer(const std::string& path, std::uint64_t seeds, std::uint64_t walls) {
-  if (is_npy(path)) return std::make_unique<NpyWalls>(walls_files(path), seeds, walls);
-  return std::make_unique<CsvWalls>(path);
+std::unique_ptr<CellWriter> walls_writer(const std::string& path, std::uint64_t seeds, std::uint64_t walls,
+                                         int shift_axes) {
+  if (is_npy(path))
+    return std::make_unique<NpyWalls>(walls_files(path, shift_axes), seeds, walls, shift_axes);
+  return std::make_unique<CsvWalls>(path, shift_axes);
 }
 
 }  // namespace powercell::io

@@ -2,6 +2,7 @@
 /// Tables of cells and walls that are written as cells come, in ascending order of their seeds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <powercell/results.hpp>
@@ -20,6 +21,7 @@ struct CellBatch {
   std::span<const std::uint64_t> offset;  ///< rows + 1, from any number on: of the walls
   std::span<const std::uint64_t> neighbor;
   std::span<const double> wall;
+  std::span<const std::array<std::int32_t, 3>> shift;  ///< in a periodic domain
 };
 
 class CellWriter {
@@ -40,10 +42,13 @@ class CellWriter {
 std::unique_ptr<CellWriter> table_writer(const std::string& path, int dimension, std::uint64_t seeds);
 
 /// A CSV `seed,neighbor,measure`, or for `NAME.npy` compressed sparse rows as SciPy has them in
-/// NAME.indptr.npy, NAME.indices.npy and NAME.data.npy. \param walls  sides of walls in all
-std::unique_ptr<CellWriter> walls_writer(const std::string& path, std::uint64_t seeds, std::uint64_t walls);
+/// NAME.indptr.npy, NAME.indices.npy and NAME.data.npy. In a periodic domain the CSV has the columns
+/// `sx,sy[,sz]` too, and NAME.shift.npy these fields.
+/// \param walls  sides of walls in all \param shift_axes  in a periodic domain its dimension, else 0
+std::unique_ptr<CellWriter> walls_writer(const std::string& path, std::uint64_t seeds, std::uint64_t walls,
+                                         int shift_axes);
 
 /// The files that walls_writer() writes.
-std::vector<std::string> walls_files(const std::string& path);
+std::vector<std::string> walls_files(const std::string& path, int shift_axes);
 
 }  // namespace powercell::io

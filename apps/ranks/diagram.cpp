@@ -179,11 +179,11 @@ int run(const RanksArguments& arguments, Ranks& ranks) {
   describe(ranks, share, cells.measures, run);
   progress.begin(stage::writing);
   write_pieces(arguments.outputs, place, moved, cells);
-  run.files = cell_file_names(arguments.table, arguments.walls);
+  run.files = cell_file_names(arguments.table, arguments.walls, shift_axes(*share.domain));
   if (!run.files.empty()) {
     const DistributedCells own = moved.send_back(cells);
     RunReport sums;  // the files check theirs
-    CellFiles files(arguments.table, arguments.walls, *share.stream, share.domain->dimension(), sums);
+    CellFiles files(arguments.table, arguments.walls, *share.stream, *share.domain, sums);
     write_rows(ranks, own, share.stream->count(), files);
   }
   run.files.insert(run.files.end(), arguments.outputs.begin(), arguments.outputs.end());

@@ -28,6 +28,7 @@ CellRows rows_from(const DistributedCells& own, std::uint64_t first, std::uint64
   rows.offset = part(own.offset, begin, end + 1);
   rows.neighbor = part(own.neighbor, own.offset[begin], own.offset[end]);
   rows.wall = part(own.wall, own.offset[begin], own.offset[end]);
+  if (!own.shift.empty()) rows.shift = part(own.shift, own.offset[begin], own.offset[end]);
   return rows;
 }
 
@@ -39,6 +40,7 @@ void send(const Ranks& ranks, const CellRows& rows) {
   ranks.send_to_first(rows.offset);
   ranks.send_to_first(rows.neighbor);
   ranks.send_to_first(rows.wall);
+  ranks.send_to_first(rows.shift);
 }
 
 /// \param from  the rank \param rows  receives all but what is the same on all ranks
@@ -50,6 +52,7 @@ void receive(const Ranks& ranks, int from, CellRows& rows) {
   ranks.receive(from, rows.offset);
   ranks.receive(from, rows.neighbor);
   ranks.receive(from, rows.wall);
+  ranks.receive(from, rows.shift);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// Power diagrams whose seeds are on several ranks, none of which has all of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <powercell/communicator.hpp>
 #include <powercell/device.hpp>
@@ -37,6 +38,7 @@ struct DistributedCells {
   std::vector<std::uint64_t> offset;
   std::vector<std::uint64_t> neighbor;  ///< ids of seeds of any rank, ascending within a row
   std::vector<double> wall;  ///< length (polygon) or area (volume), as seen from the cell of the row
+  std::vector<std::array<std::int32_t, 3>> shift;  ///< in a periodic domain: as in Adjacency; else empty
   ExchangeReport report;
 };
 
@@ -60,8 +62,8 @@ struct DistributedOptions {
 /// \param ids    of the seeds, each once on all ranks
 /// \param seeds  as many, of the domain's dimension also where there are none
 /// \throw Error invalid_argument (sizes; an id that is there twice; domains or options that differ between
-///        ranks, and in what), invalid_seed (names the seed by its id), unsupported (surfaces, solids,
-///        periodic domains; single precision; fast decisions; Options::certify), interrupted, and as Diagram
+///        ranks, and in what), invalid_seed (names the seed by its id), unsupported (surfaces and
+///        solids; single precision; fast decisions; Options::certify), interrupted, and as Diagram
 POWERCELL_API DistributedCells compute_distributed(Communicator& communicator, const Device& device,
                                                    const Domain& domain, std::span<const std::uint64_t> ids,
                                                    const SeedsView& seeds,

@@ -2,6 +2,7 @@
 /// Power diagrams of more seeds than memory holds: piece after piece, in files.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <powercell/device.hpp>
@@ -36,14 +37,15 @@ struct CellRows {
   std::vector<std::uint64_t> offset;
   /// Indices of seeds, ascending within a row (OutOfCoreOptions::walls).
   std::vector<std::uint64_t> neighbor;
-  std::vector<double> wall;     ///< length (polygon) or area (volume), as seen from the cell of the row
+  std::vector<double> wall;  ///< length (polygon) or area (volume), as seen from the cell of the row
+  std::vector<std::array<std::int32_t, 3>> shift;  ///< in a periodic domain: as in Adjacency; else empty
   std::uint64_t all_walls = 0;  ///< of all cells, those of other rows too: the sum of their numbers
 };
 
 struct OutOfCoreOptions {
   Options diagram;
   /// A folder that is made for what is finished so far and removed at the end; it needs some 100 bytes for
-  /// each seed, and 16 more for each side of a wall. Where it is there already, with pieces of the same
+  /// each seed, and 12 more for each side of a wall. Where it is there already, with pieces of the same
   /// computation, that is gone on with. Nothing else may be in it.
   std::string folder;
   /// Bytes that the call may take, with the programs of the device, beside what the process takes before. The
@@ -76,7 +78,7 @@ struct OutOfCoreReport {
 /// however often it was stopped.
 /// \throw Error invalid_argument (the source; memory that is too little, with the least that is enough; a
 ///        folder of another computation, with what differs), invalid_seed (the first one, by its index),
-///        write_failed (the folder: disk full and the like), unsupported (surfaces, solids, periodic domains;
+///        write_failed (the folder: disk full and the like), unsupported (surfaces, solids;
 ///        single precision; fast decisions; Options::certify), interrupted, and as Diagram
 POWERCELL_API OutOfCoreReport compute_out_of_core(const Device& device, const Domain& domain,
                                                   const SeedSource& source,

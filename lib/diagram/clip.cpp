@@ -61,7 +61,7 @@ class Pass {
 
   Clipped run(Timings& timings) {
     if (!plan_.pairs.region.empty()) clip_all(timings);
-    while (!beyond_.empty()) clip_beyond(timings);
+    while (!beyond_.empty() && !want_.unproved) clip_beyond(timings);
     const Stopwatch watch(setup_.device);
     Clipped results = finish();
     keep_wall_memory();
@@ -425,6 +425,8 @@ Clipped Pass::finish() {
     reach_.resize(row_seeds().input_count);
     results.reach = std::move(reach_);
   }
+  for (const std::uint32_t row : beyond_) results.unproved.push_back(row_seeds().input[row]);
+  std::sort(results.unproved.begin(), results.unproved.end());
   results.measures = std::move(measures);
   return results;
 }

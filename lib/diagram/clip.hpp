@@ -17,6 +17,9 @@ struct Wanted {
   bool adjacency = false;
   bool cells = false;  ///< the geometry: of a solid the joined cells
   bool reach = false;  ///< how far each cell reaches, of a selection
+  /// Of a selection in a periodic domain: name the cells that reach too far for the images at hand, which may
+  /// be too large, and make no more images.
+  bool unproved = false;
 };
 
 /// The outcome of a pass: results, or ranks because of which it must be repeated.
@@ -28,8 +31,9 @@ struct Clipped {
   /// By row of the results: the distance of the farthest vertex from the seed, as accurate as vertices are; 0
   /// where the cell is empty.
   std::optional<std::vector<double>> reach;
-  std::vector<std::uint32_t> flat;     ///< seeds with exactly flat cells, to be excluded
-  std::vector<std::uint32_t> unclear;  ///< unrestricted cells that must be clipped by region
+  std::vector<std::uint32_t> unproved;  ///< ascending: rows of the results
+  std::vector<std::uint32_t> flat;      ///< seeds with exactly flat cells, to be excluded
+  std::vector<std::uint32_t> unclear;   ///< unrestricted cells that must be clipped by region
 };
 
 /// Of a periodic domain `active` gets more images if cells reach too far for those that it has, and only

@@ -145,6 +145,7 @@ void Diagram::State::pass(PlanKind kind, Wanted want) {
       if (clipped.adjacency) results->adjacency = std::move(clipped.adjacency);
       if (clipped.cells) results->cells = std::move(clipped.cells);
       if (clipped.reach) results->reach = std::move(clipped.reach);
+      results->unproved = std::move(clipped.unproved);
       if (clipped.solid) {
         results->joined = std::move(clipped.solid->joined);
         results->simplices = std::move(clipped.solid->simplices);

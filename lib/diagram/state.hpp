@@ -28,6 +28,7 @@ struct Diagram::State {
     std::optional<Dual> dual;
     std::optional<BoundaryWalls> boundary_walls;
     std::optional<std::vector<double>> reach;  ///< Clipped::reach
+    std::vector<std::uint32_t> unproved;       ///< Clipped::unproved
   };
   /// Shared with callers who hold the results while the seeds change: replaced then, not cleared.
   std::shared_ptr<Results> results = std::make_shared<Results>();

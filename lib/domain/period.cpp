@@ -214,10 +214,7 @@ Period::Wrapped Period::wrap(const double* x) const {
 }
 
 void refuse_far(std::size_t index) {
-  throw Error(ErrorCode::invalid_seed,
-              "seed " + std::to_string(index) +
-                  " is more than 2^28 periods outside the periodic domain, where its position is too coarse; "
-                  "move it by a multiple of the period");
+  throw Error(ErrorCode::invalid_seed, "seed " + std::to_string(index) + ": " + too_far_outside);
 }
 
 }  // namespace powercell

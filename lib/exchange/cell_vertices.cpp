@@ -8,8 +8,13 @@
 namespace powercell::exchange {
 namespace {
 
-/// Numbers of seeds are below those of facets, and these below those of regions.
-constexpr std::uint64_t first_facet = std::uint64_t{1} << 62, first_region = std::uint64_t{1} << 63;
+/// Numbers of seeds are below those of images, these below those of facets, and these below those of regions.
+constexpr std::uint64_t first_image = std::uint64_t{1} << 61, first_facet = std::uint64_t{1} << 62,
+                        first_region = std::uint64_t{1} << 63;
+
+Shift operator-(const Shift& a, const Shift& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
 }  // namespace
 
@@ -35,22 +40,43 @@ void CellVertices::find_faces(const Cells& cells, std::size_t piece) {
   }
 }
 
+void CellVertices::number_images(std::array<std::uint64_t, 4>& seed, std::array<Shift, 4>& shift,
+                                 std::size_t count) {
+  // Of the images of a vertex that one is meant in which its lowest seed is not moved.
+  std::size_t lowest = 0;
+  for (std::size_t k = 1; k < count; ++k)
+    if (std::pair(seed[k], shift[k]) < std::pair(seed[lowest], shift[lowest])) lowest = k;
+  const Shift base = shift[lowest];
+  for (std::size_t k = 0; k < count; ++k) {
+    const Shift from_base = shift[k] - base;
+    if (from_base == Shift{}) continue;
+    seed[k] = images_.try_emplace({seed[k], from_base}, first_image + images_.size()).first->second;
+  }
+}
+
 bool CellVertices::add_name(const Cells& cells, std::size_t piece, std::size_t vertex, Handle self,
                             std::span<const Handle> handle) {
-  VertexName name;
-  name.part.fill(std::numeric_limits<std::uint64_t>::max());
-  bool is_inside = true;
+  std::array<std::uint64_t, 4> seed{self}, other{};
+  std::array<Shift, 4> shift{};
+  std::size_t seeds = 1, others = 0, inner = 0;
   for (std::size_t k = 0; k < faces_[vertex]; ++k) {
-    const Border border = cells.border[face_[vertex][k]];
-    is_inside = is_inside && border.kind == Border::Kind::interior;
-    name.part[1 + k] = border.kind == Border::Kind::wall       ? handle[border.index]
-                       : border.kind == Border::Kind::boundary ? first_facet + border.index
-                                                               : first_region + border.index;
+    const std::uint64_t face = face_[vertex][k];
+    const Border border = cells.border[face];
+    inner += border.kind == Border::Kind::interior;
+    if (border.kind != Border::Kind::wall) {
+      other[others++] = (border.kind == Border::Kind::boundary ? first_facet : first_region) + border.index;
+      continue;
+    }
+    if (!cells.shift.empty()) shift[seeds] = cells.shift[face];
+    seed[seeds++] = handle[border.index];
   }
   // The pieces in the other regions around it have the vertex on the boundary of the cell, if it is there.
-  if (is_inside) return false;
+  if (inner == faces_[vertex]) return false;
+  if (!cells.shift.empty()) number_images(seed, shift, seeds);
+  VertexName name;
+  name.part.fill(std::numeric_limits<std::uint64_t>::max());
   name.part[0] = cells.region[piece];
-  name.part[4] = self;
+  std::copy_n(other.begin(), others, std::copy_n(seed.begin(), seeds, name.part.begin() + 1));
   std::sort(name.part.begin() + 1, name.part.end());
   name_.push_back(name);
   return true;

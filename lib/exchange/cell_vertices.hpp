@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <powercell/results.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lib/base/random.hpp"
+#include "lib/domain/period.hpp"
 #include "lib/exchange/cut_test.hpp"
 
 namespace powercell::exchange {
@@ -17,7 +20,8 @@ namespace powercell::exchange {
 using Handle = std::uint32_t;
 
 /// The region of a vertex, and the seeds, facets and regions whose planes meet in it, in ascending order.
-/// Vertices of the same name are the same point, whichever cell they were computed from.
+/// Vertices of the same name are the same point, whichever cell they were computed from; in a periodic domain
+/// one of its images.
 struct VertexName {
   std::array<std::uint64_t, 5> part{};
   friend bool operator==(const VertexName&, const VertexName&) = default;
@@ -35,7 +39,8 @@ struct VertexHash {
 /// \param row  of the cell in `cells` \param seed  its position
 double radius_of(const Cells& cells, std::size_t row, const double* seed);
 
-/// The vertices of one cell that are on its boundary. The memory is reused from cell to cell.
+/// The vertices of one cell that are on its boundary. The memory is reused from cell to cell, and names are
+/// those of one object.
 class CellVertices {
  public:
   /// \param self    the handle of the cell's seed
@@ -54,10 +59,14 @@ class CellVertices {
   bool add_name(const Cells& cells, std::size_t piece, std::size_t vertex, Handle self,
                 std::span<const Handle> handle);
 
+  /// Gives seeds of a vertex the numbers of their images, those moved together the same.
+  void number_images(std::array<std::uint64_t, 4>& seed, std::array<Shift, 4>& shift, std::size_t count);
+
   std::vector<Point> offset_;
   std::vector<VertexName> name_;
-  std::vector<std::array<std::uint64_t, 3>> face_;  // of each vertex of a piece
-  std::vector<std::uint8_t> faces_;                 // their number
+  std::map<std::pair<std::uint64_t, Shift>, std::uint64_t> images_;  // of seeds that are moved: their numbers
+  std::vector<std::array<std::uint64_t, 3>> face_;                   // of each vertex of a piece
+  std::vector<std::uint8_t> faces_;                                  // their number
 };
 
 }  // namespace powercell::exchange

@@ -115,10 +115,10 @@ int meeting_shard(std::uint64_t id, int shards) {
 }
 
 void require_supported(const Domain& domain, const Options& options, const std::string& what) {
-  if (domain.kind() == DomainKind::surface || domain.is_solid() || domain.is_periodic())
+  if (domain.kind() == DomainKind::surface || domain.is_solid())
     throw Error(ErrorCode::unsupported, what +
                                             " need a polygon, a box or a volume of tetrahedra as domain, "
-                                            "neither a surface nor a solid nor a periodic domain");
+                                            "neither a surface nor a solid");
   if (options.decisions != Decisions::exact)
     throw Error(ErrorCode::unsupported,
                 what + " need exact decisions, which do not depend on where seeds are");

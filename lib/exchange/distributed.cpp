@@ -19,7 +19,7 @@ DistributedCells cells_of(Diagram::State& diagram, const ShardSeeds& own, Post& 
   Steps steps(diagram, {&own, 1}, post);
   ShardCells cells = std::move(steps.run()[0]);
   return {std::move(cells.measures), std::move(cells.offset), std::move(cells.neighbor),
-          std::move(cells.wall), steps.report()};
+          std::move(cells.wall),     std::move(cells.shift),  steps.report()};
 }
 
 /// Adds the reports of all ranks.
@@ -46,7 +46,7 @@ DistributedCells compute(RankPost& post, const Device& device, const Domain& dom
   require_valid(diagram.setup, {&own, 1}, post);
   DistributedCells cells;
   if (options.redistribute) {
-    Redistribution moved(own, domain.dimension(), diagram.setup.threads, post);
+    Redistribution moved(own, domain.dimension(), diagram.setup.threads, post, domain.mesh().period.get());
     const DistributedCells elsewhere = cells_of(diagram, moved.seeds(), post);
     cells = moved.send_back(elsewhere);
     cells.report = elsewhere.report;

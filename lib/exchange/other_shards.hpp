@@ -2,6 +2,7 @@
 /// What a shard knows of the seeds of the others. Internal.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -9,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "lib/exchange/cut_test.hpp"
 #include "lib/exchange/outline.hpp"
+#include "lib/exchange/translations.hpp"
 #include "lib/exchange/tree_of_boxes.hpp"
 #include "lib/exchange/tree_walk.hpp"
 
@@ -43,6 +46,7 @@ class OtherShards {
 
   void meet(std::shared_ptr<const FirstOutlines> first) { first_ = std::move(first); }
   const FirstOutlines& first() const { return *first_; }
+  int dimension() const { return first_->tree().dimension; }
   /// A finer outline of all seeds of a shard.
   void take_outline(int shard, PackedTree&& outline) { finer_[shard] = std::move(outline); }
   /// An outline of those that it has not sent.
@@ -80,20 +84,32 @@ class OtherShards {
 /// The boxes of outlines that could cut a cell.
 class NearBoxes {
  public:
-  explicit NearBoxes(const OtherShards& others) : others_(others) {}
+  /// A cell seen from the seeds of a shard.
+  struct View {
+    int shard = 0;
+    std::size_t move = 0;  ///< number of the translation of the cell
+    friend bool operator==(const View&, const View&) = default;
+  };
 
-  /// Whether there are boxes for a cell of a seed in the box.
+  /// \param moves  of cells (translations()); must last as long
+  NearBoxes(const OtherShards& others, const std::vector<Point>& moves) : others_(others), moves_(moves) {}
+
+  /// Whether there are boxes for a cell of a seed in the box, which is not moved.
   /// \param farthest  that reaches as far as any, of a seed as light and as far from the origin as any
   bool may_meet(const BoxView& box, const CutTest& farthest) const;
-  /// Whether there are boxes for a cell.
-  bool may_meet(const CutTest& cell) const;
+  /// Whether there are boxes for a cell. \param seed  its row \param radius  as of CutTest
+  bool may_meet(const double* seed, double radius) const;
   /// Finds the boxes for a cell.
-  void set(const CutTest& cell);
-  bool empty() const { return shards_.empty(); }
+  void set(const double* seed, double radius);
+  bool empty() const { return groups_.empty(); }
   /// Whether there are few.
   bool few() const { return complete_; }
-  /// The shards that could cut off a point of that cell, or touch it.
-  void shards_at(const CutTest& point, std::vector<int>& shards) const;
+  /// Lists the shards that could cut off a point of that cell, or touch it. \param y  from the seed
+  void views_at(const Point& y, std::vector<View>& views);
+  /// Whether seeds that a shard has not sent could cut off a point of that cell.
+  bool may_cut_at(const View& view, const Point& y);
+  /// The row of that cell's seed as the shard sees it.
+  std::array<double, 4> row(const View& view) const;
 
  private:
   static constexpr std::size_t most_boxes = 96;  // more are searched from the roots
@@ -101,9 +117,17 @@ class NearBoxes {
   template <class Open>
   bool has_box(const Open& open) const;
 
+  /// Boxes of a shard.
+  struct Group {
+    View view;
+    CutTest cell;
+    std::size_t end;  ///< in box_
+  };
+
   const OtherShards& others_;
-  std::vector<int> shards_;         // whose boxes they are
-  std::vector<std::size_t> end_;    // per shard: of its boxes
+  const std::vector<Point>& moves_;
+  std::array<double, 4> seed_{};
+  std::vector<Group> groups_;
   std::vector<std::uint32_t> box_;  // nodes of the outline of their shard
   bool complete_ = true;            // whether box_ has all boxes
 };

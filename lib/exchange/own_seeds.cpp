@@ -32,7 +32,8 @@ NearPart part_of(const Request& request, std::size_t d) {
 
 }  // namespace
 
-OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads)
+OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads,
+                   const Period* period)
     : threads_(thread_count(threads)), width_(static_cast<std::size_t>(dimension) + 1), id_(ids.size()) {
   if (ids.size() != seeds.size())
     throw Error(ErrorCode::invalid_argument, std::to_string(ids.size()) + " ids for " +
@@ -45,14 +46,19 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
   const std::size_t d = width_ - 1;
   std::vector<double> positions(ids.size() * d), weights(ids.size());
   rows_.resize(ids.size() * width_);
+  if (period != nullptr) wrapped_rows_.resize(rows_.size());
   parallel_for(threads_for(size(), threads_), size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t k = given(i);
       id_[i] = ids[k];
       weights[i] = seeds.weights.empty() ? 0 : seeds.weights[k];
-      for (std::size_t c = 0; c < d; ++c)
-        rows_[i * width_ + c] = positions[i * d + c] = seeds.positions[k * d + c];
+      std::copy_n(&seeds.positions[k * d], d, &positions[i * d]);
+      std::copy_n(&seeds.positions[k * d], d, &rows_[i * width_]);
       rows_[i * width_ + d] = weights[i];
+      if (period == nullptr) continue;
+      std::copy_n(period->wrap(row(i)).position.begin(), d, &positions[i * d]);
+      std::copy_n(&positions[i * d], d, &wrapped_rows_[i * width_]);
+      wrapped_rows_[i * width_ + d] = weights[i];
     }
   });
   const auto twice = std::adjacent_find(id_.begin(), id_.end());
@@ -81,8 +87,8 @@ PackedTree OwnSeeds::box() const {
   return outline_of(whole().tree, 1);
 }
 
-Rim OwnSeeds::rim(const PackedTree& other) const {
-  return find_rim(in_tree(), other);
+Rim OwnSeeds::rim(const PackedTree& other, const std::vector<Point>& moves) const {
+  return find_rim(in_tree(), other, moves);
 }
 
 PackedTree OwnSeeds::outline(int asker, const NearPart& part) {

@@ -12,6 +12,7 @@
 
 #include "lib/diagram/setup.hpp"
 #include "lib/exchange/messages.hpp"
+#include "lib/exchange/translations.hpp"
 #include "lib/exchange/tree_seeds.hpp"
 #include "lib/seeds/packed_tree.hpp"
 #include "lib/seeds/seed_set.hpp"
@@ -22,9 +23,11 @@ namespace powercell::exchange {
 /// not known to be hidden by each other.
 class OwnSeeds {
  public:
-  /// \param ids  of the seeds, each once \throw Error invalid_argument (sizes; an id that is there twice),
-  /// invalid_seed
-  OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads);
+  /// \param ids     of the seeds, each once
+  /// \param period  of the domain, null if it is not periodic
+  /// \throw Error invalid_argument (sizes; an id that is there twice), invalid_seed
+  OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads,
+           const Period* period = nullptr);
 
   std::size_t size() const { return id_.size(); }
   std::uint64_t id(std::size_t i) const { return id_[i]; }
@@ -32,8 +35,12 @@ class OwnSeeds {
   std::size_t given(std::size_t i) const { return given_.empty() ? i : given_[i]; }
   /// Whether they were given in the order of their ids.
   bool given_in_order() const { return given_.empty(); }
-  /// Rows of position and weight.
+  /// Rows of position and weight, as given.
   const double* row(std::size_t i) const { return &rows_[i * width_]; }
+  /// The same with the wrapped position, as in the tree.
+  const double* wrapped_row(std::size_t i) const {
+    return wrapped_rows_.empty() ? row(i) : &wrapped_rows_[i * width_];
+  }
   const PackedTree& tree() const { return tree_; }
   /// Sets seeds aside that are proved hidden among all, where they are many: they need no cells, and nobody
   /// needs to be sent them. \pre nothing was sent \throw Error as hidden_seeds
@@ -55,8 +62,8 @@ class OwnSeeds {
   /// In the order of the tree.
   TreeSeeds in_tree() const { return {set_, tree_}; }
 
-  /// The rim towards another shard. \param other  its outline
-  Rim rim(const PackedTree& other) const;
+  /// The rim towards another shard. \param other  its outline \param moves  as of find_rim
+  Rim rim(const PackedTree& other, const std::vector<Point>& moves) const;
   /// An outline of all seeds for another shard. \param asker  its number \param part  where its seeds are
   /// \pre there are seeds
   PackedTree outline(int asker, const NearPart& part);
@@ -94,8 +101,8 @@ class OwnSeeds {
   int threads_;
   std::size_t width_;  // of a row
   std::vector<std::uint64_t> id_;
-  std::vector<std::size_t> given_;  // empty if in order
-  std::vector<double> rows_;
+  std::vector<std::size_t> given_;           // empty if in order
+  std::vector<double> rows_, wrapped_rows_;  // the latter empty if the domain is not periodic
   std::vector<std::uint8_t> hidden_;
   SeedSet set_;
   PackedTree tree_;

@@ -79,6 +79,7 @@ struct Rows {
   std::vector<double> mass, centroid, second_moment, wall;
   std::vector<SeedStatus> status;
   std::vector<std::uint64_t> count, neighbor;  ///< `count`: of neighbours, per row
+  std::vector<Shift> shift;
 };
 
 Rows rows_of(const DistributedCells& cells, std::size_t begin, std::size_t end) {
@@ -94,7 +95,8 @@ Rows rows_of(const DistributedCells& cells, std::size_t begin, std::size_t end) 
             part(cells.wall, first, last),
             part(cells.measures.status, begin, end),
             {},
-            part(cells.neighbor, first, last)};
+            part(cells.neighbor, first, last),
+            cells.shift.empty() ? std::vector<Shift>{} : part(cells.shift, first, last)};
   for (std::size_t i = begin; i < end; ++i) rows.count.push_back(cells.offset[i + 1] - cells.offset[i]);
   return rows;
 }
@@ -118,7 +120,7 @@ class Gather {
   void take(std::size_t rank, const Bytes& letter) {
     Rows& rows = rows_[rank];
     unpack(letter, rows.mass, rows.centroid, rows.second_moment, rows.wall, rows.status, rows.count,
-           rows.neighbor);
+           rows.neighbor, rows.shift);
     const std::vector<std::size_t>& given = given_[rank];
     const auto d = static_cast<std::size_t>(cells_.measures.dimension);
     for (std::size_t k = 0; k < given.size(); ++k) {
@@ -137,12 +139,14 @@ class Gather {
     cells_.neighbor.resize(cells_.offset.back());
     cells_.wall.resize(cells_.offset.back());
     for (const auto& [rank, rows] : rows_) {
+      if (!rows.shift.empty()) cells_.shift.resize(cells_.offset.back());
       std::size_t from = 0;
       for (std::size_t k = 0; k < rows.count.size(); ++k) {
         const std::size_t to = cells_.offset[given_[rank][k]];
         for (std::size_t w = 0; w < rows.count[k]; ++w, ++from) {
           cells_.neighbor[to + w] = rows.neighbor[from];
           cells_.wall[to + w] = rows.wall[from];
+          if (!rows.shift.empty()) cells_.shift[to + w] = rows.shift[from];
         }
       }
     }
@@ -157,13 +161,14 @@ class Gather {
 
 }  // namespace
 
-Redistribution::Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post)
+Redistribution::Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post,
+                               const Period* period)
     : dimension_(dimension),
       post_(post),
       given_(static_cast<std::size_t>(post.shards())),
       received_(given_.size()) {
   const auto d = static_cast<std::size_t>(dimension);
-  const std::vector<std::size_t> to = destinations(own, threads);
+  const std::vector<std::size_t> to = destinations(own, threads, period);
   for (std::size_t i = 0; i < to.size(); ++i) given_[to[i]].push_back(i);
   Post::Letters letters;
   for (std::size_t rank = 0; rank < given_.size(); ++rank) {
@@ -194,10 +199,15 @@ Post::Letters Redistribution::deliver(Post::Letters letters) {
   return post_.deliver_one(std::move(letters));
 }
 
-std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int threads) {
-  const Bounds box = bounds_of_all(own.seeds, post_);
-  const std::vector<std::uint64_t> keys =
-      hilbert_keys(own.seeds.positions, dimension_, box.low, box.high, threads);
+std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int threads,
+                                                      const Period* period) {
+  std::vector<double> positions(own.seeds.positions.begin(), own.seeds.positions.end());
+  const auto d = static_cast<std::size_t>(dimension_);
+  if (period != nullptr)
+    for (std::size_t at = 0; at < positions.size(); at += d)
+      std::copy_n(period->wrap(&positions[at]).position.begin(), d, &positions[at]);
+  const Bounds box = bounds_of_all({dimension_, positions, {}}, post_);
+  const std::vector<std::uint64_t> keys = hilbert_keys(positions, dimension_, box.low, box.high, threads);
   std::vector<Place> places;
   for (std::size_t i = 0; i < keys.size(); ++i) places.emplace_back(keys[i], own.ids[i]);
   std::vector<Place> sorted = places;
@@ -218,7 +228,7 @@ DistributedCells Redistribution::send_back(const DistributedCells& cells) {
     const Rows rows = rows_of(cells, begin, end);
     begin = end;
     letters[static_cast<int>(rank)] = packed(rows.mass, rows.centroid, rows.second_moment, rows.wall,
-                                             rows.status, rows.count, rows.neighbor);
+                                             rows.status, rows.count, rows.neighbor, rows.shift);
   }
   Gather gather(given_, dimension_);
   for (const auto& [rank, letter] : deliver(std::move(letters)))

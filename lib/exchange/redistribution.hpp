@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/base/post.hpp"
+#include "lib/domain/period.hpp"
 #include "lib/exchange/checks.hpp"
 
 namespace powercell::exchange {
@@ -15,7 +16,9 @@ namespace powercell::exchange {
 class Redistribution {
  public:
   /// Sends the seeds. \param own  of this rank, valid \param post  with one shard a rank
-  Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post);
+  /// \param period  of the domain that the curve goes through, null if it is not periodic
+  Redistribution(const ShardSeeds& own, int dimension, int threads, Post& post,
+                 const Period* period = nullptr);
 
   /// The seeds to compute on this rank; valid as long as this.
   ShardSeeds seeds() const { return {ids_, {dimension_, positions_, weights_}}; }
@@ -27,7 +30,7 @@ class Redistribution {
  private:
   Post::Letters deliver(Post::Letters letters);
   /// The ranks that the seeds go to.
-  std::vector<std::size_t> destinations(const ShardSeeds& own, int threads);
+  std::vector<std::size_t> destinations(const ShardSeeds& own, int threads, const Period* period);
 
   int dimension_;
   Post& post_;

@@ -63,25 +63,25 @@ double lightest_of(const TreeSeeds& seeds, std::size_t leaf) {
 
 }  // namespace
 
-CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, double reach) {
+CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, const BoxView& box, double reach) {
   const std::size_t d = seeds.dimension();
   std::array<double, 4> farthest{};
-  for (std::size_t k = 0; k < d; ++k)
-    farthest[k] = std::max(std::abs(seeds.tree.low[leaf * d + k]), std::abs(seeds.tree.high[leaf * d + k]));
+  for (std::size_t k = 0; k < d; ++k) farthest[k] = std::max(std::abs(box.low[k]), std::abs(box.high[k]));
   farthest[d] = lightest_of(seeds, leaf);
   return {farthest.data(), reach, seeds.tree.dimension};
 }
 
-std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& others) {
+std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& others,
+                                    const std::vector<Point>& moves) {
   const PackedTree& tree = seeds.tree;
   std::map<int, NearPart> parts;
   if (tree.levels() == 0) return parts;
   const std::size_t d = seeds.dimension();
   const Spacing spacing(tree);
-  for (std::uint32_t leaf = 0; leaf < tree.level_offset[1]; ++leaf) {
-    const BoxView box = box_of(tree, leaf);
+  const auto look_at = [&](std::uint32_t leaf, const BoxView& box) {
     // Of seeds as light as the lightest one, those up to `farthest` spacings away may meet such a cell (39b).
-    const CutTest cell = farthest_cell(seeds, leaf, std::max(farthest / 2 * spacing(leaf), least_radius));
+    const CutTest cell =
+        farthest_cell(seeds, leaf, box, std::max(farthest / 2 * spacing(leaf), least_radius));
     const auto is_near = [&](const PackedTree& boxes, std::uint32_t node) {
       return cell.may_meet(gap2(box, box_of(boxes, node), d), boxes.weight[node]);
     };
@@ -93,33 +93,37 @@ std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& o
       part->second.lightest = std::min(part->second.lightest, lightest);
       return true;
     });
-  }
+  };
+  for (std::uint32_t leaf = 0; leaf < tree.level_offset[1]; ++leaf)
+    for (const Point& move : moves) look_at(leaf, moved(box_of(tree, leaf), move, d).view());
   return parts;
 }
 
-Rim find_rim(const TreeSeeds& seeds, const PackedTree& other) {
+Rim find_rim(const TreeSeeds& seeds, const PackedTree& other, const std::vector<Point>& moves) {
   const PackedTree& tree = seeds.tree;
   Rim rim;
   if (tree.levels() == 0) return rim;
   const std::size_t d = seeds.dimension();
   const Spacing spacing(tree);
-  const auto is_near = [&](std::uint32_t node) {
-    const BoxView box = box_of(tree, node);
-    const double limit = farthest * spacing(node);
-    return has_open_leaf(other,
-                         [&](std::uint32_t b) { return gap2(box, box_of(other, b), d) <= limit * limit; });
-  };
   rim.all = tree.level_offset[1];
   rim.lightest = std::numeric_limits<double>::infinity();
-  visit_leaves(tree, is_near, [&](std::uint32_t leaf) {
-    rim.lightest = std::min(rim.lightest, lightest_of(seeds, leaf));
-    rim.spacing.push_back(spacing(leaf));
-    for (std::uint32_t k = 0; k < PackedTree::fan; ++k) {
-      const std::size_t rank = std::min<std::size_t>(leaf * PackedTree::fan + k, seeds.size() - 1);
-      rim.seed.insert(rim.seed.end(), seeds.position(rank), seeds.position(rank) + d);
-    }
-    return true;
-  });
+  for (const Point& move : moves) {
+    const auto is_near = [&](std::uint32_t node) {
+      const Box box = moved(box_of(tree, node), move, d);
+      const double limit = farthest * spacing(node);
+      return has_open_leaf(
+          other, [&](std::uint32_t b) { return gap2(box.view(), box_of(other, b), d) <= limit * limit; });
+    };
+    visit_leaves(tree, is_near, [&](std::uint32_t leaf) {
+      rim.lightest = std::min(rim.lightest, lightest_of(seeds, leaf));
+      rim.spacing.push_back(spacing(leaf));
+      for (std::uint32_t k = 0; k < PackedTree::fan; ++k) {
+        const std::size_t rank = std::min<std::size_t>(leaf * PackedTree::fan + k, seeds.size() - 1);
+        for (std::size_t c = 0; c < d; ++c) rim.seed.push_back(seeds.position(rank)[c] + move[c]);
+      }
+      return true;
+    });
+  }
   return rim;
 }
 

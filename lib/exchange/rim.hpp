@@ -12,20 +12,23 @@
 #include "lib/exchange/cut_test.hpp"
 #include "lib/exchange/messages.hpp"
 #include "lib/exchange/other_shards.hpp"
+#include "lib/exchange/translations.hpp"
 #include "lib/exchange/tree_seeds.hpp"
 
 namespace powercell::exchange {
 
 /// The other shards that seeds of a shard are near, or that have seeds heavy enough to matter to them, as far
 /// as the first outlines tell, each with the part that these seeds are in.
-std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& others);
+/// \param moves  of the shard's seeds (translations())
+std::map<int, NearPart> near_shards(const TreeSeeds& seeds, const OtherShards& others,
+                                    const std::vector<Point>& moves);
 
 /// A cell that reaches as far as any of the seeds of a leaf, whose own reach is at most `reach`: of a seed as
-/// light and as far from the origin as any.
-CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, double reach);
+/// light and as far from the origin as any. \param box  of the leaf, or where it is moved to
+CutTest farthest_cell(const TreeSeeds& seeds, std::size_t leaf, const BoxView& box, double reach);
 
-/// The leaves of a shard's tree that are near the boxes of another's outline.
-Rim find_rim(const TreeSeeds& seeds, const PackedTree& other);
+/// The leaves of a shard's tree that are near the boxes of another's outline, each moved to there.
+Rim find_rim(const TreeSeeds& seeds, const PackedTree& other, const std::vector<Point>& moves);
 
 /// Finds the seeds near leaves of another's rim. The memory is reused from leaf to leaf.
 class NearRim {

@@ -39,6 +39,10 @@ class Digest {
 std::vector<NamedValue> call_values(const Domain& domain, const Options& options) {
   const RegionMesh& mesh = domain.mesh();
   const auto number = [](auto value) { return static_cast<std::uint64_t>(value); };  // of an enumeration
+  Digest periods;
+  if (mesh.period)
+    for (int axis = 0; axis < mesh.dimension; ++axis)
+      periods.add(mesh.period->is_periodic(axis)).add_all(mesh.period->given(axis));
   return {{"the version of powercell", Digest().add_all(std::string_view(version())).value()},
           {"the kind of domain", Digest()
                                      .add(number(mesh.kind))
@@ -50,6 +54,7 @@ std::vector<NamedValue> call_values(const Domain& domain, const Options& options
            Digest().add_all(mesh.vertices).add_all(mesh.low).add_all(mesh.high).add(mesh.measure).value()},
           {"the regions of the domain",
            Digest().add_all(mesh.region_offset).add_all(mesh.region_vertex).add_all(mesh.facet).value()},
+          {"the periods of the domain", periods.value()},
           {"Options::precision", number(options.precision)},
           {"Options::decisions", number(options.decisions)},
           {"Options::certify", number(options.certify)}};

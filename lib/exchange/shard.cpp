@@ -19,11 +19,12 @@ constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 2000};
 }  // namespace
 
 Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension,
-             int threads)
+             int threads, const Period* period)
     : threads_(thread_count(threads)),
       width_(static_cast<std::size_t>(dimension) + 1),
-      own_(ids, seeds, dimension, threads),
+      own_(ids, seeds, dimension, threads, period),
       others_(number),
+      moves_(translations(period)),
       open_(own_.size()),
       rows_(own_.size()) {
   std::iota(open_.begin(), open_.end(), Handle{0});
@@ -43,7 +44,7 @@ void Shard::set_hidden_aside(const Setup& setup) {
 
 void Shard::meet(std::shared_ptr<const FirstOutlines> first) {
   others_.meet(std::move(first));
-  near_parts_ = near_shards(own_.in_tree(), others_);
+  near_parts_ = near_shards(own_.in_tree(), others_, moves_);
 }
 
 std::vector<Handle> Shard::at_hand(bool all) const {
@@ -86,21 +87,29 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   diagram.set_seeds({measures_.dimension, positions, weights});
   // Of a large shard most cells are far from all others, so that their geometry is not needed.
   if (round_ == 0 && own_.size() >= least_with_far_cells[width_ - 3]) {
-    compute(diagram, handles, {.adjacency = true, .reach = true});
+    compute(diagram, handles, {.adjacency = true, .reach = true, .unproved = true});
     std::vector<double> reach(own_.size());
     for (std::size_t k = 0; k < open_.size(); ++k) reach[open_[k]] = (*diagram.results->reach)[k];
     close_far_cells(reach);
   }
   if (!open_.empty()) {
-    compute(diagram, handles, {.adjacency = true, .cells = true});
-    NearBoxes near(others_);
-    for (std::size_t k = 0; k < open_.size(); ++k)
-      if (measures_.status[open_[k]] == SeedStatus::ok)
-        ask(*diagram.results->cells, k, handles, near, requests);
+    requests = ask_all(diagram, handles, {.adjacency = true, .cells = true, .unproved = true});
+    // Cells that reach far because others are not at hand yet need no images there.
+    if (requests.empty() && !unproved_.empty())
+      requests = ask_all(diagram, handles, {.adjacency = true, .cells = true});
   }
   foreign_clipped_ = foreign_id_.size();
   all_needed_ = false;
   ++round_;
+  return requests;
+}
+
+std::map<int, Request> Shard::ask_all(Diagram::State& diagram, std::span<const Handle> handle, Wanted want) {
+  compute(diagram, handle, want);
+  std::map<int, Request> requests;
+  NearBoxes near(others_, moves_);
+  for (std::size_t k = 0; k < open_.size(); ++k)
+    if (measures_.status[open_[k]] == SeedStatus::ok) ask(*diagram.results->cells, k, handle, near, requests);
   return requests;
 }
 
@@ -131,46 +140,52 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
   share(adjacency.neighbor.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) adjacency.neighbor[k] = handle[adjacency.neighbor[k]];
   });
-  walls_.push_back({std::move(adjacency.neighbor), std::move(adjacency.wall)});
+  unproved_.clear();
+  for (const std::uint32_t k : diagram.results->unproved)
+    if (from.status[k] == SeedStatus::ok) unproved_.push_back(open_[k]);
+  walls_.push_back({std::move(adjacency.neighbor), std::move(adjacency.wall), std::move(adjacency.shift)});
 }
 
 void Shard::close_far_cells(const std::vector<double>& reach) {
-  const NearBoxes near(others_);
+  const NearBoxes near(others_, moves_);
   const PackedTree& tree = own_.tree();
   std::vector<std::uint8_t> is_near(own_.size());
   const auto look_at = [&](std::uint32_t leaf) {
     // Few leaves are near others, and what can cut none of their cells is found for all of them at once.
     double most = least_radius;
     for (const std::uint32_t cell : own_.in_leaf(leaf)) most = std::max(most, reach[cell]);
-    if (!near.may_meet(box_of(tree, leaf), farthest_cell(own_.in_tree(), leaf, most))) return;
+    const auto may_meet = [&](const Point& move) {
+      const Box box = moved(box_of(tree, leaf), move, width_ - 1);
+      return near.may_meet(box.view(), farthest_cell(own_.in_tree(), leaf, box.view(), most));
+    };
+    if (std::none_of(moves_.begin(), moves_.end(), may_meet)) return;
     for (const std::uint32_t cell : own_.in_leaf(leaf))
       if (measures_.status[cell] == SeedStatus::ok)
-        is_near[cell] =
-            near.may_meet(CutTest(own_.row(cell), std::max(reach[cell], least_radius), measures_.dimension));
+        is_near[cell] = near.may_meet(own_.wrapped_row(cell), std::max(reach[cell], least_radius));
   };
   const std::size_t leaves = tree.level_offset[1];
   parallel_for(threads_for(leaves, threads_, shared_leaves), leaves, [&](std::size_t begin, std::size_t end) {
     for (std::size_t leaf = begin; leaf < end; ++leaf) look_at(static_cast<std::uint32_t>(leaf));
   });
+  for (const Handle cell : unproved_) is_near[cell] = 1;
   std::erase_if(open_, [&](Handle cell) { return is_near[cell] == 0; });
 }
 
-bool Shard::keep_nearest(CutTest& test, const Point& vertex) {
+bool Shard::keep_nearest(NearBoxes& near, const Point& vertex) {
   if (round_ > 0 || asked_.size() < 2) return true;
   const std::size_t all = asked_.size();
   for (double along = 0.5; asked_.size() > 1 && along > 1e-3; along /= 2) {
-    test.move_to({along * vertex[0], along * vertex[1], along * vertex[2]});
-    std::vector<int> nearer;
-    for (const int shard : asked_)
-      if (may_cut(others_.rest_of(shard), test)) nearer.push_back(shard);
+    const Point at{along * vertex[0], along * vertex[1], along * vertex[2]};
+    std::vector<NearBoxes::View> nearer;
+    for (const NearBoxes::View& view : asked_)
+      if (near.may_cut_at(view, at)) nearer.push_back(view);
     if (nearer.empty()) break;
     asked_ = std::move(nearer);
   }
   return asked_.size() == all;
 }
 
-void Shard::add_vertex(Handle cell, double radius, const Point& vertex, Request& request) const {
-  const double* const row = own_.row(cell);
+void Shard::add_vertex(const double* row, double radius, const Point& vertex, Request& request) const {
   // Vertices of a cell are one after the other.
   const auto last = request.cell.end() - (request.cell.empty() ? 0 : static_cast<std::ptrdiff_t>(width_) + 1);
   if (last == request.cell.end() || !std::equal(row, row + width_, last)) {
@@ -183,12 +198,18 @@ void Shard::add_vertex(Handle cell, double radius, const Point& vertex, Request&
   ++request.end.back();
 }
 
+double Shard::radius_about(const Cells& cells, std::size_t row, Handle cell) const {
+  const double* const seed = own_.row(cell);
+  double rounding = 0;  // of vertices, whose coordinates are about those of the seed as given
+  for (std::size_t k = 0; k + 1 < width_; ++k) rounding += coordinate_error * std::abs(seed[k]);
+  return std::max(radius_of(cells, row, seed), moves_.size() > 1 ? rounding / vertex_error : 0);
+}
+
 void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,
                 std::map<int, Request>& requests) {
   const Handle self = open_[row];
-  const double radius = radius_of(cells, row, own_.row(self));
-  CutTest test(own_.row(self), radius, measures_.dimension);
-  near.set(test);
+  const double radius = radius_about(cells, row, self);
+  near.set(own_.wrapped_row(self), radius);
   if (near.empty()) return;
   cell_vertices_.set(cells, row, own_.row(self), self, handle);
   // Of a cell that reaches far, most vertices are cut off by what others are answered with.
@@ -196,19 +217,18 @@ void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> han
   bool postponed = false;
   for (std::size_t v = 0; v < cell_vertices_.size(); ++v) {
     const Point& at = cell_vertices_.offset(v);
-    test.move_to(at);
-    near.shards_at(test, asked_);
+    near.views_at(at, asked_);
     if (asked_.empty()) continue;
     Vertex& vertex = vertices_[cell_vertices_.name(v)];
     if (vertex.settled) continue;
     postponed = waiting_for_.size() - before == most;
     if (postponed) break;
     if (vertex.round <= round_) {
-      vertex = {round_ + 1, keep_nearest(test, at), false, false};
+      vertex = {round_ + 1, keep_nearest(near, at), false, false};
       questions_.push_back(&vertex);
-      for (const int shard : asked_) {
-        add_vertex(self, radius, at, requests[shard]);
-        asked_of_[shard].push_back(&vertex);
+      for (const NearBoxes::View& view : asked_) {
+        add_vertex(near.row(view).data(), radius, at, requests[view.shard]);
+        asked_of_[view.shard].push_back(&vertex);
       }
     }
     waiting_for_.push_back(&vertex);
@@ -219,7 +239,7 @@ void Shard::ask(const Cells& cells, std::size_t row, std::span<const Handle> han
 std::map<int, Rim> Shard::rims() const {
   std::map<int, Rim> rims;
   for (const auto& [shard, part] : near_parts_) {
-    Rim rim = own_.rim(others_.rest_of(shard));
+    Rim rim = own_.rim(others_.rest_of(shard), moves_);
     if (rim.leaves() > 0) rims.emplace(shard, std::move(rim));
   }
   return rims;
@@ -246,7 +266,8 @@ void Shard::take(int from, Reply&& reply) {
 
 void Shard::settle() {
   for (Vertex* const vertex : questions_) vertex->settled = vertex->all_asked && !vertex->found;
-  open_.clear();
+  open_ = std::exchange(unproved_, {});
+  const auto unproved = static_cast<std::ptrdiff_t>(open_.size());
   std::size_t begin = 0;
   for (const Waiting& cell : waiting_) {
     const auto first = waiting_for_.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -255,6 +276,8 @@ void Shard::settle() {
     if (cell.postponed || !std::all_of(first, last, [](const Vertex* vertex) { return vertex->settled; }))
       open_.push_back(cell.cell);
   }
+  std::inplace_merge(open_.begin(), open_.begin() + unproved, open_.end());
+  open_.erase(std::unique(open_.begin(), open_.end()), open_.end());
   waiting_.clear();
   waiting_for_.clear();
   questions_.clear();
@@ -282,7 +305,7 @@ std::map<int, Twins> Shard::twins() const {
   std::map<int, Twins> questions;
   for (Handle cell = 0; cell < own_.size(); ++cell) {
     if (measures_.status[cell] != SeedStatus::hidden) continue;
-    const double* const row = own_.row(cell);
+    const double* const row = own_.wrapped_row(cell);
     const auto open = [row](const PackedTree& boxes, std::uint32_t node) {
       return contains(boxes, node, row);
     };
@@ -314,6 +337,8 @@ ShardCells Shard::take_cells(double domain_measure, bool walls) {
   for (std::size_t i = 0; i < n; ++i) cells.offset[own_.given(i) + 1] = rows_[i].count;
   std::partial_sum(cells.offset.begin(), cells.offset.end(), cells.offset.begin());
   if (!walls) return cells;
+  const bool is_periodic = moves_.size() > 1;
+  if (is_periodic) resize_populated(cells.shift, cells.offset.back(), threads_);
   resize_populated(cells.neighbor, cells.offset.back(), threads_);
   resize_populated(cells.wall, cells.offset.back(), threads_);
   share(n, [&](std::size_t begin, std::size_t end) {
@@ -323,7 +348,9 @@ ShardCells Shard::take_cells(double domain_measure, bool walls) {
       const std::uint64_t at = cells.offset[own_.given(i)];
       std::transform(neighbors.begin(), neighbors.end(), &cells.neighbor[at],
                      [this](Handle h) { return id_of(h); });
-      std::copy_n(&walls_[rows_[i].walls].wall[rows_[i].begin], neighbors.size(), &cells.wall[at]);
+      const Walls& walls_of = walls_[rows_[i].walls];
+      std::copy_n(&walls_of.wall[rows_[i].begin], neighbors.size(), &cells.wall[at]);
+      if (is_periodic) std::copy_n(&walls_of.shift[rows_[i].begin], neighbors.size(), &cells.shift[at]);
     }
   });
   return cells;

@@ -22,6 +22,7 @@ struct ShardCells {
   std::vector<std::uint64_t> offset;    ///< as in Adjacency
   std::vector<std::uint64_t> neighbor;  ///< ids, ascending within a row
   std::vector<double> wall;             ///< as seen from the cell of the row
+  std::vector<Shift> shift;             ///< in a periodic domain: as in Adjacency; else empty
 };
 
 /// All shards take the same steps, one after the other or each on a machine of its own:
@@ -35,8 +36,10 @@ struct ShardCells {
 ///     send twins(), answer them by better_twins(), mark_duplicates(); take_cells()
 class Shard {
  public:
-  /// \param number  among all shards \throw Error as OwnSeeds
-  Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads);
+  /// \param number  among all shards \param period  of the domain, null if it is not periodic
+  /// \throw Error as OwnSeeds
+  Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads,
+        const Period* period = nullptr);
 
   int number() const { return others_.self(); }
   OwnSeeds& own() { return own_; }
@@ -95,6 +98,7 @@ class Shard {
   struct Walls {
     std::vector<Handle> neighbor;  ///< by ascending id within a cell
     std::vector<double> wall;
+    std::vector<Shift> shift;
   };
   struct Row {
     std::uint64_t begin = 0;
@@ -119,6 +123,8 @@ class Shard {
   std::vector<Handle> at_hand(bool all) const;
   /// Clips the open cells and keeps their results.
   void compute(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
+  /// Clips the open cells with their geometry. \return requests for what could cut them
+  std::map<int, Request> ask_all(Diagram::State& diagram, std::span<const Handle> handle, Wanted want);
   /// Adds seeds of others to those at hand.
   void take_seeds(const std::vector<std::uint64_t>& ids, const std::vector<double>& rows);
   /// Calls body(begin, end) on all threads for ranges of `count` items.
@@ -133,16 +139,20 @@ class Shard {
   /// Adds the vertices of a cell to the requests that no shard was asked about yet.
   void ask(const Cells& cells, std::size_t row, std::span<const Handle> handle, NearBoxes& near,
            std::map<int, Request>& requests);
-  /// Adds a vertex to the request to a shard.
-  void add_vertex(Handle cell, double radius, const Point& vertex, Request& request) const;
+  /// Adds a vertex to the request to a shard. \param row  of the cell's seed, as the shard sees it
+  void add_vertex(const double* row, double radius, const Point& vertex, Request& request) const;
   /// Cells reach far at first: leaves those shards in asked_ that may cut off more than the vertex, nearer to
   /// the seed. The others are asked later, if they still matter. \return whether none was removed
-  bool keep_nearest(CutTest& test, const Point& vertex);
+  bool keep_nearest(NearBoxes& near, const Point& vertex);
+  /// The radius of a ball around a cell's seed that contains the vertices, however far from the domain the
+  /// seed was given.
+  double radius_about(const Cells& cells, std::size_t row, Handle cell) const;
 
   int threads_;
   std::size_t width_;  // of a row of position and weight
   OwnSeeds own_;
   OtherShards others_;
+  std::vector<Point> moves_;            // of cells, to where others matter
   std::map<int, NearPart> near_parts_;  // near others
 
   std::vector<std::uint64_t> foreign_id_;
@@ -152,15 +162,16 @@ class Shard {
 
   int round_ = 0;
   std::uint64_t clipped_ = 0;
-  bool all_needed_ = true;    // cells are open whose walls may be missing
-  std::vector<Handle> open_;  // ascending
+  bool all_needed_ = true;        // cells are open whose walls may be missing
+  std::vector<Handle> open_;      // ascending
+  std::vector<Handle> unproved_;  // open cells that reach too far for the images of seeds at hand; ascending
   std::vector<Waiting> waiting_;
   std::vector<Vertex*> waiting_for_;
   std::unordered_map<VertexName, Vertex, VertexHash> vertices_;
   std::vector<Vertex*> questions_;                // of this round
   std::map<int, std::vector<Vertex*>> asked_of_;  // by shard: the vertices of its request
   CellVertices cell_vertices_;
-  std::vector<int> asked_;
+  std::vector<NearBoxes::View> asked_;
 
   Measures measures_;  // of own seeds
   std::vector<Row> rows_;

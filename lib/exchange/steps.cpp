@@ -28,7 +28,7 @@ Steps::Steps(Diagram::State& diagram, std::span<const ShardSeeds> here, Post& po
   shards_.reserve(here.size());
   for (const ShardSeeds& seeds : here)
     shards_.emplace_back(first + static_cast<int>(shards_.size()), seeds.ids, seeds.seeds, dimension,
-                         diagram.setup.options.threads);
+                         diagram.setup.options.threads, diagram.setup.domain.mesh().period.get());
   for (Shard& shard : shards_) shard.set_hidden_aside(diagram.setup);
   share_boxes();
   fetch_outlines();

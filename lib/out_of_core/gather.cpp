@@ -26,6 +26,7 @@ class Gatherer {
     for (const PieceFile& piece : pieces) {
       all_walls_ += piece.all_walls;
       has_walls_ = has_walls_ || !piece.neighbor.empty();
+      has_shifts_ = has_shifts_ || !piece.shift.empty();
     }
   }
 
@@ -38,6 +39,7 @@ class Gatherer {
       rows.neighbor.resize(rows.offset.back());
       rows.wall.resize(rows.offset.back());
     }
+    if (has_shifts_) rows.shift.resize(rows.offset.back());
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       if (has_walls_) take_walls(p, begin[p], rows);
       pieces_[p].drop();
@@ -86,6 +88,7 @@ class Gatherer {
       const std::uint64_t to = rows.offset[piece.id[from.cell] - rows.first];
       std::copy_n(&piece.neighbor[from.wall], count, &rows.neighbor[to]);
       std::copy_n(&piece.wall[from.wall], count, &rows.wall[to]);
+      if (has_shifts_) std::copy_n(&piece.shift[from.wall], count, &rows.shift[to]);
       from.wall += count;
     }
   }
@@ -95,7 +98,7 @@ class Gatherer {
   std::size_t d_;
   double domain_measure_;
   std::uint64_t all_walls_ = 0;
-  bool has_walls_ = false;  // written in the pieces
+  bool has_walls_ = false, has_shifts_ = false;  // written in the pieces
 };
 
 }  // namespace

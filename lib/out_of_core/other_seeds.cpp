@@ -88,7 +88,7 @@ void OtherSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::
   ++sent_count_;
   const exchange::TreeSeeds seeds = store_.seeds();
   ids.push_back(store_.id(rank));
-  rows.insert(rows.end(), seeds.position(rank), seeds.position(rank) + seeds.dimension());
+  rows.insert(rows.end(), store_.given(rank), store_.given(rank) + seeds.dimension());
   rows.push_back(seeds.weights[rank]);
 }
 

@@ -187,7 +187,7 @@ class Computation {
     traffic_.read += own.size() * (static_cast<std::size_t>(source_.dimension) + 2) * sizeof(double);
     // The piece is shard 0, all other seeds are shard 1.
     Shard shard(0, own.id, {source_.dimension, own.positions, own.weights}, source_.dimension,
-                options_.diagram.threads);
+                options_.diagram.threads, diagram_.setup.domain.mesh().period.get());
     shard.meet(std::make_shared<exchange::FirstOutlines>(
         std::vector<PackedTree>{{}, others.begin(piece, shard.own().tree())}, source_.dimension));
     for (const auto& [to, rim] : shard.rims()) shard.take(to, others.near(rim));

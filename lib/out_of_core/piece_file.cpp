@@ -1,12 +1,17 @@
 #include "lib/out_of_core/piece_file.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace powercell::out_of_core {
 namespace {
 
-/// Numbers at the head of a file: of cells, of foreign neighbours, of walls, of those that are written.
-using Counts = std::array<std::uint64_t, 4>;
+static_assert(most_seeds_of_diagram <= std::numeric_limits<std::uint32_t>::max(),
+              "files have 32 bits of neighbours");
+
+/// Numbers at the head of a file: of cells, of foreign neighbours, of walls, of those that are written, of
+/// their shifts.
+using Counts = std::array<std::uint64_t, 5>;
 
 /// \return bytes written
 std::uint64_t write_file(const std::string& path, const PieceCells& piece) {
@@ -17,14 +22,16 @@ std::uint64_t write_file(const std::string& path, const PieceCells& piece) {
     count[i] = static_cast<std::uint32_t>(cells.offset[i + 1] - cells.offset[i]);
   FileWriter file(path, FileWriter::Kind::kept);
   // Longer numbers come first, so that all are where their type may be.
-  file.write_all(Counts{piece.id.size(), piece.foreign.size(), cells.offset.back(), cells.neighbor.size()});
+  file.write_all(Counts{piece.id.size(), piece.foreign.size(), cells.offset.back(), cells.neighbor.size(),
+                        cells.shift.size()});
   file.write_all(piece.id);
   file.write_all(measures.mass);
   file.write_all(measures.centroid);
   file.write_all(measures.second_moment);
   file.write_all(piece.foreign);
-  file.write_all(cells.neighbor);
   file.write_all(cells.wall);
+  file.write_all(std::vector<std::uint32_t>(cells.neighbor.begin(), cells.neighbor.end()));
+  file.write_all(cells.shift);
   file.write_all(count);
   file.write_all(measures.status);
   file.close();
@@ -52,8 +59,9 @@ PieceFile::PieceFile(const std::string& path, int dimension) : file_(path) {
   take(second_moment, cells);
   take(foreign, counts[1]);
   all_walls = counts[2];
-  take(neighbor, counts[3]);
   take(wall, counts[3]);
+  take(neighbor, counts[3]);
+  take(shift, counts[4]);
   take(walls, cells);
   take(status, cells);
 }

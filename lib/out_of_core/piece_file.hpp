@@ -52,8 +52,9 @@ class PieceFile {
   std::uint64_t all_walls = 0;           ///< the sum of these
   std::span<const SeedStatus> status;
   std::span<const std::uint64_t> foreign;
-  std::span<const std::uint64_t> neighbor;  ///< cell by cell; may have been left out
-  std::span<const double> wall;
+  std::span<const double> wall;  ///< cell by cell; may have been left out, as neighbours
+  std::span<const std::uint32_t> neighbor;
+  std::span<const Shift> shift;  ///< in a periodic domain
 
  private:
   MappedFile file_;

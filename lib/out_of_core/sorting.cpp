@@ -44,7 +44,8 @@ class Sorter {
         piece_(piece),
         folder_(folder),
         traffic_(traffic),
-        store_(folder) {}
+        period_(setup.domain.mesh().period.get()),
+        store_(folder, period_ != nullptr) {}
 
   void run() {
     sort([this](const auto& use) { read_source(use); }, source_.count, true);
@@ -61,8 +62,8 @@ class Sorter {
     const auto make = [&](std::size_t k) {
       const std::uint64_t first = k * block_seeds;
       const std::size_t size = std::min<std::uint64_t>(block_seeds, count - first);
-      SeedBlock block{std::vector<std::uint64_t>(size), std::vector<double>(size * d_),
-                      std::vector<double>(size)};
+      SeedBlock block{
+          std::vector<std::uint64_t>(size), std::vector<double>(size * d_), std::vector<double>(size), {}};
       read(first, block);
       return block;
     };
@@ -118,15 +119,31 @@ class Sorter {
     return "part_" + std::to_string(level) + "_" + std::to_string(part);
   }
 
+  /// The positions that the curve goes through: wrapped in a periodic domain, to `wrapped`.
+  /// \pre valid seeds
+  std::span<const double> places(std::span<const double> positions, std::vector<double>& wrapped) const {
+    if (period_ == nullptr) return positions;
+    wrapped.resize(positions.size());
+    parallel_for(threads_for(positions.size() / d_, setup_.threads), positions.size() / d_,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i)
+                     std::copy_n(period_->wrap(&positions[i * d_]).position.begin(), d_, &wrapped[i * d_]);
+                 });
+    return wrapped;
+  }
+
   Survey survey_of(const Blocks& blocks, std::uint64_t count, std::uint64_t parts, bool check) {
     Survey survey;
     const std::uint64_t stride = std::max<std::uint64_t>(count / (parts * samples_of_part), 1);
     std::uint64_t seen = 0;
     std::optional<InputFault> fault;
+    std::vector<double> wrapped;
     blocks([&](const SeedBlock& block) {
       if (check) note_fault(block, fault);
+      if (fault) return;  // that of the lowest order is still to be found
+      const std::span<const double> at = places(block.positions, wrapped);
       for (std::size_t i = 0; i < block.size(); ++i, ++seen) {
-        const double* const p = &block.positions[i * d_];
+        const double* const p = &at[i * d_];
         if (seen == 0) survey.low.assign(p, p + d_), survey.high = survey.low;
         for (std::size_t k = 0; k < d_; ++k) {
           survey.low[k] = std::min(survey.low[k], p[k]);
@@ -180,9 +197,10 @@ class Sorter {
       files.emplace_back(folder_.file(part_name(level_, k)), FileWriter::Kind::scratch);
     std::uint64_t seen = 0;
     std::vector<std::byte> row(row_bytes());
+    std::vector<double> wrapped;
     blocks([&](const SeedBlock& block) {
-      const std::vector<std::uint64_t> keys =
-          hilbert_keys(block.positions, source_.dimension, survey.low, survey.high, setup_.threads);
+      const std::vector<std::uint64_t> keys = hilbert_keys(
+          places(block.positions, wrapped), source_.dimension, survey.low, survey.high, setup_.threads);
       for (std::size_t i = 0; i < block.size(); ++i) {
         FileWriter& file = files[static_cast<std::size_t>(
             std::lower_bound(last.begin(), last.end(), keys[i]) - last.begin())];
@@ -215,15 +233,23 @@ class Sorter {
       all.positions.insert(all.positions.end(), block.positions.begin(), block.positions.end());
       all.weights.insert(all.weights.end(), block.weights.begin(), block.weights.end());
     });
-    SeedSet set =
-        make_seed_set({source_.dimension, all.positions, all.weights}, source_.dimension, setup_.threads);
-    std::vector<std::uint64_t> ids(set.size());
-    parallel_for(threads_for(ids.size(), setup_.threads), ids.size(),
+    std::vector<double> wrapped;
+    SeedSet set = make_seed_set({source_.dimension, places(all.positions, wrapped), all.weights},
+                                source_.dimension, setup_.threads);
+    SeedBlock piece{std::vector<std::uint64_t>(set.size()),
+                    std::vector<double>(set.positions.size()),
+                    std::move(set.weights),
+                    {}};
+    parallel_for(threads_for(piece.size(), setup_.threads), piece.size(),
                  [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t rank = begin; rank < end; ++rank) ids[rank] = all.id[set.input[rank]];
+                   for (std::size_t rank = begin; rank < end; ++rank) {
+                     piece.id[rank] = all.id[set.input[rank]];
+                     std::copy_n(&all.positions[set.input[rank] * d_], d_, &piece.positions[rank * d_]);
+                   }
                  });
+    if (period_ != nullptr) piece.wrapped = std::move(set.positions);
     store_.add_duplicates(set.duplicate.size());
-    store_.add({std::move(ids), std::move(set.positions), std::move(set.weights)});
+    store_.add(std::move(piece));
   }
 
   /// Keeps one of many seeds at one position.
@@ -232,8 +258,11 @@ class Sorter {
       const auto best = std::find(block.id.begin(), block.id.end(), survey.best->first);
       if (best == block.id.end()) return;
       const std::size_t at = static_cast<std::size_t>(best - block.id.begin());
-      const double* const position = &block.positions[at * d_];
-      store_.add({{block.id[at]}, {position, position + d_}, {block.weights[at]}});
+      const auto position = block.positions.begin() + static_cast<std::ptrdiff_t>(at * d_);
+      SeedBlock one{
+          {block.id[at]}, {position, position + static_cast<std::ptrdiff_t>(d_)}, {block.weights[at]}, {}};
+      (void)places(one.positions, one.wrapped);
+      store_.add(std::move(one));
     });
     store_.add_duplicates(count - 1);
   }
@@ -244,6 +273,7 @@ class Sorter {
   std::uint64_t piece_;
   const LockedFolder& folder_;
   Traffic& traffic_;
+  const Period* period_;
   StoreWriter store_;
   unsigned level_ = 0;  // of files of parts
 };

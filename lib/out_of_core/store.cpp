@@ -12,26 +12,31 @@ namespace powercell::out_of_core {
 namespace {
 
 constexpr const char *ids_name = "ids", *positions_name = "positions", *weights_name = "weights",
-                     *ends_name = "pieces";
+                     *given_name = "given", *ends_name = "pieces";
 /// Leaves whose seeds are in memory at a time while the tree is built.
 constexpr std::size_t leaves_at_once = std::size_t{1} << 18;
 
 }  // namespace
 
-StoreWriter::StoreWriter(const LockedFolder& folder)
+StoreWriter::StoreWriter(const LockedFolder& folder, bool periodic)
     : folder_(folder),
       ids_(folder.file(ids_name), FileWriter::Kind::kept),
       positions_(folder.file(positions_name), FileWriter::Kind::kept),
-      weights_(folder.file(weights_name), FileWriter::Kind::kept) {}
+      weights_(folder.file(weights_name), FileWriter::Kind::kept) {
+  if (periodic) given_.emplace(folder.file(given_name), FileWriter::Kind::kept);
+}
 
 void StoreWriter::add(SeedBlock&& piece) {
   if (piece.size() == 0) return;
   ends_.push_back((ends_.empty() ? 0 : ends_.back()) + piece.size());
   last_.run([this, piece = std::move(piece)] {
     ids_.write_all(piece.id);
-    positions_.write_all(piece.positions);
+    positions_.write_all(given_ ? piece.wrapped : piece.positions);
     weights_.write_all(piece.weights);
     for (FileWriter* const file : {&ids_, &positions_, &weights_}) file->sync();
+    if (!given_) return;
+    given_->write_all(piece.positions);
+    given_->sync();
   });
 }
 
@@ -40,12 +45,13 @@ std::uint64_t StoreWriter::close() {
   ids_.close();
   positions_.close();
   weights_.close();
+  if (given_) given_->close();
   // The last file, because it tells that the others are whole.
   FileWriter ends(folder_.file(ends_name), FileWriter::Kind::kept);
   ends.write_one(duplicates_);
   ends.write_all(ends_);
   ends.close();
-  return ids_.bytes() + positions_.bytes() + weights_.bytes() + ends.bytes();
+  return ids_.bytes() + positions_.bytes() + weights_.bytes() + ends.bytes() + (given_ ? given_->bytes() : 0);
 }
 
 bool Store::is_in(const LockedFolder& folder) {
@@ -64,6 +70,11 @@ Store::Store(const LockedFolder& folder, int dimension)
   ids_ = id_file_.numbers<std::uint64_t>(0, count);
   weights_ = weight_file_.numbers<double>(0, count);
   positions_ = position_file_.numbers<double>(0, count * static_cast<std::size_t>(dimension));
+  given_ = positions_;
+  if (folder.has(given_name)) {
+    given_file_ = MappedFile(folder.file(given_name));
+    given_ = given_file_.numbers<double>(0, positions_.size());
+  }
   build_tree(dimension);
 }
 
@@ -88,9 +99,9 @@ SeedBlock Store::by_id(std::size_t piece, int threads) const {
   std::vector<KeyedIndex> order(count), scratch(count);
   for (std::size_t k = 0; k < count; ++k) order[k] = {ids_[first + k], static_cast<std::uint32_t>(k)};
   sort_by_key(order, scratch, threads);
-  SeedBlock block{std::vector<std::uint64_t>(count), std::vector<double>(count * d),
-                  std::vector<double>(count)};
-  const double *const positions = &positions_[first * d], *const weights = &weights_[first];
+  SeedBlock block{
+      std::vector<std::uint64_t>(count), std::vector<double>(count * d), std::vector<double>(count), {}};
+  const double *const positions = &given_[first * d], *const weights = &weights_[first];
   parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t from = order[k].index;
@@ -106,6 +117,7 @@ void Store::drop() const {
   id_file_.drop();
   position_file_.drop();
   weight_file_.drop();
+  given_file_.drop();
 }
 
 }  // namespace powercell::out_of_core

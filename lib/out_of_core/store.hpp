@@ -20,6 +20,7 @@ namespace powercell::out_of_core {
 struct SeedBlock {
   std::vector<std::uint64_t> id;
   std::vector<double> positions, weights;
+  std::vector<double> wrapped;  ///< the positions in a periodic domain; else empty
 
   std::size_t size() const { return id.size(); }
 };
@@ -27,7 +28,7 @@ struct SeedBlock {
 /// Writes a store while the caller goes on.
 class StoreWriter {
  public:
-  explicit StoreWriter(const LockedFolder& folder);
+  StoreWriter(const LockedFolder& folder, bool periodic);
 
   /// Adds a piece: seeds along the curve, none of them a duplicate; nothing if there are none. Waits for the
   /// piece before. \throw Error write_failed (of that one)
@@ -39,6 +40,7 @@ class StoreWriter {
  private:
   const LockedFolder& folder_;
   FileWriter ids_, positions_, weights_;
+  std::optional<FileWriter> given_;  // positions, where the others are wrapped
   std::vector<std::uint64_t> ends_;
   std::uint64_t duplicates_ = 0;
   Behind last_;
@@ -60,6 +62,10 @@ class Store {
     return {piece == 0 ? 0 : ends_[piece - 1], ends_[piece]};
   }
   std::uint64_t id(std::size_t rank) const { return ids_[rank]; }
+  /// The position as given; those of seeds() are wrapped in a periodic domain.
+  const double* given(std::size_t rank) const {
+    return &given_[rank * static_cast<std::size_t>(tree_.dimension)];
+  }
   exchange::TreeSeeds seeds() const { return {tree_, positions_, weights_}; }
   /// The seeds of a piece by ascending id.
   SeedBlock by_id(std::size_t piece, int threads) const;
@@ -69,9 +75,9 @@ class Store {
  private:
   void build_tree(int dimension);
 
-  MappedFile id_file_, position_file_, weight_file_;
+  MappedFile id_file_, position_file_, weight_file_, given_file_;
   std::span<const std::uint64_t> ids_;
-  std::span<const double> positions_, weights_;
+  std::span<const double> positions_, weights_, given_;
   std::vector<std::uint64_t> ends_;
   std::uint64_t duplicates_ = 0;
   PackedTree tree_;

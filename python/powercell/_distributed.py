@@ -38,12 +38,14 @@ class DistributedCells:
         Ids of the neighbours, which may be on any rank, ascending in each row.
     data : (m,) float64
         Length or area of the wall, as seen from the cell of the row.
+    shift : (m, 3) int32 or None
+        In a periodic domain, else None: the image of the neighbour, as in :class:`Adjacency`.
     report : ExchangeReport
         What ranks sent to each other.
     """
 
-    def __init__(self, core: Any) -> None:
-        self._core = core
+    def __init__(self, core: Any, periodic: bool) -> None:
+        self._core, self._periodic = core, periodic
 
     @property
     def mass(self) -> Reals:
@@ -76,6 +78,12 @@ class DistributedCells:
     @property
     def data(self) -> Reals:
         return self._core.data  # type: ignore[no-any-return]
+
+    @property
+    def shift(self) -> Optional[NDArray[np.int32]]:
+        if self._core.shift is None and self._periodic:
+            return np.empty((0, 3), np.int32)  # of a rank without walls
+        return self._core.shift  # type: ignore[no-any-return]
 
     @property
     def report(self) -> ExchangeReport:
@@ -150,7 +158,7 @@ def compute_distributed(
     comm : mpi4py.MPI.Intracomm
         Or any object with ``Get_rank()``, ``Get_size()``, ``allgather(value)`` and ``alltoall(list of bytes)``.
     domain : Domain
-        A polygon, a box or a volume of tetrahedra.
+        A polygon, a box or a volume of tetrahedra; a box may be periodic, or a lattice.
     ids : (n,) array_like of int
         Of the seeds, from 0, each once on all ranks.
     positions : (n, d) array_like
@@ -180,8 +188,8 @@ def compute_distributed(
         An array of the wrong shape or type, by name, on the rank that has it; or no communicator.
     Error
         On all ranks: ``invalid_argument`` (an id that is there twice; domains or options that differ; a ValueError on
-        another rank), ``invalid_seed`` (names the seed by its id), ``unsupported`` (surfaces, solids, periodic domains,
-        single precision) and others. What one rank alone knows begins with its number.
+        another rank), ``invalid_seed`` (names the seed by its id), ``unsupported`` (surfaces, solids, single
+        precision) and others. What one rank alone knows begins with its number.
 
     Examples
     --------
@@ -215,4 +223,4 @@ def compute_distributed(
             comm.Get_rank(), comm.Get_size(), _exchange_by(comm), opened, domain._core, named, points, heavy,
             options, bool(redistribute), report,
         )
-    return DistributedCells(core)
+    return DistributedCells(core, domain.is_periodic)

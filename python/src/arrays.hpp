@@ -54,4 +54,11 @@ nb::object owned(std::vector<T> values, std::vector<std::size_t> shape) {
   return view(kept->data(), std::move(shape), owner);
 }
 
+/// Rows of integer shifts, one for each coordinate; None in a domain that is not periodic.
+template <class Result>
+nb::object shifts(const Result& result, nb::handle owner) {
+  if (result.shift.empty()) return nb::none();
+  return view(result.shift.front().data(), {result.shift.size(), 3}, owner);
+}
+
 }  // namespace powercell::python

@@ -61,6 +61,7 @@ void bind_distributed(nb::module_& m) {
       .def_prop_ro("indices",
                    [](nb::handle self) { return view(nb::cast<DistributedCells&>(self).neighbor, self); })
       .def_prop_ro("data", [](nb::handle self) { return view(nb::cast<DistributedCells&>(self).wall, self); })
+      .def_prop_ro("shift", [](nb::handle self) { return shifts(nb::cast<DistributedCells&>(self), self); })
       .def_ro("report", &DistributedCells::report);
   m.def(
       "compute_distributed",

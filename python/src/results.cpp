@@ -13,13 +13,6 @@ nb::object borders(const std::vector<Border>& all, nb::handle owner) {
   return view(reinterpret_cast<const std::uint32_t*>(all.data()), {all.size(), 2}, owner);
 }
 
-/// Rows of integer shifts, one for each coordinate; None in a domain that is not periodic.
-template <class Result>
-nb::object shifts(const Result& result, nb::handle owner) {
-  if (result.shift.empty()) return nb::none();
-  return view(result.shift.front().data(), {result.shift.size(), 3}, owner);
-}
-
 #define POWERCELL_VECTOR(Type, member) \
   def_prop_ro(#member, [](nb::handle self) { return view(nb::cast<Type&>(self).member, self); })
 

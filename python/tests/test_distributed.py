@@ -105,6 +105,7 @@ def test_cells_are_those_of_one_diagram(rng, cube, ranks, redistribute):
         assert not isinstance(cells, BaseException), cells
         compare(whole, ids, own, cells)
         assert cells.report.rounds == found[0].report.rounds >= 1
+        assert cells.shift is None
         assert cells.report.fetched == found[0].report.fetched
     assert (found[0].report.fetched > 0) == (ranks > 1)
     assert (found[0].report.redistributed > 0) == redistribute
@@ -113,6 +114,22 @@ def test_cells_are_those_of_one_diagram(rng, cube, ranks, redistribute):
         found[0].neighbors(len(order[0]))
     with pytest.raises(ValueError, match="read-only"):
         found[0].mass[:] = 0
+
+
+def test_walls_of_a_periodic_box_have_shifts(rng):
+    box = pc.Domain.box([0, 0, 0], [1, 1, 1], periodic=(True, False, True))
+    positions, ids = rng.random((300, 3)), np.arange(300)
+    positions[::7, 0] += 2
+    whole = pc.Diagram(box, positions)
+    order = [ids[0::2], ids[1::2], ids[:0]]
+    found = on_ranks(3, lambda comm: pc.compute_distributed(comm, box, order[comm.Get_rank()], positions[order[comm.Get_rank()]]))
+    for own, cells in zip(order, found):
+        assert not isinstance(cells, BaseException), cells
+        compare(whole, ids, own, cells)
+        assert cells.shift.shape == (len(cells.data), 3)
+        for place, seed in enumerate(own):
+            begin, end = whole.adjacency.indptr[seed : seed + 2]
+            assert np.array_equal(cells.shift[cells.indptr[place] : cells.indptr[place + 1]], whole.adjacency.shift[begin:end])
 
 
 def test_long_messages_go_in_pieces(rng, square, monkeypatch):
@@ -150,8 +167,8 @@ def test_errors_are_those_of_all_ranks(rng, square, cube):
     other = pc.Domain.box([0, 0], [2, 1])
     errors = codes_and_texts(on_ranks(3, lambda comm: pc.compute_distributed(comm, **part(comm, domain=lambda _: other))))
     assert len(errors) == 1 and "the vertices of the domain" in next(iter(errors))[1]
-    periodic = pc.Domain.box([0, 0], [1, 1], periodic=True)
-    errors = codes_and_texts(on_ranks(2, lambda comm: pc.compute_distributed(comm, periodic, [comm.Get_rank()], [[0.5, 0.5]])))
+    surface = pc.Domain.surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    errors = codes_and_texts(on_ranks(2, lambda comm: pc.compute_distributed(comm, surface, [comm.Get_rank()], [[0.5, 0.5, 0]])))
     assert len(errors) == 1 and next(iter(errors))[0] == "unsupported"
 
 

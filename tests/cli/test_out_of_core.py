@@ -145,8 +145,6 @@ class OutOfCore(ToolTest):
         self.bad(2, "'-'", *self.command(table="-"))
         self.bad(1, "need a polygon, a box", "diagram", "--domain", "sphere", "--seeds", "s.npy", "--memory", "1G",
                  "--table", "t.npy")
-        self.bad(1, "need a polygon, a box", "diagram", "--domain", "cube", "--periodic", "--seeds", "s.npy",
-                 "--memory", "1G", "--table", "t.npy")
         self.bad(1, "double precision", *self.command("--precision", "float"))
         self.bad(1, "ids are kept in memory", *self.command("--id-column", "1"))
         self.write("s.geojson", "{}")

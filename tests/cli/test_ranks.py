@@ -78,6 +78,21 @@ class Ranks(ToolTest):
         self.seeds(2, dimension=2)
         self.check_tables(2, 3, "square")
 
+    def test_walls_of_periodic_domains_have_shifts(self):
+        self.seeds(1000)
+        command = ["diagram", "--domain", "cube", "--periodic=xz", "--seeds", "s.npy"]
+        self.good(*command, "--walls", "m.csv")
+        theirs = self.rows("m.csv")
+        self.assertIn("wrote w.shift.npy", self.on(3, *command, "--walls", "w.npy").stdout)
+        shift = read_npy(self.folder / "w.shift.npy")
+        self.assertEqual(shift, [tuple(int(row[axis]) for axis in ("sx", "sy", "sz")) for row in theirs])
+        self.assertEqual(read_npy(self.folder / "w.indices.npy"), [int(row["neighbor"]) for row in theirs])
+        self.on(2, *command, "--walls", "w.csv")
+        ours = self.rows("w.csv")
+        self.assertEqual([{**row, "measure": 0} for row in ours], [{**row, "measure": 0} for row in theirs])
+        for a, b in zip(ours, theirs):
+            self.assertAlmostEqual(float(a["measure"]), float(b["measure"]), delta=1e-12)
+
     def test_csv_of_many_rows(self):
         rows = [(random.random(), random.random()) for _ in range(70000)]  # more than are sent at a time
         self.write("s.csv", "x,y\n" + "".join(f"{x},{y}\n" for x, y in rows))

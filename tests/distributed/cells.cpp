@@ -68,6 +68,18 @@ TEST_CASE("ranks: polygons, volumes, duplicates and flat cells") {
   check_ranks(diagram, at_random(lattice, 3, random));
 }
 
+TEST_CASE("ranks: periodic boxes and lattices, where walls have shifts") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const NamedDomain& named : periodic_domains()) {
+    INFO(named.name);
+    const SeedArray seeds = seeds_for(named.domain, Distribution::white, WeightRange::W1, 300, random);
+    Diagram diagram = diagram_of(named.domain, seeds);
+    check_ranks(diagram, along_curve(seeds, 3));
+    check_ranks(diagram, at_random(seeds, 3, random), {{}, true});
+  }
+}
+
 TEST_CASE("ranks: without seeds, more of them than seeds, and no seeds at all") {
   INFO(replay_hint());
   Random random(test_seed());

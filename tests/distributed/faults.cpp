@@ -121,8 +121,7 @@ TEST_CASE("ranks: what shards cannot have is refused without the name of a rank"
   Three three;
   for (Call& call : three.calls) call.options.diagram.certify = true;
   check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported), "the laws that Options::certify");
-  for (Call& call : three.calls)
-    call = {Domain::periodic_box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0}), {}};
+  for (Call& call : three.calls) call = {surface_of(icosphere(0)), {}};
   check_all_say(errors(three.shares, three.calls, ErrorCode::unsupported),
                 "distributed seeds need a polygon");
   for (Call& call : three.calls) {

@@ -80,8 +80,10 @@ std::size_t count_cells(const Measures& measures) {
 TEST_CASE("shapes: those of one diagram, of seeds that were shared out anew") {
   INFO(replay_hint());
   Random random(test_seed());
+  const std::array low{0.0, 0.0, 0.0}, high{1.0, 1.0, 1.0};
   const std::vector<NamedDomain> domains{{"square", unit_box(2)},
                                          {"cube", unit_box(3)},
+                                         {"periodic cube", Domain::periodic_box(low, high)},
                                          {"islands", Domain::polygon(islands())},
                                          {"ball", volume_of(ball_tetrahedra(0))}};
   for (const NamedDomain& named : domains)

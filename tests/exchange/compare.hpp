@@ -42,20 +42,32 @@ void check_cells(Diagram& diagram, const std::vector<std::uint64_t>& ids, const 
   const double mean = measures.domain_measure / static_cast<double>(std::max<std::size_t>(diagram.size(), 1));
   const double most_wall =
       adjacency.wall.empty() ? 0 : *std::max_element(adjacency.wall.begin(), adjacency.wall.end());
+  const auto d = static_cast<std::size_t>(measures.dimension);
+  double most_error = 0;
+  for (const double x : measures.centroid)
+    if (std::isfinite(x)) most_error = std::max(most_error, 1e-9 * std::abs(x));
+  // Cells of a periodic domain are cut from a box of three times its edges.
+  const double wall_error = (diagram.domain().is_periodic() ? 4e-12 : 1e-12) * most_wall;
   REQUIRE(cells.measures.mass.size() == ids.size());
   REQUIRE(cells.offset.size() == ids.size() + 1);
+  REQUIRE(cells.shift.size() == (adjacency.shift.empty() ? 0 : cells.neighbor.size()));
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const std::size_t i = ids[k];
     CAPTURE(i);
     CHECK(cells.measures.status[k] == measures.status[i]);
     CHECK(std::abs(cells.measures.mass[k] - measures.mass[i]) <=
           measure_error(diagram.domain(), std::max(mean, measures.mass[i])));
+    if (measures.status[i] == SeedStatus::ok)
+      for (std::size_t c = 0; c < d; ++c)
+        CHECK(std::abs(cells.measures.centroid[k * d + c] - measures.centroid[i * d + c]) <= most_error);
     const std::size_t count = adjacency.offset[i + 1] - adjacency.offset[i];
     REQUIRE(cells.offset[k + 1] - cells.offset[k] == count);
     for (std::size_t w = 0; w < count; ++w) {
       CHECK(cells.neighbor[cells.offset[k] + w] == adjacency.neighbor[adjacency.offset[i] + w]);
       CHECK(std::abs(cells.wall[cells.offset[k] + w] - adjacency.wall[adjacency.offset[i] + w]) <=
-            1e-12 * most_wall);
+            wall_error);
+      if (!adjacency.shift.empty())
+        CHECK(cells.shift[cells.offset[k] + w] == adjacency.shift[adjacency.offset[i] + w]);
     }
   }
 }

@@ -195,7 +195,7 @@ TEST_CASE("guesses: seeds in a rim are asked about near another shard, and not i
     const std::vector<exchange::ShardSeeds> view = shares.view();
     const OwnSeeds one(view[0].ids, view[0].seeds, 2, 1);
     OwnSeeds other(view[1].ids, view[1].seeds, 2, 1);
-    const Rim rim = one.rim(exchange::outline_of(other.tree(), 512));
+    const Rim rim = one.rim(exchange::outline_of(other.tree(), 512), exchange::translations(nullptr));
     CHECK(rim.seed.size() == rim.leaves() * per_leaf * 2);
     CHECK(rim.leaves() <= rim.all);
     const Halo halo = other.near(0, rim);

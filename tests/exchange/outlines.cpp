@@ -104,32 +104,41 @@ TEST_CASE("outlines: shards are found by their boxes as if all were looked at") 
     shares.weights[empty].clear();
   }
   const std::vector<Shard> shards = shards_that_met(along_curve(seeds, 40)), mixed = shards_that_met(shares);
-  const double light[] = {0, 0, 0, -1e6};
-  CutTest anywhere(light, 1, 3);  // any seed cuts it off
-  anywhere.move_to({});
   for (const std::vector<Shard>* const all : {&shards, &mixed}) {
     std::vector<PackedTree> boxes;
     for (const Shard& shard : *all) boxes.push_back(exchange::outline_of(shard.own().tree(), 1));
     exchange::OtherShards others(7);
     others.meet(std::make_shared<FirstOutlines>(boxes, 3));
-    exchange::NearBoxes near(others);
+    const std::vector<exchange::Point> moves(1);
+    exchange::NearBoxes near(others, moves);
     std::size_t met = 0;
     for (std::size_t i = 0; i < seeds.size(); i += 10) {
       const double row[] = {seeds.coordinate(i, 0), seeds.coordinate(i, 1), seeds.coordinate(i, 2),
                             seeds.weights[i]};
-      const CutTest cell(row, random.uniform(0.01, 0.1), 3);
-      near.set(cell);
+      const double radius = random.uniform(0.01, 0.1);
+      CutTest cell(row, radius, 3);
+      cell.move_to({radius, 0, 0});
+      near.set(row, radius);
       std::vector<int> expected;
+      bool is_empty = true;
       for (int shard = 0; shard < 40; ++shard) {
         const PackedTree& box = boxes[static_cast<std::size_t>(shard)];
-        if (shard != 7 && box.levels() > 0 && cell.may_meet(box.low.data(), box.high.data(), box.weight[0]))
-          expected.push_back(shard);
+        if (shard == 7 || box.levels() == 0) continue;
+        is_empty = is_empty && !cell.may_meet(box.low.data(), box.high.data(), box.weight[0]);
+        if (exchange::node_may_cut(box, 0, cell)) expected.push_back(shard);
       }
+      std::vector<exchange::NearBoxes::View> views;
+      near.views_at(cell.at(), views);
       std::vector<int> found;
-      near.shards_at(anywhere, found);
+      for (const exchange::NearBoxes::View& view : views) {
+        found.push_back(view.shard);
+        CHECK(near.may_cut_at(view, cell.at()));
+        CHECK(std::equal(row, row + 4, near.row(view).begin()));
+      }
       std::sort(found.begin(), found.end());
       CHECK(found == expected);
-      CHECK(near.empty() == expected.empty());
+      CHECK(near.empty() == is_empty);
+      CHECK(near.may_meet(row, radius) == !is_empty);
       met += expected.size();
     }
     CHECK(met > 100);

@@ -102,10 +102,26 @@ TEST_CASE("shards: ids that are there twice, and sizes that do not match") {
       "coordinates each"));
 }
 
+TEST_CASE("shards: seeds too far outside a periodic domain are refused as in one diagram, by their ids") {
+  const Domain domain = Domain::periodic_box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0});
+  Random random(test_seed());
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 60, 3, random);
+  seeds.coordinate(50, 1) = 1e9;
+  seeds.coordinate(31, 2) = -1e9;
+  Diagram diagram(test_device(), domain);
+  std::string expected;
+  try {
+    diagram.set_seeds(seeds.view());
+  } catch (const Error& error) {
+    expected = error.what();
+  }
+  CHECK(contains(expected, "seed 31: it is more than 2^28 periods outside"));
+  CHECK(refusal_of_shards(domain, at_random(seeds, 3, random).view(), ErrorCode::invalid_seed) == expected);
+}
+
 TEST_CASE("shards: domains and options that they cannot have") {
   const Mesh ball = icosphere(0);
-  for (const Domain& domain : {surface_of(ball), Domain::solid(ball.vertices, ball.elements),
-                               Domain::periodic_box(std::array{0.0, 0.0, 0.0}, std::array{1.0, 1.0, 1.0})})
+  for (const Domain& domain : {surface_of(ball), Domain::solid(ball.vertices, ball.elements)})
     CHECK(
         contains(refusal_of_shards(domain, {}, ErrorCode::unsupported), "need a polygon, a box or a volume"));
   Options options;

@@ -77,6 +77,27 @@ TEST_CASE("out of core: polygons and volumes of many regions") {
   }
 }
 
+TEST_CASE("out of core: periodic boxes and lattices, and seeds given some periods outside") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  for (const NamedDomain& named : periodic_domains()) {
+    INFO(named.name);
+    SeedArray seeds = seeds_for(named.domain, Distribution::white, WeightRange::W2, 300, random);
+    const auto period = named.domain.periods();
+    for (std::size_t i = 0; i < seeds.size(); i += 3)
+      for (int k = 0; k < seeds.dimension; ++k)
+        seeds.coordinate(i, k) += 2 * period[0][static_cast<std::size_t>(k)];
+    for (int k = 0; k < 60; ++k) {  // more than a piece has at one position
+      if (seeds.dimension == 3)
+        seeds.push({0.25, 0.5, 0.25}, 0);
+      else
+        seeds.push({0.25, 0.5}, 0);
+    }
+    Diagram diagram = diagram_of(named.domain, seeds);
+    check_pieces(diagram, seeds, 50);
+  }
+}
+
 TEST_CASE("out of core: flat cells of other pieces") {
   INFO(replay_hint());
   Random random(test_seed());

@@ -56,6 +56,7 @@ struct Taken {
   Measures measures;
   std::vector<std::uint64_t> offset{0}, neighbor;
   std::vector<double> wall;
+  std::vector<std::array<std::int32_t, 3>> shift;
   std::uint64_t all_walls = 0;
 
   void add(const CellRows& rows) {
@@ -69,6 +70,7 @@ struct Taken {
     for (std::size_t i = 1; i < rows.offset.size(); ++i) offset.push_back(before + rows.offset[i]);
     append(neighbor, rows.neighbor);
     append(wall, rows.wall);
+    append(shift, rows.shift);
     all_walls = rows.all_walls;
   }
 };
@@ -81,7 +83,7 @@ inline bool same_bits(const Taken& a, const Taken& b) {
   return same(a.measures.mass, b.measures.mass) && same(a.measures.centroid, b.measures.centroid) &&
          same(a.measures.second_moment, b.measures.second_moment) &&
          same(a.measures.status, b.measures.status) && same(a.offset, b.offset) &&
-         same(a.neighbor, b.neighbor) && same(a.wall, b.wall);
+         same(a.neighbor, b.neighbor) && same(a.wall, b.wall) && same(a.shift, b.shift);
 }
 
 /// The cells of pieces of up to some seeds are those of one diagram.

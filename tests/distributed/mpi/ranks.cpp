@@ -44,6 +44,17 @@ TEST_CASE("MPI: cells of all weights, along a curve and at random, sent to other
     }
 }
 
+TEST_CASE("MPI: a periodic cube") {
+  MpiCommunicator communicator;
+  const auto ranks = static_cast<std::size_t>(communicator.size());
+  Random random(test_seed());
+  const std::array low{0.0, 0.0, 0.0}, high{1.0, 1.0, 1.0};
+  const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W2, 500, 3, random);
+  Diagram diagram = diagram_of(Domain::periodic_box(low, high), seeds);
+  check_rank(communicator, diagram, along_curve(seeds, ranks));
+  check_rank(communicator, diagram, at_random(seeds, ranks, random), true);
+}
+
 TEST_CASE("MPI: ranks without seeds, and more of them than seeds") {
   MpiCommunicator communicator;
   const auto ranks = static_cast<std::size_t>(communicator.size());
