@@ -73,7 +73,7 @@ std::vector<Handle> Shard::at_hand(bool all) const {
 std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   std::map<int, Request> requests;
   if (open_.empty()) return requests;
-  // Where the domain is convex, a cell is determined by its walls and the seeds that came since.
+  // Where the domain is convex, a proved cell is determined by its walls and the seeds that came since.
   const std::vector<Handle> handles = at_hand(all_needed_ || diagram.setup.domain.region_count() > 1);
   const std::size_t d = width_ - 1;
   std::vector<double> positions(handles.size() * d), weights(handles.size());
@@ -267,6 +267,7 @@ void Shard::take(int from, Reply&& reply) {
 void Shard::settle() {
   for (Vertex* const vertex : questions_) vertex->settled = vertex->all_asked && !vertex->found;
   open_ = std::exchange(unproved_, {});
+  all_needed_ = !open_.empty();  // images may be missing among their walls
   const auto unproved = static_cast<std::ptrdiff_t>(open_.size());
   std::size_t begin = 0;
   for (const Waiting& cell : waiting_) {

@@ -24,11 +24,13 @@ inline Shares at_random(const SeedArray& seeds, std::size_t count, Random& rando
 }
 
 /// What the measure of a cell may be off by: its surface, about, moved by the rounding of its vertices. These
-/// are cut from a region as large as the domain, and more of them in another order.
+/// are cut from a region as large as the domain, and more of them in another order; in a periodic domain from
+/// a box of three times its edges, and needles around it have twice the surface.
 inline double measure_error(const Domain& domain, double measure) {
   const auto d = static_cast<double>(domain.dimension());
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, domain.high()[k] - domain.low()[k]);
+  if (domain.is_periodic()) extent *= 6;
   return 2e-16 * extent * 2 * d * std::pow(measure, (d - 1) / d);
 }
 
@@ -46,8 +48,8 @@ void check_cells(Diagram& diagram, const std::vector<std::uint64_t>& ids, const 
   double most_error = 0;
   for (const double x : measures.centroid)
     if (std::isfinite(x)) most_error = std::max(most_error, 1e-9 * std::abs(x));
-  // Cells of a periodic domain are cut from a box of three times its edges.
-  const double wall_error = (diagram.domain().is_periodic() ? 4e-12 : 1e-12) * most_wall;
+  // Cells of a periodic domain may reach around it, as needles.
+  const double wall_error = (diagram.domain().is_periodic() ? 4e-11 : 1e-12) * most_wall;
   REQUIRE(cells.measures.mass.size() == ids.size());
   REQUIRE(cells.offset.size() == ids.size() + 1);
   REQUIRE(cells.shift.size() == (adjacency.shift.empty() ? 0 : cells.neighbor.size()));
@@ -57,7 +59,7 @@ void check_cells(Diagram& diagram, const std::vector<std::uint64_t>& ids, const 
     CHECK(cells.measures.status[k] == measures.status[i]);
     CHECK(std::abs(cells.measures.mass[k] - measures.mass[i]) <=
           measure_error(diagram.domain(), std::max(mean, measures.mass[i])));
-    if (measures.status[i] == SeedStatus::ok)
+    if (measures.mass[i] > 1e-6 * mean)  // of smaller ones they are not known better
       for (std::size_t c = 0; c < d; ++c)
         CHECK(std::abs(cells.measures.centroid[k * d + c] - measures.centroid[i * d + c]) <= most_error);
     const std::size_t count = adjacency.offset[i + 1] - adjacency.offset[i];

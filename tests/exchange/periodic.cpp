@@ -101,6 +101,17 @@ TEST_CASE("shards of periodic domains: one seed far heavier than the others, and
   check_shares(diagram, along_curve(seeds, 5));
 }
 
+TEST_CASE("shards of periodic domains: a cluster whose outer cells reach around the domain") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 3000, 2, random);
+  scale(seeds, 0.02);
+  const std::array<double, 2> low{0, 0}, high{1, 1};
+  Diagram diagram = diagram_of(Domain::periodic_box(low, high), seeds);
+  check_shares(diagram, along_curve(seeds, 4));
+  check_shares(diagram, at_random(seeds, 3, random));
+}
+
 TEST_CASE("shards of periodic domains: seeds given as far away as they may be") {
   INFO(replay_hint());
   Random random(test_seed());
@@ -108,6 +119,12 @@ TEST_CASE("shards of periodic domains: seeds given as far away as they may be") 
   for (std::size_t i = 0; i < seeds.size(); i += 2) seeds.coordinate(i, 1) += 0x1p27;
   Diagram diagram = diagram_of(periodic_cube(), seeds);
   check_shares(diagram, along_curve(seeds, 4));
+  // Small cells that tie, whose vertices are rounded to a part of their size.
+  SeedArray lattice = grid(100, 2);
+  for (double& x : lattice.positions) x += 0x1p27;
+  const std::array<double, 2> low{0, 0}, high{1, 1};
+  Diagram far = diagram_of(Domain::periodic_box(low, high), lattice);
+  check_shares(far, along_curve(lattice, 3));
 }
 
 TEST_CASE("shards of periodic domains: most cells of a large one are far from all others") {
