@@ -8,7 +8,8 @@ namespace powercell::out_of_core {
 namespace {
 
 /// Bytes of each seed of a piece in the plane and in space, a third more than was measured of 10^5 to 10^6
-/// seeds (docs/scale.md): in a domain of one region, and of many.
+/// seeds (docs/scale.md): in a domain of one region, and of many. Images of a periodic domain take up to half
+/// as much again.
 constexpr std::uint64_t bytes_of_piece_seed[2][2] = {{850, 1500}, {1700, 3500}};
 /// Of programs of the device and buffers that do not depend on the number of seeds.
 constexpr std::uint64_t bytes_of_programs = std::uint64_t{256} << 20;
@@ -21,14 +22,15 @@ std::string in_mebibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t seeds_of_piece(std::uint64_t seeds, int dimension, bool many_regions, std::uint64_t memory,
+std::uint64_t seeds_of_piece(std::uint64_t seeds, const Domain& domain, std::uint64_t memory,
                              std::uint64_t most) {
   // A leaf of the tree of all seeds has eight seeds, its levels above it a seventh of its nodes; and a seed
   // has its status, and whether a piece has it.
-  const auto d = static_cast<std::uint64_t>(dimension);
+  const auto d = static_cast<std::uint64_t>(domain.dimension());
   const std::uint64_t tree = seeds * (2 * d + 1) * sizeof(double) / 7, all = tree + 2 * seeds,
                       fixed = bytes_of_programs + all,
-                      of_seed = bytes_of_piece_seed[many_regions ? 1 : 0][dimension - 2];
+                      in_bounds = bytes_of_piece_seed[domain.region_count() > 1 ? 1 : 0][d - 2],
+                      of_seed = domain.is_periodic() ? in_bounds + in_bounds / 2 : in_bounds;
   const std::uint64_t least = fixed + std::min(seeds, least_piece) * of_seed;
   if (memory < least)
     throw Error(ErrorCode::invalid_argument, in_mebibytes(memory) + " of memory are too little for " +

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <powercell/domain.hpp>
 
 namespace powercell::out_of_core {
 
-/// \param many_regions  whether the domain has more than one region
+/// \param most  seeds of a piece, 0 if not limited
 /// \return the most seeds of a piece \throw Error invalid_argument with the least memory that is enough
-std::uint64_t seeds_of_piece(std::uint64_t seeds, int dimension, bool many_regions, std::uint64_t memory,
+std::uint64_t seeds_of_piece(std::uint64_t seeds, const Domain& domain, std::uint64_t memory,
                              std::uint64_t most);
 
 }  // namespace powercell::out_of_core

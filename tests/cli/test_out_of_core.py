@@ -55,6 +55,16 @@ class OutOfCore(ToolTest):
         for a, row in zip(data, walls):
             self.assertAlmostEqual(a, float(row["measure"]), delta=1e-13)
 
+    def test_walls_of_periodic_domains_have_shifts(self):
+        self.seeds(30000)
+        report = self.report(*self.command("--periodic", "--walls", "w.npy"))
+        self.assertGreater(report["out_of_core"]["pieces"], 1)
+        self.good("diagram", "--domain", "cube", "--periodic", "--seeds", "s.npy", "--walls", "m.csv")
+        walls = self.rows("m.csv")
+        self.assertEqual(read_npy(self.folder / "w.indices.npy"), [int(row["neighbor"]) for row in walls])
+        self.assertEqual(read_npy(self.folder / "w.shift.npy"),
+                         [tuple(int(row[axis]) for axis in ("sx", "sy", "sz")) for row in walls])
+
     def test_csv_has_the_columns_of_a_diagram_in_memory(self):
         self.seeds(300, dimension=2)
         arguments = ["diagram", "--domain", "square", "--seeds", "s.npy"]
