@@ -80,9 +80,8 @@ class Period {
 
 /// What is wrong with a seed whose Wrapped::is_far.
 inline constexpr const char* too_far_outside =
-    "it is more than 2^28 periods outside the periodic domain, where its position is too coarse; move it by "
-    "a "
-    "multiple of the period";
+    "it is more than 2^28 periods outside the periodic domain, where its position is too coarse; move it "
+    "by a multiple of the period";
 /// \throw Error invalid_seed
 [[noreturn]] void refuse_far(std::size_t index);
 
