@@ -91,7 +91,7 @@ void check_walls_against_host(Caller& caller, DeviceDiagram& diagram, const Seed
 
 TEST_CASE("walls in device memory equal those of Diagram") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
@@ -113,7 +113,7 @@ TEST_CASE("walls in device memory equal those of Diagram") {
 
 TEST_CASE("walls in domains of several regions equal those of Diagram") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const auto& family : {polygon_domains(), surface_domains(), volume_domains()})
@@ -133,7 +133,7 @@ TEST_CASE("walls in domains of several regions equal those of Diagram") {
 
 TEST_CASE("walls do not depend on the size of launches, bit for bit") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const int dimension : {2, 3}) {
     const SeedArray exact = random_seeds(Distribution::white, WeightRange::W1, 1500, dimension, random);
@@ -155,7 +155,7 @@ TEST_CASE("walls do not depend on the size of launches, bit for bit") {
 }
 
 TEST_CASE("rows beyond the caller's room are not written, and offsets say how much they need") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(1);
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const SeedArray seeds =
@@ -175,7 +175,7 @@ TEST_CASE("rows beyond the caller's room are not written, and offsets say how mu
 }
 
 TEST_CASE("cells whose walls exceed the store are unfinished, and the others are right") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(1);
   for (const bool regions : {false, true}) {
     const Domain domain = regions ? polygon_domains().front().domain : unit_box(2);
@@ -204,7 +204,7 @@ TEST_CASE("cells whose walls exceed the store are unfinished, and the others are
 }
 
 TEST_CASE("rows of no seeds, of hidden ones and of those left out") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const Rows none(caller, diagram.precision(), 0, 10);
   diagram.enqueue(nullptr, nullptr, 0, {nullptr, nullptr, none.handles()});
@@ -221,7 +221,7 @@ TEST_CASE("rows of no seeds, of hidden ones and of those left out") {
 }
 
 TEST_CASE("buffers of walls that are too small or missing are refused before anything is enqueued") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(1);
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W0, 20, 2, random);

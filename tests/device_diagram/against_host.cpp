@@ -59,7 +59,7 @@ void check_against_host(Caller& caller, DeviceDiagram& diagram, const SeedArray&
 
 TEST_CASE("measures from device memory equal those of Diagram") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
@@ -80,7 +80,7 @@ TEST_CASE("measures from device memory equal those of Diagram") {
 
 TEST_CASE("measures in domains of several regions equal those of Diagram") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const auto& family : {polygon_domains(), surface_domains(), volume_domains(), box_domains()})

@@ -45,9 +45,8 @@ bool same(const Output& a, const Output& b) {
 }
 
 /// Enqueues with an event that only this thread completes: a call that waited would not return.
-void check_gate(cl_command_queue_properties properties, const Domain& domain, std::uint32_t pair_capacity,
+void check_gate(Caller& caller, const Domain& domain, std::uint32_t pair_capacity,
                 std::uint32_t image_capacity = 0) {
-  Caller caller(properties);
   Random random(test_seed());
   const int d = domain.dimension();
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 2000, d, random);
@@ -82,15 +81,16 @@ void check_gate(cl_command_queue_properties properties, const Domain& domain, st
 TEST_CASE("a call returns before its wait list is complete, and its work runs after that") {
   for (const cl_command_queue_properties properties :
        {cl_command_queue_properties{0}, cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE}}) {
-    check_gate(properties, unit_box(2), 0);
-    check_gate(properties, Domain::polygon(square_with_holes()), 60000);
+    Caller caller(properties);
+    check_gate(caller, unit_box(2), 0);
+    check_gate(caller, Domain::polygon(square_with_holes()), 60000);
     const double low[] = {0, 0}, high[] = {1, 1};
-    check_gate(properties, Domain::periodic_box(low, high), 0, 20000);
+    check_gate(caller, Domain::periodic_box(low, high), 0, 20000);
   }
 }
 
 TEST_CASE("no seed, one seed and two seeds") {
-  Caller caller;
+  Caller& caller = shared_caller();
   for (const int dimension : {2, 3}) {
     DeviceDiagram diagram(caller.device(), unit_box(dimension));
     const double exact = diagram.precision() == Precision::float64 ? 1e-14 : 1e-6;
@@ -133,7 +133,7 @@ TEST_CASE("no seed, one seed and two seeds") {
 }
 
 TEST_CASE("of seeds at one position the heaviest stays, then the first") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const int dimension : {2, 3}) {
     DeviceDiagram diagram(caller.device(), unit_box(dimension));
@@ -169,7 +169,7 @@ TEST_CASE("of seeds at one position the heaviest stays, then the first") {
 
 TEST_CASE("a leaf of the tree that begins with duplicates does not affect its other seeds") {
   // Ten seeds at one position are first on the curve, so the leaf of the others begins with two duplicates.
-  Caller caller;
+  Caller& caller = shared_caller();
   for (const int d : {2, 3}) {
     INFO(d << "D");
     Random random(test_seed());
@@ -187,7 +187,7 @@ TEST_CASE("a leaf of the tree that begins with duplicates does not affect its ot
 }
 
 TEST_CASE("seeds that are not finite are reported and do not change the others") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    inf = std::numeric_limits<double>::infinity();
@@ -230,7 +230,7 @@ TEST_CASE("seeds that are not finite are reported and do not change the others")
 // An invalid seed has so low a weight that its leaf is near at bounds near the largest number only, which a
 // far seed makes the search try. Leaves that do not exist then seemed near too, and were read.
 TEST_CASE("an invalid seed and one far away do not disturb the search") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Options options;
   options.precision = Precision::float32;
   DeviceDiagram diagram(caller.device(), unit_box(2), options);
@@ -253,7 +253,7 @@ TEST_CASE("an invalid seed and one far away do not disturb the search") {
 }
 
 TEST_CASE("a cell of many faces is clipped with the larger capacity") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   // 100 seeds on a circle around one: its cell has 100 edges, more than the smaller capacity of 32.
   SeedArray seeds = cospherical(100, 2);
@@ -268,7 +268,7 @@ TEST_CASE("a cell of many faces is clipped with the larger capacity") {
 }
 
 TEST_CASE("a cell that fits no capacity is unfinished, not partial") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   SeedArray seeds = cospherical(1000, 2);
   seeds.push({0.5, 0.5}, 0);
@@ -281,7 +281,7 @@ TEST_CASE("a cell that fits no capacity is unfinished, not partial") {
 }
 
 TEST_CASE("pairs beyond the capacity leave their seeds unfinished, and the others unchanged") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const Domain domain = Domain::polygon(square_with_holes());
   REQUIRE(domain.region_count() > 1);
@@ -306,7 +306,7 @@ TEST_CASE("pairs beyond the capacity leave their seeds unfinished, and the other
 }
 
 TEST_CASE("few superfluous pairs are found") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const TetrahedralMesh mesh = ball(6);
   const Domain domain = Domain::volume(mesh.vertices, mesh.tetrahedra);
@@ -323,7 +323,7 @@ TEST_CASE("few superfluous pairs are found") {
 }
 
 TEST_CASE("facets in a bisector, after cells that left other planes in private memory") {
-  Caller caller;
+  Caller& caller = shared_caller();
   const Ring outer{{-1, -1}, {2, -1}, {2, 2}, {-1, 2}}, hole{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
   const Domain domain = Domain::polygon(std::vector<PolygonPart>{{outer, {hole}}});
   const SeedArray mirrored{2, {-3.5, 0.5, 0.5, -3.5}, {0, 0}};  // mirror images in the diagonal
@@ -344,7 +344,7 @@ TEST_CASE("facets in a bisector, after cells that left other planes in private m
 }
 
 TEST_CASE("results do not depend on the size of launches") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::cluster, WeightRange::W2, 3000, 3, random);
   DeviceDiagram whole(caller.device(), unit_box(3));
@@ -355,7 +355,8 @@ TEST_CASE("results do not depend on the size of launches") {
 }
 
 TEST_CASE("invalid buffers are refused, and named") {
-  Caller caller, stranger;
+  Caller& caller = shared_caller();
+  const Caller stranger;
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const std::size_t real = diagram.precision() == Precision::float64 ? 8 : 4;
   const Memory positions(caller, 20 * real), weights(caller, 10 * real), measures(caller, 40 * real),

@@ -50,6 +50,11 @@ const Device& Caller::device() {
   return device_.front();
 }
 
+Caller& shared_caller() {
+  static auto* made = new Caller;
+  return *made;
+}
+
 std::vector<Precision> precisions(const Caller& caller) {
   if (caller.fp64()) return {Precision::float64, Precision::float32};
   return {Precision::float32};

@@ -35,6 +35,9 @@ class Caller {
   std::vector<Device> device_;
 };
 
+/// One for all cases, so that each program is built once. Lives until the process ends.
+Caller& shared_caller();
+
 /// Those that the device computes in.
 std::vector<Precision> precisions(const Caller& caller);
 

@@ -15,12 +15,6 @@ using namespace powercell::test;
 
 namespace {
 
-/// For all cases, so that programs are made once. Lives until the process ends.
-Caller& caller_of_cells() {
-  static auto* made = new Caller;
-  return *made;
-}
-
 Options options_in(Precision precision, Decisions decisions = Decisions::exact) {
   Options options;
   options.precision = precision;
@@ -116,7 +110,7 @@ std::size_t check_geometry(Caller& caller, DeviceDiagram& diagram, const SeedArr
 
 TEST_CASE("cells in device memory are those of Diagram, before and after repair") {
   INFO(replay_hint());
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller)) {
     std::size_t repaired = 0;
@@ -139,7 +133,7 @@ TEST_CASE("cells in device memory are those of Diagram, before and after repair"
 
 TEST_CASE("cells of periodic domains in device memory are those of Diagram, with shifts") {
   INFO(replay_hint());
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const NamedDomain& domain : periodic_domains()) {
@@ -160,7 +154,7 @@ TEST_CASE("cells of periodic domains in device memory are those of Diagram, with
 
 TEST_CASE("cells of clusters, of seeds that tie, and of more faces than the first program takes") {
   INFO(replay_hint());
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
@@ -186,7 +180,7 @@ TEST_CASE("cells of clusters, of seeds that tie, and of more faces than the firs
 
 TEST_CASE("cells do not depend on the size of launches, bit for bit, nor do measures on cells") {
   INFO(replay_hint());
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const NamedDomain& domain : one_of_each()) {
     CAPTURE(domain.name);
@@ -213,7 +207,7 @@ TEST_CASE("cells do not depend on the size of launches, bit for bit, nor do meas
 }
 
 TEST_CASE("cells beyond the caller's room are not written, and the counts say what they need") {
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(1);
   for (const int dimension : {2, 3}) {
     CAPTURE(dimension);
@@ -268,7 +262,7 @@ TEST_CASE("cells beyond the caller's room are not written, and the counts say wh
 }
 
 TEST_CASE("cells of no seeds, and of those that are hidden, duplicate, invalid or unfinished") {
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   const Domain square = unit_box(2);
   DeviceDiagram diagram(caller.device(), square);
   const Precision precision = diagram.precision();
@@ -307,7 +301,7 @@ TEST_CASE("cells of no seeds, and of those that are hidden, duplicate, invalid o
 }
 
 TEST_CASE("cells of seeds whose pairs exceed their room have no geometry, and the others theirs") {
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(1);
   const Domain domain = Domain::polygon(square_with_holes());
   DeviceDiagram diagram(caller.device(), domain);
@@ -328,7 +322,7 @@ TEST_CASE("cells of seeds whose pairs exceed their room have no geometry, and th
 }
 
 TEST_CASE("buffers of cells that are too small, missing or of another kind of domain are refused") {
-  Caller& caller = caller_of_cells();
+  Caller& caller = shared_caller();
   Random random(1);
   DeviceDiagram square(caller.device(), unit_box(2)), cube(caller.device(), unit_box(3));
   const Precision precision = square.precision();

@@ -118,7 +118,7 @@ SeedArray seeds_about_a_point(double size, Random& random) {
 // region. The proof moved vertices there before it failed.
 TEST_CASE("nearly parallel bisectors") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Domain& domain : {surface_of(octahedron(false)), volume_of(octahedron(true))}) {
     CAPTURE(domain.cell_dimension());
@@ -129,7 +129,7 @@ TEST_CASE("nearly parallel bisectors") {
 // A facet that becomes a wall, because a bisector contains it, takes the bisector's plane. That plane was
 // once read from memory never written, and cells lost a part.
 TEST_CASE("bisectors in facets") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(1);
   const Domain cube = volume_of(cube_tetrahedra(4, 0, random));
   constexpr int side = 8;
@@ -159,7 +159,7 @@ TEST_CASE("bisectors in facets") {
 // made the matching of walls write beyond a row.
 TEST_CASE("bisectors through one point") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
   for (const Domain& domain : {Domain::box(low, high), volume_of(cube_tetrahedra(1, 0, random))})

@@ -46,7 +46,7 @@ struct Fixture {
     seeds.points.read(result.points.data(), n * sizeof(result.points[0]));
     return result;
   }
-  Caller caller;
+  Caller& caller = shared_caller();
   std::vector<std::string> defines;
   cl::RawBuffer frame;
   DeviceSeeds seeds;

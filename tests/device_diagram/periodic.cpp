@@ -26,12 +26,6 @@ SeedArray seeds_around(const Domain& domain, WeightRange weights, std::size_t n,
   return seeds;
 }
 
-/// For all cases, so that programs are made once. Lives until the process ends.
-Caller& caller_of_all() {
-  static auto* made = new Caller;
-  return *made;
-}
-
 Domain torus_box(int dimension) {
   const std::vector<double> low(static_cast<std::size_t>(dimension), 0.0), high(low.size(), 1.0);
   return Domain::periodic_box(low, high);
@@ -41,7 +35,7 @@ Domain torus_box(int dimension) {
 
 TEST_CASE("after repair, everything in periodic domains is that of an exact Diagram") {
   INFO(replay_hint());
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller)) {
     std::size_t computed = 0, all = 0;
@@ -64,7 +58,7 @@ TEST_CASE("after repair, everything in periodic domains is that of an exact Diag
 
 TEST_CASE("few cells of random seeds reach beyond the images") {
   INFO(replay_hint());
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3})
@@ -84,7 +78,7 @@ TEST_CASE("few cells of random seeds reach beyond the images") {
 }
 
 TEST_CASE("periodic seeds that tie, on the borders too") {
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
       CAPTURE(dimension);
@@ -108,7 +102,7 @@ TEST_CASE("periodic seeds that tie, on the borders too") {
 }
 
 TEST_CASE("centroids are near the seeds as given") {
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   for (const Precision precision : precisions(caller)) {
     DeviceDiagram diagram(caller.device(), torus_box(2), in_precision(precision));
     const SeedArray seeds{2, {0.25, 0.5, 5.75, -3.5}, {0, 0}};
@@ -122,7 +116,7 @@ TEST_CASE("centroids are near the seeds as given") {
 
 TEST_CASE("one seed outweighs all others of a periodic domain") {
   INFO(replay_hint());
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3})
@@ -137,7 +131,7 @@ TEST_CASE("one seed outweighs all others of a periodic domain") {
 }
 
 TEST_CASE("invalid seeds of a periodic domain") {
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   for (const Precision precision : precisions(caller)) {
@@ -167,7 +161,7 @@ TEST_CASE("invalid seeds of a periodic domain") {
 
 TEST_CASE("images beyond their room leave cells unfinished, and never wrong") {
   INFO(replay_hint());
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller)) {
     DeviceDiagram diagram(caller.device(), torus_box(2), in_precision(precision));
@@ -197,7 +191,7 @@ TEST_CASE("images beyond their room leave cells unfinished, and never wrong") {
 
 TEST_CASE("clustered seeds of a periodic domain") {
   INFO(replay_hint());
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
@@ -213,7 +207,7 @@ TEST_CASE("clustered seeds of a periodic domain") {
 }
 
 TEST_CASE("periodic rows need shifts, others have none, and short ones are not written") {
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   DeviceDiagram periodic(caller.device(), torus_box(2)), bounded(caller.device(), unit_box(2));
   const SeedArray seeds =
@@ -239,7 +233,7 @@ TEST_CASE("periodic rows need shifts, others have none, and short ones are not w
 
 TEST_CASE("periodic rows do not depend on the size of launches, bit for bit") {
   INFO(replay_hint());
-  Caller& caller = caller_of_all();
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller)) {
     const SeedArray seeds =

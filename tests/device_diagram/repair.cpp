@@ -15,7 +15,7 @@ using namespace powercell::test;
 
 TEST_CASE("after repair, everything in a box is that of an exact Diagram") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
@@ -38,7 +38,7 @@ TEST_CASE("after repair, everything in a box is that of an exact Diagram") {
 
 TEST_CASE("after repair, everything in domains of several regions is that of an exact Diagram") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const auto& family : {polygon_domains(), surface_domains(), volume_domains(), box_domains()})
@@ -58,7 +58,7 @@ TEST_CASE("after repair, everything in domains of several regions is that of an 
 
 TEST_CASE("repair of seeds that tie") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller)) {
     CAPTURE(static_cast<int>(precision));
@@ -94,7 +94,7 @@ TEST_CASE("repair of seeds that tie") {
 
 TEST_CASE("repair of a cell with more faces than the device's capacities") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller))
     for (const int dimension : {2, 3}) {
@@ -111,7 +111,7 @@ TEST_CASE("repair of a cell with more faces than the device's capacities") {
 }
 
 TEST_CASE("repair where pairs and walls exceed their room") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(1);
   const Domain domain = Domain::polygon(square_with_holes());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 1000, 2, random);
@@ -124,7 +124,7 @@ TEST_CASE("repair where pairs and walls exceed their room") {
 }
 
 TEST_CASE("repair leaves invalid seeds out, and duplicates as they are") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   for (const Precision precision : precisions(caller)) {
@@ -168,7 +168,7 @@ TEST_CASE("repair leaves invalid seeds out, and duplicates as they are") {
 }
 
 TEST_CASE("repair of seeds that differ less than the device can tell") {
-  Caller caller;
+  Caller& caller = shared_caller();
   const double tiny = std::numeric_limits<double>::denorm_min();
   for (const Precision precision : precisions(caller)) {
     CAPTURE(static_cast<int>(precision));
@@ -184,7 +184,7 @@ TEST_CASE("repair of seeds that differ less than the device can tell") {
 // The frame is centred in two parts. The low one was once 0, so that seeds moved by a rounding error of the
 // centre.
 TEST_CASE("a domain far from the origin") {
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   const double low[] = {1e14, 1e14}, high[] = {1.00001e14, 1.00001e14};
   for (const Precision precision : precisions(caller)) {
@@ -196,7 +196,7 @@ TEST_CASE("a domain far from the origin") {
 }
 
 TEST_CASE("a list that is too small says how many seeds there are, and is not repaired") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const SeedArray seeds = grid(6, 2);
   const Job job(caller, diagram.precision(), seeds.view());
@@ -216,7 +216,7 @@ TEST_CASE("a list that is too small says how many seeds there are, and is not re
 }
 
 TEST_CASE("rows that do not fit are refused, with the room that they need") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   SeedArray seeds = cospherical(300, 2);
   seeds.push({0.5, 0.5}, 0);  // unfinished, and so without walls until it is repaired
@@ -248,7 +248,7 @@ TEST_CASE("rows that do not fit are refused, with the room that they need") {
 }
 
 TEST_CASE("the list of no seeds, of seeds that are certain, and no list") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const List list(caller, 10);
   diagram.enqueue(nullptr, nullptr, 0, {nullptr, nullptr, {}, list.handles()});
@@ -272,7 +272,7 @@ TEST_CASE("the list of no seeds, of seeds that are certain, and no list") {
 
 TEST_CASE("repair after new weights and places, and the same again") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   for (const Precision precision : precisions(caller)) {
     DeviceDiagram diagram(caller.device(), unit_box(3), in_precision(precision));
@@ -294,7 +294,7 @@ TEST_CASE("repair after new weights and places, and the same again") {
 }
 
 TEST_CASE("entries of a list that enqueue() has not written are refused") {
-  Caller caller;
+  Caller& caller = shared_caller();
   DeviceDiagram diagram(caller.device(), unit_box(2));
   const SeedArray seeds{2, {0.2, 0.3, 0.7, 0.4, std::nan(""), 0}, {0, 0, 0}};
   const Job job(caller, diagram.precision(), seeds.view());

@@ -150,7 +150,7 @@ void check_device(Caller& caller, const Domain& domain, const SeedArray& seeds, 
 
 TEST_CASE("device and host wrap seeds to the same places, bit by bit") {
   INFO(replay_hint());
-  Caller caller;
+  Caller& caller = shared_caller();
   Random random(test_seed());
   std::vector<NamedDomain> domains = periodic_domains();
   const double far_low[] = {1e9, -1e7}, far_high[] = {1e9 + 1, -1e7 + 0.3};
