@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/c_api/handles.hpp"
+#include "tests/support/setups.hpp"
 
 using namespace powercell::c_api_test;
 
@@ -123,7 +124,7 @@ TEST_CASE("integrals of a density over cells and walls are those of C++") {
   options.walls = 1;
   REQUIRE(pc_density_formula("1 + x", 0, &density.handle) == PC_OK);
   REQUIRE(pc_integrate(f.diagram.handle, density.handle, &options, &integrals.handle) == PC_OK);
-  powercell::Diagram diagram(powercell::Device::choose(),
+  powercell::Diagram diagram(powercell::test::test_device(),
                              powercell::Domain::box(std::span(low, 2), std::span(high, 2)));
   diagram.set_seeds({2, f.positions, {}});
   const powercell::DensityIntegrals same =
@@ -301,8 +302,9 @@ TEST_CASE("samples have equal masses, and the same bits as in C++") {
   REQUIRE(pc_sample(shared_device(), f.domain.handle, 60, &options, &samples.handle) == PC_OK);
   powercell::SamplingOptions same;
   same.iterations = 3;
-  const powercell::SamplingResult expected = powercell::sample(
-      powercell::Device::choose(), powercell::Domain::box(std::span(low, 2), std::span(high, 2)), 60, same);
+  const powercell::SamplingResult expected =
+      powercell::sample(powercell::test::test_device(),
+                        powercell::Domain::box(std::span(low, 2), std::span(high, 2)), 60, same);
   REQUIRE(samples->count == 60);
   CHECK(copied(samples->positions, 120) == expected.positions);
   CHECK(copied(samples->weights, 60) == expected.weights);
@@ -355,7 +357,7 @@ TEST_CASE("random points, their spacing and their spectra are those of C++") {
   double least = -1, mean = -1, hexatic = -1;
   REQUIRE(pc_spacing(shared_device(), f.domain.handle, points.data(), 40, 0, 1, nullptr, &least, &mean,
                      &hexatic) == PC_OK);
-  const powercell::Spacing expected = powercell::spacing(powercell::Device::choose(), box, points);
+  const powercell::Spacing expected = powercell::spacing(powercell::test::test_device(), box, points);
   CHECK(least == expected.least);
   CHECK(mean == expected.mean);
   CHECK(hexatic == expected.hexatic);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/c_api/handles.hpp"
+#include "tests/support/setups.hpp"
 
 using namespace powercell::c_api_test;
 
@@ -35,7 +36,9 @@ struct Twins {
   Diagram c;
   powercell::Diagram cpp;
   Twins(const powercell::Domain& of, pc_domain* made, int count)
-      : cpp(powercell::Device::choose(), of), dimension(of.dimension()), n(static_cast<std::size_t>(count)) {
+      : cpp(powercell::test::test_device(), of),
+        dimension(of.dimension()),
+        n(static_cast<std::size_t>(count)) {
     domain.handle = made;
     positions = random_numbers(n * static_cast<std::size_t>(dimension), 1, 3);
     weights = random_numbers(n, 0.01, 4);
@@ -310,7 +313,7 @@ TEST_CASE("one-off measures and triangulations are those of C++") {
   REQUIRE(pc_triangulation_create(shared_device(), 3, positions.data(), nullptr, 20, nullptr,
                                   &triangulation.handle) == PC_OK);
   const powercell::Dual dual =
-      powercell::regular_triangulation(powercell::Device::choose(), {3, positions, {}});
+      powercell::regular_triangulation(powercell::test::test_device(), {3, positions, {}});
   CHECK(triangulation->dual.corners == 4);
   check_same(triangulation->dual.simplices, triangulation->dual.count * 4, dual.simplices);
   const pc_triangulation* none = nullptr;

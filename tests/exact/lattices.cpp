@@ -12,6 +12,7 @@
 #include "tests/exact/check_triangulation.hpp"
 #include "tests/support/compare.hpp"
 #include "tests/support/generators.hpp"
+#include "tests/support/setups.hpp"
 
 using namespace powercell;
 using namespace powercell::test;
@@ -48,7 +49,7 @@ TEST_CASE("lattices in all placements: cells, neighbours and dual") {
             lattice.name + " " + place.name + (precision == Precision::float32 ? " float" : " double");
         CAPTURE(label);
         const LatticeSeeds seeds = lattice_seeds(lattice, place);
-        Diagram diagram(Device::choose(), box_around(place, lattice.dimension), options_for(precision));
+        Diagram diagram(test_device(), box_around(place, lattice.dimension), options_for(precision));
         diagram.set_seeds(seeds.array.view());
         diagram.compute(true, true);
         const Measures& measures = diagram.measures();
@@ -108,7 +109,7 @@ TEST_CASE("all seeds on a circle or sphere") {
       const double half = 4.0 * static_cast<double>(radius);
       const std::vector<double> low(static_cast<std::size_t>(dimension), -half),
           high(static_cast<std::size_t>(dimension), half);
-      Diagram diagram(Device::choose(), Domain::box(low, high), options_for(precision));
+      Diagram diagram(test_device(), Domain::box(low, high), options_for(precision));
       diagram.set_seeds(seeds.view());
       diagram.compute(true, true);
       CHECK(diagram.measures().relative_error() < (precision == Precision::float32 ? 1e-6 : 1e-14));
@@ -126,7 +127,7 @@ TEST_CASE("fast decisions count ties but leave none to the host") {
   const LatticeSeeds seeds = lattice_seeds(lattices()[1], places[0]);
   Options options = options_for(Precision::automatic);
   options.decisions = Decisions::fast;
-  Diagram diagram(Device::choose(), box_around(places[0], 3), options);
+  Diagram diagram(test_device(), box_around(places[0], 3), options);
   diagram.set_seeds(seeds.array.view());
   diagram.measures();
   CHECK(diagram.timings().uncertain > 0);

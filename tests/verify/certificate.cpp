@@ -85,7 +85,7 @@ TEST_CASE("certificates of impossible results are refused and name the seed") {
   Random random(test_seed());
   const SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 300, 3, random);
   const Domain domain = unit_box(3);
-  Diagram diagram(Device::choose(), domain, {});
+  Diagram diagram(test_device(), domain, {});
   diagram.set_seeds(seeds.view());
   diagram.compute(true, false);
   const SeedSet set = make_seed_set(seeds.view(), 3, 1);

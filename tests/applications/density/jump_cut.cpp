@@ -196,7 +196,7 @@ TEST_CASE("indicator functions of discs are integrated to 1e-6, mostly to 1e-9")
   INFO(replay_hint());
   Random random(test_seed());
   const Domain square = unit_box(2);
-  Diagram diagram(Device::choose(), square);
+  Diagram diagram(test_device(), square);
   double worst = 0, worst_total = 0;
   int within = 0;
   constexpr int discs = 20;
@@ -225,7 +225,7 @@ TEST_CASE("a jump with corners, and a sphere in space") {
   Random random(test_seed());
   {
     const DensityCase one{"square", unit_box(2), {2, {}, {}}};
-    Diagram diagram(Device::choose(), one.domain);
+    Diagram diagram(test_device(), one.domain);
     diagram.set_seeds(scatter(Distribution::white, 300, 2, {}, random).view());
     const Density box = Density::formula("abs(x-0.5) < 0.3 && abs(y-0.4) < 0.2 ? 3 : 1");
     const DensityIntegrals found = integrate(diagram, box, true);
@@ -235,7 +235,7 @@ TEST_CASE("a jump with corners, and a sphere in space") {
   }
   {
     const Domain cube = unit_box(3);
-    Diagram diagram(Device::choose(), cube);
+    Diagram diagram(test_device(), cube);
     diagram.set_seeds(scatter(Distribution::white, 100, 3, {}, random).view());
     const Density ball = Density::formula("(x-0.5)^2 + (y-0.5)^2 + (z-0.5)^2 < 0.16 ? 3 : 1", 1e-5);
     const double expected = 1 + 2 * 4 * std::acos(-1.0) / 3 * std::pow(0.4, 3);

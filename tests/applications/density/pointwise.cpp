@@ -284,7 +284,7 @@ TEST_CASE("integrals in the smallest and largest domains") {
     const std::array<double, 2> low{0, 0}, high{unit, unit};
     const Domain box = Domain::box(low, high);
     CHECK(Density::formula("1").total(box) == doctest::Approx(box.measure()).epsilon(1e-12));
-    Diagram diagram(Device::choose(), box);
+    Diagram diagram(test_device(), box);
     const double positions[]{0.25 * unit, 0.5 * unit, 0.75 * unit, 0.5 * unit};
     diagram.set_seeds({2, positions, {}});
     const DensityIntegrals found = integrate(diagram, Density::formula("1"), true);
