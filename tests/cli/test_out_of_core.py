@@ -57,7 +57,7 @@ class OutOfCore(ToolTest):
 
     def test_walls_of_periodic_domains_have_shifts(self):
         self.seeds(30000)
-        report = self.report(*self.command("--periodic", "--walls", "w.npy"))
+        report = self.report(*self.command("--periodic", "--walls", "w.npy", memory="310M"))
         self.assertGreater(report["out_of_core"]["pieces"], 1)
         self.good("diagram", "--domain", "cube", "--periodic", "--seeds", "s.npy", "--walls", "m.csv")
         walls = self.rows("m.csv")
