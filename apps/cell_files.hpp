@@ -15,9 +15,8 @@
 namespace powercell::app {
 
 /// The files of --table and --walls, either of which may be empty.
-/// \param shift_axes  of the domain (inputs.hpp)
-std::vector<std::string> cell_file_names(const std::string& table, const std::string& walls,
-                                         int shift_axes = 0);
+/// \param shift_axes  of the domain (inputs.hpp); with 3 all that there may be
+std::vector<std::string> cell_file_names(const std::string& table, const std::string& walls, int shift_axes);
 
 /// Writes the files as cells come, and gives them their names with the last ones.
 class CellFiles {

@@ -63,7 +63,7 @@ void check(const OutOfCoreArguments& arguments) {
     throw WrongUsage("--memory needs --table or --walls, or nothing would be written");
   if (!arguments.inputs.scale_weights.empty())
     throw WrongUsage("--scale-weights does not go with --memory; multiply the weights in the file");
-  const std::vector<std::string> files = cell_file_names(arguments.table, arguments.walls);
+  const std::vector<std::string> files = cell_file_names(arguments.table, arguments.walls, 3);
   for (const std::string& file : files)
     if (io::is_standard_output(file))
       throw WrongUsage("--memory writes to files, which it can go on with; name one instead of '-'");
@@ -163,7 +163,7 @@ int run_out_of_core(const OutOfCoreArguments& arguments) {
   run.duplicate = report.duplicate;
   run.outside = outside.outside(seeds);
   run.timings.total = report.sort + report.compute + report.gather;
-  run.files = cell_file_names(arguments.table, arguments.walls);
+  run.files = cell_file_names(arguments.table, arguments.walls, shift_axes(domain));
   progress.finish();
   describe_times(progress, run);
   print(arguments, run, report);

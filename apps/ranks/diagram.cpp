@@ -49,7 +49,7 @@ void check(const RanksArguments& arguments) {
     throw WrongUsage("name --table, --walls or -o, or nothing would be written");
   if (!arguments.scale_weights.empty())
     throw WrongUsage("--scale-weights is of powercell alone; multiply the weights in the file");
-  std::vector<std::string> files = cell_file_names(arguments.table, arguments.walls);
+  std::vector<std::string> files = cell_file_names(arguments.table, arguments.walls, 3);
   files.insert(files.end(), arguments.outputs.begin(), arguments.outputs.end());
   for (const std::string& file : files)
     if (io::is_standard_output(file)) throw WrongUsage("the ranks write to files; name one instead of '-'");

@@ -59,6 +59,7 @@ class OutOfCore(ToolTest):
         self.seeds(30000)
         report = self.report(*self.command("--periodic", "--walls", "w.npy", memory="310M"))
         self.assertGreater(report["out_of_core"]["pieces"], 1)
+        self.assertEqual(report["files"], ["t.npy"] + [f"w.{part}.npy" for part in ("indptr", "indices", "data", "shift")])
         self.good("diagram", "--domain", "cube", "--periodic", "--seeds", "s.npy", "--walls", "m.csv")
         walls = self.rows("m.csv")
         self.assertEqual(read_npy(self.folder / "w.indices.npy"), [int(row["neighbor"]) for row in walls])
