@@ -57,7 +57,7 @@ void FileWriter::sync() {
 
 void FileWriter::close() {
   if (kind_ == Kind::kept) sync();
-  if (std::fclose(file_.release()) != 0) fail("close", errno);
+  if (std::fclose(file_.release()) != 0) fail("write", errno);  // what is left of a scratch file
   if (kind_ == Kind::scratch) return;
   if (std::rename(unfinished_.c_str(), path_.c_str()) != 0) fail("rename", errno);
 }
