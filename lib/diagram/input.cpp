@@ -56,19 +56,6 @@ void copy_row(std::size_t d, const double* positions, const double* weights, std
   rows.weights[to] = weights ? weights[from] : 0.0;
 }
 
-/// Wraps positions. \param shift  by seed, set \return the first seed too far outside, if any, else their
-/// number
-std::size_t wrap(const Period& period, const SeedsView& view, int threads, std::vector<double>& wrapped,
-                 std::vector<Shift>& shift) {
-  const auto d = static_cast<std::size_t>(view.dimension);
-  return first_of(view.size(), threads, [&](std::size_t i) {
-    const Period::Wrapped w = period.wrap(&view.positions[i * d]);
-    shift[i] = w.shift;
-    std::copy_n(w.position.begin(), d, &wrapped[i * d]);
-    return w.is_far;
-  });
-}
-
 Input make_bounded_input(const Setup& setup, const SeedsView& view) {
   const auto d = static_cast<std::size_t>(setup.domain.dimension());
   Input input{make_seed_set(view, setup.domain.dimension(), setup.threads), {}};
@@ -98,10 +85,9 @@ std::optional<InputFault> first_fault(const Setup& setup, const SeedsView& seeds
     return InputFault{0, std::move(*fault)};
   const Period* const period = setup.domain.mesh().period.get();
   if (period == nullptr) return first_out_of_range(setup, seeds);
-  std::vector<Shift> shift(seeds.size());
   std::vector<double> wrapped(seeds.positions.size());
-  if (const std::size_t far = wrap(*period, seeds, setup.threads, wrapped, shift); far < seeds.size())
-    return InputFault{1, {far, too_far_outside}};
+  const std::size_t far = wrap_all(*period, seeds.positions, setup.threads, wrapped);
+  if (far < seeds.size()) return InputFault{1, {far, too_far_outside}};
   return first_out_of_range(setup, {seeds.dimension, wrapped, seeds.weights});
 }
 
@@ -111,7 +97,7 @@ Input make_input(const Setup& setup, const SeedsView& view) {
   check_seeds(view, setup.domain.dimension(), setup.threads);
   Unwrapped unwrapped{{view.positions.begin(), view.positions.end()}, std::vector<Shift>(view.size())};
   std::vector<double> wrapped(view.positions.size());
-  const std::size_t far = wrap(*period, view, setup.threads, wrapped, unwrapped.shift);
+  const std::size_t far = wrap_all(*period, view.positions, setup.threads, wrapped, unwrapped.shift);
   if (far < view.size()) refuse_far(far);
   Input input = make_bounded_input(setup, {view.dimension, wrapped, view.weights});
   input.unwrapped = std::move(unwrapped);

@@ -41,7 +41,7 @@ Input make_input(const Setup& setup, const SeedsView& seeds);
 
 /// The first seed that make_input() refuses, in the order in which it looks for them: all that are not finite
 /// come before all positions, and these before all weights, that are too large. In a periodic domain
-/// positions are those too far outside.
+/// positions that are too far outside count as these.
 struct InputFault {
   int order = 0;  ///< of its kind
   SeedFault fault;

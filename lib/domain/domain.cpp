@@ -2,6 +2,7 @@
 #include <powercell/domain.hpp>
 #include <powercell/regions.hpp>
 
+#include "lib/base/threads.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/period.hpp"
 #include "lib/domain/region_mesh.hpp"
@@ -68,11 +69,9 @@ std::vector<double> Domain::wrapped(std::span<const double> positions) const {
     throw Error(ErrorCode::invalid_argument,
                 std::to_string(positions.size()) + " coordinates of points of " + std::to_string(d));
   std::vector<double> result(positions.begin(), positions.end());
-  for (std::size_t i = 0; is_periodic() && i < positions.size() / d; ++i) {
-    const Period::Wrapped at = mesh_->period->wrap(&positions[i * d]);
-    if (at.is_far) refuse_far(i);
-    std::copy_n(at.position.begin(), d, &result[i * d]);
-  }
+  if (!is_periodic()) return result;
+  const std::size_t far = wrap_all(*mesh_->period, positions, thread_count(0), result);
+  if (far < positions.size() / d) refuse_far(far);
   return result;
 }
 

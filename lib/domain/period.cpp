@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lib/base/text.hpp"
+#include "lib/base/threads.hpp"
 #include "lib/base/vectors.hpp"
 #include "lib/domain/reduce_basis.hpp"
 
@@ -211,6 +212,17 @@ Period::Wrapped Period::wrap(const double* x) const {
     result.position[c] = quantum_[c] > 0 ? static_cast<double>(place.at[c]) * quantum_[c] : x[c];
   for (std::size_t k = 0; k < 3; ++k) result.shift[k] = static_cast<std::int32_t>(place.shift[k]);
   return result;
+}
+
+std::size_t wrap_all(const Period& period, std::span<const double> positions, int threads,
+                     std::span<double> wrapped, std::span<Shift> shift) {
+  const auto d = static_cast<std::size_t>(period.dimension());
+  return first_of(positions.size() / d, threads, [&](std::size_t i) {
+    const Period::Wrapped at = period.wrap(&positions[i * d]);
+    std::copy_n(at.position.begin(), d, &wrapped[i * d]);
+    if (!shift.empty()) shift[i] = at.shift;
+    return at.is_far;
+  });
 }
 
 void refuse_far(std::size_t index) {

@@ -78,6 +78,12 @@ class Period {
   PeriodGrid grid_;
 };
 
+/// Wraps points. \param positions  rows of coordinates \param wrapped  as long, receives Wrapped::position;
+/// may be the same \param shift  empty, or one a point, receives Wrapped::shift \return the first point with
+/// Wrapped::is_far, where the rest is not good, or the number of points
+std::size_t wrap_all(const Period& period, std::span<const double> positions, int threads,
+                     std::span<double> wrapped, std::span<Shift> shift = {});
+
 /// What is wrong with a seed whose Wrapped::is_far.
 inline constexpr const char* too_far_outside =
     "it is more than 2^28 periods outside the periodic domain, where its position is too coarse; move it "

@@ -46,7 +46,6 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
   const std::size_t d = width_ - 1;
   std::vector<double> positions(ids.size() * d), weights(ids.size());
   rows_.resize(ids.size() * width_);
-  if (period != nullptr) wrapped_rows_.resize(rows_.size());
   parallel_for(threads_for(size(), threads_), size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t k = given(i);
@@ -55,12 +54,13 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
       std::copy_n(&seeds.positions[k * d], d, &positions[i * d]);
       std::copy_n(&seeds.positions[k * d], d, &rows_[i * width_]);
       rows_[i * width_ + d] = weights[i];
-      if (period == nullptr) continue;
-      std::copy_n(period->wrap(row(i)).position.begin(), d, &positions[i * d]);
-      std::copy_n(&positions[i * d], d, &wrapped_rows_[i * width_]);
-      wrapped_rows_[i * width_ + d] = weights[i];
     }
   });
+  if (period != nullptr) {
+    wrap_all(*period, positions, threads_, positions);
+    wrapped_rows_ = rows_;
+    for (std::size_t i = 0; i < size(); ++i) std::copy_n(&positions[i * d], d, &wrapped_rows_[i * width_]);
+  }
   const auto twice = std::adjacent_find(id_.begin(), id_.end());
   if (twice != id_.end())
     throw Error(ErrorCode::invalid_argument, "two seeds have the id " + std::to_string(*twice));

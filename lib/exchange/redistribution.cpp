@@ -201,11 +201,12 @@ Post::Letters Redistribution::deliver(Post::Letters letters) {
 
 std::vector<std::size_t> Redistribution::destinations(const ShardSeeds& own, int threads,
                                                       const Period* period) {
-  std::vector<double> positions(own.seeds.positions.begin(), own.seeds.positions.end());
-  const auto d = static_cast<std::size_t>(dimension_);
-  if (period != nullptr)
-    for (std::size_t at = 0; at < positions.size(); at += d)
-      std::copy_n(period->wrap(&positions[at]).position.begin(), d, &positions[at]);
+  std::span<const double> positions = own.seeds.positions;
+  std::vector<double> wrapped(period == nullptr ? 0 : positions.size());
+  if (period != nullptr) {
+    wrap_all(*period, positions, threads, wrapped);
+    positions = wrapped;
+  }
   const Bounds box = bounds_of_all({dimension_, positions, {}}, post_);
   const std::vector<std::uint64_t> keys = hilbert_keys(positions, dimension_, box.low, box.high, threads);
   std::vector<Place> places;

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "lib/base/behind.hpp"
+#include "lib/base/background.hpp"
 #include "lib/base/sums.hpp"
 
 namespace powercell::out_of_core {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/base/behind.hpp"
+#include "lib/base/background.hpp"
 #include "lib/exchange/shard.hpp"
 #include "lib/out_of_core/files.hpp"
 
@@ -33,7 +33,7 @@ class PieceWriter {
 
  private:
   std::uint64_t bytes_ = 0;
-  Behind last_;
+  BackgroundTask last_;
 };
 
 /// What a PieceWriter has written.

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/base/behind.hpp"
+#include "lib/base/background.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/diagram/input.hpp"
 #include "lib/out_of_core/store.hpp"
@@ -124,11 +124,7 @@ class Sorter {
   std::span<const double> places(std::span<const double> positions, std::vector<double>& wrapped) const {
     if (period_ == nullptr) return positions;
     wrapped.resize(positions.size());
-    parallel_for(threads_for(positions.size() / d_, setup_.threads), positions.size() / d_,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i)
-                     std::copy_n(period_->wrap(&positions[i * d_]).position.begin(), d_, &wrapped[i * d_]);
-                 });
+    wrap_all(*period_, positions, setup_.threads, wrapped);
     return wrapped;
   }
 
@@ -139,7 +135,10 @@ class Sorter {
     std::optional<InputFault> fault;
     std::vector<double> wrapped;
     blocks([&](const SeedBlock& block) {
-      if (check) note_fault(block, fault);
+      if (check) {
+        note_fault(block, fault);
+        traffic_.progress(0.25 * static_cast<double>(block.id.back() + 1) / static_cast<double>(count));
+      }
       if (fault) return;  // that of the lowest order is still to be found
       const std::span<const double> at = places(block.positions, wrapped);
       for (std::size_t i = 0; i < block.size(); ++i, ++seen) {
@@ -155,7 +154,6 @@ class Sorter {
             (entry.second == survey.best->second && entry.first < survey.best->first))
           survey.best = entry;
       }
-      if (check) traffic_.progress(0.25 * static_cast<double>(seen) / static_cast<double>(count));
     });
     if (fault) refuse_seed(fault->fault.seed, fault->fault.why);
     return survey;

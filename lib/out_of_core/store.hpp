@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/base/behind.hpp"
+#include "lib/base/background.hpp"
 #include "lib/exchange/tree_seeds.hpp"
 #include "lib/out_of_core/files.hpp"
 #include "lib/seeds/packed_tree.hpp"
@@ -43,7 +43,7 @@ class StoreWriter {
   std::optional<FileWriter> given_;  // positions, where the others are wrapped
   std::vector<std::uint64_t> ends_;
   std::uint64_t duplicates_ = 0;
-  Behind last_;
+  BackgroundTask last_;
 };
 
 /// A store in memory, as far as it is looked at, with a tree of all seeds.

@@ -8,13 +8,13 @@
 
 namespace powercell {
 
-/// One task at a time. The end of this object waits for the last one. Where the system gives no thread,
-/// finish() runs it.
-class Behind {
+/// One task at a time on another thread. The destructor waits for the last one. Where the system gives no
+/// thread, finish() runs it.
+class BackgroundTask {
  public:
-  Behind() = default;
-  Behind(const Behind&) = delete;  // tasks may know what has it
-  Behind& operator=(const Behind&) = delete;
+  BackgroundTask() = default;
+  BackgroundTask(const BackgroundTask&) = delete;  // tasks may know what has it
+  BackgroundTask& operator=(const BackgroundTask&) = delete;
 
   /// Waits for the task before. \throw what that one threw
   template <class Task>
