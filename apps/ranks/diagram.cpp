@@ -169,7 +169,7 @@ int run(const RanksArguments& arguments, Ranks& ranks) {
   const Place place{ranks, *device, *share.domain, library_options(common, progress)};
   run.neighbors = neighbors_name(place.options.neighbors);
 
-  RedistributedSeeds moved(ranks.communicator(), share.ids, share.seeds());
+  RedistributedSeeds moved(ranks.communicator(), share.ids, share.seeds(), &*share.domain);
   share.ids = {}, share.positions = {}, share.weights = {};
   DistributedCells cells;
   compute([&] {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <powercell/communicator.hpp>
 #include <powercell/distributed.hpp>
+#include <powercell/domain.hpp>
 #include <powercell/seeds.hpp>
 #include <span>
 
@@ -20,8 +21,11 @@ class POWERCELL_API RedistributedSeeds {
   /// \param communicator  used by send_back() too, and must last as long
   /// \param ids    of the seeds, each once on all ranks (which is not checked here)
   /// \param seeds  as many, of the same dimension on all ranks, also where there are none
+  /// \param domain  that they are for: seeds are near each other as wrapped into it, if it is periodic; null
+  ///                for as given
   /// \throw Error invalid_argument (sizes, dimensions), invalid_seed (a position that is not finite)
-  RedistributedSeeds(Communicator& communicator, std::span<const std::uint64_t> ids, const SeedsView& seeds);
+  RedistributedSeeds(Communicator& communicator, std::span<const std::uint64_t> ids, const SeedsView& seeds,
+                     const Domain* domain = nullptr);
   RedistributedSeeds(RedistributedSeeds&&) noexcept;
   RedistributedSeeds& operator=(RedistributedSeeds&&) noexcept;
   ~RedistributedSeeds();

@@ -12,10 +12,14 @@ namespace powercell {
 namespace exchange {
 namespace {
 
-void require_sendable(const ShardSeeds& own, Post& post) {
+void require_sendable(const ShardSeeds& own, const Domain* domain, Post& post) {
   const int d = own.seeds.dimension;
   if (d != 2 && d != 3)
     throw Error(ErrorCode::invalid_argument, "seeds have 2 or 3 coordinates, not " + std::to_string(d));
+  if (domain != nullptr && domain->dimension() != d)
+    throw Error(ErrorCode::invalid_argument, "seeds of " + std::to_string(d) +
+                                                 " coordinates in a domain of " +
+                                                 std::to_string(domain->dimension()));
   check_sizes(own.seeds, d);
   if (own.ids.size() != own.seeds.size())
     throw Error(ErrorCode::invalid_argument,
@@ -33,16 +37,17 @@ struct RedistributedSeeds::State {
   RankPost post;
   exchange::Redistribution moved;
 
-  State(Communicator& communicator, const exchange::ShardSeeds& own)
+  State(Communicator& communicator, const exchange::ShardSeeds& own, const Domain* domain)
       : post(communicator), moved(post.together([&] {
-          exchange::require_sendable(own, post);
-          return exchange::Redistribution(own, own.seeds.dimension, thread_count(0), post);
+          exchange::require_sendable(own, domain, post);
+          return exchange::Redistribution(own, own.seeds.dimension, thread_count(0), post,
+                                          domain == nullptr ? nullptr : domain->mesh().period.get());
         })) {}
 };
 
 RedistributedSeeds::RedistributedSeeds(Communicator& communicator, std::span<const std::uint64_t> ids,
-                                       const SeedsView& seeds)
-    : state_(std::make_unique<State>(communicator, exchange::ShardSeeds{ids, seeds})) {}
+                                       const SeedsView& seeds, const Domain* domain)
+    : state_(std::make_unique<State>(communicator, exchange::ShardSeeds{ids, seeds}, domain)) {}
 
 RedistributedSeeds::RedistributedSeeds(RedistributedSeeds&&) noexcept = default;
 RedistributedSeeds& RedistributedSeeds::operator=(RedistributedSeeds&&) noexcept = default;

@@ -56,7 +56,7 @@ std::size_t check_shapes(Diagram& all, const Shares& shares) {
   std::atomic<std::size_t> cells = 0;
   std::mutex one;  // all ranks compare with the same diagram
   on_shares(shares, [&](Communicator& communicator, const exchange::ShardSeeds& given) {
-    RedistributedSeeds moved(communicator, given.ids, given.seeds);
+    RedistributedSeeds moved(communicator, given.ids, given.seeds, &all.domain());
     const DistributedCells found =
         compute_distributed(communicator, test_device(), all.domain(), moved.ids(), moved.seeds());
     LocalDiagram local =
@@ -144,6 +144,29 @@ TEST_CASE("shapes: seeds shared out anew are near each other, about as many on e
     CHECK((high[0] - low[0]) * (high[1] - low[1]) < 0.4);
   });
   CHECK(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
+}
+
+TEST_CASE("shapes: seeds given some periods outside are shared out by where they are wrapped to") {
+  INFO(replay_hint());
+  Random random(test_seed());
+  const std::array low{0.0, 0.0}, high{1.0, 1.0};
+  const Domain domain = Domain::periodic_box(low, high);
+  SeedArray seeds = random_seeds(Distribution::white, WeightRange::W1, 3000, 2, random);
+  const auto fetched = [&](const Domain* known) {
+    std::atomic<std::uint64_t> sent = 0;
+    on_shares(at_random(seeds, 3, random), [&](Communicator& communicator,
+                                               const exchange::ShardSeeds& given) {
+      const RedistributedSeeds moved(communicator, given.ids, given.seeds, known);
+      sent =
+          compute_distributed(communicator, test_device(), domain, moved.ids(), moved.seeds()).report.fetched;
+    });
+    return static_cast<double>(sent.load());
+  };
+  const double inside = fetched(&domain);
+  for (double& x : seeds.positions) x += static_cast<double>(random.index(5)) - 2;
+  const double wrapped = fetched(&domain), as_given = fetched(nullptr);
+  CHECK(std::abs(wrapped - inside) < 0.1 * inside);
+  CHECK(as_given > 3 * wrapped);
 }
 
 TEST_CASE("shapes: what is refused") {
