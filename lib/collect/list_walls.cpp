@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "lib/base/threads.hpp"
@@ -24,7 +25,7 @@ std::size_t settle(const WallRow& row, const SeedSet& seeds, double unit) {
 }  // namespace
 
 Adjacency list_walls(WallRows& rows, const SeedSet& seeds, std::span<const std::uint32_t> place,
-                     const std::vector<SeedStatus>& status, double unit, int threads) {
+                     const std::vector<SeedStatus>& status, double unit, bool walls, int threads) {
   const auto for_rows = [&](const auto& body) {
     parallel_for(threads_for(place.size(), threads, least_shared_rows), place.size(),
                  [&](std::size_t begin, std::size_t end) {
@@ -39,12 +40,15 @@ Adjacency list_walls(WallRows& rows, const SeedSet& seeds, std::span<const std::
   });
   std::partial_sum(out.offset.begin(), out.offset.end(), out.offset.begin());
   resize_populated(out.neighbor, out.offset.back(), threads);
-  resize_populated(out.wall, out.offset.back(), threads);
+  if (walls) resize_populated(out.wall, out.offset.back(), threads);
   for_rows([&](std::uint32_t row, std::uint32_t to) {
     const std::uint64_t first = out.offset[to], count = out.offset[to + std::size_t{1}] - first;
-    const WallRow walls = rows.row(row);
-    sort_row(walls.neighbors(), walls.measures(), count, out.neighbor.data() + first,
-             out.wall.data() + first);
+    const WallRow from = rows.row(row);
+    if (walls)
+      sort_row(from.neighbors(), from.measures(), count, out.neighbor.data() + first,
+               out.wall.data() + first);
+    else
+      std::copy_n(from.neighbors(), count, out.neighbor.data() + first);
   });
   return out;
 }

@@ -183,9 +183,9 @@ void WallCollector::subtract(std::uint32_t rank, std::uint32_t neighbor, double 
 }
 
 Adjacency WallCollector::finish_selected(const SeedSet& seeds, std::span<const std::uint32_t> place,
-                                         const std::vector<SeedStatus>& status, double unit) {
+                                         const std::vector<SeedStatus>& status, double unit, bool walls) {
   parts_.clear();
-  return list_walls(rows_, seeds, place, status, unit, threads_);
+  return list_walls(rows_, seeds, place, status, unit, walls, threads_);
 }
 
 Adjacency WallCollector::finish(const SeedSet& seeds, const std::vector<SeedStatus>& status, double unit,

@@ -89,8 +89,9 @@ class WallCollector {
   /// its neighbours are ranks of `seeds`. Rows are in the order of the selection, walls times `unit`.
   /// \param place   of each cell in the selection
   /// \param status  by place: walls of cells that are not ok are left out
+  /// \param walls   otherwise there are neighbours only, in any order within a row
   Adjacency finish_selected(const SeedSet& seeds, std::span<const std::uint32_t> place,
-                            const std::vector<SeedStatus>& status, double unit);
+                            const std::vector<SeedStatus>& status, double unit, bool walls);
 
   /// The memory, for another collector. This one must not be used any more.
   WallRows::Memory release() && { return std::move(rows_).release(); }
@@ -129,7 +130,7 @@ class WallCollector {
 
 /// The walls as each cell sees them, as WallCollector::finish_selected. Modifies `rows`.
 Adjacency list_walls(WallRows& rows, const SeedSet& seeds, std::span<const std::uint32_t> place,
-                     const std::vector<SeedStatus>& status, double unit, int threads);
+                     const std::vector<SeedStatus>& status, double unit, bool walls, int threads);
 
 /// Combines the two sides of each wall, as WallCollector::finish. Modifies `rows`.
 Adjacency match_walls(WallRows& rows, const SeedSet& seeds, const std::vector<SeedStatus>& status,

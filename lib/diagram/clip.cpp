@@ -410,7 +410,8 @@ Clipped Pass::finish() {
   else if (periodic_walls_)
     results.adjacency = periodic_walls_->finish(measures.status, unit, negligible);
   else if (want_.adjacency && plan_.selected)
-    results.adjacency = walls_.finish_selected(active_.seeds(), seeds.input, measures.status, unit);
+    results.adjacency =
+        walls_.finish_selected(active_.seeds(), seeds.input, measures.status, unit, want_.walls);
   else if (want_.adjacency)
     results.adjacency = walls_.finish(seeds, measures.status, unit, negligible);
   if (want_.cells && plan_.solid)

@@ -20,6 +20,8 @@ struct Wanted {
   /// Of a selection in a periodic domain: name the cells that reach too far for the images at hand, which may
   /// be too large, and make no more images.
   bool unproved = false;
+  /// Of a selection whose domain is not periodic: whether the adjacency has walls, and ascending rows.
+  bool walls = true;
 };
 
 /// The outcome of a pass: results, or ranks because of which it must be repeated.

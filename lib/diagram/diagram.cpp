@@ -26,7 +26,7 @@ bool Diagram::has_selection() const {
   return state_->selection.has_value();
 }
 void Diagram::compute(bool adjacency, bool cells) {
-  state_->compute({adjacency, cells});
+  state_->compute({.adjacency = adjacency, .cells = cells});
 }
 
 std::size_t Diagram::size() const {

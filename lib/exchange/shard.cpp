@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <unordered_set>
 
@@ -19,8 +20,9 @@ constexpr std::array<std::size_t, 2> least_with_far_cells = {1000, 2000};
 }  // namespace
 
 Shard::Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension,
-             int threads, const Period* period)
+             int threads, const Period* period, bool walls)
     : threads_(thread_count(threads)),
+      lists_walls_(walls),
       width_(static_cast<std::size_t>(dimension) + 1),
       own_(ids, seeds, dimension, threads, period),
       others_(number),
@@ -87,16 +89,15 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   diagram.set_seeds({measures_.dimension, positions, weights});
   // Of a large shard most cells are far from all others, so that their geometry is not needed.
   if (round_ == 0 && own_.size() >= least_with_far_cells[width_ - 3]) {
-    compute(diagram, handles, {.adjacency = true, .reach = true, .unproved = true});
+    compute(diagram, handles, {.reach = true, .unproved = true});
     std::vector<double> reach(own_.size());
     for (std::size_t k = 0; k < open_.size(); ++k) reach[open_[k]] = (*diagram.results->reach)[k];
     close_far_cells(reach);
   }
   if (!open_.empty()) {
-    requests = ask_all(diagram, handles, {.adjacency = true, .cells = true, .unproved = true});
+    requests = ask_all(diagram, handles, {.cells = true, .unproved = true});
     // Cells that reach far because others are not at hand yet need no images there.
-    if (requests.empty() && !unproved_.empty())
-      requests = ask_all(diagram, handles, {.adjacency = true, .cells = true});
+    if (requests.empty() && !unproved_.empty()) requests = ask_all(diagram, handles, {.cells = true});
   }
   foreign_clipped_ = foreign_id_.size();
   all_needed_ = false;
@@ -121,6 +122,8 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
   for (const Handle cell : open_) selected.push_back(index[cell]);
   clipped_ += selected.size();
   diagram.select(selected);
+  want.adjacency = true;
+  want.walls = lists_walls_;
   diagram.compute(want);
   const Measures& from = *diagram.results->measures;
   Adjacency& adjacency = *diagram.results->adjacency;
@@ -293,12 +296,19 @@ void Shard::forget(const std::vector<std::uint64_t>& ids) {
 }
 
 void Shard::reopen() {
-  for (Handle cell = 0; cell < own_.size(); ++cell) {
-    if (measures_.status[cell] != SeedStatus::ok) continue;
-    const std::span<const Handle> neighbors = neighbors_of(cell);
-    if (std::any_of(neighbors.begin(), neighbors.end(), [this](Handle h) { return is_gone(h); }))
-      open_.push_back(cell);
-  }
+  std::mutex adds;
+  share(own_.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Handle> found;
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      if (measures_.status[cell] != SeedStatus::ok) continue;
+      const std::span<const Handle> neighbors = neighbors_of(static_cast<Handle>(cell));
+      if (std::any_of(neighbors.begin(), neighbors.end(), [this](Handle h) { return is_gone(h); }))
+        found.push_back(static_cast<Handle>(cell));
+    }
+    const std::lock_guard lock(adds);
+    open_.insert(open_.end(), found.begin(), found.end());
+  });
+  std::sort(open_.begin(), open_.end());
   all_needed_ = !open_.empty();
 }
 
@@ -329,7 +339,7 @@ void Shard::mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>&
   }
 }
 
-ShardCells Shard::take_cells(double domain_measure, bool walls) {
+ShardCells Shard::take_cells(double domain_measure) {
   const std::size_t n = own_.size();
   ShardCells cells;
   cells.measures = take_measures();
@@ -337,7 +347,7 @@ ShardCells Shard::take_cells(double domain_measure, bool walls) {
   cells.offset.resize(n + 1);
   for (std::size_t i = 0; i < n; ++i) cells.offset[own_.given(i) + 1] = rows_[i].count;
   std::partial_sum(cells.offset.begin(), cells.offset.end(), cells.offset.begin());
-  if (!walls) return cells;
+  if (!lists_walls_) return cells;
   const bool is_periodic = moves_.size() > 1;
   if (is_periodic) resize_populated(cells.shift, cells.offset.back(), threads_);
   resize_populated(cells.neighbor, cells.offset.back(), threads_);
@@ -374,13 +384,19 @@ Measures Shard::take_measures() {
 }
 
 std::vector<std::uint64_t> Shard::foreign_neighbors() const {
-  std::vector<bool> found(foreign_id_.size());
-  for (Handle cell = 0; cell < own_.size(); ++cell)
-    for (const Handle neighbor : neighbors_of(cell))
-      if (!is_own(neighbor)) found[neighbor - own_.size()] = true;
+  std::vector<std::uint8_t> found(foreign_id_.size());
+  std::mutex adds;
+  share(own_.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Handle> foreign;  // few cells have some, so that each may be there many times
+    for (std::size_t cell = begin; cell < end; ++cell)
+      for (const Handle neighbor : neighbors_of(static_cast<Handle>(cell)))
+        if (!is_own(neighbor)) foreign.push_back(neighbor);
+    const std::lock_guard lock(adds);
+    for (const Handle neighbor : foreign) found[neighbor - own_.size()] = 1;
+  });
   std::vector<std::uint64_t> ids;
   for (std::size_t k = 0; k < found.size(); ++k)
-    if (found[k]) ids.push_back(foreign_id_[k]);
+    if (found[k] != 0) ids.push_back(foreign_id_[k]);
   return ids;
 }
 

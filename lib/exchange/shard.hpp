@@ -37,9 +37,10 @@ struct ShardCells {
 class Shard {
  public:
   /// \param number  among all shards \param period  of the domain, null if it is not periodic
+  /// \param walls   whether to list neighbours and walls in the end, not only to count them
   /// \throw Error as OwnSeeds
   Shard(int number, std::span<const std::uint64_t> ids, const SeedsView& seeds, int dimension, int threads,
-        const Period* period = nullptr);
+        const Period* period = nullptr, bool walls = true);
 
   int number() const { return others_.self(); }
   OwnSeeds& own() { return own_; }
@@ -73,9 +74,8 @@ class Shard {
   std::map<int, Twins> twins() const;
   void mark_duplicates(const Twins& asked, const std::vector<std::uint8_t>& better);
 
-  /// To be called once, at the end. \param walls  whether to list neighbours and walls, not only to count
-  /// them
-  ShardCells take_cells(double domain_measure, bool walls = true);
+  /// To be called once, at the end.
+  ShardCells take_cells(double domain_measure);
   std::size_t foreign_seeds() const { return foreign_id_.size(); }  ///< fetched in all
   /// Ids of those of these that have a wall in the end.
   std::vector<std::uint64_t> foreign_neighbors() const;
@@ -96,7 +96,7 @@ class Shard {
   };
   /// Of the cells that were clipped at a time.
   struct Walls {
-    std::vector<Handle> neighbor;  ///< by ascending id within a cell
+    std::vector<Handle> neighbor;  ///< by ascending id within a cell, if walls are listed
     std::vector<double> wall;
     std::vector<Shift> shift;
   };
@@ -149,6 +149,7 @@ class Shard {
   double radius_about(const Cells& cells, std::size_t row, Handle cell) const;
 
   int threads_;
+  bool lists_walls_;
   std::size_t width_;  // of a row of position and weight
   OwnSeeds own_;
   OtherShards others_;

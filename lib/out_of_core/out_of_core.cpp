@@ -186,7 +186,7 @@ class Computation {
     traffic_.read += own.size() * (static_cast<std::size_t>(source_.dimension) + 2) * sizeof(double);
     // The piece is shard 0, all other seeds are shard 1.
     Shard shard(0, own.id, {source_.dimension, own.positions, own.weights}, source_.dimension,
-                options_.diagram.threads, diagram_.setup.domain.mesh().period.get());
+                options_.diagram.threads, diagram_.setup.domain.mesh().period.get(), options_.walls);
     shard.meet(std::make_shared<exchange::FirstOutlines>(
         std::vector<PackedTree>{{}, others.begin(piece, shard.own().tree())}, source_.dimension));
     for (const auto& [to, rim] : shard.rims()) shard.take(to, others.near(rim));
@@ -198,8 +198,7 @@ class Computation {
     std::vector<std::uint64_t> foreign = shard.foreign_neighbors();
     report_.neighbors += foreign.size();
     report_.clipped += shard.clipped_cells();
-    return {std::move(own.id), shard.take_cells(diagram_.setup.domain.measure(), options_.walls),
-            std::move(foreign)};
+    return {std::move(own.id), shard.take_cells(diagram_.setup.domain.measure()), std::move(foreign)};
   }
 
   void round(exchange::Shard& shard, OtherSeeds& others) {

@@ -86,13 +86,23 @@ inline bool same_bits(const Taken& a, const Taken& b) {
          same(a.neighbor, b.neighbor) && same(a.wall, b.wall) && same(a.shift, b.shift);
 }
 
-/// The cells of pieces of up to some seeds are those of one diagram.
-inline OutOfCoreReport check_pieces(Diagram& diagram, const SeedArray& seeds, std::uint64_t piece_seeds) {
+/// Adds the cells of pieces of up to some seeds. \param walls  as in the options
+inline OutOfCoreReport compute_pieces(const Diagram& diagram, const SeedArray& seeds,
+                                      std::uint64_t piece_seeds, bool walls, Taken& taken) {
   const ScratchFolder folder;
-  Taken taken;
+  OutOfCoreOptions options = options_in(folder, piece_seeds);
+  options.walls = walls;
   const OutOfCoreReport report = compute_out_of_core(
       diagram.device(), diagram.domain(), source_of(seeds), [&](const CellRows& rows) { taken.add(rows); },
-      options_in(folder, piece_seeds));
+      options);
+  CHECK_FALSE(folder.is_there());
+  return report;
+}
+
+/// The cells of pieces of up to some seeds are those of one diagram, also where walls are only counted.
+inline OutOfCoreReport check_pieces(Diagram& diagram, const SeedArray& seeds, std::uint64_t piece_seeds) {
+  Taken taken, counted;
+  const OutOfCoreReport report = compute_pieces(diagram, seeds, piece_seeds, true, taken);
   std::vector<std::uint64_t> ids(seeds.size());
   std::iota(ids.begin(), ids.end(), std::uint64_t{0});
   check_cells(diagram, ids, taken);
@@ -100,7 +110,14 @@ inline OutOfCoreReport check_pieces(Diagram& diagram, const SeedArray& seeds, st
   CHECK(report.cells == diagram.measures().count(SeedStatus::ok));
   CHECK(report.duplicate == diagram.measures().count(SeedStatus::duplicate));
   CHECK(report.fetched >= report.neighbors);
-  CHECK_FALSE(folder.is_there());
+  const OutOfCoreReport of_counts = compute_pieces(diagram, seeds, piece_seeds, false, counted);
+  CHECK(counted.all_walls == taken.neighbor.size());
+  CHECK(of_counts.neighbors == report.neighbors);
+  CHECK(of_counts.again == report.again);
+  taken.neighbor.clear();
+  taken.wall.clear();
+  taken.shift.clear();
+  CHECK(same_bits(counted, taken));
   return report;
 }
 
