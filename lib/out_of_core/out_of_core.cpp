@@ -80,7 +80,7 @@ class Computation {
         diagram_(device, domain, options_of_pieces(options, fraction_)) {
     if (diagram_.setup.float32())
       throw Error(ErrorCode::unsupported, "seeds out of core need double precision");
-    piece_seeds_ = seeds_of_piece(source.count, domain, options.memory, options.piece_seeds);
+    piece_seeds_ = seeds_of_piece(source.count, domain, options.memory, options.walls, options.piece_seeds);
     diagram_.workspace.keeps_walls = true;  // of the next piece
     traffic_.progress = [this](double done) {
       if (!fraction_.report(done))

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t block_seeds = std::size_t{1} << 16;  // read at a time
 constexpr std::size_t most_parts = 256;                    // files that are written at a time
-constexpr std::size_t samples_of_part = 256;  // so that few parts have a fifth more than their share
+constexpr std::size_t samples_of_part = 4096;              // a part has 1.6 % more or less than its share
 
 /// What calls a function for blocks of some seeds, one after the other, as often as it is asked to.
 using Blocks = std::function<void(const std::function<void(const SeedBlock&)>& use)>;
@@ -98,7 +98,8 @@ class Sorter {
   /// Seeds along the curve. \param all  whether these are all seeds, which nobody has checked yet
   void sort(const Blocks& blocks, std::uint64_t count, bool all) {
     if (!all && count <= piece_) return keep(blocks, count);
-    const std::uint64_t parts = std::clamp<std::uint64_t>(count * 5 / (piece_ * 4) + 1, 2, most_parts);
+    // One part in many thousands is too large by chance, and is divided again.
+    const std::uint64_t parts = std::clamp<std::uint64_t>(count * 16 / (piece_ * 15) + 1, 2, most_parts);
     const Survey survey = survey_of(blocks, count, parts, all);
     if (count <= piece_) return keep(blocks, count);
     if (survey.low == survey.high) return keep_best(blocks, count, survey);
