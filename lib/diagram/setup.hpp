@@ -43,6 +43,8 @@ struct Setup {
   Setup(Device device, Domain domain, Options options);
   const Period* period() const { return domain.mesh().period.get(); }  ///< null if not periodic
   bool float32() const { return on_device.float32(); }
+  /// Whether cells are decided exactly; those computed from the boundary alone always are.
+  bool exact() const { return options.decisions == Decisions::exact || boundary; }
 };
 
 }  // namespace powercell
