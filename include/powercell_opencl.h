@@ -54,9 +54,9 @@ POWERCELL_API pc_status pc_device_diagram_device(const pc_device_diagram* diagra
  * pc_device_diagram_set_image_capacity() says. */
 POWERCELL_API pc_status pc_device_diagram_set_pair_capacity(pc_device_diagram* diagram, uint32_t pairs);
 
-/** The room for walls while rows are made of them; at most 2^31. Cells whose walls do not fit are unfinished;
- * which these are may change from call to call. With 0, the default, there is room for more walls than random
- * seeds have (powercell::DeviceDiagram). */
+/** The room for walls and boundary walls while rows are made of them; at most 2^31. Cells whose walls do not
+ * fit are unfinished; which these are may change from call to call. With 0, the default, there is room for
+ * more walls than random seeds have (powercell::DeviceDiagram). */
 POWERCELL_API pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* diagram, uint32_t walls);
 
 /** For periodic domains: the room for images of seeds behind the borders. If there are more, all cells are
@@ -116,13 +116,23 @@ typedef struct pc_device_cells {
   cl_mem loop;        /**< likewise; written: cl_uint, indices from 0 within the vertices of the piece */
 } pc_device_cells;
 
+/** The parts of the domain's boundary that belong to each cell, as compressed sparse rows in the caller's
+ * buffers; the numbers of facets are those of pc_boundary_walls (powercell::DeviceBoundaryWalls). */
+typedef struct pc_device_boundary_walls {
+  cl_mem offset;  /**< written: n + 1 cl_uint; right also where the next two are too small */
+  cl_mem facet;   /**< written: cl_uint each, ascending within a row */
+  cl_mem measure; /**< written: a real each, the length or area. Rows that end beyond the entries that fit
+                     both buffers are not written, the others are whole */
+} pc_device_boundary_walls;
+
 /** What a diagram writes, in buffers of the caller. */
 typedef struct pc_device_results {
-  cl_mem measures;               /**< as in pc_device_diagram_enqueue() */
-  cl_mem status;                 /**< the same */
-  pc_device_adjacency adjacency; /**< where it is wanted, in the same pass; else NULL each */
-  pc_device_uncertain uncertain; /**< where it is wanted; else NULL each */
-  pc_device_cells cells;         /**< where it is wanted, in two more passes; else NULL each */
+  cl_mem measures;                         /**< as in pc_device_diagram_enqueue() */
+  cl_mem status;                           /**< the same */
+  pc_device_adjacency adjacency;           /**< where it is wanted, in the same pass; else NULL each */
+  pc_device_uncertain uncertain;           /**< where it is wanted; else NULL each */
+  pc_device_cells cells;                   /**< where it is wanted, in two more passes; else NULL each */
+  pc_device_boundary_walls boundary_walls; /**< where it is wanted, in the same pass; else NULL each */
 } pc_device_results;
 
 /** As pc_device_diagram_enqueue(), with all that is wanted. */

@@ -91,6 +91,14 @@
 #define OUTPUT_FACETS 32  /* the facets of the region among the walls, as with geometry */
 #define OUTPUT_SIDES 64   /* measures of walls, left in the cell (kernels/diagram/clip_pairs.cl) */
 
+/* Which faces of a piece are written: a sum of these, or all. */
+#define FACES_WALLS 1
+#define FACES_BOUNDARY 2 /* facets of the region that bound the domain */
+#define FACES_ALL 7
+
+/* Added to the index of a facet of the domain's boundary, among walls: seeds have lower numbers. */
+#define ENTRY_FACET 0x80000000u
+
 /* A border below 0 is facet slot ~border of the region, else the rank of the neighbour; but from here on it
    is a plane of the boundary of the domain (kernels/clip/by_cell.cl). */
 #define BORDER_PLANE (1 << 30)

@@ -48,6 +48,19 @@ struct DeviceAdjacency {
   cl_mem shift = nullptr;
 };
 
+/// The parts of the domain's boundary that belong to each cell, as compressed sparse rows in buffers of the
+/// caller, of the context of the device. As BoundaryWalls, with the numbers of facets that it has; closed
+/// surfaces and periodic axes have none. Only seeds whose status is ok have any. Those of the cells that are
+/// not on the list of DeviceUncertain have the facets that they have with Decisions::exact.
+struct DeviceBoundaryWalls {
+  /// Written: n + 1 cl_uint; row i is [offset[i], offset[i+1]). Right also where the next two are too small.
+  cl_mem offset = nullptr;
+  cl_mem facet = nullptr;  ///< written: cl_uint each, ascending within a row
+  /// Written: a real each, the length (polygon, surface) or area (volume) of the part. There is room for as
+  /// many entries as fit both buffers. Rows that end beyond it are not written, the others are whole.
+  cl_mem measure = nullptr;
+};
+
 /// The seeds whose cells only the host can decide, in buffers of the caller, of the context of the device:
 /// those that are unfinished, and those of whose cells rounding may have decided the shape. Every other cell
 /// is there or hidden as Decisions::exact has it, and has the neighbours that it has there, except that walls
@@ -91,10 +104,11 @@ struct DeviceResults {
   /// coordinates; NaN without a cell), second moment about the seed (length^(d'+2)). 0, NaN..., 0 for hidden
   /// and duplicate seeds; all NaN for invalid and unfinished ones.
   cl_mem measures = nullptr;
-  cl_mem status = nullptr;         ///< written: n cl_uint, each a DeviceSeedStatus
-  DeviceAdjacency adjacency = {};  ///< where it is wanted, in the same pass; else null
-  DeviceUncertain uncertain = {};  ///< where it is wanted; else null
-  DeviceCells cells = {};          ///< where it is wanted, in two more passes; else null
+  cl_mem status = nullptr;                  ///< written: n cl_uint, each a DeviceSeedStatus
+  DeviceAdjacency adjacency = {};           ///< where it is wanted, in the same pass; else null
+  DeviceUncertain uncertain = {};           ///< where it is wanted; else null
+  DeviceCells cells = {};                   ///< where it is wanted, in two more passes; else null
+  DeviceBoundaryWalls boundary_walls = {};  ///< where it is wanted, in the same pass; else null
 };
 
 /// Power diagrams from device memory to device memory: seeds, measures, walls and geometry are cl_mem, and
@@ -148,10 +162,11 @@ class POWERCELL_API DeviceDiagram {
   /// for that waits for the queue and the wait list. It waits in no other case.
   void set_image_capacity(std::uint32_t images);
 
-  /// The room for walls while rows are made of them, 12 bytes (in a periodic domain 16) and 2 reals each; at
-  /// most 2^31. Cells whose walls do not fit are `unfinished`; which these are may change from call to call.
-  /// With 0, the default, there is room for 8 walls a seed (cells of dimension 2) or 20 (3) in a domain of
-  /// one region, else for 6 or 16 a pair. Cells of random seeds have 6 and 15.5 on average.
+  /// The room for walls and boundary walls while rows are made of them, 12 bytes (in a periodic domain 16)
+  /// and 2 reals each; at most 2^31. Cells whose walls do not fit are `unfinished`; which these are may
+  /// change from call to call. With 0, the default, there is room for 8 walls a seed (cells of dimension 2)
+  /// or 20 (3) in a domain of one region, else for 6 or 16 a pair; where boundary walls are wanted, for two
+  /// for each facet of a region besides. Cells of random seeds have 6 and 15.5 on average.
   void set_wall_capacity(std::uint32_t walls);
 
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the
@@ -174,9 +189,9 @@ class POWERCELL_API DeviceDiagram {
 
   /// Computes the cells of the list results.uncertain as Diagram does with exact decisions, from all seeds,
   /// and puts them into the caller's results. Then every status, and the adjacency where it is given, is that
-  /// of such a Diagram without the invalid seeds, and so are the pieces and faces of cells where these are
-  /// given; measures and vertices of the listed cells are the Diagram's, rounded to the precision, and those
-  /// of the others differ from its by rounding. No cell is unfinished any more;
+  /// of such a Diagram without the invalid seeds, and so are the boundary walls, and the pieces and faces of
+  /// cells, where these are given; measures and vertices of the listed cells are the Diagram's, rounded to
+  /// the precision, and those of the others differ from its by rounding. No cell is unfinished any more;
   /// invalid seeds stay invalid.
   ///
   /// Waits for the queue, and works on the host: seeds, measures, statuses, rows and cells are read, and

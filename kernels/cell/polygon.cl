@@ -263,13 +263,14 @@ static inline void cell_moments(const cell_t* cell, bool walls, real* moments) {
     triangle_moments(cell, first, v, w, moments);
 }
 
-/* Writes what lies behind the edges and their lengths, in order, of `all` or only of walls between cells,
-   unless `border` is null; returns their number. */
-static inline int cell_write_walls(cell_t* cell, bool all, __global int* border, __global stored_real* wall) {
+/* Writes what lies behind the edges and their lengths, in order, of those that are of `faces` (a sum of
+   FACES_...), unless `border` is null; returns their number. */
+static inline int cell_write_walls(cell_t* cell, uint faces, __global int* border,
+                                   __global stored_real* wall) {
   int count = 0, v = cell->first;
   do {
     const int next = cell->next[v];
-    if (all || cell->border[v] >= 0) {
+    if (is_face_of(&cell->at, cell->border[v], faces)) {
       if (border) {
         real d[DIMENSION];
         UNROLL for (int k = 0; k < DIMENSION; ++k) d[k] = cell->at.x[k][next] - cell->at.x[k][v];

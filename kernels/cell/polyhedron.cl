@@ -369,12 +369,13 @@ static inline void cell_moments(cell_t* cell, bool walls, real* moments) {
   moments[4] = (sums.w + squares.x + squares.y + squares.z) / 120;
 }
 
-/* Writes what lies behind the faces and their areas, of `all` or only of walls between cells, unless `border`
-   is null; returns their number. Needs cell_moments with walls. */
-static inline int cell_write_walls(cell_t* cell, bool all, __global int* border, __global stored_real* wall) {
+/* Writes what lies behind the faces and their areas, of those that are of `faces` (a sum of FACES_...),
+   unless `border` is null; returns their number. Needs cell_moments with walls. */
+static inline int cell_write_walls(cell_t* cell, uint faces, __global int* border,
+                                   __global stored_real* wall) {
   int count = 0;
   for (int f = 0; f < cell->faces; ++f) {
-    if (!all && (cell->border[f] < 0 || cell->border[f] >= BORDER_PLANE)) continue;
+    if (!is_face_of(&cell->at, cell->border[f], faces)) continue;
     if (border) {
       border[count] = cell->border[f];
       wall[count] = (stored_real)cell->at.side[f];

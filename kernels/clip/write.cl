@@ -91,7 +91,8 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     }
     if (rows) {
       const size_t at = (size_t)row * FACE_CAPACITY;
-      out.faces[row] = (uint)cell_write_walls(cell, all, out.border + at, out.wall + at);
+      out.faces[row] =
+          (uint)cell_write_walls(cell, all ? FACES_ALL : FACES_WALLS, out.border + at, out.wall + at);
     }
     if (geometry) {
       const size_t at = (size_t)row * VERTEX_CAPACITY;

@@ -1,7 +1,8 @@
 /* The walls of all cells as compressed sparse rows, from those that clip_pairs.cl stored piece by piece. Rows
    in the store go by the seeds' place in the input: row i has the entries row_first[i] .. row_first[i] +
    row_size[i]. In a periodic domain each entry has besides the number of the image of the neighbour
-   (kernels/periodic), minus that of the opposite one; without images these are not used. */
+   (kernels/periodic), minus that of the opposite one; without images these are not used. The parts of the
+   domain's boundary that a cell has are at the end of its row: facets with ENTRY_FACET added. */
 #include "base/real.cl"
 
 #define NO_ENTRY 0xffffffffu
@@ -66,23 +67,28 @@ static inline real largest_of_row(uint first, uint size, __global const stored_r
 
 /* Work-item t makes the row of rank t: the walls of its pieces, sorted by the neighbours' place in the input
    and the number of the image, those with the same neighbour summed in the order of the pieces. Neighbours
-   from rank `count` on are images: of rank image_seed[], with number image_shift[]. The row of one piece
-   stays where the walls are; that of several takes new room in the store, and where there is none its first
-   piece counts as one that does not fit. Clears what match_rows adds to: the caller's `count` + 1 offsets and
-   the lists of extra walls. */
-__kernel void gather_rows(const uint count, __global const uint* order, __global const ulong* pair_offset,
-                          const ulong pair_capacity, __global uint* pair_status,
+   from rank `count` on are images: of rank image_seed[], with number image_shift[]. Behind them follow
+   facet_size[i] facets of the domain, likewise; `facet` has a kind and an index for each of the facets of
+   regions. The row of one piece stays where the walls are; that of several takes new room in the store, and
+   where there is none its first piece counts as one that does not fit. Where walls are of `faces`, clears
+   what match_rows adds to: the caller's `count` + 1 offsets and the lists of extra walls. */
+__kernel void gather_rows(const uint count, const uint faces, __global const uint* order,
+                          __global const ulong* pair_offset, const ulong pair_capacity,
+                          __global const uint* pair_region, __global const uint* facet_offset,
+                          __global const uint* facet, __global uint* pair_status,
                           __global const uint* piece_first, __global const uint* piece_size,
                           const uint capacity, volatile __global uint* used, __global uint* neighbor,
                           __global stored_real* wall, const int images, __global int* image,
                           __global const uint* image_seed, __global const int* image_shift,
-                          __global uint* row_first, __global uint* row_size, __global uint* last_extra,
-                          __global uint* offset) {
+                          __global uint* row_first, __global uint* row_size, __global uint* facet_size,
+                          __global uint* last_extra, __global uint* offset) {
   const uint t = (uint)get_global_id(0);
-  if (t == count) offset[count] = 0;
+  const bool walls = (faces & FACES_WALLS) != 0;
+  if (t == count && walls) offset[count] = 0;
   if (t >= count) return;
   const uint i = order[t];
-  offset[i] = last_extra[i] = row_first[i] = row_size[i] = 0;
+  row_first[i] = row_size[i] = facet_size[i] = 0;
+  if (walls) offset[i] = last_extra[i] = 0;
   const ulong begin = pair_offset[t], end = pair_offset[t + 1];
   if (end > pair_capacity) return;
   uint pieces = 0, entries = 0, first = 0;
@@ -104,12 +110,22 @@ __kernel void gather_rows(const uint count, __global const uint* order, __global
   uint size = 0;
   for (ulong pair = begin; pair < end; ++pair)
     for (uint k = piece_first[pair]; k < piece_first[pair] + piece_size[pair]; ++k) {
-      const uint rank = neighbor[k];
+      const int border = (int)neighbor[k];
+      if (border < 0) {
+        const size_t slot = facet_offset[pair_region[pair]] + (uint)~border;
+        size = add_to_row(row, size, ENTRY_FACET | facet[2 * slot + 1], 0, wall[k]);
+        continue;
+      }
+      const uint rank = (uint)border;
       const bool moved = images && rank >= count;
       const uint seed = moved ? image_seed[rank - count] : rank;
       size = add_to_row(row, size, order[seed], moved ? image_shift[rank - count] : 0, wall[k]);
     }
   row_first[i] = first;
+  while (size > 0 && row.neighbor[size - 1] >= ENTRY_FACET) {
+    --size;
+    ++facet_size[i];
+  }
   row_size[i] = size;
 }
 
@@ -185,4 +201,37 @@ __kernel void write_rows(const uint count, __global const uint* status, __global
   for (uint extra = last_extra[i]; extra != 0; extra = next[extra - 1])
     size = add_to_row(row, size, from[extra - 1], images ? -image[extra - 1] : 0, matched[extra - 1] * unit);
   if (images) write_shifts(row, size, i, given, wrapped);
+}
+
+/* Work-item i counts the facets of its cell that have a measure; the 0 at the end becomes the sum of all. */
+__kernel void size_facets(const uint count, __global const uint* status, __global const uint* row_first,
+                          __global const uint* row_size, __global const uint* facet_size,
+                          __global const stored_real* wall, __global uint* offset) {
+  const uint i = (uint)get_global_id(0);
+  if (i > count) return;
+  uint size = 0;
+  if (i < count && status[i] == SEED_OK) {
+    const uint first = row_first[i] + row_size[i];
+    for (uint k = first; k < first + facet_size[i]; ++k) size += wall[k] > 0 ? 1u : 0u;
+  }
+  offset[i] = size;
+}
+
+/* Work-item i writes these from offset[i] on, unless they end beyond the caller's memory. */
+__kernel void write_facets(const uint count, __global const uint* status, __global const uint* row_first,
+                           __global const uint* row_size, __global const uint* facet_size,
+                           __global const uint* neighbor, __global const stored_real* wall,
+                           __global const stored_real* frame, __global const uint* offset,
+                           const uint capacity, __global uint* facet, __global stored_real* measure) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= count || status[i] != SEED_OK || offset[i + 1] > capacity) return;
+  real unit = 1;
+  for (int k = 1; k < CELL_DIMENSION; ++k) unit *= frame[FRAME_UNIT];
+  const uint first = row_first[i] + row_size[i];
+  uint at = offset[i];
+  for (uint k = first; k < first + facet_size[i]; ++k) {
+    if (!(wall[k] > 0)) continue;
+    facet[at] = neighbor[k] & ~ENTRY_FACET;
+    measure[at++] = wall[k] * unit;
+  }
 }

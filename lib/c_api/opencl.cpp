@@ -23,13 +23,14 @@ const DeviceDiagram& diagram_in(const pc_device_diagram* handle) {
 }
 
 DeviceResults results_of(const pc_device_results* results) {
-  const auto& [measures, status, adjacency, uncertain, cells] = checked(results, "results");
+  const auto& [measures, status, adjacency, uncertain, cells, boundary] = checked(results, "results");
   return {measures,
           status,
           {adjacency.offset, adjacency.neighbor, adjacency.wall, adjacency.shift},
           {uncertain.count, uncertain.seeds},
           {cells.counts, cells.cell_offset, cells.region, cells.vertex_offset, cells.vertices,
-           cells.face_offset, cells.border, cells.shift, cells.loop_offset, cells.loop}};
+           cells.face_offset, cells.border, cells.shift, cells.loop_offset, cells.loop},
+          {boundary.offset, boundary.facet, boundary.measure}};
 }
 
 }  // namespace

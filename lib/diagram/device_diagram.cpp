@@ -99,6 +99,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       precision(choose_precision(single(device), options.precision)),
       room(domain.is_periodic() ? clip_mesh_of(domain) : nullptr),
       domain_buffers(device.context(), room ? *room : domain.mesh(), precision == Precision::float32),
+      facets(domain_buffers),
       frame_(device.context()),
       seeds_(device.context(), plain_defines(device, domain, precision), precision == Precision::float32,
              domain.mesh().period.get(), domain_buffers.frame()),
@@ -106,7 +107,7 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
       blocks_(device.context(), variant(device, domain, precision, {1, 1}),
               std::make_shared<BlockBuffers>(device.context())),
       pairs_(domain_buffers, plain_defines(device, domain, precision)),
-      walls_(device.context(), plain_defines(device, domain, precision), real_bytes()),
+      walls_(device.context(), facets, plain_defines(device, domain, precision), real_bytes()),
       compaction_(device.context()),
       finish_(device.context(),
               device.context()->program("diagram/finish.cl", plain_defines(device, domain, precision)),
@@ -188,13 +189,16 @@ void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uin
   }
 }
 
-std::uint32_t DeviceDiagram::State::stored_walls() const {
+std::uint32_t DeviceDiagram::State::stored_walls(cl_uint faces) const {
   if (wall_capacity > 0) return wall_capacity;
-  // More than pieces have on average; a cell in several pieces has a row besides.
+  // More than pieces have on average; a cell in several pieces has a row besides. Large cells have many
+  // facets.
   const bool volume = domain.cell_dimension() == 3, whole = domain_buffers.mesh().region_count() == 1;
   const std::uint64_t each = volume ? (whole ? 20 : 16) : (whole ? 8 : 6);
+  const std::uint64_t facets_there =
+      (faces & FACES_BOUNDARY) != 0 ? 2 * domain_buffers.mesh().facet.size() : 0;
   return static_cast<std::uint32_t>(
-      std::clamp<std::uint64_t>(each * pairs_.capacity, 4096, DeviceWalls::most_entries));
+      std::clamp<std::uint64_t>(each * pairs_.capacity + facets_there, 4096, DeviceWalls::most_entries));
 }
 
 void DeviceDiagram::State::clip(std::uint32_t n) {
@@ -223,29 +227,34 @@ void DeviceDiagram::State::order_seeds(cl_mem positions, cl_mem weights, std::ui
 
 void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n,
                                    const DeviceResults& results, Rooms rooms, cl_event* done) {
-  const bool rows = wants_rows(results), list = wants_list(results), cells = wants_cells(results);
+  const bool rows = wants_rows(results), list = wants_list(results), cells = wants_cells(results),
+             boundary = wants_boundary(results);
+  const cl_uint faces = (rows ? FACES_WALLS : 0u) | (boundary ? FACES_BOUNDARY : 0u);
   if (cells && !geometry_)
-    geometry_.emplace(domain_buffers, variant(device, domain, precision, {1, 1}), launch_pairs());
+    geometry_.emplace(domain_buffers, facets, variant(device, domain, precision, {1, 1}), launch_pairs());
   order_seeds(positions, weights, n);
   tree_.enqueue(points_, points_, points_count_);
   blocks_.enqueue(device_tree(), n);
   pairs_.enqueue(seeds_, tree_, n, pair_capacity);
-  rows ? walls_.begin(stored_walls(), pairs_.capacity, n, images_ ? &*images_ : nullptr)
-       : walls_.begin_without();
+  faces != 0 ? walls_.begin(faces, stored_walls(faces), pairs_.capacity, n, images_ ? &*images_ : nullptr)
+             : walls_.begin_without();
   clip(n);
   if (cells) geometry_->count(clipped(n));
-  if (rows) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, results.adjacency);
+  if (faces != 0) walls_.gather(seeds_, pairs_, piece_status_.handle(), n, results.adjacency);
   for_host_.resize(n);
   finish_
       .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,
             frame_, positions, results.measures, results.status, for_host_)
-      .submit(n, 0, rows || list || cells ? nullptr : done);
+      .submit(n, 0, faces != 0 || list || cells ? nullptr : done);
   if (list)
     compaction_.enqueue(for_host_.handle(), n, 1, results.uncertain.seeds, rooms.uncertain,
-                        results.uncertain.count, 0, rows || cells ? nullptr : done);
+                        results.uncertain.count, 0, faces != 0 || cells ? nullptr : done);
   if (rows)
     walls_.write(seeds_, results.status, frame_.handle(), n, results.adjacency, rooms.rows,
-                 cells ? nullptr : done);
+                 boundary || cells ? nullptr : done);
+  if (boundary)
+    walls_.write_facets(results.status, frame_.handle(), n, results.boundary_walls, rooms.boundary,
+                        cells ? nullptr : done);
   if (cells)
     geometry_->write(clipped(n), results.status, frame_.handle(), positions, results.cells, rooms.cells);
   if (cells && done)

@@ -29,6 +29,7 @@ struct DeviceDiagram::State {
   Precision precision;
   std::shared_ptr<const RegionMesh> room;  // of a periodic domain: the region of all cells; else null
   DomainBuffers domain_buffers;
+  DeviceFacets facets;
   std::uint32_t pair_capacity = 0;     // 0: as many as needed
   std::uint32_t wall_capacity = 0;     // of the store; 0: by the number of pairs
   std::uint32_t image_capacity = 0;    // 0: as many as needed
@@ -42,7 +43,8 @@ struct DeviceDiagram::State {
   /// Orders the seeds, and in a periodic domain their images behind them.
   void order_seeds(cl_mem positions, cl_mem weights, std::uint32_t n);
   TreeBlocks::Tree device_tree() const;
-  std::uint32_t stored_walls() const;
+  /// The room of the store for `faces`, a sum of FACES_....
+  std::uint32_t stored_walls(cl_uint faces) const;
   void clip(std::uint32_t n);
   /// Launches one capacity over all pairs, or over those in list_.
   void clip_with(std::size_t capacity, bool listed, std::uint32_t n);

@@ -76,6 +76,20 @@ std::uint32_t room_for_list(const DeviceDiagram::State& s, std::uint32_t n, cons
   return in_32_bits(values_in(list.seeds, sizeof(cl_uint), "uncertain seeds"));
 }
 
+/// The entries that the caller's boundary walls have room for. \throw Error invalid_argument
+std::uint32_t room_for_boundary(const DeviceDiagram::State& s, std::uint32_t n,
+                                const DeviceBoundaryWalls& rows) {
+  const cl::Context& context = *s.device.context();
+  const std::size_t real = s.real_bytes();
+  require_buffer(context, rows.offset, (std::size_t{n} + 1) * sizeof(cl_uint),
+                 "the offsets of boundary walls");
+  if (n == 0) return 0;
+  require_buffer(context, rows.facet, sizeof(cl_uint), "the facets of boundary walls");
+  require_buffer(context, rows.measure, real, "the measures of boundary walls");
+  return in_32_bits(std::min(values_in(rows.facet, sizeof(cl_uint), "the facets of boundary walls"),
+                             values_in(rows.measure, real, "the measures of boundary walls")));
+}
+
 /// How many values fit a buffer of the caller, which there is. \throw Error invalid_argument
 std::size_t room_in(const cl::Context& context, cl_mem memory, std::size_t bytes_each, const char* name) {
   require_buffer(context, memory, bytes_each, name);
@@ -132,7 +146,8 @@ Rooms checked(const DeviceDiagram::State& s, const Job& job) {
   }
   return {wants_rows(results) ? room_for_rows(s, job.n, results.adjacency) : 0,
           wants_list(results) ? room_for_list(s, job.n, results.uncertain) : 0,
-          wants_cells(results) ? room_for_cells(s, job.n, results.cells) : CellRooms{}};
+          wants_cells(results) ? room_for_cells(s, job.n, results.cells) : CellRooms{},
+          wants_boundary(results) ? room_for_boundary(s, job.n, results.boundary_walls) : 0};
 }
 
 /// The diagram of no seeds.
@@ -148,6 +163,7 @@ void enqueue_nothing(const cl::Context& context, const DeviceResults& results, c
   write_zeros(results.uncertain.count, sizeof(cl_uint));
   write_zeros(results.cells.counts, 4 * sizeof(cl_ulong));
   write_zeros(results.cells.cell_offset, sizeof(cl_ulong));
+  write_zeros(results.boundary_walls.offset, sizeof(cl_uint));
   if (done) cl::check(clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, done), "enqueueing a marker");
 }
 

@@ -77,8 +77,10 @@ void DeviceGeometry::Rows::reserve(std::uint32_t rows) {
   vertex.reserve(all_vertices * static_cast<std::size_t>(variant.dimension) * real_bytes(variant));
 }
 
-DeviceGeometry::DeviceGeometry(const DomainBuffers& domain, const Variant& variant, std::uint64_t most)
+DeviceGeometry::DeviceGeometry(const DomainBuffers& domain, const DeviceFacets& facets,
+                               const Variant& variant, std::uint64_t most)
     : domain_(domain),
+      facets_(facets),
       most_(most),
       choose_(domain.context(), domain.context()->program(rows_file, without_cell(variant)), "choose_rows"),
       count_(domain.context(), domain.context()->program(rows_file, without_cell(variant)), "count_rows"),
@@ -87,8 +89,6 @@ DeviceGeometry::DeviceGeometry(const DomainBuffers& domain, const Variant& varia
       write_(domain.context(), domain.context()->program(rows_file, without_cell(variant)), "write_rows"),
       scan_(domain.context(), ExclusiveScan::Type::uint64),
       compaction_(domain.context()),
-      facet_offset_(domain.context()),
-      facet_(domain.context()),
       faces_(domain.context()),
       vertices_(domain.context()),
       list_(domain.context()),
@@ -105,13 +105,6 @@ DeviceGeometry::DeviceGeometry(const DomainBuffers& domain, const Variant& varia
     used.capacity = capacity;
     rows_.emplace_back(domain, used);
   }
-  std::vector<std::uint32_t> facets;
-  for (const Border& facet : domain.mesh().facet) {
-    facets.push_back(static_cast<std::uint32_t>(facet.kind));
-    facets.push_back(facet.index);
-  }
-  facet_.upload(facets);
-  facet_offset_.upload(domain.mesh().facet_offset);
 }
 
 std::uint32_t DeviceGeometry::rows_that_fit(const Variant& variant, std::uint32_t pairs) const {
@@ -169,7 +162,7 @@ void DeviceGeometry::write_rows(const Rows& rows, const Clipped& from, cl_mem fr
             from.pairs.seed, from.pairs.region, frame, positions, from.n, from.seeds.order,
             cl_int{images != nullptr}, images ? images->image_seed.handle() : none,
             images ? images->image_shift.handle() : none, images ? images->shift_given.handle() : none,
-            images ? from.seeds.wrap->shift.handle() : none, facet_offset_, facet_, place_piece_,
+            images ? from.seeds.wrap->shift.handle() : none, facets_.offset, facets_.facet, place_piece_,
             place_vertex_, place_face_)
       .more_args(to.region, to.vertex_offset, to.vertices, to.face_offset, to.border,
                  images ? to.shift : none, to.loop_offset ? to.loop_offset : none, to.loop ? to.loop : none)

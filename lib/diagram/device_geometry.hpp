@@ -5,6 +5,7 @@
 #include <powercell/opencl.hpp>
 #include <vector>
 
+#include "lib/diagram/device_facets.hpp"
 #include "lib/neighbors/tree_blocks.hpp"
 #include "lib/pairs/device_pairs.hpp"
 #include "lib/periodic/device_images.hpp"
@@ -24,12 +25,13 @@ struct CellRooms {
 /// and is reused.
 class DeviceGeometry {
  public:
-  /// Uploads the facets of the domain and builds the kernels, which waits.
-  /// \param domain   must outlive this
+  /// Builds the kernels, which waits.
+  /// \param domain, facets  must outlive this
   /// \param variant  precision, dimensions and lanes
   /// \param most     pairs of a launch
   /// \throw Error build_failed, self_test_failed, opencl, out_of_device_memory
-  DeviceGeometry(const DomainBuffers& domain, const Variant& variant, std::uint64_t most);
+  DeviceGeometry(const DomainBuffers& domain, const DeviceFacets& facets, const Variant& variant,
+                 std::uint64_t most);
 
   /// A diagram whose pairs are clipped.
   struct Clipped {
@@ -69,12 +71,12 @@ class DeviceGeometry {
                   const DeviceCells& to);
 
   const DomainBuffers& domain_;
+  const DeviceFacets& facets_;
   std::uint64_t most_;
   cl::Kernel choose_, count_, size_, place_, write_;
   ExclusiveScan scan_;
   Compaction compaction_;
   std::vector<Rows> rows_;                                             // by number of the capacity
-  cl::Buffer<std::uint32_t> facet_offset_, facet_;                     // of the domain
   cl::Buffer<std::uint32_t> faces_, vertices_, list_, found_;          // by pair; those of the next capacity
   cl::Buffer<std::uint64_t> place_piece_, place_vertex_, place_face_;  // by pair
   cl::Buffer<std::uint64_t> cell_vertices_, cell_faces_;               // by seed

@@ -8,6 +8,7 @@
 
 #include "lib/cl/transfers.hpp"
 #include "lib/diagram/merge_rows.hpp"
+#include "lib/diagram/repair_boundary.hpp"
 #include "lib/diagram/repair_cells.hpp"
 #include "lib/diagram/state.hpp"
 
@@ -181,6 +182,10 @@ std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32
   if (wants_cells(results))
     cells = read_cells(context, results.cells, n, diagram_.domain().dimension(), float32, rooms.cells);
 
+  BoundaryWalls boundary;
+  if (wants_boundary(results))
+    boundary = read_boundary(context, results.boundary_walls, n, float32, rooms.boundary);
+
   Seeds seeds(position, weight, d, status);
   set_seeds(std::move(seeds.positions), seeds.weights);
   diagram_.select(list);
@@ -204,11 +209,16 @@ std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32
     cells = merge_cells(cells, list, diagram_.cells());
     require_room(cells, rooms.cells);
   }
+  if (wants_boundary(results)) {
+    boundary = merge_boundary(boundary, list, diagram_.boundary_walls());
+    require_room(boundary, rooms.boundary);
+  }
   // Nothing is written before everything is known.
   write(*context, results.measures, measures);
   write(*context, results.status, status);
   if (wants_rows(results)) write_rows(*context, results.adjacency, rows);
   if (wants_cells(results)) write_cells(*context, results.cells, cells, float32);
+  if (wants_boundary(results)) write_boundary(*context, results.boundary_walls, boundary, float32);
   return static_cast<std::uint32_t>(list.size());
 }
 

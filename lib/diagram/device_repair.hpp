@@ -15,6 +15,7 @@ struct Rooms {
   std::uint32_t rows = 0;       ///< entries of DeviceAdjacency
   std::uint32_t uncertain = 0;  ///< seeds of DeviceUncertain
   CellRooms cells = {};
+  std::uint32_t boundary = 0;  ///< entries of DeviceBoundaryWalls
 };
 
 inline bool wants_rows(const DeviceResults& r) {
@@ -28,6 +29,11 @@ inline bool wants_cells(const DeviceResults& r) {
   const DeviceCells& c = r.cells;
   return c.counts || c.cell_offset || c.region || c.vertex_offset || c.vertices || c.face_offset ||
          c.border || c.shift || c.loop_offset || c.loop;
+}
+
+inline bool wants_boundary(const DeviceResults& r) {
+  const DeviceBoundaryWalls& b = r.boundary_walls;
+  return b.offset || b.facet || b.measure;
 }
 
 /// Computes cells with a Diagram, which is kept, and so are its programs, its memory and, for seeds at the

@@ -37,7 +37,13 @@ from ._device import (  # noqa: E402
     measure_device_rates,
 )
 from ._device_cells import DeviceCells  # noqa: E402
-from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceStatus, DeviceUncertain  # noqa: E402
+from ._device_results import (  # noqa: E402
+    DeviceAdjacency,
+    DeviceBoundaryWalls,
+    DeviceMeasures,
+    DeviceStatus,
+    DeviceUncertain,
+)
 from ._diagram import Diagram, regular_triangulation  # noqa: E402
 from ._distributed import DistributedCells, compute_distributed  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
@@ -62,6 +68,7 @@ __all__ = [
     "DensityIntegrals",
     "Device",
     "DeviceAdjacency",
+    "DeviceBoundaryWalls",
     "DeviceCells",
     "DeviceDiagram",
     "DeviceMeasures",

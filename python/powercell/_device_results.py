@@ -55,11 +55,7 @@ class DeviceAdjacency:
         Error
             ``invalid_argument`` if the walls exceed the room (how many there are).
         """
-        indptr = self.indptr.get(self._queue)
-        count = self._count(indptr)
-        if count == 0:
-            return indptr, np.empty(0, np.uint32), np.empty(0, self.data.dtype)
-        return indptr, self.indices[:count].get(self._queue), self.data[:count].get(self._queue)
+        return rows_on_host(self, "adjacency")
 
     def get_shift(self) -> Optional[np.ndarray]:
         """Waits for the diagram, and copies the shifts to the host, without unused room; None where there are none.
@@ -71,21 +67,47 @@ class DeviceAdjacency:
         """
         if self.shift is None:
             return None
-        count = self._count(self.indptr.get(self._queue))
+        count = entries_of(self, self.indptr.get(self._queue), "adjacency")
         return self.shift[:count].get(self._queue) if count else np.empty((0, 3), np.int32)
-
-    def _count(self, indptr: np.ndarray) -> int:
-        """How many entries there are, if there is room for them."""
-        count = int(indptr[-1])
-        if count > len(self.indices):
-            raise Error(
-                f"there are {count} entries, and room for {len(self.indices)}; give compute(adjacency={count})",
-                "invalid_argument",
-            )
-        return count
 
     def __repr__(self) -> str:
         return f"<powercell.DeviceAdjacency of {len(self.indptr) - 1} seeds, room for {len(self.indices)} entries>"
+
+
+class DeviceBoundaryWalls:
+    """The parts of the domain's boundary that the cells of a :class:`DeviceDiagram` have, as compressed sparse rows in
+    device memory.
+
+    Attributes
+    ----------
+    indptr : (n + 1,) pyopencl.array.Array of uint32
+        Row i is ``indices[indptr[i]:indptr[i + 1]]``. Right also where the other arrays are too short.
+    indices : (room,) pyopencl.array.Array of uint32
+        Facets, with the numbers that :class:`BoundaryWalls` has, ascending within a row. Rows that end beyond the room
+        are not written, the others are whole.
+    data : (room,) pyopencl.array.Array
+        Length or area of the part of the facet that belongs to the cell.
+    """
+
+    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any) -> None:
+        self._queue = queue
+        self.indptr = indptr
+        self.indices = indices
+        self.data = data
+
+    def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` if the parts exceed the room (how many there are).
+        """
+        return rows_on_host(self, "boundary_walls")
+
+    def __repr__(self) -> str:
+        seeds, room = len(self.indptr) - 1, len(self.indices)
+        return f"<powercell.DeviceBoundaryWalls of {seeds} seeds, room for {room} entries>"
 
 
 class DeviceUncertain:
@@ -141,6 +163,8 @@ class DeviceMeasures:
         The same.
     cells : DeviceCells or None
         The same.
+    boundary_walls : DeviceBoundaryWalls or None
+        The same.
     event : pyopencl.Event
         Of the last command.
     """
@@ -153,6 +177,7 @@ class DeviceMeasures:
         adjacency: Optional[DeviceAdjacency],
         uncertain: Optional[DeviceUncertain],
         cells: Optional[DeviceCells],
+        boundary_walls: Optional[DeviceBoundaryWalls],
         event: Any,
     ) -> None:
         self._queue = queue
@@ -161,6 +186,7 @@ class DeviceMeasures:
         self.adjacency = adjacency
         self.uncertain = uncertain
         self.cells = cells
+        self.boundary_walls = boundary_walls
         self.event = event
         self._parts: dict[str, Any] = {}
 
@@ -169,13 +195,14 @@ class DeviceMeasures:
 
     def _arrays(self) -> list[Any]:
         """All arrays in the order of the bindings; None for those that are not wanted."""
-        rows, listed = self.adjacency, self.uncertain
+        rows, listed, parts = self.adjacency, self.uncertain, self.boundary_walls
         return [
             self.measures,
             self.status,
             *((rows.indptr, rows.indices, rows.data, rows.shift) if rows else (None,) * 4),
             *((listed.count, listed.seeds) if listed else (None, None)),
             *(self.cells._arrays() if self.cells else [None] * len(DeviceCells._NAMES)),
+            *((parts.indptr, parts.indices, parts.data) if parts else (None,) * 3),
         ]
 
     def _columns(self, name: str, first: int, shape: tuple[int, ...]) -> Any:
@@ -242,3 +269,23 @@ class DeviceMeasures:
 def empty(queue: Any, shape: tuple[int, ...], dtype: np.dtype[Any], allocator: Any) -> Any:
     """An array of pyopencl, not filled."""
     return _looks.package("pyopencl.array").empty(queue, shape, dtype, allocator=allocator)
+
+
+def entries_of(rows: Any, indptr: np.ndarray, name: str) -> int:
+    """How many entries rows have, if there is room for them. ``name`` is that of the argument of compute()."""
+    count = int(indptr[-1])
+    if count > len(rows.indices):
+        raise Error(
+            f"there are {count} entries, and room for {len(rows.indices)}; give compute({name}={count})",
+            "invalid_argument",
+        )
+    return count
+
+
+def rows_on_host(rows: Any, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """``indptr``, ``indices`` and ``data`` of rows, without unused room."""
+    indptr = rows.indptr.get(rows._queue)
+    count = entries_of(rows, indptr, name)
+    if count == 0:
+        return indptr, np.empty(0, np.uint32), np.empty(0, rows.data.dtype)
+    return indptr, rows.indices[:count].get(rows._queue), rows.data[:count].get(rows._queue)

@@ -10,7 +10,7 @@ from . import _core, _looks
 from ._arrays import is_pyopencl
 from ._device import Device
 from ._device_cells import DeviceCells, room_for
-from ._device_results import DeviceAdjacency, DeviceMeasures, DeviceUncertain, empty
+from ._device_results import DeviceAdjacency, DeviceBoundaryWalls, DeviceMeasures, DeviceUncertain, empty
 from ._domain import Domain
 from ._options import diagram_options
 
@@ -40,7 +40,7 @@ class DeviceDiagram:
         unfinished. Even seeds have 0.5 each if they are 10^5 in a cube, 0.2 if 10^6. With 0 there is room for
         all, and :meth:`compute` waits for the queue once to read their number. It waits in no other case.
     wall_capacity : int
-        The room for walls while the rows of an adjacency are made of them. Cells whose walls do not fit are
+        The room for walls and boundary walls while rows are made of them. Cells whose walls do not fit are
         unfinished; which these are may change from call to call. With 0 there is room for more walls than random
         seeds have.
     chunk_pairs : int
@@ -102,6 +102,7 @@ class DeviceDiagram:
         adjacency: Union[bool, int] = False,
         uncertain: Union[bool, int] = False,
         cells: Union[bool, Sequence[int], np.ndarray] = False,
+        boundary_walls: Union[bool, int] = False,
         out: Optional[DeviceMeasures] = None,
     ) -> DeviceMeasures:
         """Enqueues the diagram of n seeds, and returns without waiting for it.
@@ -124,9 +125,12 @@ class DeviceDiagram:
             pieces, vertices, faces and entries of loops to make room for, as :attr:`DeviceCells.counts` has them. True
             makes room for random seeds: of :attr:`DeviceCells.counts` of a smaller diagram one learns how much others
             need. The first call with cells builds programs, which waits.
+        boundary_walls : bool or int
+            Whether the parts of the domain's boundary that each cell has are wanted, or the number of entries to make
+            room for. True makes room for three for each seed and each facet of the boundary.
         out : DeviceMeasures, optional
             Of an earlier call with as many seeds of this type: its arrays are written again, those of the adjacency,
-            the list and the cells where it has them and they are wanted. Otherwise new ones come from the allocator of
+            the list, the cells and the boundary walls where it has them and they are wanted. Otherwise new ones come from the allocator of
             ``positions``.
 
         Returns
@@ -149,6 +153,7 @@ class DeviceDiagram:
             self._rows(adjacency, n, positions, out),
             self._list(uncertain, n, positions, out),
             self._cells(cells, n, positions, out),
+            self._boundary(boundary_walls, n, positions, out),
             None,
         )
         written = results._arrays()
@@ -161,8 +166,8 @@ class DeviceDiagram:
 
     def repair(self, positions: Any, weights: Optional[Any] = None, *, out: DeviceMeasures) -> int:
         """Computes the cells of the list ``out.uncertain`` exactly, and puts them into the results, which are then those
-        of a :class:`Diagram` without the invalid seeds: the statuses and, where they are given, the adjacency and the
-        pieces and faces of cells are exact.
+        of a :class:`Diagram` without the invalid seeds: the statuses and, where they are given, the adjacency, the
+        boundary walls and the pieces and faces of cells are exact.
         Waits for the queue, and works on the host, with the Global Interpreter Lock released.
 
         Parameters
@@ -182,8 +187,8 @@ class DeviceDiagram:
         ValueError
             An array of the wrong shape, type or layout, by name; results without a list.
         Error
-            ``invalid_argument`` if the list has no room for all uncertain seeds, the adjacency for its entries, or the
-            cells for their pieces (how many there are): nothing is changed then. ``out_of_device_memory``, ``opencl``.
+            ``invalid_argument`` if the list has no room for all uncertain seeds, rows for their entries, or the cells for
+            their pieces (how many there are): nothing is changed then. ``out_of_device_memory``, ``opencl``.
         """
         if out.uncertain is None:
             raise ValueError("out has no list of uncertain seeds; give compute(uncertain=True)")
@@ -254,30 +259,55 @@ class DeviceDiagram:
         self, adjacency: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
     ) -> Optional[DeviceAdjacency]:
         """The memory of the adjacency, if it is wanted."""
-        if adjacency is False:
-            return None
-        if adjacency is not True and not (isinstance(adjacency, int) and 0 < adjacency < 2**32):
-            raise ValueError(f"adjacency is {adjacency!r}; True, False or a number of entries from 1 to 2^32 - 1 is expected")
-        if out is not None and out.adjacency is not None:
-            _check(out.adjacency.data, "out.adjacency.data", (None,), positions.dtype)
-            if len(out.adjacency.indptr) != n + 1:
-                raise ValueError(f"out.adjacency is of {len(out.adjacency.indptr) - 1} seeds; {n} are expected")
-            if adjacency is True or adjacency <= len(out.adjacency.indices):
-                return out.adjacency
+        there = _rows_there("adjacency", adjacency, n, positions, out)
+        if adjacency is False or there is not None:
+            return there
         each = 20 if self.domain.cell_dimension == 3 else 8
         room = max(1, each * n) if adjacency is True else adjacency
         queue, allocator = self.device.queue, positions.allocator
-        unsigned = np.dtype(np.uint32)
         return DeviceAdjacency(
             queue,
-            empty(queue, (n + 1,), unsigned, allocator),
-            empty(queue, (room,), unsigned, allocator),
-            empty(queue, (room,), positions.dtype, allocator),
+            *_new_rows(queue, n, room, positions),
             empty(queue, (room, 3), np.dtype(np.int32), allocator) if self.domain.is_periodic else None,
         )
 
+    def _boundary(
+        self, wanted: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
+    ) -> Optional[DeviceBoundaryWalls]:
+        """The memory of the boundary walls, if they are wanted."""
+        there = _rows_there("boundary_walls", wanted, n, positions, out)
+        if wanted is False or there is not None:
+            return there
+        room = 3 * (n + int(self.domain.regions.boundary_count)) if wanted is True else wanted
+        return DeviceBoundaryWalls(self.device.queue, *_new_rows(self.device.queue, n, max(1, room), positions))
+
     def __repr__(self) -> str:
         return f"<powercell.DeviceDiagram in {self.domain!r} on {self.device.name!r}>"
+
+
+def _rows_there(name: str, wanted: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]) -> Any:
+    """The rows of that name of earlier results, if they are wanted again and there is room."""
+    if wanted is False:
+        return None
+    if wanted is not True and not (isinstance(wanted, int) and 0 < wanted < 2**32):
+        raise ValueError(f"{name} is {wanted!r}; True, False or a number of entries from 1 to 2^32 - 1 is expected")
+    rows = None if out is None else getattr(out, name)
+    if rows is None:
+        return None
+    _check(rows.data, f"out.{name}.data", (None,), positions.dtype)
+    if len(rows.indptr) != n + 1:
+        raise ValueError(f"out.{name} is of {len(rows.indptr) - 1} seeds; {n} are expected")
+    return rows if wanted is True or wanted <= len(rows.indices) else None
+
+
+def _new_rows(queue: Any, n: int, room: int, positions: Any) -> tuple[Any, Any, Any]:
+    """Offsets of n rows, and indices and reals of `room` entries."""
+    unsigned, allocator = np.dtype(np.uint32), positions.allocator
+    return (
+        empty(queue, (n + 1,), unsigned, allocator),
+        empty(queue, (room,), unsigned, allocator),
+        empty(queue, (room,), positions.dtype, allocator),
+    )
 
 
 def _check(array: Any, name: str, shape: tuple[Optional[int], ...], dtype: Optional[np.dtype[Any]]) -> None:

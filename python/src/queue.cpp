@@ -38,7 +38,8 @@ class PyDeviceDiagram {
   }
 
   /// \param results  measures and statuses; offsets, neighbours, walls and shifts of the adjacency; number
-  ///   and list of uncertain seeds; the buffers of DeviceCells in their order; 0 for what is not wanted
+  ///   and list of uncertain seeds; the buffers of DeviceCells in their order; offsets, facets and measures
+  ///   of boundary walls; 0 for what is not wanted
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
                   const std::vector<Pointer>& events) {
@@ -71,7 +72,8 @@ class PyDeviceDiagram {
             {memory(2), memory(3), memory(4), memory(5)},
             {memory(6), memory(7)},
             {memory(8), memory(9), memory(10), memory(11), memory(12), memory(13), memory(14), memory(15),
-             memory(16), memory(17)}};
+             memory(16), memory(17)},
+            {memory(18), memory(19), memory(20)}};
   }
 
   static DeviceDiagram made(const Device& device, const Domain& domain, const Options& options) {

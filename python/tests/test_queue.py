@@ -105,6 +105,33 @@ def test_cells_are_those_of_diagram(rng, queue, d, periodic):
         diagram.compute(seeds, cells=5)
 
 
+@pytest.mark.parametrize("dtype, tolerance", [(np.float64, 1e-11), (np.float32, 1e-3)])
+@pytest.mark.parametrize("d", [2, 3])
+def test_boundary_walls_are_those_of_diagram(rng, queue, d, dtype, tolerance):
+    box = pc.Domain.box([0] * d, [1] * d)
+    p = rng.random((300, d)).astype(dtype)
+    want = pc.Diagram(box, p, precision="double" if dtype == np.float64 else "float").boundary_walls
+    diagram = pc.DeviceDiagram(box, queue)
+    seeds = cl.array.to_device(queue, p)
+    found = diagram.compute(seeds, boundary_walls=True, uncertain=True)
+    diagram.repair(seeds, out=found)
+    indptr, indices, data = found.boundary_walls.get()
+    assert data.dtype == dtype and indptr.dtype == indices.dtype == np.uint32
+    assert np.array_equal(indptr, want.indptr) and np.array_equal(indices, want.indices)
+    assert data == pytest.approx(want.data, abs=tolerance)
+    for facet in range(2 * d):
+        assert data[indices == facet].sum() == pytest.approx(1, abs=10 * tolerance)
+    assert found.adjacency is None and diagram.compute(seeds).boundary_walls is None
+    both = diagram.compute(seeds, adjacency=True, boundary_walls=True, out=found)
+    assert both.boundary_walls is found.boundary_walls
+    assert np.array_equal(both.adjacency.get()[1], diagram.compute(seeds, adjacency=True).adjacency.get()[1])
+    assert np.array_equal(diagram.compute(seeds, boundary_walls=len(data)).boundary_walls.get()[0], indptr)
+    with pytest.raises(pc.Error, match=rf"{len(data)} entries, and room for 10; give compute\(boundary_walls=") as error:
+        diagram.compute(seeds, boundary_walls=10).boundary_walls.get()
+    assert error.value.code == "invalid_argument"
+    assert diagram.compute(seeds[:0], boundary_walls=True).boundary_walls.get()[0].tolist() == [0]
+
+
 def test_both_loaders_name_the_same_devices(queue):
     device = pc.Device.from_queue(queue)
     assert device.name == queue.device.name.strip() and device.queue is queue
@@ -258,6 +285,7 @@ def test_wrong_arguments_are_named(rng, queue, square):
         (r"weights has the shape \(3,\); \(4,\)", lambda: diagram.compute(good, device(np.zeros(3)))),
         ("weights has the type float32", lambda: diagram.compute(good, device(np.zeros(4, np.float32)))),
         ("adjacency is 0", lambda: diagram.compute(good, adjacency=0)),
+        ("boundary_walls is 'all'", lambda: diagram.compute(good, boundary_walls="all")),
         ("uncertain is 0", lambda: diagram.compute(good, uncertain=0)),
         ("wall_capacity is -1", lambda: pc.DeviceDiagram(square, queue, wall_capacity=-1)),
         ("queue is a int", lambda: pc.DeviceDiagram(square, 3)),

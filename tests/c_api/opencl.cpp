@@ -86,8 +86,8 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
   const cl_mem offset = own.buffer(6 * sizeof(cl_uint)), neighbor = own.buffer(8 * sizeof(cl_uint)),
                wall = own.buffer(8 * sizeof(cl_float));
   const cl_mem count = own.buffer(sizeof(cl_uint)), uncertain = own.buffer(5 * sizeof(cl_uint));
-  const pc_device_results results = {
-      measures, status, {offset, neighbor, wall, nullptr}, {count, uncertain}, {}};
+  const pc_device_results results = {measures,           status, {offset, neighbor, wall, nullptr},
+                                     {count, uncertain}, {},     {}};
   REQUIRE(pc_device_diagram_set_wall_capacity(diagram.handle, 50) == PC_OK);
   CHECK(pc_device_diagram_set_wall_capacity(diagram.handle, 0x80000001u) == PC_INVALID_ARGUMENT);
   REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 5, &results, 0, nullptr,
@@ -118,7 +118,7 @@ TEST_CASE("a diagram in the caller's queue has the measures of the grid") {
         PC_INVALID_ARGUMENT);
   CHECK(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 5, nullptr, nullptr) == PC_INVALID_ARGUMENT);
   CHECK(pc_device_diagram_repair(nullptr, seeds, nullptr, 5, &results, nullptr) == PC_INVALID_ARGUMENT);
-  const pc_device_results no_list = {measures, status, {}, {}, {}};
+  const pc_device_results no_list = {measures, status, {}, {}, {}, {}};
   CHECK(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 5, &no_list, nullptr) ==
         PC_INVALID_ARGUMENT);
   CHECK(std::string(pc_last_error()).find("no list of uncertain seeds") != std::string::npos);
@@ -157,12 +157,13 @@ TEST_CASE("the geometry of two cells of a box in device memory") {
                loop_offset = own.buffer(13 * sizeof(cl_ulong)), loop = own.buffer(48 * sizeof(cl_uint));
   REQUIRE(clEnqueueWriteBuffer(own.queue, seeds, CL_TRUE, 0, sizeof position, position, 0, nullptr,
                                nullptr) == CL_SUCCESS);
-  pc_device_results results = {measures,
-                               status,
-                               {},
-                               {count, uncertain},
-                               {counts, cell_offset, region, vertex_offset, vertices, face_offset, border,
-                                nullptr, loop_offset, loop}};
+  pc_device_results results = {
+      measures,
+      status,
+      {},
+      {count, uncertain},
+      {counts, cell_offset, region, vertex_offset, vertices, face_offset, border, nullptr, loop_offset, loop},
+      {}};
   REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 2, &results, 0, nullptr,
                                             nullptr) == PC_OK);
   REQUIRE(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 2, &results, nullptr) == PC_OK);
@@ -200,6 +201,50 @@ TEST_CASE("the geometry of two cells of a box in device memory") {
     clReleaseMemObject(memory);
 }
 
+TEST_CASE("the boundary walls of two cells of a rectangle in device memory") {
+  const Queue own;
+  Device device;
+  Domain domain;
+  DeviceDiagram diagram;
+  REQUIRE(pc_device_from_queue(own.queue, &device.handle) == PC_OK);
+  REQUIRE(pc_domain_box(low, high, 2, &domain.handle) == PC_OK);
+  pc_options options;
+  REQUIRE(pc_options_init(&options, sizeof options) == PC_OK);
+  options.precision = PC_FLOAT32;
+  REQUIRE(pc_device_diagram_create(device.handle, domain.handle, &options, &diagram.handle) == PC_OK);
+  const cl_float position[4] = {0.5F, 0.5F, 1.5F, 0.5F};
+  const cl_mem seeds = own.buffer(sizeof position), measures = own.buffer(2 * 4 * sizeof(cl_float)),
+               status = own.buffer(2 * sizeof(cl_uint)), count = own.buffer(sizeof(cl_uint)),
+               uncertain = own.buffer(2 * sizeof(cl_uint)), offset = own.buffer(3 * sizeof(cl_uint)),
+               facet = own.buffer(6 * sizeof(cl_uint)), measure = own.buffer(6 * sizeof(cl_float));
+  REQUIRE(clEnqueueWriteBuffer(own.queue, seeds, CL_TRUE, 0, sizeof position, position, 0, nullptr,
+                               nullptr) == CL_SUCCESS);
+  pc_device_results results = {measures, status, {}, {count, uncertain}, {}, {offset, facet, measure}};
+  REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 2, &results, 0, nullptr,
+                                            nullptr) == PC_OK);
+  REQUIRE(pc_device_diagram_repair(diagram.handle, seeds, nullptr, 2, &results, nullptr) == PC_OK);
+  const auto read = [&](cl_mem memory, std::size_t bytes, void* to) {
+    REQUIRE(clEnqueueReadBuffer(own.queue, memory, CL_TRUE, 0, bytes, to, 0, nullptr, nullptr) == CL_SUCCESS);
+  };
+  cl_uint offsets[3], facets[6];
+  cl_float lengths[6];
+  read(offset, sizeof offsets, offsets);
+  for (cl_uint i = 0; i < 3; ++i) REQUIRE(offsets[i] == 3 * i);
+  read(facet, sizeof facets, facets);
+  read(measure, sizeof lengths, lengths);
+  const cl_uint expected[6] = {0, 2, 3, 0, 1, 2};  // -y +y -x, -y +x +y
+  for (int k = 0; k < 6; ++k) {
+    CHECK(facets[k] == expected[k]);
+    CHECK(lengths[k] == doctest::Approx(1).epsilon(1e-5));
+  }
+  results.boundary_walls.facet = nullptr;
+  CHECK(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 2, &results, 0, nullptr, nullptr) ==
+        PC_INVALID_ARGUMENT);
+  CHECK(std::string(pc_last_error()).find("the facets of boundary walls is null") != std::string::npos);
+  for (const cl_mem memory : {seeds, measures, status, count, uncertain, offset, facet, measure})
+    clReleaseMemObject(memory);
+}
+
 TEST_CASE("walls across the borders of a periodic box in device memory") {
   const Queue own;
   Device device;
@@ -220,8 +265,8 @@ TEST_CASE("walls across the borders of a periodic box in device memory") {
                uncertain = own.buffer(sizeof(cl_uint));
   REQUIRE(clEnqueueWriteBuffer(own.queue, seed, CL_TRUE, 0, sizeof position, position, 0, nullptr, nullptr) ==
           CL_SUCCESS);
-  const pc_device_results results = {
-      measures, status, {offset, neighbor, wall, shift}, {count, uncertain}, {}};
+  const pc_device_results results = {measures,           status, {offset, neighbor, wall, shift},
+                                     {count, uncertain}, {},     {}};
   REQUIRE(pc_device_diagram_enqueue_results(diagram.handle, seed, nullptr, 1, &results, 0, nullptr,
                                             nullptr) == PC_OK);
   REQUIRE(pc_device_diagram_repair(diagram.handle, seed, nullptr, 1, &results, nullptr) == PC_OK);
@@ -234,8 +279,8 @@ TEST_CASE("walls across the borders of a periodic box in device memory") {
           CL_SUCCESS);
   const cl_int expected[12] = {-1, 0, 0, 0, -1, 0, 0, 1, 0, 1, 0, 0};
   for (int k = 0; k < 12; ++k) CHECK(shifts[k] == expected[k]);
-  const pc_device_results no_shift = {
-      measures, status, {offset, neighbor, wall, nullptr}, {count, uncertain}, {}};
+  const pc_device_results no_shift = {measures,           status, {offset, neighbor, wall, nullptr},
+                                      {count, uncertain}, {},     {}};
   CHECK(pc_device_diagram_enqueue_results(diagram.handle, seed, nullptr, 1, &no_shift, 0, nullptr, nullptr) ==
         PC_INVALID_ARGUMENT);
   for (const cl_mem memory : {seed, measures, status, offset, neighbor, wall, shift, count, uncertain})

@@ -95,6 +95,32 @@ Adjacency Rows::read() const {
   return rows;
 }
 
+BoundaryRows::BoundaryRows(const Caller& caller, Precision precision, std::size_t n, std::size_t room)
+    : caller_(caller),
+      precision_(precision),
+      n_(n),
+      room_(room),
+      marks_(std::max<std::size_t>(room, 1), unwritten),
+      offset_(caller, (n + 1) * sizeof(cl_uint)),
+      facet_(caller, marks_.size() * sizeof(cl_uint), marks_.data()),
+      measure_(caller, marks_.size() * (precision == Precision::float32 ? sizeof(float) : sizeof(double))) {}
+
+BoundaryWalls BoundaryRows::read() const {
+  const cl_command_queue queue = caller_.queue();
+  const std::vector<cl_uint> offset = offset_.values<cl_uint>(queue, n_ + 1);
+  BoundaryWalls walls;
+  walls.offset.assign(offset.begin(), offset.end());
+  const std::size_t written = std::min<std::size_t>(offset.back(), room_);
+  walls.facet = facet_.values<cl_uint>(queue, written);
+  if (precision_ == Precision::float32) {
+    const std::vector<float> narrow = measure_.values<float>(queue, written);
+    walls.measure.assign(narrow.begin(), narrow.end());
+  } else {
+    walls.measure = measure_.values<double>(queue, written);
+  }
+  return walls;
+}
+
 double Output::total() const {
   return std::accumulate(mass.begin(), mass.end(), 0.0);
 }
@@ -124,14 +150,12 @@ void Job::enqueue(DeviceDiagram& diagram, cl_uint wait_count, const cl_event* wa
 
 void Job::enqueue(DeviceDiagram& diagram, const Wanted& wanted) const {
   diagram.enqueue(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
-                  static_cast<std::uint32_t>(count_),
-                  {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain, wanted.cells});
+                  static_cast<std::uint32_t>(count_), results(wanted));
 }
 
 std::uint32_t Job::repair(DeviceDiagram& diagram, const Wanted& wanted) const {
-  return diagram.repair(
-      positions_.handle(), weighted_ ? weights_.handle() : nullptr, static_cast<std::uint32_t>(count_),
-      {measures_.handle(), status_.handle(), wanted.adjacency, wanted.uncertain, wanted.cells});
+  return diagram.repair(positions_.handle(), weighted_ ? weights_.handle() : nullptr,
+                        static_cast<std::uint32_t>(count_), results(wanted));
 }
 
 Output Job::read() const {

@@ -91,6 +91,23 @@ class Rows {
   Memory offset_, neighbor_, wall_, shift_;
 };
 
+/// Boundary walls in device memory with room for `room` entries.
+class BoundaryRows {
+ public:
+  BoundaryRows(const Caller& caller, Precision precision, std::size_t n, std::size_t room);
+  static constexpr cl_uint unwritten = 0xfffffff0u;
+  DeviceBoundaryWalls handles() const { return {offset_.handle(), facet_.handle(), measure_.handle()}; }
+  /// Waits. Entries beyond the room are missing.
+  BoundaryWalls read() const;
+
+ private:
+  const Caller& caller_;
+  Precision precision_;
+  std::size_t n_, room_;
+  std::vector<cl_uint> marks_;
+  Memory offset_, facet_, measure_;
+};
+
 /// A list of uncertain seeds in device memory.
 class List {
  public:
@@ -114,6 +131,7 @@ struct Wanted {
   DeviceAdjacency adjacency = {};
   DeviceUncertain uncertain = {};
   DeviceCells cells = {};
+  DeviceBoundaryWalls boundary_walls = {};
 };
 
 /// Seeds and results of one call in device memory.
@@ -129,6 +147,11 @@ class Job {
   Output read() const;
 
  private:
+  DeviceResults results(const Wanted& wanted) const {
+    return {measures_.handle(), status_.handle(), wanted.adjacency,
+            wanted.uncertain,   wanted.cells,     wanted.boundary_walls};
+  }
+
   const Caller& caller_;
   Precision precision_;
   std::size_t dimension_, count_, real_;

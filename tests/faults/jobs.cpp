@@ -143,7 +143,10 @@ class DeviceDiagramJob : public Job {
         wall_(device_, room * real_),
         shift_(device_, room * 3 * sizeof(cl_int)),
         uncertain_count_(device_, sizeof(cl_uint)),
-        uncertain_(device_, n_ * sizeof(cl_uint)) {}
+        uncertain_(device_, n_ * sizeof(cl_uint)),
+        part_offset_(device_, (n_ + 1) * sizeof(cl_uint)),
+        facet_(device_, room * sizeof(cl_uint)),
+        part_(device_, room * real_) {}
 
   std::size_t steps() const override { return 7; }
   void step(std::size_t k) override {
@@ -161,7 +164,7 @@ class DeviceDiagramJob : public Job {
       case 3:
         results_ = {measures_.read(), status_.read()};
         return;
-      case 4:  // other weights in the same diagram, and walls
+      case 4:  // other weights in the same diagram, walls and boundary walls
         write(weights_, other_weights(seeds_));
         compute_all();
         others_ = all_results();
@@ -182,7 +185,9 @@ class DeviceDiagramJob : public Job {
     const auto& that = dynamic_cast<const DeviceDiagramJob&>(other);
     if (repaired_ != that.repaired_ || repaired_again_ != that.repaired_again_)
       return "repaired results differ";
-    return results_ == that.results_ && others_ == that.others_ ? "" : "measures, statuses or walls differ";
+    return results_ == that.results_ && others_ == that.others_
+               ? ""
+               : "measures, statuses, walls or boundary walls differ";
   }
 
  private:
@@ -197,11 +202,14 @@ class DeviceDiagramJob : public Job {
             status_.handle(),
             {offset_.handle(), neighbor_.handle(), wall_.handle(),
              domain_.is_periodic() ? shift_.handle() : nullptr},
-            {uncertain_count_.handle(), uncertain_.handle()}};
+            {uncertain_count_.handle(), uncertain_.handle()},
+            {},
+            {part_offset_.handle(), facet_.handle(), part_.handle()}};
   }
   Bytes all_results() const {
-    return {measures_.read(), status_.read(), offset_.read(),          neighbor_.read(),
-            wall_.read(),     shift_.read(),  uncertain_count_.read(), uncertain_.read()};
+    return {measures_.read(), status_.read(),          offset_.read(),    neighbor_.read(),    wall_.read(),
+            shift_.read(),    uncertain_count_.read(), uncertain_.read(), part_offset_.read(), facet_.read(),
+            part_.read()};
   }
   void compute() { compute({measures_.handle(), status_.handle()}); }
   /// With walls and the list, into memory without what was there before.
@@ -210,6 +218,8 @@ class DeviceDiagramJob : public Job {
     neighbor_.write(std::vector<cl_uint>(room).data());
     shift_.write(std::vector<cl_int>(3 * room).data());
     uncertain_.write(std::vector<cl_uint>(n_).data());
+    facet_.write(std::vector<cl_uint>(room).data());
+    write(part_, std::vector<double>(room));
     compute(wanted());
   }
   void compute(const DeviceResults& results) {
@@ -230,7 +240,7 @@ class DeviceDiagramJob : public Job {
   std::size_t real_, n_;
   SeedArray seeds_;
   Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_, shift_, uncertain_count_,
-      uncertain_;
+      uncertain_, part_offset_, facet_, part_;
   std::optional<DeviceDiagram> diagram_;
   Bytes results_, others_, repaired_, repaired_again_;
 };

@@ -9,6 +9,7 @@
 #include <memory>
 #include <powercell/diagram.hpp>
 #include <powercell/opencl.hpp>
+#include <powercell/regions.hpp>
 #include <span>
 
 #include "tests/fuzz/laws.hpp"
@@ -136,6 +137,37 @@ class Rows {
   Memory offset_, neighbor_, wall_, shift_;
 };
 
+/// The parts of the boundary of the domain that cells have.
+template <class Real>
+class Boundary {
+ public:
+  Boundary(const Domain& domain, std::size_t n)
+      : n_(n),
+        facets_(domain.regions().boundary_count),
+        offset_((n + 1) * sizeof(cl_uint)),
+        facet_((n * facets_ + 1) * sizeof(cl_uint)),  // enough where each cell has each facet
+        measure_((n * facets_ + 1) * sizeof(Real)) {}
+  DeviceBoundaryWalls handles() const { return {offset_.handle, facet_.handle, measure_.handle}; }
+
+  /// Rows ascend, and only cells that are there have any. \throw Finding
+  void check(const std::vector<cl_uint>& status) const {
+    const auto offset = read<cl_uint>(offset_, n_ + 1);
+    require(offset[0] == 0 && std::is_sorted(offset.begin(), offset.end()) && offset[n_] <= n_ * facets_,
+            "offsets of boundary walls");
+    const auto facet = read<cl_uint>(facet_, offset[n_]);
+    const auto measure = read<Real>(measure_, offset[n_]);
+    for (cl_uint i = 0; i < n_; ++i)
+      for (cl_uint k = offset[i]; k < offset[i + 1]; ++k)
+        require(status[i] == 0 && facet[k] < facets_ && measure[k] >= 0 &&
+                    (k == offset[i] || facet[k - 1] < facet[k]),
+                "a boundary wall that cannot be");
+  }
+
+ private:
+  std::size_t n_, facets_;
+  Memory offset_, facet_, measure_;
+};
+
 /// Statuses and neighbours after repair are those of a Diagram without the invalid seeds. \throw Finding
 void check_repaired(const DeviceDiagram& diagram, const Options& options, const SeedInput& given,
                     const std::vector<cl_uint>& before, const std::vector<cl_uint>& status,
@@ -180,15 +212,19 @@ void run(Input& input, const Domain& domain, Precision precision) {
   const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
   const Rows<Real> adjacency(n, domain.is_periodic());
   const Memory count(sizeof(cl_uint)), list(n * sizeof(cl_uint));
+  const Boundary<Real> boundary(domain, n);
   const DeviceResults results{
-      measure_memory.handle, status_memory.handle, adjacency.handles(), {count.handle, list.handle}};
+      measure_memory.handle, status_memory.handle, adjacency.handles(), {count.handle, list.handle}, {},
+      boundary.handles()};
   diagram.enqueue(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n), results);
   const auto rows = read<Real>(measure_memory, n * (2 + d));
   const auto status = read<cl_uint>(status_memory, n);
   adjacency.check(status);
+  boundary.check(status);
   diagram.repair(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n), results);
   const auto repaired = read<cl_uint>(status_memory, n);
   check_repaired(diagram, options, given, status, repaired, adjacency.check(repaired));
+  boundary.check(repaired);
 
   SeedInput valid;
   double total = 0;
