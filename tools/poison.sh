@@ -34,6 +34,7 @@ for file in $(cd "$work" && find kernels -name '*.cl'); do
       if (!member && !/\\$/ && line ~ "^ +(" types ") [^()=;*]+;$" && line !~ /^ +return/) {
         names = line
         sub(/^ +[A-Za-z_0-9]+ /, "", names)
+        sub(/ FOR_LANES/, "", names)
         gsub(/\[[^\]]*\]|[; ]/, "", names)
         gsub(/,/, ") POISON(", names)
         print line " POISON(" names ")"
