@@ -165,8 +165,9 @@ class POWERCELL_API DeviceDiagram {
   /// The room for walls and boundary walls while rows are made of them, 12 bytes (in a periodic domain 16)
   /// and 2 reals each; at most 2^31. Cells whose walls do not fit are `unfinished`; which these are may
   /// change from call to call. With 0, the default, there is room for 8 walls a seed (cells of dimension 2)
-  /// or 20 (3) in a domain of one region, else for 6 or 16 a pair; where boundary walls are wanted, for two
-  /// for each facet of a region besides. Cells of random seeds have 6 and 15.5 on average.
+  /// or 20 (3) in a domain of one region, else for 6 or 16 a pair; for boundary walls alone 2 or 4, else 4 or
+  /// 8; and where these are wanted, for two for each facet of a region besides. Cells of random seeds have 6
+  /// and 15.5 walls on average.
   void set_wall_capacity(std::uint32_t walls);
 
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the

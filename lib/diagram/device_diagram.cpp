@@ -191,14 +191,16 @@ void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uin
 
 std::uint32_t DeviceDiagram::State::stored_walls(cl_uint faces) const {
   if (wall_capacity > 0) return wall_capacity;
-  // More than pieces have on average; a cell in several pieces has a row besides. Large cells have many
-  // facets.
+  // More than pieces have on average; a cell in several pieces has a row besides.
   const bool volume = domain.cell_dimension() == 3, whole = domain_buffers.mesh().region_count() == 1;
-  const std::uint64_t each = volume ? (whole ? 20 : 16) : (whole ? 8 : 6);
-  const std::uint64_t facets_there =
-      (faces & FACES_BOUNDARY) != 0 ? 2 * domain_buffers.mesh().facet.size() : 0;
+  const std::uint64_t walls = volume ? (whole ? 20 : 16) : (whole ? 8 : 6);
+  // A facet has a part for each piece that meets it: k pieces of a polygon of f edges have f + 2 k, those of
+  // a tetrahedron 4 k.
+  const std::uint64_t parts = (volume ? 4 : 2) * (whole ? 1 : 2);
+  const std::uint64_t each = (faces & FACES_WALLS) != 0 ? walls : parts;
+  const std::uint64_t edges = (faces & FACES_BOUNDARY) != 0 ? 2 * domain_buffers.mesh().facet.size() : 0;
   return static_cast<std::uint32_t>(
-      std::clamp<std::uint64_t>(each * pairs_.capacity + facets_there, 4096, DeviceWalls::most_entries));
+      std::clamp<std::uint64_t>(each * pairs_.capacity + edges, 4096, DeviceWalls::most_entries));
 }
 
 void DeviceDiagram::State::clip(std::uint32_t n) {

@@ -330,7 +330,30 @@ TEST_CASE("boundary walls of few seeds in regions of many facets have room") {
     }
   DeviceDiagram diagram(caller.device(), Domain::polygon(discs));
   const SeedArray seeds{2, {3.1, 4.2, 9.3, 8.4, 2.2, 10.1}, {0, 0, 0}};
-  const FoundBoundary found = find_boundary(caller, diagram, seeds.view());
-  CHECK(found.output.count(DeviceSeedStatus::ok) == 3);
-  CHECK(found.walls.facet.size() >= side * side * corners);
+  for (const bool walls : {false, true}) {
+    const FoundBoundary found = find_boundary(caller, diagram, seeds.view(), false, walls);
+    CHECK(found.output.count(DeviceSeedStatus::ok) == 3);
+    CHECK(found.walls.facet.size() >= side * side * corners);
+  }
+}
+
+TEST_CASE("boundary walls have room where each cell has parts of two facets or more") {
+  Caller& caller = shared_caller();
+  Random random(1);
+  constexpr std::size_t n = 3000;
+  SeedArray strips{2, {}, {}}, columns{3, {}, {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    strips.push({(static_cast<double>(i) + 0.5) / n, 0.5}, 0);
+    columns.push({random.uniform(0, 1), random.uniform(0, 1), 0.5}, 0);
+  }
+  for (const SeedArray* seeds : {&strips, &columns})
+    for (const bool walls : {false, true}) {
+      CAPTURE(seeds->dimension);
+      CAPTURE(walls);
+      DeviceDiagram diagram(caller.device(), unit_box(seeds->dimension));
+      const SeedArray there = rounded_seeds(*seeds, diagram.precision());
+      const FoundBoundary found = find_boundary(caller, diagram, there.view(), false, walls);
+      CHECK(found.output.count(DeviceSeedStatus::ok) == n);
+      CHECK(found.walls.facet.size() >= 2 * n + 2);
+    }
 }
