@@ -259,7 +259,7 @@ class DeviceDiagram:
         self, adjacency: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
     ) -> Optional[DeviceAdjacency]:
         """The memory of the adjacency, if it is wanted."""
-        there = _rows_there("adjacency", adjacency, n, positions, out)
+        there: Optional[DeviceAdjacency] = _rows_there("adjacency", adjacency, n, positions, out)
         if adjacency is False or there is not None:
             return there
         each = 20 if self.domain.cell_dimension == 3 else 8
@@ -275,7 +275,7 @@ class DeviceDiagram:
         self, wanted: Union[bool, int], n: int, positions: Any, out: Optional[DeviceMeasures]
     ) -> Optional[DeviceBoundaryWalls]:
         """The memory of the boundary walls, if they are wanted."""
-        there = _rows_there("boundary_walls", wanted, n, positions, out)
+        there: Optional[DeviceBoundaryWalls] = _rows_there("boundary_walls", wanted, n, positions, out)
         if wanted is False or there is not None:
             return there
         room = 3 * (n + int(self.domain.regions.boundary_count)) if wanted is True else wanted
