@@ -72,17 +72,17 @@ struct OutOfCoreReport {
 };
 
 /// Computes the cells of all seeds in the domain and gives them to `take`, ascending, some at a time; those
-/// of no seeds are not given. Neighbours and statuses are those of one Diagram of all seeds, measures and
-/// walls differ from its by rounding. While `take` is called for the last time all of the folder is there
-/// yet: what it throws, or what ends the process, loses no piece. The same call gives the same bits again,
-/// however often it was stopped.
+/// of no seeds are not given. `take` may keep what it gets. Neighbours and statuses are those of one Diagram
+/// of all seeds, measures and walls differ from its by rounding. While `take` is called for the last time all
+/// of the folder is there yet: what it throws, or what ends the process, loses no piece. The same call gives
+/// the same bits again, however often it was stopped.
 /// \throw Error invalid_argument (the source; memory that is too little, with the least that is enough; a
 ///        folder of another computation, with what differs), invalid_seed (the first one, by its index),
 ///        write_failed (the folder: disk full and the like), unsupported (surfaces, solids;
 ///        single precision; fast decisions; Options::certify), interrupted, and as Diagram
 POWERCELL_API OutOfCoreReport compute_out_of_core(const Device& device, const Domain& domain,
                                                   const SeedSource& source,
-                                                  const std::function<void(const CellRows&)>& take,
+                                                  const std::function<void(CellRows)>& take,
                                                   const OutOfCoreOptions& options);
 
 }  // namespace powercell

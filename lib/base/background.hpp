@@ -32,7 +32,7 @@ class BackgroundTask {
 };
 
 /// Calls `use(make(k))` for k = 0 .. count-1, in this order, and makes the next item while one is used.
-/// Rethrows the first exception.
+/// `use` may keep its item. Rethrows the first exception.
 template <class Make, class Use>
 void make_ahead(std::size_t count, const Make& make, const Use& use) {
   if (count == 0) return;
@@ -40,7 +40,7 @@ void make_ahead(std::size_t count, const Make& make, const Use& use) {
   for (std::size_t k = 0; k < count; ++k) {
     auto item = next.get();
     if (k + 1 < count) next = std::async([&make, k] { return make(k + 1); });
-    use(item);
+    use(std::move(item));
   }
 }
 

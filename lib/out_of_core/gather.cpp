@@ -104,7 +104,7 @@ class Gatherer {
 }  // namespace
 
 void gather(const std::vector<PieceFile>& pieces, std::uint64_t seeds, int dimension, double domain_measure,
-            std::size_t rows, const std::function<void(const CellRows&)>& take, Traffic& traffic,
+            std::size_t rows, const std::function<void(CellRows)>& take, Traffic& traffic,
             OutOfCoreReport& report) {
   Gatherer gatherer(pieces, dimension, domain_measure);
   CompensatedSum<double> sum;
@@ -112,13 +112,13 @@ void gather(const std::vector<PieceFile>& pieces, std::uint64_t seeds, int dimen
     const std::uint64_t first = std::uint64_t{k} * rows;
     return gatherer.rows(first, std::min<std::uint64_t>(rows, seeds - first));
   };
-  const auto use = [&](const CellRows& cells) {
+  const auto use = [&](CellRows&& cells) {
     for (const double mass : cells.measures.mass) sum.add(mass);
     report.cells += cells.measures.count(SeedStatus::ok);
     report.hidden += cells.measures.count(SeedStatus::hidden);
     report.duplicate += cells.measures.count(SeedStatus::duplicate);
     traffic.progress(static_cast<double>(cells.first) / static_cast<double>(seeds));
-    take(cells);
+    take(std::move(cells));
   };
   make_ahead((seeds + rows - 1) / rows, make, use);
   for (const PieceFile& piece : pieces) traffic.read += piece.bytes();

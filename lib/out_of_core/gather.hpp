@@ -16,7 +16,7 @@ namespace powercell::out_of_core {
 /// duplicates. Enters numbers and sums of cells in the report.
 /// \param seeds  of all pieces and the duplicates together
 void gather(const std::vector<PieceFile>& pieces, std::uint64_t seeds, int dimension, double domain_measure,
-            std::size_t rows, const std::function<void(const CellRows&)>& take, Traffic& traffic,
+            std::size_t rows, const std::function<void(CellRows)>& take, Traffic& traffic,
             OutOfCoreReport& report);
 
 }  // namespace powercell::out_of_core

@@ -88,7 +88,7 @@ class Computation {
     };
   }
 
-  OutOfCoreReport run(const std::function<void(const CellRows&)>& take) {
+  OutOfCoreReport run(const std::function<void(CellRows)>& take) {
     LockedFolder folder(options_.folder);
     require_same(folder);
     lap();
@@ -222,7 +222,7 @@ class Computation {
 }  // namespace out_of_core
 
 OutOfCoreReport compute_out_of_core(const Device& device, const Domain& domain, const SeedSource& source,
-                                    const std::function<void(const CellRows&)>& take,
+                                    const std::function<void(CellRows)>& take,
                                     const OutOfCoreOptions& options) {
   out_of_core::require_valid(source, domain, options);
   exchange::require_supported(domain, options.diagram, "seeds out of core");
