@@ -17,6 +17,7 @@ from ._core import (  # noqa: E402
     ExchangeReport,
     LawCheck,
     MeshReport,
+    OutOfCoreReport,
     Overlap,
     PartsApart,
     RegionsView,
@@ -25,6 +26,7 @@ from ._core import (  # noqa: E402
     Spectrum,
 )
 from ._core import version as _version  # noqa: E402
+from ._cell_rows import CellRows, DistributedCells  # noqa: E402
 from ._density import integrate  # noqa: E402
 from ._device import (  # noqa: E402
     Device,
@@ -45,11 +47,12 @@ from ._device_results import (  # noqa: E402
     DeviceUncertain,
 )
 from ._diagram import Diagram, regular_triangulation  # noqa: E402
-from ._distributed import DistributedCells, compute_distributed  # noqa: E402
+from ._distributed import compute_distributed  # noqa: E402
 from ._domain import Domain, read_domain  # noqa: E402
 from ._errors import Error  # noqa: E402
 from ._log import set_log  # noqa: E402
 from ._meshes import ball, farthest_from, mesh_quality, remesh, repair, sphere, torus  # noqa: E402
+from ._out_of_core import compute_out_of_core  # noqa: E402
 from ._outside import SeedsOutsideWarning  # noqa: E402
 from ._point_sets import random_points, spacing, spectrum  # noqa: E402
 from ._queue import DeviceDiagram  # noqa: E402
@@ -65,6 +68,7 @@ __version__: str = _version()
 __all__ = [
     "Adjacency",
     "BoundaryWalls",
+    "CellRows",
     "DensityIntegrals",
     "Device",
     "DeviceAdjacency",
@@ -84,6 +88,7 @@ __all__ = [
     "KernelBuilds",
     "LawCheck",
     "MeshReport",
+    "OutOfCoreReport",
     "Overlap",
     "PartsApart",
     "RegionsView",
@@ -98,6 +103,7 @@ __all__ = [
     "Treemap",
     "ball",
     "compute_distributed",
+    "compute_out_of_core",
     "devices",
     "farthest_from",
     "integrate",

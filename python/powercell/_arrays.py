@@ -35,10 +35,10 @@ def _plain(value: Any, name: str) -> NDArray[Any]:
     return array
 
 
-def _check_shape(array: NDArray[Any], name: str, shape: Sequence[Optional[int]], why: str) -> None:
-    fits = array.ndim == len(shape) and all(w is None or w == s for s, w in zip(array.shape, shape))
+def check_shape(found: tuple[int, ...], name: str, shape: Sequence[Optional[int]], why: str = "") -> None:
+    fits = len(found) == len(shape) and all(w is None or w == s for s, w in zip(found, shape))
     if not fits:
-        raise ValueError(f"{name} has the shape {array.shape}; {_text(shape)} is expected{why}")
+        raise ValueError(f"{name} has the shape {found}; {_text(shape)} is expected{why}")
 
 
 def reals(value: ArrayLike, name: str, shape: Sequence[Optional[int]], why: str = "") -> Reals:
@@ -46,7 +46,7 @@ def reals(value: ArrayLike, name: str, shape: Sequence[Optional[int]], why: str 
     array = _plain(value, name)
     if array.size == 0 and len(shape) == 2 and array.ndim < 2:
         array = array.reshape((0, shape[1] or 0))
-    _check_shape(array, name, shape, why)
+    check_shape(array.shape, name, shape, why)
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -63,7 +63,7 @@ def integers(value: ArrayLike, name: str, shape: Sequence[Optional[int]], dtype:
         array = array.astype(dtype)
     if array.dtype.kind not in "iu":
         raise ValueError(f"{name} has the type {array.dtype}; integers are expected")
-    _check_shape(array, name, shape, why)
+    check_shape(array.shape, name, shape, why)
     least, most = int(np.iinfo(dtype).min), int(np.iinfo(dtype).max)
     if array.size and (int(array.min()) < least or int(array.max()) > most):
         row = next(k for k, values in enumerate(array) if int(values.min()) < least or int(values.max()) > most)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import Reals, integers, optional_reals, reals
-from ._core import ExchangeReport
+from ._cell_rows import DistributedCells
 from ._device import DeviceLike, open_device
 from ._domain import Domain
 from ._errors import Error
@@ -17,86 +17,6 @@ from ._options import diagram_options
 from ._progress import Progress, fraction_bar, progress_function
 
 _MOST_BYTES = 2**28  # in one call of the communicator; MPI counts in 32 bits
-
-
-class DistributedCells:
-    """The cells of the n seeds of one rank, in the order in which it gave them. Arrays are read-only views.
-
-    Attributes
-    ----------
-    mass, second_moment : (n,) float64
-        Area (volume) of the cell, and the integral of the squared distance from its seed over it.
-    centroid : (n, d) float64
-        NaN of empty cells.
-    status : (n,) uint8
-        See :class:`Status`; of duplicates that are as heavy the one of the lowest id on all ranks has the cell.
-    domain_measure : float
-        Of the whole domain.
-    indptr : (n + 1,) uint64
-        Row i of the walls with other cells is ``indptr[i]`` to ``indptr[i + 1]``.
-    indices : (m,) uint64
-        Ids of the neighbours, which may be on any rank, ascending in each row.
-    data : (m,) float64
-        Length or area of the wall, as seen from the cell of the row.
-    shift : (m, 3) int32 or None
-        In a periodic domain, else None: the image of the neighbour, as in :class:`Adjacency`.
-    report : ExchangeReport
-        What ranks sent to each other.
-    """
-
-    def __init__(self, core: Any, periodic: bool) -> None:
-        self._core, self._periodic = core, periodic
-
-    @property
-    def mass(self) -> Reals:
-        return self._core.measures.mass  # type: ignore[no-any-return]
-
-    @property
-    def centroid(self) -> Reals:
-        return self._core.measures.centroid  # type: ignore[no-any-return]
-
-    @property
-    def second_moment(self) -> Reals:
-        return self._core.measures.second_moment  # type: ignore[no-any-return]
-
-    @property
-    def status(self) -> NDArray[np.uint8]:
-        return self._core.measures.status  # type: ignore[no-any-return]
-
-    @property
-    def domain_measure(self) -> float:
-        return float(self._core.measures.domain_measure)
-
-    @property
-    def indptr(self) -> NDArray[np.uint64]:
-        return self._core.indptr  # type: ignore[no-any-return]
-
-    @property
-    def indices(self) -> NDArray[np.uint64]:
-        return self._core.indices  # type: ignore[no-any-return]
-
-    @property
-    def data(self) -> Reals:
-        return self._core.data  # type: ignore[no-any-return]
-
-    @property
-    def shift(self) -> Optional[NDArray[np.int32]]:
-        if self._core.shift is None and self._periodic:
-            return np.empty((0, 3), np.int32)  # of a rank without walls
-        return self._core.shift  # type: ignore[no-any-return]
-
-    @property
-    def report(self) -> ExchangeReport:
-        return self._core.report  # type: ignore[no-any-return]
-
-    def neighbors(self, seed: int) -> NDArray[np.uint64]:
-        """The ids of the neighbours of one seed of this rank, by its place."""
-        if not 0 <= seed < len(self.indptr) - 1:
-            raise IndexError(f"seed is {seed}; 0 to {len(self.indptr) - 2} are expected")
-        return self.indices[self.indptr[seed] : self.indptr[seed + 1]]
-
-    def __repr__(self) -> str:
-        return f"<powercell.DistributedCells of {len(self.indptr) - 1} seeds, {len(self.indices)} sides of walls>"
 
 
 def _exchange_by(comm: Any) -> Callable[[list[bytes]], list[bytes]]:

@@ -168,6 +168,7 @@ void bind_checks(nb::module_& m);
 void bind_log(nb::module_& m);
 void bind_diagrams(nb::module_& m);
 void bind_distributed(nb::module_& m);
+void bind_out_of_core(nb::module_& m);
 void bind_transport(nb::module_& m);
 void bind_sampling(nb::module_& m);
 void bind_remeshing(nb::module_& m);

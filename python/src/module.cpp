@@ -37,6 +37,7 @@ NB_MODULE(_core, m) {
   bind_log(m);
   bind_diagrams(m);
   bind_distributed(m);
+  bind_out_of_core(m);
   bind_transport(m);
   bind_sampling(m);
   bind_remeshing(m);

@@ -222,8 +222,8 @@ def resident():
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="memory is read from /proc")
-@pytest.mark.parametrize("what, rounds", [("diagrams", 10_000), ("seeds", 4000), ("errors", 2000), ("solvers", 1000)])
-def test_nothing_leaks(rng, square, what, rounds):
+@pytest.mark.parametrize("what, rounds", [("diagrams", 10_000), ("seeds", 4000), ("errors", 2000), ("solvers", 1000), ("out of core", 400)])
+def test_nothing_leaks(rng, square, what, rounds, tmp_path):
     p = rng.random((20, 2))
     kept = pc.Diagram(square, p, progress=lambda fraction: None)
 
@@ -247,7 +247,16 @@ def test_nothing_leaks(rng, square, what, rounds):
         pc.TransportSolver(square, p, density=lambda x, y: 1.0)
         assert pc.transport(square, p, tolerance=1e-2, progress=lambda step: None).converged
 
-    once = {"diagrams": diagrams, "seeds": seeds, "errors": errors, "solvers": solvers}[what]
+    def out_of_core():
+        given = {"folder": tmp_path / "parts", "name": "seeds", "walls": True, "piece_seeds": 10}
+        rows = []
+        pc.compute_out_of_core(square, p, np.zeros(20), take=rows.append, **given)
+        assert len(rows[-1].mass) == len(rows[-1].indptr) - 1
+        with pytest.raises(ZeroDivisionError):
+            pc.compute_out_of_core(square, p, take=lambda rows: 1 / 0, **given)
+        pc.compute_out_of_core(square, p, take=lambda rows: None, **given)  # removes the folder
+
+    once = {"diagrams": diagrams, "seeds": seeds, "errors": errors, "solvers": solvers, "out of core": out_of_core}[what]
     for _ in range(rounds // 4):
         once()
     before = resident()
