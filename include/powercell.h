@@ -38,6 +38,7 @@
 #include <powercell/c/diagram.h>
 #include <powercell/c/domain.h>
 #include <powercell/c/options.h>
+#include <powercell/c/out_of_core.h>
 #include <powercell/c/point_sets.h>
 #include <powercell/c/remeshing.h>
 #include <powercell/c/results.h>

@@ -30,6 +30,7 @@ TEST_CASE("every function that destroys accepts NULL") {
   pc_joined_destroy(nullptr);
   pc_law_checks_destroy(nullptr);
   pc_mesh_quality_destroy(nullptr);
+  pc_out_of_core_report_destroy(nullptr);
   pc_remesh_result_destroy(nullptr);
   pc_repaired_mesh_destroy(nullptr);
   pc_results_destroy(nullptr);

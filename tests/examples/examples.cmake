@@ -18,6 +18,7 @@ find_package(OpenCL REQUIRED)  # c_own_queue has a context of its own
 c_example(host_c powercell_core "cell 4: volume 0\\.\\d+, walls" "sum of volumes (1\\.0|0\\.99999)")
 c_example(c_cells powercell_core
   "cell 0: area \\d\\.\\d+, 1 rings" "cell 2: area \\d" "total 12\\.0000" "border 24\\.000")
+c_example(c_out_of_core powercell_core "\\d+ cells in [3-9] pieces, 20000 volumes" "sum of volumes (1\\.0|0\\.99999)")
 c_example(c_periodic powercell_core "area 0\\.86602" "(wall 0\\.5773\\d+ with seed 0 .*\\n){6}" "6 walls, 3\\.464")
 c_example(c_own_queue "powercell_core;OpenCL::OpenCL" "1000 cells on .* volume (1\\.0000|0\\.9999)")
 c_example(c_transport powercell "step 0, start" "cell 0: weight [-+]0\\.\\d+, mass 0\\.3333" "mass 0\\.6666" "mass 1\\.0000"

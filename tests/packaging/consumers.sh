@@ -50,7 +50,7 @@ by_pkg_config() {
 for kind in "$@"; do
   step "by CMake ($kind)"
   shared=ON
-  programs="host_cpp host_c own_queue heat_on_device c_cells c_periodic c_own_queue c_transport c_sampling c_remeshing c_treemap"
+  programs="host_cpp host_c own_queue heat_on_device c_cells c_out_of_core c_periodic c_own_queue c_transport c_sampling c_remeshing c_treemap"
   if [ "$kind" = static ]; then # the code is the same, so some suffice
     shared=OFF
     programs="host_cpp c_cells c_transport"
@@ -65,7 +65,7 @@ for kind in "$@"; do
     part=applications
     launcher=
     case $program in *_mpi) launcher="mpirun -n 2" ;; esac
-    case $program in host_* | *_mpi | own_queue | heat_on_device | c_cells | c_periodic | c_own_queue) part=core ;; esac
+    case $program in host_* | *_mpi | own_queue | heat_on_device | c_cells | c_out_of_core | c_periodic | c_own_queue) part=core ;; esac
     check_links "$work/$kind/$program" "$kind" $part
     step "$program ($kind)"
     $launcher "$work/$kind/$program"
