@@ -192,7 +192,7 @@ TEST_CASE("the geometry of two cells of a box in device memory") {
     }
   CHECK(walls == 2);
   read(loop, sizeof loops, loops);
-  for (int k = 0; k < 48; ++k) CHECK(loops[k] < 8);
+  for (const cl_uint vertex : loops) CHECK(vertex < 8);
   results.cells.loop = nullptr;
   CHECK(pc_device_diagram_enqueue_results(diagram.handle, seeds, nullptr, 2, &results, 0, nullptr, nullptr) ==
         PC_INVALID_ARGUMENT);
