@@ -178,6 +178,10 @@ class Assembly:
             parts.append(f"## {title}\n")
             for name in members:
                 options = "   :members:\n   :undoc-members:\n" if kind == "autoclass" else ""
+                # What a class has from another one of the package is its own to a reader.
+                own = getattr(getattr(powercell, name), "__mro__", ())[1:]
+                if any(base.__module__.startswith("powercell.") for base in own):
+                    options += "   :inherited-members: object\n"
                 parts.append(f"### {name}\n\n```{{eval-rst}}\n.. {kind}:: powercell.{name}\n{options}```\n")
         self.write("reference/python.md", "\n".join(parts))
 
