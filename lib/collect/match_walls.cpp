@@ -81,7 +81,7 @@ class WallMatcher {
         threads_(seeds.size() < shared_ranks ? 1 : threads),
         ok_(seeds.size()),
         largest_(negligible > 0 ? seeds.size() : 0),
-        rank_(seeds.input_count, no_rank) {
+        rank_(seeds.input_count, WallRows::no_rank) {
     for_ranks([&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
         ok_[i] = status[seeds.input[i]] == SeedStatus::ok;
@@ -176,23 +176,11 @@ class WallMatcher {
     std::copy(measure.begin(), measure.end(), row.measures());
   }
 
-  /// Prefetches the rows of the next seeds, which are scattered in memory.
-  void fetch_ahead(std::size_t i, std::size_t last) {
-    constexpr std::size_t place_ahead = 24, row_ahead = 12, line = 64 / sizeof(std::uint32_t);
-    if (i + place_ahead < last && rank_[i + place_ahead] != no_rank)
-      rows_.prefetch_place(rank_[i + place_ahead]);
-    if (i + row_ahead >= last || rank_[i + row_ahead] == no_rank) return;
-    const WallRow row = rows_.row(rank_[i + row_ahead]);
-    const std::size_t words = WallRow::words_for(out_.offset[i + row_ahead + 1] - out_.offset[i + row_ahead]);
-    for (std::size_t word = 0; word < words; word += line) prefetch(row.words + word);
-    prefetch(row.words + words - 1);
-  }
-
   /// Writes the rows of the input indices [first, last) to the result.
   void write(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      fetch_ahead(i, last);
-      if (rank_[i] == no_rank) continue;
+      rows_.fetch_ahead(rank_, out_.offset, i, last);
+      if (rank_[i] == WallRows::no_rank) continue;
       const WallRow row = rows_.row(rank_[i]);
       std::uint32_t* const neighbor = out_.neighbor.data() + out_.offset[i];
       double* const wall = out_.wall.data() + out_.offset[i];
@@ -219,9 +207,8 @@ class WallMatcher {
   const SeedSet& seeds_;
   double unit_, negligible_;
   int threads_;
-  std::vector<std::uint8_t> ok_;  // by rank
-  std::vector<double> largest_;   // by rank: the largest wall; empty unless negligible_ > 0
-  static constexpr std::uint32_t no_rank = ~std::uint32_t{0};
+  std::vector<std::uint8_t> ok_;     // by rank
+  std::vector<double> largest_;      // by rank: the largest wall; empty unless negligible_ > 0
   std::vector<std::uint32_t> rank_;  // by input index; no_rank if the cell is empty
   std::mutex mutex_;                 // guards the next two
   Difference worst_;

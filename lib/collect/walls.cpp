@@ -9,7 +9,6 @@ namespace powercell {
 namespace {
 
 constexpr std::size_t shared_pairs = 2048;  // with fewer pairs, threads cost more than they save
-constexpr std::uint32_t no_rank = ~std::uint32_t{0};
 
 bool has_walls(const PieceSet& pieces, std::size_t pair) {
   return pieces.status[pair] == PIECE_DONE || pieces.status[pair] == PIECE_FLAT;
@@ -31,6 +30,18 @@ WallRows::WallRows(std::size_t ranks, std::size_t parts, Memory memory)
   *memory_.front().data() = 0;
 }
 
+void WallRows::fetch_ahead(std::span<const std::uint32_t> rank, std::span<const std::uint64_t> offset,
+                           std::size_t i, std::size_t last) {
+  constexpr std::size_t place_ahead = 24, row_ahead = 12, line = 64 / sizeof(std::uint32_t);
+  if (i + place_ahead < last && rank[i + place_ahead] != no_rank) prefetch(&place_[rank[i + place_ahead]]);
+  const std::size_t next = i + row_ahead;
+  if (next >= last || rank[next] == no_rank) return;
+  const WallRow ahead = row(rank[next]);
+  const std::size_t words = WallRow::words_for(offset[next + 1] - offset[next]);
+  for (std::size_t word = 0; word < words; word += line) prefetch(ahead.words + word);
+  prefetch(ahead.words + words - 1);
+}
+
 WallRow WallRows::add(std::size_t part, std::uint32_t rank, std::size_t count) {
   GrowingArray<std::uint32_t>& words = memory_[part];
   const std::size_t first = words.size();
@@ -46,7 +57,7 @@ WallRow WallRows::add(std::size_t part, std::uint32_t rank, std::size_t count) {
 WallCollector::WallCollector(std::size_t ranks, int threads, WallRows::Memory memory)
     : rows_(ranks, static_cast<std::size_t>(std::max(threads, 1)), std::move(memory)),
       threads_(threads),
-      open_rank_(no_rank) {}
+      open_rank_(WallRows::no_rank) {}
 
 void WallCollector::reopen(std::uint32_t rank) {
   open_neighbor_.clear();
@@ -54,7 +65,7 @@ void WallCollector::reopen(std::uint32_t rank) {
   const WallRow row = rows_.row(rank);
   open_neighbor_.assign(row.neighbors(), row.neighbors() + row.count());
   open_measure_.assign(row.measures(), row.measures() + row.count());
-  open_rank_ = open_neighbor_.empty() ? no_rank : rank;
+  open_rank_ = open_neighbor_.empty() ? WallRows::no_rank : rank;
 }
 
 void WallCollector::divide(std::span<const std::uint32_t> pair_seed) {
