@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "lib/base/copy_point.hpp"
 #include "lib/base/text.hpp"
 #include "lib/base/threads.hpp"
 
@@ -52,7 +53,7 @@ SeedRows with_room(std::size_t d, std::size_t count) {
 /// \param weights  null for zeros
 void copy_row(std::size_t d, const double* positions, const double* weights, std::size_t from, SeedRows& rows,
               std::size_t to) {
-  std::copy_n(positions + from * d, d, rows.positions.data() + to * d);
+  copy_point(positions + from * d, d, rows.positions.data() + to * d);
   rows.weights[to] = weights ? weights[from] : 0.0;
 }
 
@@ -139,7 +140,7 @@ Input with_places(const Setup& setup, const Input& input, const SeedsView& view)
   parallel_for(threads_for(view.size(), setup.threads), view.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {
       const std::size_t i = next.seeds.input[rank];
-      std::copy_n(&view.positions[i * d], d, &next.seeds.positions[rank * d]);
+      copy_point(&view.positions[i * d], d, &next.seeds.positions[rank * d]);
       next.seeds.weights[rank] = weights ? weights[i] : 0;
     }
   });

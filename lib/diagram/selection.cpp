@@ -4,6 +4,7 @@
 #include <powercell/error.hpp>
 #include <string>
 
+#include "lib/base/copy_point.hpp"
 #include "lib/base/memory.hpp"
 #include "lib/base/threads.hpp"
 
@@ -66,7 +67,7 @@ SelectedRows make_rows(const Selection& selection, const SeedSet& seeds, std::ui
   parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       rows.seeds.weights[row] = seeds.weights[rows.rank[row]];
-      std::copy_n(&seeds.positions[rows.rank[row] * d], d, &rows.seeds.positions[row * d]);
+      copy_point(&seeds.positions[rows.rank[row] * d], d, &rows.seeds.positions[row * d]);
     }
   });
   for (const std::uint32_t i : seeds.duplicate)

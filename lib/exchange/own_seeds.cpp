@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "lib/base/copy_point.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/exchange/answers.hpp"
 #include "lib/exchange/outline.hpp"
@@ -51,15 +52,15 @@ OwnSeeds::OwnSeeds(std::span<const std::uint64_t> ids, const SeedsView& seeds, i
       const std::size_t k = given(i);
       id_[i] = ids[k];
       weights[i] = seeds.weights.empty() ? 0 : seeds.weights[k];
-      std::copy_n(&seeds.positions[k * d], d, &positions[i * d]);
-      std::copy_n(&seeds.positions[k * d], d, &rows_[i * width_]);
+      copy_point(&seeds.positions[k * d], d, &positions[i * d]);
+      copy_point(&seeds.positions[k * d], d, &rows_[i * width_]);
       rows_[i * width_ + d] = weights[i];
     }
   });
   if (period != nullptr) {
     wrap_all(*period, positions, threads_, positions);
     wrapped_rows_ = rows_;
-    for (std::size_t i = 0; i < size(); ++i) std::copy_n(&positions[i * d], d, &wrapped_rows_[i * width_]);
+    for (std::size_t i = 0; i < size(); ++i) copy_point(&positions[i * d], d, &wrapped_rows_[i * width_]);
   }
   const auto twice = std::adjacent_find(id_.begin(), id_.end());
   if (twice != id_.end())

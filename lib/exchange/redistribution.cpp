@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lib/base/copy_point.hpp"
 #include "lib/seeds/hilbert.hpp"
 
 namespace powercell::exchange {
@@ -126,7 +127,7 @@ class Gather {
     for (std::size_t k = 0; k < given.size(); ++k) {
       const std::size_t i = given[k];
       cells_.measures.mass[i] = rows.mass[k];
-      std::copy_n(&rows.centroid[k * d], d, &cells_.measures.centroid[i * d]);
+      copy_point(&rows.centroid[k * d], d, &cells_.measures.centroid[i * d]);
       cells_.measures.second_moment[i] = rows.second_moment[k];
       cells_.measures.status[i] = rows.status[k];
       cells_.offset[i + 1] = rows.count[k];

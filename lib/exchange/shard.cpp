@@ -7,6 +7,7 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "lib/base/copy_point.hpp"
 #include "lib/base/memory.hpp"
 
 namespace powercell::exchange {
@@ -82,7 +83,7 @@ std::map<int, Request> Shard::clip(Diagram::State& diagram) {
   share(handles.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const double* const row = row_of(handles[k]);
-      std::copy_n(row, d, &positions[k * d]);
+      copy_point(row, d, &positions[k * d]);
       weights[k] = row[d];
     }
   });
@@ -131,7 +132,7 @@ void Shard::compute(Diagram::State& diagram, std::span<const Handle> handle, Wan
     for (std::size_t k = begin; k < end; ++k) {
       const Handle cell = open_[k];
       measures_.mass[cell] = from.mass[k];
-      std::copy_n(&from.centroid[k * d], d, &measures_.centroid[cell * d]);
+      copy_point(&from.centroid[k * d], d, &measures_.centroid[cell * d]);
       measures_.second_moment[cell] = from.second_moment[k];
       measures_.status[cell] = from.status[k];
       if (from.status[k] != SeedStatus::ok) own_.set_hidden(cell);
@@ -377,7 +378,7 @@ Measures Shard::take_measures() {
       measures.mass[at] = measures_.mass[i];
       measures.second_moment[at] = measures_.second_moment[i];
       measures.status[at] = measures_.status[i];
-      std::copy_n(&measures_.centroid[i * d], d, &measures.centroid[at * d]);
+      copy_point(&measures_.centroid[i * d], d, &measures.centroid[at * d]);
     }
   });
   return measures;

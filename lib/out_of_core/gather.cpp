@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/base/background.hpp"
+#include "lib/base/copy_point.hpp"
 #include "lib/base/sums.hpp"
 
 namespace powercell::out_of_core {
@@ -72,7 +73,7 @@ class Gatherer {
     for (; at.cell < piece.size() && piece.id[at.cell] < end; ++at.cell) {
       const std::size_t row = piece.id[at.cell] - rows.first;
       to.mass[row] = piece.mass[at.cell];
-      std::copy_n(&piece.centroid[at.cell * d_], d_, &to.centroid[row * d_]);
+      copy_point(&piece.centroid[at.cell * d_], d_, &to.centroid[row * d_]);
       to.second_moment[row] = piece.second_moment[at.cell];
       to.status[row] = piece.status[at.cell];
       rows.offset[row + 1] = piece.walls[at.cell];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/base/background.hpp"
+#include "lib/base/copy_point.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/diagram/input.hpp"
 #include "lib/out_of_core/store.hpp"
@@ -87,7 +88,7 @@ class Sorter {
         const std::size_t at = (first + k) * row_bytes();
         block.id[k] = file.numbers<std::uint64_t>(at, 1)[0];
         const std::span<const double> row = file.numbers<double>(at + sizeof(double), d_ + 1);
-        std::copy_n(row.begin(), d_, &block.positions[k * d_]);
+        copy_point(row.data(), d_, &block.positions[k * d_]);
         block.weights[k] = row[d_];
       }
       file.drop();
@@ -243,7 +244,7 @@ class Sorter {
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t rank = begin; rank < end; ++rank) {
                      piece.id[rank] = all.id[set.input[rank]];
-                     std::copy_n(&all.positions[set.input[rank] * d_], d_, &piece.positions[rank * d_]);
+                     copy_point(&all.positions[set.input[rank] * d_], d_, &piece.positions[rank * d_]);
                    }
                  });
     if (period_ != nullptr) piece.wrapped = std::move(set.positions);

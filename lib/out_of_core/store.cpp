@@ -4,6 +4,7 @@
 #include <powercell/error.hpp>
 #include <utility>
 
+#include "lib/base/copy_point.hpp"
 #include "lib/base/radix_sort.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/exchange/tree_of_boxes.hpp"
@@ -106,7 +107,7 @@ SeedBlock Store::by_id(std::size_t piece, int threads) const {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t from = order[k].index;
       block.id[k] = order[k].key;
-      std::copy_n(positions + from * d, d, &block.positions[k * d]);
+      copy_point(positions + from * d, d, &block.positions[k * d]);
       block.weights[k] = weights[from];
     }
   });

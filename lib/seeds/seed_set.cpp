@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernels/layout.h"
+#include "lib/base/copy_point.hpp"
 #include "lib/base/memory.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/seeds/hilbert.hpp"
@@ -37,7 +38,7 @@ void gather(const SeedsView& seeds, int threads, SeedSet& set) {
   parallel_for(threads_for(set.size(), threads), set.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t rank = begin; rank < end; ++rank) {
       const std::size_t i = set.input[rank];
-      std::copy_n(&seeds.positions[i * d], d, &set.positions[rank * d]);
+      copy_point(&seeds.positions[i * d], d, &set.positions[rank * d]);
       set.weights[rank] = seeds.weights.empty() ? 0.0 : seeds.weights[i];
     }
   });
