@@ -47,9 +47,11 @@ std::vector<Twice> lowest_twice(const Post::Letters& letters) {
   std::vector<std::uint64_t> of_shard;
   for (const auto& [from, letter] : letters) {
     unpack(letter, of_shard);
+    if (!std::is_sorted(of_shard.begin(), of_shard.end())) std::sort(of_shard.begin(), of_shard.end());
+    const auto before = static_cast<std::ptrdiff_t>(ids.size());
     for (const std::uint64_t id : of_shard) ids.emplace_back(id, from);
+    std::inplace_merge(ids.begin(), ids.begin() + before, ids.end());
   }
-  std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end(),
                                         [](const auto& a, const auto& b) { return a.first == b.first; });
   if (twice == ids.end()) return {};
