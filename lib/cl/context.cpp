@@ -63,6 +63,7 @@ Context::Context(cl_command_queue queue) {
     throw Error(ErrorCode::invalid_argument,
                 "the caller's command queue is out of order; create it without "
                 "CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE");
+  profiles_ = (properties & CL_QUEUE_PROFILING_ENABLE) != 0;
   device_ = queue_value<cl_device_id>(queue, CL_QUEUE_DEVICE);
   cl_platform_id platform = nullptr;
   check(clGetDeviceInfo(device_, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr),
@@ -102,6 +103,23 @@ bool Context::compiles_at_launch(const Program& program, const std::string& kern
   if (!quirks_of(info_).compiles_at_launch) return false;
   std::lock_guard lock(record_mutex_);
   return launched_.emplace(program.handle(), kernel, local).second;
+}
+
+LaunchSize& Context::launch_size(const Program& program, const std::string& kernel) {
+  // Enough for each unit to have several groups to wait for memory in turns with, and few for the slowest.
+  const std::size_t first = std::size_t{info_.compute_units} << 9;
+  return launch_sizes_.try_emplace({program.handle(), kernel}, first).first->second;
+}
+
+std::size_t Context::items_at_a_time(const Program& program, const std::string& kernel) {
+  const std::lock_guard lock(record_mutex_);
+  return launch_size(program, kernel).items();
+}
+
+void Context::launch_took(const Program& program, const std::string& kernel, std::size_t items,
+                          double seconds) {
+  const std::lock_guard lock(record_mutex_);
+  launch_size(program, kernel).took(items, seconds);
 }
 
 void Context::finish() {

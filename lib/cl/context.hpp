@@ -7,6 +7,7 @@
 #endif
 #include <CL/cl.h>
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <powercell/device_settings.hpp>
@@ -16,7 +17,10 @@
 #include <thread>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
+
+#include "lib/cl/launch_size.hpp"
 
 namespace powercell::cl {
 
@@ -55,6 +59,7 @@ class Context {
   cl_context context() const { return context_; }
   cl_command_queue queue() const { return queue_; }
   bool has_callers_queue() const { return callers_queue_; }
+  bool profiles() const { return profiles_; }  ///< the queue
   cl_device_id device() const { return device_; }
   const DeviceInfo& info() const { return info_; }
   const DeviceSettings& settings() const { return settings_; }
@@ -65,6 +70,9 @@ class Context {
   /// Whether the driver compiles this kernel for groups of `local` at its next launch: true at the first call
   /// for drivers that compile at the first launch (quirks.hpp), else false.
   bool compiles_at_launch(const Program& program, const std::string& kernel, std::size_t local);
+  /// How many work-items of the kernel to launch at a time, by what earlier launches took.
+  std::size_t items_at_a_time(const Program& program, const std::string& kernel);
+  void launch_took(const Program& program, const std::string& kernel, std::size_t items, double seconds);
 
   /// The program built from the embedded source `kernels/<file>` with -D `defines` (each "NAME=VALUE",
   /// kept in order); from memory, from the disk cache, or compiled. Thread-safe.
@@ -80,20 +88,25 @@ class Context {
   void check_writes();
 
  private:
+  /// Of the kernel. The caller holds record_mutex_.
+  LaunchSize& launch_size(const Program& program, const std::string& kernel);
+
   cl_context context_ = nullptr;
   cl_command_queue queue_ = nullptr;
   bool callers_queue_ = false;
+  bool profiles_ = true;
   cl_device_id device_ = nullptr;
   DeviceInfo info_;
   DeviceSettings settings_;
   double build_seconds_ = 0;
   std::set<std::tuple<cl_program, std::string, std::size_t>> launched_;
+  std::map<std::pair<cl_program, std::string>, LaunchSize> launch_sizes_;
   struct Write {
     std::thread::id thread;
     std::weak_ptr<const Event> event;
   };
   std::vector<Write> writes_;        // noted and not known to be done
-  mutable std::mutex record_mutex_;  // guards build_seconds_, launched_ and writes_
+  mutable std::mutex record_mutex_;  // guards build_seconds_, launched_, launch_sizes_ and writes_
   std::mutex mutex_;  // guards programs_, also during a build, so that each program is built once
   std::unordered_map<std::string, std::shared_ptr<const Program>> programs_;
 };

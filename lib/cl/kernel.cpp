@@ -10,29 +10,22 @@
 namespace powercell::cl {
 namespace {
 
+/// A kernel on its way to the device.
 struct Launch {
   cl_kernel kernel;
-  cl_command_queue queue;
-  cl_device_id device;
-  const DeviceInfo& info;
-  std::size_t group_size;  // wished for
-  std::string what;
-};
+  const Context& context;
+  const std::string& name;
 
-Launch launch_of(cl_kernel kernel, const Context& context, const std::string& name) {
-  return {kernel,
-          context.queue(),
-          context.device(),
-          context.info(),
-          context.settings().group_size,
-          "running the kernel " + name + " on " + context.info().name};
-}
+  cl_command_queue queue() const { return context.queue(); }
+  std::string what() const { return "running the kernel " + name + " on " + context.info().name; }
+};
 
 template <class T>
 T group_value(const Launch& launch, cl_kernel_work_group_info which) {
   T value{};
-  check(clGetKernelWorkGroupInfo(launch.kernel, launch.device, which, sizeof value, &value, nullptr),
-        launch.what + ": asking for its work-group sizes");
+  check(
+      clGetKernelWorkGroupInfo(launch.kernel, launch.context.device(), which, sizeof value, &value, nullptr),
+      launch.what() + ": asking for its work-group sizes");
   return value;
 }
 
@@ -40,28 +33,29 @@ std::size_t choose_group_size(const Launch& launch) {
   struct Sizes {
     std::size_t x, y, z;
   };
+  const DeviceInfo& info = launch.context.info();
   const auto required = group_value<Sizes>(launch, CL_KERNEL_COMPILE_WORK_GROUP_SIZE);
   if (required.x != 0) return required.x;
   const std::size_t limit = std::max<std::size_t>(
-      1,
-      std::min(group_value<std::size_t>(launch, CL_KERNEL_WORK_GROUP_SIZE), launch.info.max_work_group_size));
-  std::size_t wanted = launch.group_size;
+      1, std::min(group_value<std::size_t>(launch, CL_KERNEL_WORK_GROUP_SIZE), info.max_work_group_size));
+  std::size_t wanted = launch.context.settings().group_size;
   // One size for all kernels where each size may be compiled apart; on a GPU whole warps.
-  if (launch.info.type == DeviceInfo::Type::gpu)
+  if (info.type == DeviceInfo::Type::gpu)
     wanted = std::max(wanted, group_value<std::size_t>(launch, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE));
   return std::bit_floor(std::min(limit, wanted));
 }
 
-bool profiles(cl_command_queue queue) {
-  cl_command_queue_properties properties = 0;
-  check(clGetCommandQueueInfo(queue, CL_QUEUE_PROPERTIES, sizeof properties, &properties, nullptr),
-        "asking a queue for its properties");
-  return (properties & CL_QUEUE_PROFILING_ENABLE) != 0;
+void finish_before(const Launch& launch) {
+  check(clFinish(launch.queue()), launch.what() + ": waiting for the commands before it");
 }
 
-void enqueue(const Launch& launch, std::size_t global, std::size_t local, cl_event* event) {
-  check(clEnqueueNDRangeKernel(launch.queue, launch.kernel, 1, nullptr, &global, &local, 0, nullptr, event),
-        launch.what + ", " + std::to_string(global) + " work-items in groups of " + std::to_string(local));
+void enqueue(const Launch& launch, std::size_t global, std::size_t local, cl_event* event,
+             std::size_t first = 0) {
+  const cl_int status =
+      clEnqueueNDRangeKernel(launch.queue(), launch.kernel, 1, &first, &global, &local, 0, nullptr, event);
+  if (status != CL_SUCCESS)
+    check(status, launch.what() + ", " + std::to_string(global) + " work-items in groups of " +
+                      std::to_string(local));
 }
 
 /// Seconds between start and end of the event, waiting for it; releases it.
@@ -85,15 +79,16 @@ double event_seconds(cl_event event, const std::string& what) {
 
 /// The first launch of a kernel with a group size, for drivers that compile only then: waits for the end and
 /// counts the time outside the execution as compilation, not as time of the kernel.
-double compiling_launch(Context& context, const Launch& launch, std::size_t global, std::size_t local) {
-  check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
+double compiling_launch(Context& context, const Launch& launch, std::size_t global, std::size_t local,
+                        std::size_t first = 0) {
+  finish_before(launch);
   const BuildClock clock;
   cl_event event = nullptr;
-  enqueue(launch, global, local, &event);
-  const double execution = event_seconds(event, launch.what);
+  enqueue(launch, global, local, &event, first);
+  const double execution = event_seconds(event, launch.what());
   const double seconds = clock.done(context, execution);
   write_log(LogLevel::detail, [&] {
-    return launch.what + ", groups of " + std::to_string(local) + ", for the first time: compiled in " +
+    return launch.what() + ", groups of " + std::to_string(local) + ", for the first time: compiled in " +
            in_seconds(seconds);
   });
   return execution;
@@ -101,10 +96,10 @@ double compiling_launch(Context& context, const Launch& launch, std::size_t glob
 
 /// For a caller's queue that does not profile: the wall clock, with the queue emptied before and after.
 double wall_seconds(const Launch& launch, std::size_t global, std::size_t local) {
-  check(clFinish(launch.queue), launch.what + ": waiting for the commands before it");
+  finish_before(launch);
   const auto start = std::chrono::steady_clock::now();
   enqueue(launch, global, local, nullptr);
-  check(clFinish(launch.queue), launch.what);
+  check(clFinish(launch.queue()), launch.what());
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -126,6 +121,7 @@ Kernel::Kernel(Kernel&& other) noexcept
       program_(std::move(other.program_)),
       kernel_(std::exchange(other.kernel_, nullptr)),
       name_(std::move(other.name_)),
+      group_size_(other.group_size_),
       argument_count_(other.argument_count_),
       arguments_set_(other.arguments_set_) {}
 
@@ -136,6 +132,7 @@ Kernel& Kernel::operator=(Kernel&& other) noexcept {
   program_ = std::move(other.program_);
   kernel_ = std::exchange(other.kernel_, nullptr);
   name_ = std::move(other.name_);
+  group_size_ = other.group_size_;
   argument_count_ = other.argument_count_;
   arguments_set_ = other.arguments_set_;
   return *this;
@@ -145,32 +142,57 @@ Kernel::~Kernel() {
   if (kernel_) clReleaseKernel(kernel_);
 }
 
+std::size_t Kernel::group_size() {
+  if (group_size_ == 0) group_size_ = choose_group_size({kernel_, *context_, name_});
+  return group_size_;
+}
+
 void Kernel::launch(std::size_t global, std::size_t local, double* seconds) {
   if (global == 0) return;
   require_all_arguments();
-  const Launch launch = launch_of(kernel_, *context_, name_);
-  if (local == 0) local = choose_group_size(launch);
+  const Launch launch{kernel_, *context_, name_};
+  if (local == 0) local = group_size();
   global = (global + local - 1) / local * local;
-  const bool profiling = profiles(launch.queue);
-  if (profiling && context_->compiles_at_launch(*program_, name_, local)) {
+  if (context_->profiles() && context_->compiles_at_launch(*program_, name_, local)) {
     const double execution = compiling_launch(*context_, launch, global, local);
     if (seconds) *seconds += execution;
   } else if (!seconds) {
     enqueue(launch, global, local, nullptr);
-  } else if (profiling) {
+  } else if (context_->profiles()) {
     cl_event event = nullptr;
     enqueue(launch, global, local, &event);
-    *seconds += event_seconds(event, launch.what);
+    *seconds += event_seconds(event, launch.what());
   } else {
     *seconds += wall_seconds(launch, global, local);
+  }
+}
+
+void Kernel::launch_in_parts(std::size_t global) {
+  if (context_->info().type == DeviceInfo::Type::cpu || !context_->profiles()) return launch(global);
+  require_all_arguments();
+  const Launch how{kernel_, *context_, name_};
+  const std::size_t local = group_size();
+  for (std::size_t first = 0; first < global;) {
+    std::size_t items = std::min(context_->items_at_a_time(*program_, name_), global - first);
+    items = (items + local - 1) / local * local;
+    double seconds = 0;
+    if (context_->compiles_at_launch(*program_, name_, local)) {
+      seconds = compiling_launch(*context_, how, items, local, first);
+    } else {
+      cl_event event = nullptr;
+      enqueue(how, items, local, &event, first);
+      seconds = event_seconds(event, how.what());
+    }
+    context_->launch_took(*program_, name_, items, seconds);
+    first += items;
   }
 }
 
 void Kernel::submit(std::size_t global, std::size_t local, cl_event* done) {
   if (global == 0) return;
   require_all_arguments();
-  const Launch launch = launch_of(kernel_, *context_, name_);
-  if (local == 0) local = choose_group_size(launch);
+  const Launch launch{kernel_, *context_, name_};
+  if (local == 0) local = group_size();
   global = (global + local - 1) / local * local;
   // Nothing holds back a queue of the library's own, so the compilation can be waited for, and counted.
   if (!done && !context_->has_callers_queue() && context_->compiles_at_launch(*program_, name_, local))

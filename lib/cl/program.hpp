@@ -63,7 +63,10 @@ class Kernel {
   /// local = 0 lets the class choose: a power of two within the queried limits of device and kernel.
   /// \throw Error internal unless the last argument set is the kernel's last; opencl, out_of_device_memory
   void launch(std::size_t global, std::size_t local = 0, double* seconds = nullptr);
-  /// The same without waiting. On a caller's queue, which the caller may hold back, it does not wait where
+  /// As launch(), on GPUs in parts that take a twentieth of a second each, for kernels whose work-items have
+  /// nothing to do with their groups. Waits for the parts there.
+  void launch_in_parts(std::size_t global);
+  /// As launch() without waiting. On a caller's queue, which the caller may hold back, it does not wait where
   /// the driver compiles at the first launch either. \param done  the caller's to release, if not null
   void submit(std::size_t global, std::size_t local = 0, cl_event* done = nullptr);
 
@@ -80,11 +83,13 @@ class Kernel {
   void set_memory(cl_uint index, cl_mem memory);
   void set_bytes(cl_uint index, std::size_t size, const void* value);
   void require_all_arguments() const;
+  std::size_t group_size();  ///< that the class chooses
 
   std::shared_ptr<Context> context_;
   std::shared_ptr<const Program> program_;
   cl_kernel kernel_ = nullptr;
   std::string name_;
+  std::size_t group_size_ = 0;  // 0 until it is chosen
   cl_uint argument_count_ = 0;  // of the kernel
   cl_uint arguments_set_ = 0;   // in order, by the last calls of args() and more_args()
 };

@@ -150,7 +150,7 @@ void Clipper::launch(std::size_t number, std::span<const std::uint32_t> active, 
             domain.shape, memory_.status, memory_.moments, memory_.faces, memory_.border, memory_.wall,
             memory_.vertices, memory_.vertex, memory_.link, memory_.reach);
   candidates_.append_arguments(call);
-  call.launch(rows);
+  call.launch_in_parts(rows);
 
   const std::size_t first_uncertain = outcome.uncertain.size();
   read_launch(rows, capacity(number));

@@ -4,6 +4,7 @@
 
 #include "lib/cl/program.hpp"
 #include "tests/cl/support.hpp"
+#include "tests/support/environment.hpp"
 
 using namespace powercell;
 
@@ -48,6 +49,50 @@ TEST_CASE("a launch reaches every item once and none beyond") {
       CHECK(seconds < 10);
     }
   }
+}
+
+TEST_CASE("launches in parts reach every item once, on GPUs in parts that grow with their speed") {
+  const std::string name = test_device().info().selector();
+  for (const char* const treated_as : {"", "gpu"}) {
+    CAPTURE(treated_as);
+    const Environment treated("POWERCELL_TREAT_AS", treated_as);
+    auto context = Device::choose(name).context();
+    const auto program = source_program(context, source);
+    cl::Kernel kernel(context, program, "mark");
+    const std::size_t first = context->items_at_a_time(*program, "mark");
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, first + 1, 20 * first}) {
+      CAPTURE(count);
+      cl::Buffer<cl_uint> out(context);
+      out.resize(count + 1);
+      out.zero();
+      kernel.args(out, static_cast<cl_uint>(count)).launch_in_parts(count);
+      std::vector<cl_uint> expected(count + 1);
+      std::iota(expected.begin(), expected.end(), 1u);
+      expected[count] = 0;
+      CHECK(out.download() == expected);
+    }
+    const std::size_t last = context->items_at_a_time(*program, "mark");
+    CHECK((last > first) == (std::string(treated_as) == "gpu"));
+  }
+}
+
+TEST_CASE("launches are as large as a wanted time permits") {
+  cl::LaunchSize size(1);
+  CHECK(size.items() == 1024);  // and not less
+  size.took(1024, 1e-6);
+  CHECK(size.items() == 4096);  // at most four times as many
+  size.took(4096, 0.025);
+  CHECK(size.items() == 8192);
+  size.took(100, 0.001);  // few items are no measure of many
+  CHECK(size.items() == 8192);
+  size.took(4096, 0.1);  // unless they take long
+  CHECK(size.items() == 2048);
+  size.took(2048, 10);
+  CHECK(size.items() == 1024);
+  size.took(1024, 0);  // a clock that is too coarse
+  CHECK(size.items() == 4096);
+  for (int k = 0; k < 40; ++k) size.took(size.items(), 1e-9);
+  CHECK(size.items() == std::size_t{1} << 30);
 }
 
 TEST_CASE("the chosen group size is a power of two within the limits, or what the kernel requires") {
