@@ -1,7 +1,9 @@
 // powercell.h in any order of calls, with null pointers, short arrays and counts of any size.
 #include <powercell.h>
+#include <unistd.h>
 
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -34,6 +36,34 @@ pc_device* shared() {
   }();
   return device;
 }
+
+/// Seeds and their cells out of core. The call is stopped once there are no calls left.
+struct OutOfCore {
+  std::vector<double> positions, weights;
+  std::size_t dimension;
+  int calls_left;
+  std::vector<std::uint8_t> status{};
+  std::vector<std::uint64_t> offset{0}, neighbor{};
+
+  static int read(std::uint64_t first, std::size_t count, double* positions, double* weights, void* user) {
+    auto& self = *static_cast<OutOfCore*>(user);
+    const std::size_t d = self.dimension, begin = static_cast<std::size_t>(first);
+    require(begin + count <= self.weights.size(), "seeds are read that there are none of");
+    std::copy_n(&self.positions[begin * d], count * d, positions);
+    std::copy_n(&self.weights[begin], count, weights);
+    return --self.calls_left > 0;
+  }
+  static int take(const pc_cell_rows* rows, void* user) {
+    auto& self = *static_cast<OutOfCore*>(user);
+    const std::size_t n = rows->measures->count;
+    require(rows->first == self.status.size(), "rows that are not the next ones");
+    self.status.insert(self.status.end(), rows->measures->status, rows->measures->status + n);
+    self.neighbor.insert(self.neighbor.end(), rows->neighbor, rows->neighbor + rows->offset[n]);
+    for (std::size_t k = 0; k < n; ++k)
+      self.offset.push_back(self.offset.back() + rows->offset[k + 1] - rows->offset[k]);
+    return --self.calls_left > 0;
+  }
+};
 
 /// The handles of one input; freed at the end.
 class CSession {
@@ -104,6 +134,48 @@ class CSession {
                             input_.below(32) == 31 ? nullptr : &diagram_));
   }
 
+  /// Any seeds in pieces of a few, stopped now and then, must have the cells that a diagram gives them.
+  void compute_out_of_core() {
+    if (!domain_) return;
+    const pc_domain_info* info = nullptr;
+    check(pc_domain_info_view(domain_, &info));
+    const std::size_t n = input_.below(40), d = static_cast<std::size_t>(info->dimension);
+    OutOfCore seeds{input_.numbers(d * n), input_.numbers(n), d, static_cast<int>(input_.below(8)) + 1};
+    const std::string folder =
+        (std::filesystem::temp_directory_path() / ("fuzz_out_of_core." + std::to_string(getpid()))).string();
+    pc_seed_source source;
+    pc_seed_source_init(&source, sizeof source);
+    source.count = n;
+    source.dimension = info->dimension;
+    source.name = "the seeds of one input";
+    source.read = OutOfCore::read;
+    source.user = &seeds;
+    pc_options diagram;
+    pc_options_init(&diagram, sizeof diagram);
+    diagram.threads = 1;
+    pc_out_of_core_options options;
+    pc_out_of_core_options_init(&options, sizeof options);
+    options.diagram = &diagram;
+    options.folder = folder.c_str();
+    options.walls = 1;
+    options.piece_seeds = 1 + input_.below(16);
+    if (input_.below(16) == 15) options.memory = std::uint64_t{1} << input_.below(40);
+    pc_status status = PC_INTERRUPTED;
+    for (int tries = 0; status == PC_INTERRUPTED && tries < 2; ++tries) {
+      const pc_out_of_core_report* report = nullptr;
+      seeds.status.clear();
+      seeds.offset = {0};
+      seeds.neighbor.clear();
+      status = pc_compute_out_of_core(shared(), domain_, &source, OutOfCore::take, &seeds, &options, &report);
+      check(status);
+      require((status == PC_OK) == (report != nullptr), "a failed call wrote its result");
+      pc_out_of_core_report_destroy(report);
+      seeds.calls_left = std::numeric_limits<int>::max();
+    }
+    std::filesystem::remove_all(folder);
+    if (status == PC_OK) compare_with_diagram(seeds, diagram);
+  }
+
   void step() {
     switch (input_.below(8)) {
       case 0:
@@ -154,6 +226,25 @@ class CSession {
     if (input_.below(16) == 15 && rings.size() > 2) std::swap(rings[1], rings[2]);
     if (input_.below(16) == 15) parts.back() = 0;
     check(pc_domain_polygon(points.data(), rings.data(), parts.data(), parts.size() - 1, out));
+  }
+
+  void compare_with_diagram(const OutOfCore& cells, const pc_options& options) {
+    const std::size_t n = cells.weights.size();
+    pc_diagram_destroy(diagram_);
+    diagram_ = nullptr;
+    certified_ = false;
+    check(pc_diagram_create(shared(), domain_, &options, &diagram_));
+    check(pc_diagram_set_seeds(diagram_, cells.positions.data(), cells.weights.data(), n));
+    const pc_measures* measures = nullptr;
+    const pc_adjacency* walls = nullptr;
+    check(pc_diagram_measures_view(diagram_, &measures));
+    check(pc_diagram_adjacency_view(diagram_, &walls));
+    require(measures && walls, "cells out of core where a diagram has none");
+    require(std::equal(cells.status.begin(), cells.status.end(), measures->status, measures->status + n),
+            "the status of a seed differs from that in a diagram");
+    require(std::equal(cells.neighbor.begin(), cells.neighbor.end(), walls->neighbor,
+                       walls->neighbor + walls->entry_count),
+            "the neighbours differ from those in a diagram");
   }
 
   std::size_t size() {
@@ -282,6 +373,7 @@ void c_interface(Bytes bytes) {
   session.make_domain();
   session.make_diagram();
   for (int steps = 0; steps < 8 && !input.at_end(); ++steps) session.step();
+  if (input.below(4) == 3) session.compute_out_of_core();
 }
 
 }  // namespace powercell::fuzz
