@@ -30,6 +30,7 @@ class RankPost : public Post {
   /// of the lowest of these ranks.
   template <class Work>
   auto together(const Work& work) {
+    is_over_ = false;  // of an earlier call
     try {
       auto result = work();
       meet();  // others may have failed since the last exchange

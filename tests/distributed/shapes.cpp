@@ -196,6 +196,16 @@ TEST_CASE("shapes: what is refused") {
           RedistributedSeeds moved(communicator, own.ids, own.seeds);
           moved.send_back({});
         }).find("0 cells of ") != std::string::npos);
+  // Seeds that were shared out can be used after errors of one rank, as often as there are some.
+  on_shares(shares, [&](Communicator& communicator, const exchange::ShardSeeds& own) {
+    RedistributedSeeds moved(communicator, own.ids, own.seeds);
+    const DistributedCells cells =
+        compute_distributed(communicator, test_device(), unit_box(3), moved.ids(), moved.seeds());
+    for (int time = 0; time < 2; ++time)
+      CHECK_THROWS_WITH_AS(moved.send_back(communicator.rank() == 0 ? DistributedCells() : cells),
+                           doctest::Contains("rank 0: 0 cells of "), Error);
+    CHECK(moved.send_back(cells).offset.size() == own.ids.size() + 1);
+  });
   CHECK(refusal([&](Communicator& communicator, const exchange::ShardSeeds& own) {
           DistributedCells cells =
               compute_distributed(communicator, test_device(), unit_box(3), own.ids, own.seeds);
