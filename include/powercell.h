@@ -33,13 +33,17 @@
 #define POWERCELL_H
 
 #include <powercell/c/base.h>
+#include <powercell/c/communicator.h>
 #include <powercell/c/density.h>
 #include <powercell/c/device.h>
 #include <powercell/c/diagram.h>
+#include <powercell/c/distributed.h>
 #include <powercell/c/domain.h>
+#include <powercell/c/local_diagram.h>
 #include <powercell/c/options.h>
 #include <powercell/c/out_of_core.h>
 #include <powercell/c/point_sets.h>
+#include <powercell/c/redistributed_seeds.h>
 #include <powercell/c/remeshing.h>
 #include <powercell/c/results.h>
 #include <powercell/c/sampling.h>

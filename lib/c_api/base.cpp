@@ -46,6 +46,10 @@ const char* pc_last_error(void) {
   return last_error.c_str();
 }
 
+pc_status pc_fail(pc_status status, const char* message) {
+  return fail(status, message ? message : "");
+}
+
 pc_status pc_set_log(pc_log_sink sink, pc_log_level most, void* user) {
   return guarded([&] {
     const auto level = value_of<LogLevel>(most, PC_LOG_DETAIL, "most", "pc_log_level");

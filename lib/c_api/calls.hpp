@@ -138,4 +138,9 @@ auto call_back(const char* name, Callback&& callback) {
   }
 }
 
+/// \throw Error interrupted if the function of the caller that `name` says has answered 0
+inline void require_went_on(int answer, const char* name) {
+  if (answer == 0) throw Error(ErrorCode::interrupted, std::string("the computation was stopped by ") + name);
+}
+
 }  // namespace powercell::c_api

@@ -33,10 +33,6 @@ OutOfCoreOptions out_of_core_options(const pc_out_of_core_options* options) {
   return to;
 }
 
-void require_went_on(int answer, const char* what) {
-  if (answer == 0) throw Error(ErrorCode::interrupted, std::string("the computation was stopped by ") + what);
-}
-
 SeedSource source_of(const pc_seed_source* given) {
   const pc_seed_source from = current(&checked(given, "source"), pc_seed_source{}, "pc_seed_source");
   SeedSource to{from.count, from.dimension, text_or_none(from.name), {}};

@@ -26,11 +26,14 @@ TEST_CASE("every function that destroys accepts NULL") {
   pc_device_diagram_destroy(nullptr);
   pc_device_list_destroy(nullptr);
   pc_diagram_destroy(nullptr);
+  pc_distributed_cells_destroy(nullptr);
   pc_domain_destroy(nullptr);
   pc_joined_destroy(nullptr);
   pc_law_checks_destroy(nullptr);
+  pc_local_diagram_destroy(nullptr);
   pc_mesh_quality_destroy(nullptr);
   pc_out_of_core_report_destroy(nullptr);
+  pc_redistributed_seeds_destroy(nullptr);
   pc_remesh_result_destroy(nullptr);
   pc_repaired_mesh_destroy(nullptr);
   pc_results_destroy(nullptr);

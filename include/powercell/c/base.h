@@ -40,6 +40,9 @@ POWERCELL_API const char* pc_version(void);
 POWERCELL_API const char* pc_status_name(pc_status status);
 /** The message of the last failure in this thread; "" before the first. Valid until the next failure. */
 POWERCELL_API const char* pc_last_error(void);
+/** For functions of C on top of the library, as those of powercell_mpi.h: sets what pc_last_error() says in
+ * this thread. \param message  is copied; NULL for "" \return status */
+POWERCELL_API pc_status pc_fail(pc_status status, const char* message);
 
 /** Receives the fraction done, in [0, 1]; returns 0 to stop the call with PC_INTERRUPTED. A callback of C++
  * that throws stops it too, and its exception is the message. */
