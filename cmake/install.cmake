@@ -34,7 +34,7 @@ set(headers_left_out "")
 foreach(part mpi petsc)
   string(TOUPPER POWERCELL_${part} option)
   if(NOT ${option})
-    list(APPEND headers_left_out PATTERN ${part}.hpp EXCLUDE)
+    list(APPEND headers_left_out PATTERN ${part}.hpp EXCLUDE PATTERN powercell_${part}.h EXCLUDE)
   endif()
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development

@@ -229,7 +229,7 @@ Start with [diagram.hpp](diagram.md), [domain.hpp](domain.md) and [results.hpp](
 """,
     "c": """# C headers
 
-One page for each header, from its comments. `#include <powercell.h>` brings all but `powercell_opencl.h`; how errors, results and
+One page for each header, from its comments. `#include <powercell.h>` brings all but `powercell_opencl.h` and `powercell_mpi.h`; how errors, results and
 options come is on the page of [powercell.h](powercell.md).
 
 ```{{toctree}}

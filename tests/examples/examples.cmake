@@ -1,6 +1,6 @@
 # The C programs of examples/, built by a C compiler as C99 against the libraries of the build, and what they must print.
-# c_example(NAME LIBRARIES PATTERN...): PATTERNs are Python's regular expressions.
-function(c_example name libraries)
+# c_program(NAME LIBRARIES): the target example_NAME.
+function(c_program name libraries)
   set(target example_${name})
   add_executable(${target} ${PROJECT_SOURCE_DIR}/examples/${name}.c)
   target_compile_options(${target} PRIVATE -Wall -Wextra -pedantic -Werror)
@@ -9,8 +9,12 @@ function(c_example name libraries)
   if(NOT BUILD_SHARED_LIBS)  # the libraries are C++
     set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
   endif()
-  add_test(NAME ${target}
-    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/examples/run.py $<TARGET_FILE:${target}> ${ARGN})
+endfunction()
+# c_example(NAME LIBRARIES PATTERN...): PATTERNs are Python's regular expressions.
+function(c_example name libraries)
+  c_program(${name} "${libraries}")
+  add_test(NAME example_${name}
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/examples/run.py $<TARGET_FILE:example_${name}> ${ARGN})
 endfunction()
 
 find_package(OpenCL REQUIRED)  # c_own_queue has a context of its own

@@ -56,7 +56,7 @@ for kind in "$@"; do
     programs="host_cpp c_cells c_transport"
   fi
   if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/mpi.hpp" ]; then
-    programs="$programs particles_mpi"
+    programs="$programs particles_mpi c_particles_mpi"
   fi
   # shellcheck disable=SC2086
   cmake -S "$examples" -B "$work/$kind" -G Ninja -Dpowercell_SHARED_LIBS=$shared >"$work/log" 2>&1 &&

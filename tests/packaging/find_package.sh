@@ -43,8 +43,9 @@ refuses C "COMPONENTS;shared;static" "'shared' and 'static'"
 
 if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/mpi.hpp" ]; then
   accepts CXX "COMPONENTS;mpi" "powercell::core;powercell::mpi"
-  accepts C "COMPONENTS;core;OPTIONAL_COMPONENTS;mpi" powercell::core
-  refuses C "COMPONENTS;mpi" "need MPI 3 for C++"
+  accepts C "COMPONENTS;mpi" "powercell::core;powercell::mpi"
+  refuses NONE "COMPONENTS;mpi;shared" "need MPI 3, which CMake does not find for C"
+  accepts NONE "COMPONENTS;core;shared;OPTIONAL_COMPONENTS;mpi" powercell::core
 else
   refuses CXX "COMPONENTS;mpi" "without the component 'mpi', which needs a build"
   accepts CXX "COMPONENTS;core;OPTIONAL_COMPONENTS;mpi" powercell::core
@@ -52,7 +53,7 @@ fi
 if [ -e "$(pkg-config --variable=includedir powercell-core)/powercell/petsc.hpp" ]; then
   accepts CXX "COMPONENTS;petsc" "powercell::powercell;powercell::mpi;powercell::petsc"
   accepts C "COMPONENTS;core;OPTIONAL_COMPONENTS;petsc" powercell::core
-  refuses C "COMPONENTS;petsc" "need MPI 3 for C++"
+  refuses C "COMPONENTS;petsc" "needs that the language CXX is enabled"
 else
   refuses CXX "COMPONENTS;petsc" "without the component 'petsc', which needs a build"
   accepts CXX "COMPONENTS;core;OPTIONAL_COMPONENTS;petsc" powercell::core

@@ -51,12 +51,15 @@ if [ "$kinds" = "shared static" ]; then
   cmake -S "$source/tests/packaging/c_only" -B "$work/c_only" -G Ninja -DEXAMPLES="$source/examples" >"$work/log" 2>&1 &&
     cmake --build "$work/c_only" >>"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
   "$work/c_only/host_c"
+  [ ! -e "$prefix/include/powercell_mpi.h" ] || readelf -d "$work/c_only/c_particles_mpi" | grep -q 'NEEDED.*libmpi' ||
+    fail "a project in C did not link MPI"
 fi
 
 step "every public header compiles alone"
 flags_of() {
   case $1 in
     powercell/mpi.hpp) pkg-config --cflags mpi-cxx ;;
+    powercell_mpi.h) pkg-config --cflags mpi-c ;;
     powercell/petsc.hpp) pkg-config --cflags PETSc mpi-cxx ;;
   esac
 }
@@ -66,8 +69,9 @@ for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | 
     -I "$prefix/include" $(flags_of "$header") - || fail "header $header does not compile alone"
 done
 for header in $(cd "$prefix/include" && find . -name '*.h' | sed 's|^\./||' | sort); do
+  # shellcheck disable=SC2046
   echo "#include <$header>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
-    -I "$prefix/include" - || fail "header $header does not compile alone"
+    -I "$prefix/include" $(flags_of "$header") - || fail "header $header does not compile alone"
 done
 
 step "the installed tool"

@@ -1,5 +1,5 @@
 # Ranks that are processes of MPI. The libraries are the static ones of the other tests, not those of powercell::mpi.
-add_executable(test_mpi distributed/mpi/main.cpp distributed/mpi/ranks.cpp)
+add_executable(test_mpi distributed/mpi/main.cpp distributed/mpi/ranks.cpp distributed/mpi/c_ranks.cpp)
 target_include_directories(test_mpi SYSTEM PRIVATE ${DOCTEST_INCLUDE_DIR})
 target_compile_options(test_mpi PRIVATE ${test_options})
 target_link_libraries(test_mpi PRIVATE powercell_support MPI::MPI_CXX)
@@ -17,7 +17,7 @@ add_test(NAME mpi_killed
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/distributed/mpi/killed.py
     ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 3 ${MPIEXEC_PREFLAGS} $<TARGET_FILE:test_mpi> ${MPIEXEC_POSTFLAGS})
 
-# The example, against the shared libraries as programs of users.
+# The examples, against the shared libraries as programs of users.
 add_executable(example_particles_mpi ${PROJECT_SOURCE_DIR}/examples/particles_mpi.cpp)
 target_compile_options(example_particles_mpi PRIVATE -Wall -Wextra -Werror)
 target_link_libraries(example_particles_mpi PRIVATE powercell::mpi)
@@ -27,6 +27,15 @@ foreach(ranks 1 3)
       ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS} $<TARGET_FILE:example_particles_mpi> ${MPIEXEC_POSTFLAGS} 500 4 --
       "step 0: 500 particles, volume (1\\.0000000|0\\.9999999)\\d+, energy 0\\.00" "step 3: 500 particles")
   list(APPEND mpi_tests example_particles_mpi_${ranks})
+endforeach()
+
+c_program(c_particles_mpi powercell::mpi)
+foreach(ranks 1 2 3 5)
+  add_test(NAME example_c_particles_mpi_${ranks}
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/examples/run.py --command ${MPIEXEC_EXECUTABLE}
+      ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS} $<TARGET_FILE:example_c_particles_mpi> ${MPIEXEC_POSTFLAGS} 400 3 --
+      "step 0: 400 particles, volume (1\\.0000000|0\\.9999999)\\d+, energy 0\\.00" "step 2: 400 particles")
+  list(APPEND mpi_tests example_c_particles_mpi_${ranks})
 endforeach()
 
 # The tool on ranks.
