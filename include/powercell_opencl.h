@@ -65,6 +65,16 @@ POWERCELL_API pc_status pc_device_diagram_set_wall_capacity(pc_device_diagram* d
  * for the queue once to read their number. */
 POWERCELL_API pc_status pc_device_diagram_set_image_capacity(pc_device_diagram* diagram, uint32_t images);
 
+/** A density for measures, which are then its integrals over the cells: linear in each triangle or
+ * tetrahedron of the domain. Statuses, walls and geometry stay those of the cells alone. A cell with a part
+ * in a region at a corner of which the value is no density has NaN for all its measures
+ * (powercell::DeviceDiagram:: set_density). The first call with a buffer builds kernels; this waits. \param
+ * values  read by each diagram enqueued later: a real for each vertex of the mesh, in the order of
+ *   pc_domain_surface() or pc_domain_volume(), a buffer that is retained until another one is set; NULL: no
+ *   density
+ * \return PC_UNSUPPORTED unless the domain is such a mesh */
+POWERCELL_API pc_status pc_device_diagram_set_density(pc_device_diagram* diagram, cl_mem values);
+
 /** Enqueues one diagram of n seeds in d coordinates and flushes the queue. Buffers are of the context
  * of the device and must not change between the wait list and `done`.
  * \param positions  read: n x d reals, row-major

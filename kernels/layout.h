@@ -133,6 +133,17 @@ typedef struct {
 /* The kind of a border that is a wall (powercell::Border::Kind). */
 #define BORDER_WALL 0
 
+/* A density in a region, affine: DENSITY_SIZE reals (kernels/diagram/density.cl). */
+#define DENSITY_VALUE 0 /* at its first corner; NaN where it is not known */
+#define DENSITY_LEAST 1 /* of its corners */
+#define DENSITY_MOST 2
+#define DENSITY_GRADIENT 3 /* 3 */
+#define DENSITY_SIZE 6
+/* No density is larger, so that its products with areas and squared distances stay in the range of numbers.
+ */
+#define LARGEST_DENSITY_DOUBLE 1e100
+#define LARGEST_DENSITY_FLOAT 1e30f
+
 /* Behind a facet of a region lies nothing, or a region: then the corner of it that is not on the facet
    (surfaces), or any number from 0. */
 #define BEHIND_NOTHING (-1)

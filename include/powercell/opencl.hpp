@@ -102,7 +102,7 @@ struct DeviceCells {
 struct DeviceResults {
   /// Written: n x (2 + d) reals, row-major: mass (length^d' for cells of dimension d'), centroid (d
   /// coordinates; NaN without a cell), second moment about the seed (length^(d'+2)). 0, NaN..., 0 for hidden
-  /// and duplicate seeds; all NaN for invalid and unfinished ones.
+  /// and duplicate seeds; all NaN for invalid and unfinished ones. With a density: set_density().
   cl_mem measures = nullptr;
   cl_mem status = nullptr;                  ///< written: n cl_uint, each a DeviceSeedStatus
   DeviceAdjacency adjacency = {};           ///< where it is wanted, in the same pass; else null
@@ -170,6 +170,24 @@ class POWERCELL_API DeviceDiagram {
   /// and 15.5 walls on average.
   void set_wall_capacity(std::uint32_t walls);
 
+  /// A density for measures: they are then the integral of rho over each cell, that of rho x over it, and the
+  /// integral of rho |x - p_i|^2, in place of those of 1. Where the mass is 0 the centroid is NaN.
+  /// Statuses, walls, boundary walls, the list and geometry stay those of the cells alone: `ok` means that
+  /// the cell has a positive area or volume, also where its mass is 0.
+  ///
+  /// rho is linear in each triangle or tetrahedron of the domain, as Density::nodal. Each enqueue() reads the
+  /// values as they are then, so that kernels of the caller may change them between two of them. They are
+  /// not checked on the host: a cell with a part in a region at a corner of which the value is negative, not
+  /// finite or above 10^100 (single precision: 10^30) has NaN for all its measures, and the others are right.
+  /// Takes 2 + d reals a pair besides, and 6 a region. The first call with a buffer builds kernels; this
+  /// waits. \param values  read: a real for each vertex, in the order passed to Domain::surface or
+  /// Domain::volume, a
+  ///   buffer of the context of the device, which is retained until another one is set; null: no density
+  /// \throw Error unsupported unless the domain is a mesh of triangles or tetrahedra; invalid_argument (a
+  ///   buffer that is too small or of another context); build_failed, self_test_failed, out_of_device_memory,
+  ///   opencl. The density is then as before.
+  void set_density(cl_mem values);
+
   /// Enqueues one diagram of n seeds in d coordinates, in the caller's units. All buffers are the
   /// caller's, of the context of the device, and must not change between the wait list and `done`.
   /// \param positions  read: n x d reals, row-major
@@ -193,7 +211,8 @@ class POWERCELL_API DeviceDiagram {
   /// of such a Diagram without the invalid seeds, and so are the boundary walls, and the pieces and faces of
   /// cells, where these are given; measures and vertices of the listed cells are the Diagram's, rounded to
   /// the precision, and those of the others differ from its by rounding. No cell is unfinished any more;
-  /// invalid seeds stay invalid.
+  /// invalid seeds stay invalid. With a density, which must be that of enqueue(), measures of the listed
+  /// cells are its integrals over the exact cells.
   ///
   /// Waits for the queue, and works on the host: seeds, measures, statuses, rows and cells are read, and
   /// results are written back. Rows and cells may change their lengths, so all are written anew. The

@@ -15,6 +15,10 @@
 #ifndef CELL_DIMENSION
 #define CELL_DIMENSION 3
 #endif
+/* Whether pieces have moments of a density too: defined by a file of kernels (diagram/clip_density.cl). */
+#ifndef WITH_DENSITY
+#define WITH_DENSITY 0
+#endif
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -71,12 +75,14 @@ typedef real stored_real;
 #define LEAST_CENTRED_FILLING ((real)0.005)
 #define MOST_BLUR 1
 #define NEGLIGIBLE_WALL NEGLIGIBLE_WALL_FLOAT
+#define LARGEST_DENSITY LARGEST_DENSITY_FLOAT
 #else
 #define SEARCH_MARGIN ((real)1 / (real)(1 << MARGIN_BITS_DOUBLE))
 #define LEAST_FILLING 0
 #define LEAST_CENTRED_FILLING 0
 #define MOST_BLUR (REAL_MAX / 4)
 #define NEGLIGIBLE_WALL NEGLIGIBLE_WALL_DOUBLE
+#define LARGEST_DENSITY LARGEST_DENSITY_DOUBLE
 #endif
 
 /* The difference of two weights, and d = a - b by coordinates. Far from the origin too, both are exact to the

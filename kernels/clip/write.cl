@@ -2,6 +2,7 @@
 #ifndef POWERCELL_CLIP_WRITE
 #define POWERCELL_CLIP_WRITE
 #include "cell/bisector.cl"
+#include "cell/density.cl"
 
 typedef struct {
   uint wanted;                   /* a sum of OUTPUT_...; the memory of others is not used */
@@ -13,7 +14,31 @@ typedef struct {
   __global stored_real* vertex;  /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
   __global uint* link;           /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
   __global stored_real* reach;   /* per row: of a cell that is done, before its vertices are improved */
+  /* Where WITH_DENSITY: of the region of the piece (cell/density.cl), and as `moments`, of the density. */
+  __global const stored_real* density;
+  __global stored_real* density_moments;
 } output_t;
+
+#define MOMENTS (2 + DIMENSION)
+/* Of the measure and, behind these, of the density. */
+#define ALL_MOMENTS ((WITH_DENSITY ? 2 : 1) * MOMENTS)
+
+/* All of them, about what the vertices are relative to; with `walls` the measures of walls too. */
+static inline void find_moments(cell_t* cell, output_t out, bool walls, real* moments) {
+  cell_moments(cell, walls, moments);
+  if (WITH_DENSITY) cell_density_moments(cell, density_of(&cell->at, out.density), moments + MOMENTS);
+}
+
+/* Moments about the centre as those about the seed. */
+static inline void leave_centre_of_moments(const vertices_t* p, const real* about, real* moments) {
+  moments[0] = about[0];
+  moments[1 + DIMENSION] = about[1 + DIMENSION];
+  UNROLL for (int k = 0; k < DIMENSION; ++k) {
+    const real c = p->centre[k];
+    moments[1 + k] = about[1 + k] + c * about[0];
+    moments[1 + DIMENSION] += c * (2 * about[1 + k] + c * about[0]);
+  }
+}
 
 /* True if the cell is no thicker than the rounding errors of its vertices. */
 static inline bool cell_is_flat(cell_t* cell, real measure) {
@@ -47,20 +72,15 @@ static inline bool measure_is_good(const cell_t* cell, real measure, real fillin
 /* In single precision a whole cell that is small beside its distance from the seed has a measure of too few
    digits. Computes it again, relative to a point inside the cell, whose shape is certain. False if it still
    is not good. */
-static inline bool measure_closely(cell_t* cell, bool walls, real* moments) {
-  real about[2 + DIMENSION];
+static inline bool measure_closely(cell_t* cell, output_t out, bool walls, real* moments) {
+  real about[ALL_MOMENTS];
   recentre(&cell->at);
   bool good = cell_certain(cell) >= 0;
   if (good) {
-    cell_moments(cell, walls, about);
+    find_moments(cell, out, walls, about);
     good = measure_is_good(cell, about[0], LEAST_CENTRED_FILLING);
-    moments[0] = about[0];
-    moments[1 + DIMENSION] = about[1 + DIMENSION];
-    UNROLL for (int k = 0; k < DIMENSION; ++k) {
-      const real c = cell->at.centre[k];
-      moments[1 + k] = about[1 + k] + c * about[0];
-      moments[1 + DIMENSION] += c * (2 * about[1 + k] + c * about[0]);
-    }
+    leave_centre_of_moments(&cell->at, about, moments);
+    if (WITH_DENSITY) leave_centre_of_moments(&cell->at, about + MOMENTS, moments + MOMENTS);
   }
   leave_centre(&cell->at);
   return good;
@@ -68,26 +88,26 @@ static inline bool measure_closely(cell_t* cell, bool walls, real* moments) {
 
 /* Writes a piece that ended with `status`; returns the final status. */
 static inline int write_piece(cell_t* cell, output_t out, int status, uint pair, uint row) {
-  real moments[2 + DIMENSION];
+  real moments[ALL_MOMENTS];
   const bool geometry = (out.wanted & OUTPUT_GEOMETRY) != 0,
              rows = geometry || (out.wanted & OUTPUT_WALLS) != 0,
              all = geometry || (out.wanted & OUTPUT_FACETS) != 0,
              sides = rows || (out.wanted & OUTPUT_SIDES) != 0;
   bool certain = cell->at.gap > 0;
-  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+  UNROLL for (int k = 0; k < ALL_MOMENTS; ++k) moments[k] = 0;
   if (status == PIECE_DONE) {
     find_radius2(&cell->at);
     certain = quickly_certain(&cell->at);
     if (out.wanted & OUTPUT_REACH) out.reach[row] = (stored_real)cell->at.radius;
     cell_finish(cell, !certain);
     certain = certain || done_is_certain(cell);
-    cell_moments(cell, sides, moments);
+    find_moments(cell, out, sides, moments);
     if (certain && !measure_is_good(cell, moments[0], LEAST_FILLING) && !cell_goes_on(cell))
-      certain = LEAST_FILLING > 0 && measure_closely(cell, sides, moments);
+      certain = LEAST_FILLING > 0 && measure_closely(cell, out, sides, moments);
     if (cell_is_flat(cell, moments[0])) {
       status = PIECE_FLAT;
       certain = false;
-      UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) moments[k] = 0;
+      UNROLL for (int k = 0; k < ALL_MOMENTS; ++k) moments[k] = 0;
     }
     if (rows) {
       const size_t at = (size_t)row * FACE_CAPACITY;
@@ -102,8 +122,11 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
     out.faces[row] = 0;
     if (geometry) out.vertices[row] = 0;
   }
-  UNROLL for (int k = 0; k < 2 + DIMENSION; ++k) out.moments[(size_t)pair * (2 + DIMENSION) + (size_t)k] =
+  UNROLL for (int k = 0; k < MOMENTS; ++k) out.moments[(size_t)pair * MOMENTS + (size_t)k] =
       (stored_real)moments[k];
+  if (WITH_DENSITY)
+    UNROLL for (int k = 0; k < MOMENTS; ++k) out.density_moments[(size_t)pair * MOMENTS + (size_t)k] =
+        (stored_real)moments[ALL_MOMENTS - MOMENTS + k];
   return status <= PIECE_FLAT && !certain ? status | PIECE_UNCERTAIN : status;
 }
 

@@ -2,6 +2,14 @@
 #include "clip/arguments.cl"
 #include "neighbors/search.cl"
 
+#if WITH_DENSITY
+#define DENSITY_ARGUMENTS __global const stored_real *density, __global stored_real *density_moments,
+#define DENSITY_IN(region) density + (size_t)DENSITY_SIZE*(region), density_moments
+#else
+#define DENSITY_ARGUMENTS
+#define DENSITY_IN(region) 0, 0
+#endif
+
 /* The faces of pieces, in any order of the pieces: used[0] entries are taken. */
 typedef struct {
   uint faces;    /* a sum of FACES_...; 0 where none are wanted */
@@ -29,7 +37,8 @@ static inline bool store_walls(cell_t* cell, wall_store_t store, uint faces, uin
 
 /* Work-item t takes entry first + t of the pairs, or of `list` where `listed`, if it is below `end` and
    below their number: offset[count] pairs of the first `count` seeds, found[0] listed ones. Writes status and
-   moments by pair, those of `faces` (a sum of FACES_...), and the reach of cells where `with_reach`. */
+   moments by pair, those of `faces` (a sum of FACES_...), and the reach of cells where `with_reach`. With a
+   density (diagram/clip_density.cl) its moments too. */
 __kernel void clip_pairs(const uint first, const uint end, const uint count, const int with_reach,
                          __global const ulong* offset, const int listed, __global const uint* list,
                          __global const uint* found, __global const uint* pair_seed,
@@ -40,7 +49,7 @@ __kernel void clip_pairs(const uint first, const uint end, const uint count, con
                          __global stored_real* moments, __global stored_real* reach, const uint faces,
                          const uint wall_capacity, volatile __global uint* used, __global uint* piece_first,
                          __global uint* piece_size, __global int* border, __global stored_real* wall,
-                         TREE_ARGUMENTS) {
+                         DENSITY_ARGUMENTS TREE_ARGUMENTS) {
   const uint entry = first + (uint)get_global_id(0);
   if (entry >= end || entry >= (listed ? (ulong)found[0] : offset[count])) return;
   const uint pair = listed ? list[entry] : entry, i = pair_seed[pair];
@@ -55,7 +64,8 @@ __kernel void clip_pairs(const uint first, const uint end, const uint count, con
                         0,
                         0,
                         0,
-                        reach};
+                        reach,
+                        DENSITY_IN(pair_region[pair])};
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   cell_t cell;
   int result = PIECE_EMPTY;

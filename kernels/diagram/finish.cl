@@ -52,3 +52,27 @@ __kernel void write_measures(const uint count, __global const uint* order, __glo
   status[i] = result;
   for_host[i] = uncertain || result == SEED_UNFINISHED ? 1u : 0u;
 }
+
+/* Puts the integrals of a density in place of the measures of the cells that are there, for rank t. A mass
+   that rounding has made negative is 0, and where it is 0 there is no centroid. */
+__kernel void write_density(const uint count, __global const uint* order, __global const uint* status,
+                            __global const ulong* offset, __global const stored_real* moments,
+                            __global const stored_real* frame, __global const stored_real* positions,
+                            __global stored_real* measures) {
+  const uint t = (uint)get_global_id(0);
+  if (t >= count) return;
+  const size_t i = order[t];
+  if (status[i] != SEED_OK) return;
+  const real unit = frame[FRAME_UNIT];
+  real sum[MEASURES], scale = unit;
+  for (int k = 0; k < MEASURES; ++k) sum[k] = 0;
+  for (ulong pair = offset[t]; pair < offset[t + 1]; ++pair)
+    for (int k = 0; k < MEASURES; ++k) sum[k] += moments[pair * MEASURES + (ulong)k];
+  for (int k = 1; k < CELL_DIMENSION; ++k) scale *= unit;
+  const bool negative = sum[0] < 0 || sum[1 + DIMENSION] < 0;
+  __global stored_real* row = measures + i * MEASURES;
+  row[0] = sum[0] < 0 ? (real)0 : sum[0] * scale;
+  UNROLL for (int k = 0; k < DIMENSION; ++k) row[1 + k] =
+      sum[0] > 0 ? positions[i * DIMENSION + (size_t)k] + sum[1 + k] / sum[0] * unit : (real)NAN;
+  row[1 + DIMENSION] = negative ? (real)0 : sum[1 + DIMENSION] * scale * unit * unit;
+}

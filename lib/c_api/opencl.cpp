@@ -90,6 +90,10 @@ pc_status pc_device_diagram_set_image_capacity(pc_device_diagram* diagram, uint3
   return guarded([&] { diagram_in(diagram).set_image_capacity(images); });
 }
 
+pc_status pc_device_diagram_set_density(pc_device_diagram* diagram, cl_mem values) {
+  return guarded([&] { diagram_in(diagram).set_density(values); });
+}
+
 pc_status pc_device_diagram_enqueue_results(pc_device_diagram* diagram, cl_mem positions, cl_mem weights,
                                             uint32_t n, const pc_device_results* results, cl_uint wait_count,
                                             const cl_event* wait_list, cl_event* done) {

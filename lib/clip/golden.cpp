@@ -71,17 +71,54 @@ double golden_measure(const Variant& variant, std::uint32_t s) {
   return product;
 }
 
+Domain golden_simplices(const Variant& variant) {
+  if (variant.cell_dimension == 2) {
+    const double square[] = {0, 0, 0.25, 1, 0, 0.25, 1, 1, 0.25, 0, 1, 0.25};
+    const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+    return Domain::surface(square, triangles);
+  }
+  std::vector<double> cube;
+  for (int c = 0; c < 8; ++c)
+    for (int k = 0; k < 3; ++k) cube.push_back(c >> k & 1);
+  // Around the diagonal from corner 0 to corner 7.
+  const std::uint32_t tetrahedra[] = {0, 1, 3, 7, 0, 3, 2, 7, 0, 2, 6, 7, 0, 6, 4, 7, 0, 4, 5, 7, 0, 5, 1, 7};
+  return Domain::volume(cube, tetrahedra);
+}
+
+namespace {
+
+double golden_density(double x, double y, double z) {
+  return 1 + x + 2 * y + 3 * z;
+}
+
+}  // namespace
+
+std::vector<double> golden_densities(const Domain& simplices) {
+  const std::span<const double> vertices = simplices.regions().vertices;
+  std::vector<double> values;
+  for (std::size_t v = 0; v < vertices.size(); v += 3)
+    values.push_back(golden_density(vertices[v], vertices[v + 1], vertices[v + 2]));
+  return values;
+}
+
+// Of a box, the mean density is that in its middle.
+double golden_mass(const Variant& variant, std::uint32_t s) {
+  double middle[3] = {0, 0, 0.25};
+  for (int k = 0; k < variant.cell_dimension; ++k) middle[k] = ((s >> k & 1) + wall_position(k)) / 2;
+  return golden_measure(variant, s) * golden_density(middle[0], middle[1], middle[2]);
+}
+
 void require_golden(const cl::Context& context, std::string_view program, const Variant& variant,
-                    std::uint32_t s, double measure) {
-  const double expected = golden_measure(variant, s), tolerance = variant.float32 ? 1e-5 : 1e-13;
-  if (std::abs(measure - expected) <= tolerance) return;
+                    std::uint32_t s, double found, double expected) {
+  const double tolerance = variant.float32 ? 1e-5 : 1e-13;
+  if (std::abs(found - expected) <= tolerance) return;
   std::string options;
   for (const std::string& define : variant.defines()) options += " -D" + define;
   const DeviceInfo& info = context.info();
   throw Error(ErrorCode::self_test_failed,
               "the device " + info.name + " (" + info.platform_name + ", driver " + info.driver_version +
                   ") computed a known diagram wrongly: cell " + std::to_string(s) + " measures " +
-                  digits(measure) + " instead of " + digits(expected) + ", in " + std::string(program) +
+                  digits(found) + " instead of " + digits(expected) + ", in " + std::string(program) +
                   options + "; update its driver or choose another device");
 }
 
@@ -117,7 +154,8 @@ void golden_test(const std::shared_ptr<cl::Context>& context, const Candidates& 
   clipper.clip_with(capacity, pair_seed, pair_region);
   const std::vector<double> measures = read_measures(clipper, own.scene);
   for (std::uint32_t rank = 0; rank < seeds.size(); ++rank)
-    require_golden(*context, candidates.file(), variant, seeds.input[rank], measures[rank]);
+    require_golden(*context, candidates.file(), variant, seeds.input[rank], measures[rank],
+                   golden_measure(variant, seeds.input[rank]));
 }
 
 }  // namespace powercell

@@ -3,6 +3,8 @@
 /// drivers that miscompile it. Internal.
 #pragma once
 
+#include <powercell/domain.hpp>
+
 #include "lib/domain/region_mesh.hpp"
 #include "lib/neighbors/candidates.hpp"
 #include "lib/scene/variant.hpp"
@@ -16,12 +18,21 @@ RegionMesh golden_mesh(const Variant& variant);
 SeedSet golden_seeds(int dimension);
 /// The measure of the cell of seed `s`.
 double golden_measure(const Variant& variant, std::uint32_t s);
-/// \param s        the seed
-/// \param measure  of its cell, as computed
-/// \param program  for the message
-/// \throw Error self_test_failed if the measure is wrong
+
+/// The same domain as two triangles of a surface, or six tetrahedra. \pre variant.dimension is 3
+Domain golden_simplices(const Variant& variant);
+/// A density at the vertices of those: 1 + x + 2 y + 3 z.
+std::vector<double> golden_densities(const Domain& simplices);
+/// The mass of the cell of seed `s` with that density.
+double golden_mass(const Variant& variant, std::uint32_t s);
+
+/// \param s         the seed
+/// \param found     measure or mass of its cell, as computed
+/// \param expected  the known one
+/// \param program   for the message
+/// \throw Error self_test_failed if it is wrong
 void require_golden(const cl::Context& context, std::string_view program, const Variant& variant,
-                    std::uint32_t s, double measure);
+                    std::uint32_t s, double found, double expected);
 
 /// Clips the golden diagram, with all outputs, with the program of `variant`.
 /// \param capacity  of the variant: its number in capacities()

@@ -7,7 +7,7 @@
 #include "kernels/layout.h"
 #include "lib/cl/choose.hpp"
 #include "lib/cl/quirks.hpp"
-#include "lib/clip/golden.hpp"
+#include "lib/diagram/device_golden.hpp"
 #include "lib/diagram/setup.hpp"
 #include "lib/scene/variant.hpp"
 
@@ -23,8 +23,6 @@ static_assert(SEED_DUPLICATE == static_cast<int>(SeedStatus::duplicate) &&
 static_assert(SEED_INVALID == static_cast<int>(DeviceSeedStatus::invalid));
 static_assert(SEED_UNFINISHED == static_cast<int>(DeviceSeedStatus::unfinished));
 
-constexpr const char* clip_file = "diagram/clip_pairs.cl";
-
 Variant variant(const Device& device, const Domain& domain, Precision precision, Capacity capacity) {
   return {domain.dimension(), domain.cell_dimension(), precision == Precision::float32, capacity,
           cl::lane_width(device.context()->settings(), domain.cell_dimension())};
@@ -33,13 +31,6 @@ Variant variant(const Device& device, const Domain& domain, Precision precision,
 /// The defines of kernels that hold no cell.
 std::vector<std::string> plain_defines(const Device& device, const Domain& domain, Precision precision) {
   return variant(device, domain, precision, {1, 1}).defines();
-}
-
-template <class Real>
-cl::Buffer<Real> uploaded(const Device& device, const std::vector<double>& values) {
-  cl::Buffer<Real> buffer(device.context());
-  buffer.upload(std::vector<Real>(values.begin(), values.end()));
-  return buffer;
 }
 
 template <class Real>
@@ -54,34 +45,6 @@ void write_frame(const Frame& frame, cl::RawBuffer& to) {
   numbers[FRAME_UNIT] = static_cast<Real>(1 / frame.scale);
   to.reserve(sizeof numbers);
   to.write(numbers.data(), sizeof numbers);
-}
-
-/// Computes the golden diagram (lib/clip/golden.hpp) in device memory. \throw Error self_test_failed
-template <class Real>
-void run_golden(DeviceDiagram::State& state, const Variant& variant) {
-  const SeedSet seeds = golden_seeds(variant.dimension);
-  const auto n = static_cast<std::uint32_t>(seeds.size());
-  const std::size_t columns = 2 + static_cast<std::size_t>(variant.dimension);
-  const auto positions = uploaded<Real>(state.device, seeds.positions);
-  const auto weights = uploaded<Real>(state.device, seeds.weights);
-  cl::Buffer<Real> measures(state.device.context());
-  cl::Buffer<std::uint32_t> status(state.device.context());
-  measures.resize(n * columns);
-  status.resize(n);
-  state.enqueue(positions.handle(), weights.handle(), n, {measures.handle(), status.handle()}, {}, nullptr);
-  const std::vector<Real> rows = measures.download();
-  for (std::uint32_t i = 0; i < n; ++i)
-    require_golden(*state.device.context(), clip_file, variant, seeds.input[i], rows[i * columns]);
-}
-
-/// Computes the golden diagram with one capacity, to detect drivers that miscompile its program.
-/// \throw Error self_test_failed
-void test_capacity(const Device& device, const Variant& variant, std::size_t capacity) {
-  Options options;
-  options.precision = variant.float32 ? Precision::float32 : Precision::float64;
-  DeviceDiagram::State state(device, Domain(std::make_shared<RegionMesh>(golden_mesh(variant))), options);
-  state.first_capacity = capacity;
-  variant.float32 ? run_golden<float>(state, variant) : run_golden<double>(state, variant);
 }
 
 /// \throw Error unsupported for a group
@@ -127,16 +90,32 @@ DeviceDiagram::State::State(Device device_in, Domain domain_in, Options options_
     images_.emplace(device.context(), plain_defines(device, domain, precision), *domain.mesh().period,
                     domain_buffers.frame());
   upload_frame();
-  for (std::size_t capacity = 0; capacity < capacities(domain.cell_dimension()).size(); ++capacity)
-    add_capacity(capacity);
+  clip_ = clip_kernels(false);
   device.context()->finish();  // nobody waits for later results, and so for a failed write of the domain
 }
 
-void DeviceDiagram::State::add_capacity(std::size_t capacity) {
-  const Variant used = variant(device, domain, precision, capacities(domain.cell_dimension())[capacity]);
-  auto program = device.context()->program(clip_file, used.defines());
-  program->trust_after([&] { test_capacity(device, used, capacity); });
-  clip_.emplace_back(device.context(), std::move(program), "clip_pairs");
+std::vector<cl::Kernel> DeviceDiagram::State::clip_kernels(bool with_density) const {
+  const std::vector<Capacity>& all = capacities(domain.cell_dimension());
+  std::vector<cl::Kernel> kernels;
+  for (std::size_t capacity = 0; capacity < all.size(); ++capacity) {
+    const Variant used = variant(device, domain, precision, all[capacity]);
+    auto program =
+        device.context()->program(with_density ? device_density_file : device_clip_file, used.defines());
+    program->trust_after([&] {
+      with_density ? require_golden_masses(device, used, capacity)
+                   : require_golden_measures(device, used, capacity);
+    });
+    kernels.emplace_back(device.context(), std::move(program), "clip_pairs");
+  }
+  return kernels;
+}
+
+void DeviceDiagram::State::set_density(cl_mem values) {
+  if (values && !density_) {
+    clip_density_ = clip_kernels(true);
+    density_.emplace(domain_buffers, plain_defines(device, domain, precision));
+  }
+  if (density_) density_->set(values);
 }
 
 void DeviceDiagram::State::upload_frame() {
@@ -176,16 +155,18 @@ DeviceGeometry::Clipped DeviceDiagram::State::clipped(std::uint32_t n) const {
 
 void DeviceDiagram::State::clip_with(std::size_t capacity, bool listed, std::uint32_t n) {
   const std::uint64_t most = launch_pairs();
+  cl::Kernel& kernel = (density() ? clip_density_ : clip_)[capacity];
   for (std::uint64_t begin = 0; begin < pairs_.capacity; begin += most) {
     const auto first = static_cast<cl_uint>(begin);
     const auto end = static_cast<cl_uint>(std::min<std::uint64_t>(begin + most, pairs_.capacity));
-    clip_[capacity].args(first, end, n, cl_int{images_.has_value()}, pairs_.offset, cl_int{listed}, list_,
-                         found_, pairs_.seed, pairs_.region, seeds_.state, domain_buffers.corners,
-                         domain_buffers.region_offset, domain_buffers.region_vertex, domain_buffers.behind,
-                         domain_buffers.shape, piece_status_, moments_, reach_);
-    walls_.append_store(clip_[capacity]);
-    blocks_.append_arguments(clip_[capacity], device_tree());
-    clip_[capacity].submit(end - first);
+    kernel.args(first, end, n, cl_int{images_.has_value()}, pairs_.offset, cl_int{listed}, list_, found_,
+                pairs_.seed, pairs_.region, seeds_.state, domain_buffers.corners,
+                domain_buffers.region_offset, domain_buffers.region_vertex, domain_buffers.behind,
+                domain_buffers.shape, piece_status_, moments_, reach_);
+    walls_.append_store(kernel);
+    if (density()) density_->append_arguments(kernel);
+    blocks_.append_arguments(kernel, device_tree());
+    kernel.submit(end - first);
   }
 }
 
@@ -211,6 +192,7 @@ void DeviceDiagram::State::clip(std::uint32_t n) {
   moments_.reserve(std::size_t{pairs_.capacity} * (2 + d) * real_bytes());
   reach_.reserve(images_ ? n * real_bytes() : 0);
   piece_status_.zero();
+  if (density()) density_->begin(pairs_.capacity);
   clip_with(first_capacity, false, n);
   for (std::size_t capacity = first_capacity + 1; capacity < clip_.size(); ++capacity) {
     compaction_.enqueue(piece_status_.handle(), pairs_.capacity, PIECE_FULL, list_.handle(), pairs_.capacity,
@@ -247,7 +229,10 @@ void DeviceDiagram::State::enqueue(cl_mem positions, cl_mem weights, std::uint32
   finish_
       .args(n, seeds_.order, seeds_.state, pairs_.offset, cl_ulong{pairs_.capacity}, piece_status_, moments_,
             frame_, positions, results.measures, results.status, for_host_)
-      .submit(n, 0, faces != 0 || list || cells ? nullptr : done);
+      .submit(n, 0, density() || faces != 0 || list || cells ? nullptr : done);
+  if (density())
+    density_->write(seeds_, pairs_, results.status, frame_.handle(), positions, n, results.measures,
+                    faces != 0 || list || cells ? nullptr : done);
   if (list)
     compaction_.enqueue(for_host_.handle(), n, 1, results.uncertain.seeds, rooms.uncertain,
                         results.uncertain.count, 0, faces != 0 || cells ? nullptr : done);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <powercell/opencl.hpp>
 
+#include "lib/diagram/device_density.hpp"
 #include "lib/diagram/device_geometry.hpp"
 #include "lib/diagram/device_repair.hpp"
 #include "lib/diagram/device_walls.hpp"
@@ -22,6 +23,9 @@ struct DeviceDiagram::State {
 
   void enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results, Rooms rooms,
                cl_event* done);
+  /// As DeviceDiagram::set_density, of a checked buffer for a domain that can have one.
+  void set_density(cl_mem values);
+  cl_mem density() const { return density_ ? density_->values() : nullptr; }
 
   Device device;
   Domain domain;
@@ -38,8 +42,8 @@ struct DeviceDiagram::State {
 
  private:
   void upload_frame();
-  /// Builds the program of a capacity, tested with the golden diagram before its first use.
-  void add_capacity(std::size_t capacity);
+  /// The kernels of all capacities, each tested with the golden diagram before its first use.
+  std::vector<cl::Kernel> clip_kernels(bool with_density) const;
   /// Orders the seeds, and in a periodic domain their images behind them.
   void order_seeds(cl_mem positions, cl_mem weights, std::uint32_t n);
   TreeBlocks::Tree device_tree() const;
@@ -61,9 +65,11 @@ struct DeviceDiagram::State {
   DevicePairs pairs_;
   DeviceWalls walls_;
   std::optional<DeviceGeometry> geometry_;  // made on first use
+  std::optional<DeviceDensity> density_;    // the same
   Compaction compaction_;
   cl::Kernel finish_;
-  std::vector<cl::Kernel> clip_;  // by number of the capacity
+  std::vector<cl::Kernel> clip_;          // by number of the capacity
+  std::vector<cl::Kernel> clip_density_;  // the same, made with density_
   cl::Buffer<std::uint32_t> piece_status_, list_, found_, for_host_;
   cl::RawBuffer moments_, reach_;
 };

@@ -2,6 +2,7 @@
 #include <powercell/opencl.hpp>
 #include <powercell/seeds.hpp>
 
+#include "lib/base/nodal_values.hpp"
 #include "lib/diagram/device_diagram.hpp"
 
 namespace powercell {
@@ -225,6 +226,16 @@ void DeviceDiagram::set_wall_capacity(std::uint32_t walls) {
   state_->wall_capacity = walls;
 }
 
+void DeviceDiagram::set_density(cl_mem values) {
+  if (values) {
+    require_simplices(state_->domain);
+    const std::size_t vertices = state_->domain.regions().vertices.size() / 3;
+    require_buffer(*state_->device.context(), values, vertices * state_->real_bytes(),
+                   "the values of the density");
+  }
+  state_->set_density(values);
+}
+
 void DeviceDiagram::enqueue(cl_mem positions, cl_mem weights, std::uint32_t n, cl_mem measures, cl_mem status,
                             cl_uint wait_count, const cl_event* wait_list, cl_event* done) {
   run(*state_, {positions, weights, n, {measures, status}}, wait_count, wait_list, done);
@@ -247,7 +258,7 @@ std::uint32_t DeviceDiagram::repair(cl_mem positions, cl_mem weights, std::uint3
     options.precision = state_->precision;
     state_->repair.emplace(state_->device, state_->domain, std::move(options));
   }
-  return state_->repair->run(positions, weights, n, results, rooms);
+  return state_->repair->run(positions, weights, n, results, rooms, state_->density());
 }
 
 }  // namespace powercell

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <powercell/regions.hpp>
 #include <string>
 #include <utility>
 
+#include "kernels/layout.h"
+#include "lib/base/threads.hpp"
 #include "lib/cl/transfers.hpp"
 #include "lib/diagram/merge_rows.hpp"
 #include "lib/diagram/repair_boundary.hpp"
@@ -92,6 +95,20 @@ void put_measures(const Measures& from, const std::vector<std::uint32_t>& list, 
   }
 }
 
+/// Puts the integrals of a density over a selection in place of the measures of the cells that are there.
+template <class Real>
+void put_density(const NodalIntegrals& from, const std::vector<std::uint32_t>& list,
+                 const std::vector<cl_uint>& status, std::vector<Real>& measures) {
+  constexpr std::size_t d = 3;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (status[list[k]] != static_cast<cl_uint>(DeviceSeedStatus::ok)) continue;
+    Real* row = &measures[list[k] * (2 + d)];
+    row[0] = static_cast<Real>(from.mass[k]);
+    for (std::size_t c = 0; c < d; ++c) row[1 + c] = static_cast<Real>(from.centroid[k * d + c]);
+    row[1 + d] = static_cast<Real>(from.second_moment[k]);
+  }
+}
+
 /// \throw Error invalid_argument if some rows have not been written for lack of room
 template <class Real>
 DeviceRows<Real> read_rows(const std::shared_ptr<cl::Context>& context, const DeviceAdjacency& from,
@@ -129,7 +146,7 @@ void write_rows(const cl::Context& context, const DeviceAdjacency& to, const Dev
 }  // namespace
 
 DeviceRepair::DeviceRepair(const Device& device, const Domain& domain, Options options)
-    : diagram_(device, domain, repairing(std::move(options))) {}
+    : threads_(thread_count(options.threads)), diagram_(device, domain, repairing(std::move(options))) {}
 
 void DeviceRepair::set_seeds(std::vector<double> positions, const std::vector<double>& weights) {
   if (positions == positions_) {
@@ -142,7 +159,7 @@ void DeviceRepair::set_seeds(std::vector<double> positions, const std::vector<do
 }
 
 std::uint32_t DeviceRepair::run(cl_mem positions, cl_mem weights, std::uint32_t n,
-                                const DeviceResults& results, Rooms rooms) {
+                                const DeviceResults& results, Rooms rooms, cl_mem density) {
   const std::shared_ptr<cl::Context>& context = diagram_.device().context();
   const cl_uint count = read_number(context, results.uncertain.count, 0);
   if (count == 0) return 0;
@@ -156,14 +173,30 @@ std::uint32_t DeviceRepair::run(cl_mem positions, cl_mem weights, std::uint32_t 
   reads.add(results.uncertain.seeds, list.data(), count * sizeof(cl_uint));
   reads.wait();
   return diagram_.precision() == Precision::float32
-             ? repair<float>(positions, weights, n, results, std::move(list), rooms)
-             : repair<double>(positions, weights, n, results, std::move(list), rooms);
+             ? repair<float>(positions, weights, n, results, std::move(list), rooms, density)
+             : repair<double>(positions, weights, n, results, std::move(list), rooms, density);
+}
+
+template <class Real>
+NodalIntegrals DeviceRepair::integrals(cl_mem density, const std::vector<std::uint32_t>& list) {
+  const std::size_t vertices = diagram_.domain().regions().vertices.size() / 3;
+  std::vector<Real> values(vertices);
+  cl::Reads reads(diagram_.device().context());
+  reads.add(density, values.data(), vertices * sizeof(Real));
+  reads.wait();
+  std::vector<double> seeds;
+  for (const std::uint32_t i : list)
+    seeds.insert(seeds.end(), &positions_[3 * std::size_t{i}], &positions_[3 * std::size_t{i}] + 3);
+  const double largest =
+      diagram_.precision() == Precision::float32 ? LARGEST_DENSITY_FLOAT : LARGEST_DENSITY_DOUBLE;
+  return integrate_nodal(diagram_.cells(), diagram_.domain(),
+                         std::vector<double>(values.begin(), values.end()), largest, seeds, threads_);
 }
 
 template <class Real>
 std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32_t n,
                                    const DeviceResults& results, std::vector<std::uint32_t> list,
-                                   const Rooms& rooms) {
+                                   const Rooms& rooms, cl_mem density) {
   const std::shared_ptr<cl::Context>& context = diagram_.device().context();
   const auto d = static_cast<std::size_t>(diagram_.domain().dimension());
   std::vector<Real> position(n * d), weight(n), measures(n * (2 + d));
@@ -198,8 +231,9 @@ std::uint32_t DeviceRepair::repair(cl_mem positions, cl_mem weights, std::uint32
     list = valid_seeds(status);
     diagram_.select(list);
   }
-  diagram_.compute(wants_rows(results), wants_cells(results));
+  diagram_.compute(wants_rows(results), wants_cells(results) || density);
   put_measures(diagram_.measures(), list, measures, status);
+  if (density) put_density(integrals<Real>(density, list), list, status, measures);
   if (wants_rows(results)) {
     std::vector<bool> has_cell(n);
     for (std::size_t i = 0; i < n; ++i) has_cell[i] = status[i] == static_cast<cl_uint>(SeedStatus::ok);

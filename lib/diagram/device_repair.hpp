@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/diagram/device_geometry.hpp"
+#include "lib/integrate/nodal_density.hpp"
 
 namespace powercell {
 
@@ -44,16 +45,21 @@ class DeviceRepair {
   DeviceRepair(const Device& device, const Domain& domain, Options options);
 
   /// As DeviceDiagram::repair, of checked arguments. \pre n > 0
+  /// \param density  that of the diagram, at the vertices of its mesh; null: none
   std::uint32_t run(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
-                    Rooms rooms);
+                    Rooms rooms, cl_mem density);
 
  private:
   /// \return how many cells were computed
   template <class Real>
   std::uint32_t repair(cl_mem positions, cl_mem weights, std::uint32_t n, const DeviceResults& results,
-                       std::vector<std::uint32_t> list, const Rooms& rooms);
+                       std::vector<std::uint32_t> list, const Rooms& rooms, cl_mem density);
+  /// The integrals of the density over the selected cells. Waits.
+  template <class Real>
+  NodalIntegrals integrals(cl_mem density, const std::vector<std::uint32_t>& list);
   void set_seeds(std::vector<double> positions, const std::vector<double>& weights);
 
+  int threads_;
   Diagram diagram_;
   std::vector<double> positions_;  // of the seeds that the diagram has
 };

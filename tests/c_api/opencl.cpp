@@ -310,3 +310,52 @@ TEST_CASE("queues and diagrams that cannot be used are refused") {
         PC_INVALID_ARGUMENT);
   pc_device_diagram_destroy(nullptr);
 }
+
+TEST_CASE("the masses of two cells of a tetrahedron with a density in device memory") {
+  const Queue own;
+  Device device;
+  Domain domain, box;
+  DeviceDiagram diagram, in_box;
+  REQUIRE(pc_device_from_queue(own.queue, &device.handle) == PC_OK);
+  const double corner[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const uint32_t tetrahedron[4] = {0, 1, 2, 3};
+  REQUIRE(pc_domain_volume(corner, 4, tetrahedron, 1, &domain.handle) == PC_OK);
+  pc_options options;
+  REQUIRE(pc_options_init(&options, sizeof options) == PC_OK);
+  options.precision = PC_FLOAT32;
+  REQUIRE(pc_device_diagram_create(device.handle, domain.handle, &options, &diagram.handle) == PC_OK);
+  // The wall is at x = 1/2; density x.
+  const cl_float position[6] = {0.25F, 0, 0, 0.75F, 0, 0}, value[4] = {0, 1, 0, 0};
+  const cl_mem seeds = own.buffer(sizeof position), density = own.buffer(sizeof value),
+               measures = own.buffer(2 * 5 * sizeof(cl_float)), status = own.buffer(2 * sizeof(cl_uint));
+  const auto write = [&](cl_mem memory, std::size_t bytes, const void* from) {
+    REQUIRE(clEnqueueWriteBuffer(own.queue, memory, CL_TRUE, 0, bytes, from, 0, nullptr, nullptr) ==
+            CL_SUCCESS);
+  };
+  write(seeds, sizeof position, position);
+  write(density, sizeof value, value);
+  REQUIRE(pc_device_diagram_set_density(diagram.handle, density) == PC_OK);
+  REQUIRE(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 2, measures, status, 0, nullptr,
+                                    nullptr) == PC_OK);
+  cl_float rows[10];
+  REQUIRE(clEnqueueReadBuffer(own.queue, measures, CL_TRUE, 0, sizeof rows, rows, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  // Of x (1 - x)^2 / 2 and x^2 (1 - x)^2 / 2, the integrals to 1/2 and from there to 1.
+  CHECK(rows[0] == doctest::Approx(11.0 / 384).epsilon(1e-4));
+  CHECK(rows[5] == doctest::Approx(5.0 / 384).epsilon(1e-4));
+  CHECK(rows[1] == doctest::Approx(1.0 / 120 / (11.0 / 384)).epsilon(1e-4));
+  CHECK(rows[6] == doctest::Approx(1.0 / 120 / (5.0 / 384)).epsilon(1e-4));
+  REQUIRE(pc_device_diagram_set_density(diagram.handle, nullptr) == PC_OK);
+  REQUIRE(pc_device_diagram_enqueue(diagram.handle, seeds, nullptr, 2, measures, status, 0, nullptr,
+                                    nullptr) == PC_OK);
+  REQUIRE(clEnqueueReadBuffer(own.queue, measures, CL_TRUE, 0, sizeof rows, rows, 0, nullptr, nullptr) ==
+          CL_SUCCESS);
+  CHECK(rows[0] == doctest::Approx(7.0 / 48).epsilon(1e-4));
+  const cl_mem small = own.buffer(3 * sizeof(cl_float));
+  CHECK(pc_device_diagram_set_density(diagram.handle, small) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_diagram_set_density(nullptr, density) == PC_INVALID_ARGUMENT);
+  REQUIRE(pc_domain_box(low, high, 3, &box.handle) == PC_OK);
+  REQUIRE(pc_device_diagram_create(device.handle, box.handle, &options, &in_box.handle) == PC_OK);
+  CHECK(pc_device_diagram_set_density(in_box.handle, density) == PC_UNSUPPORTED);
+  for (const cl_mem memory : {seeds, density, measures, status, small}) clReleaseMemObject(memory);
+}

@@ -67,6 +67,17 @@ Memory::Memory(const Caller& caller, std::size_t bytes, const void* values) {
   REQUIRE(status == CL_SUCCESS);
 }
 
+Reals::Reals(const Caller& caller, Precision precision, std::span<const double> values)
+    : precision_(precision),
+      memory_(caller, values.size() * (precision == Precision::float32 ? sizeof(float) : sizeof(double)),
+              packed(values, precision).data()) {}
+
+void Reals::write(cl_command_queue queue, std::span<const double> values) const {
+  const std::vector<std::byte> bytes = packed(values, precision_);
+  REQUIRE(clEnqueueWriteBuffer(queue, memory_.handle(), CL_TRUE, 0, bytes.size(), bytes.data(), 0, nullptr,
+                               nullptr) == CL_SUCCESS);
+}
+
 Rows::Rows(const Caller& caller, Precision precision, std::size_t n, std::size_t room, bool periodic)
     : caller_(caller),
       real_(precision == Precision::float32 ? sizeof(float) : sizeof(double)),

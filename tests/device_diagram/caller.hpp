@@ -8,6 +8,7 @@
 #include <powercell/opencl.hpp>
 #include <powercell/results.hpp>
 #include <powercell/seeds.hpp>
+#include <span>
 #include <vector>
 
 #include "tests/support/generators.hpp"
@@ -61,6 +62,19 @@ class Memory {
 
  private:
   cl_mem memory_ = nullptr;
+};
+
+/// Reals of a precision in a buffer of the caller.
+class Reals {
+ public:
+  Reals(const Caller& caller, Precision precision, std::span<const double> values);
+  cl_mem handle() const { return memory_.handle(); }
+  /// Writes others over them, without waiting for anything but the write.
+  void write(cl_command_queue queue, std::span<const double> values) const;
+
+ private:
+  Precision precision_;
+  Memory memory_;
 };
 
 /// The results, in double.

@@ -10,8 +10,9 @@
 #include <ctime>
 #include <limits>
 #include <powercell/diagram.hpp>
+#include <powercell/shapes.hpp>
 
-#include "tests/device_diagram/caller.hpp"
+#include "tests/device_diagram/weighted.hpp"
 #include "tests/support/domains.hpp"
 #include "tests/support/generators.hpp"
 
@@ -150,4 +151,37 @@ TEST_CASE("rates of a periodic box beside the same without periods" * doctest::s
             alone, waiting, with_room, job.read().count(DeviceSeedStatus::unfinished));
         std::fflush(stdout);
       }
+}
+
+TEST_CASE("rates with a density beside those without, in turns" * doctest::skip()) {
+  Caller caller;
+  const std::uint32_t n = seed_count();
+  const TriangleMesh triangles = sphere(40);
+  const TetrahedralMesh tetrahedra = ball(8);
+  const NamedDomain domains[] = {
+      {"sphere of 32000 triangles", Domain::surface(triangles.vertices, triangles.triangles)},
+      {"ball of 4096 tetrahedra", Domain::volume(tetrahedra.vertices, tetrahedra.tetrahedra)}};
+  for (const NamedDomain& domain : domains)
+    for (const Precision precision : precisions(caller)) {
+      Random random(test_seed());
+      const SeedArray seeds = seeds_for(domain.domain, Distribution::white, WeightRange::W0, n, random);
+      Options options;
+      options.precision = precision;
+      DeviceDiagram without(caller.device(), domain.domain, options),
+          with(caller.device(), domain.domain, options);
+      const Reals values(caller, precision, random_values(domain.domain, random));
+      with.set_density(values.handle());
+      const Job job(caller, precision, seeds.view());
+      double alone = std::numeric_limits<double>::infinity(), beside = alone;
+      for (int turn = 0; turn < 3; ++turn) {
+        alone = std::min(alone, least_seconds(
+                                    caller, [&] { job.enqueue(without); }, processor_seconds));
+        beside = std::min(beside, least_seconds(
+                                      caller, [&] { job.enqueue(with); }, processor_seconds));
+      }
+      std::printf("%s, %s, %u seeds; processor seconds: measures %.4f, with a density %.4f, ratio %.3f\n",
+                  domain.name.c_str(), precision == Precision::float32 ? "float" : "double", n, alone, beside,
+                  beside / alone);
+      std::fflush(stdout);
+    }
 }
