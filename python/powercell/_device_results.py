@@ -154,7 +154,7 @@ class DeviceMeasures:
     ----------
     measures : (n, 2 + d) pyopencl.array.Array
         Rows of mass, centroid and second moment. 0, NaN..., 0 where the cell is empty; all NaN for seeds that
-        are invalid or unfinished.
+        are invalid or unfinished. With a density its integrals.
     status : (n,) pyopencl.array.Array of uint32
         A :class:`DeviceStatus` of each seed.
     adjacency : DeviceAdjacency or None
@@ -165,6 +165,8 @@ class DeviceMeasures:
         The same.
     boundary_walls : DeviceBoundaryWalls or None
         The same.
+    density : pyopencl.array.Array or None
+        What was given to :meth:`DeviceDiagram.compute`: measures are its integrals then.
     event : pyopencl.Event
         Of the last command.
     """
@@ -187,6 +189,7 @@ class DeviceMeasures:
         self.uncertain = uncertain
         self.cells = cells
         self.boundary_walls = boundary_walls
+        self.density: Optional[Any] = None
         self.event = event
         self._parts: dict[str, Any] = {}
 
@@ -225,7 +228,7 @@ class DeviceMeasures:
 
     @property
     def mass(self) -> Any:
-        """(n,): area or volume of each cell."""
+        """(n,): area or volume of each cell, or integral of the density over it."""
         return self._columns("mass", 0, (len(self),))
 
     @property

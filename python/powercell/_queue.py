@@ -103,6 +103,7 @@ class DeviceDiagram:
         uncertain: Union[bool, int] = False,
         cells: Union[bool, Sequence[int], np.ndarray] = False,
         boundary_walls: Union[bool, int] = False,
+        density: Optional[Any] = None,
         out: Optional[DeviceMeasures] = None,
     ) -> DeviceMeasures:
         """Enqueues the diagram of n seeds, and returns without waiting for it.
@@ -128,6 +129,12 @@ class DeviceDiagram:
         boundary_walls : bool or int
             Whether the parts of the domain's boundary that each cell has are wanted, or the number of entries to make
             room for. True makes room for three for each seed and each facet of the boundary.
+        density : (nv,) pyopencl.array.Array, optional
+            Of the type of ``positions``, a value for each vertex of a surface or volume, linear in each triangle or
+            tetrahedron, as :class:`TransportSolver` takes it. Measures are then the integrals of the density over the cells,
+            the centroid NaN where the mass is 0; statuses, walls and geometry stay those of the cells alone. A cell
+            with a part in a region at a corner of which the value is negative, not finite or above 10^100 (float32:
+            10^30) has NaN for all its measures. The first call with a density builds programs, which waits.
         out : DeviceMeasures, optional
             Of an earlier call with as many seeds of this type: its arrays are written again, those of the adjacency,
             the list, the cells and the boundary walls where it has them and they are wanted. Otherwise new ones come from the allocator of
@@ -143,10 +150,12 @@ class DeviceDiagram:
         ValueError
             An array of the wrong shape, type or layout, by name.
         Error
-            ``invalid_argument`` for an array in another context, ``no_fp64``, ``out_of_device_memory``, ``opencl``.
+            ``invalid_argument`` for an array in another context, ``unsupported`` for a density in a domain without
+            triangles or tetrahedra, ``no_fp64``, ``out_of_device_memory``, ``opencl``.
         """
         cl, queue = _looks.package("pyopencl"), self.device.queue
         core, n, used, pointers = self._seeds(positions, weights)
+        used += self._density(density, positions)
         results = DeviceMeasures(
             queue,
             *self._measures(n, positions, out),
@@ -156,10 +165,12 @@ class DeviceDiagram:
             self._boundary(boundary_walls, n, positions, out),
             None,
         )
+        results.density = density
+        values = 0 if density is None else _pointer(used[-1])
         written = results._arrays()
         arrays = [array for array in written if array is not None]
         events = [event.int_ptr for array in [*used, *arrays] for event in array.events]
-        results.event = cl.Event.from_int_ptr(core.enqueue(*pointers, _pointers(written), events), retain=False)
+        results.event = cl.Event.from_int_ptr(core.enqueue(*pointers, _pointers(written), values, events), retain=False)
         for array in arrays:
             array.add_event(results.event)
         return results
@@ -175,7 +186,7 @@ class DeviceDiagram:
         positions, weights : pyopencl.array.Array
             As given to :meth:`compute`.
         out : DeviceMeasures
-            What that call returned, with ``uncertain``.
+            What that call returned, with ``uncertain``, and whose density is used.
 
         Returns
         -------
@@ -194,10 +205,12 @@ class DeviceDiagram:
             raise ValueError("out has no list of uncertain seeds; give compute(uncertain=True)")
         core, n, used, pointers = self._seeds(positions, weights)
         self._measures(n, positions, out)
+        used += self._density(out.density, positions)
+        values = 0 if out.density is None else _pointer(used[-1])
         arrays = [array for array in out._arrays() if array is not None]
         for array in [*used, *arrays]:
             array.finish()
-        count = int(core.repair(*pointers, _pointers(out._arrays())))
+        count = int(core.repair(*pointers, _pointers(out._arrays()), values))
         out._parts.clear()
         return count
 
@@ -211,6 +224,16 @@ class DeviceDiagram:
         core = self._core(PRECISIONS[positions.dtype.name])
         used = [whole(array, self.device.queue) for array in (positions, weights) if array is not None]
         return core, n, used, (_pointer(used[0]), _pointer(used[1]) if weights is not None else 0, n)
+
+    def _density(self, density: Optional[Any], positions: Any) -> list[Any]:
+        """The array of the density, if there is one."""
+        if density is None:
+            return []
+        _check(density, "density", (None,), positions.dtype)
+        mesh = self.domain.regions
+        if self.domain.kind != "polygon" and mesh.shape != "box" and len(density) != len(mesh.vertices):
+            raise ValueError(f"density has {len(density)} values; {len(mesh.vertices)} are expected, one for each vertex")
+        return [whole(density, self.device.queue)]
 
     def _measures(self, n: int, positions: Any, out: Optional[DeviceMeasures]) -> tuple[Any, Any]:
         """The memory of measures and statuses."""

@@ -40,25 +40,28 @@ class PyDeviceDiagram {
   /// \param results  measures and statuses; offsets, neighbours, walls and shifts of the adjacency; number
   ///   and list of uncertain seeds; the buffers of DeviceCells in their order; offsets, facets and measures
   ///   of boundary walls; 0 for what is not wanted
+  /// \param density  the values at vertices; 0: none
   /// \return the event of the last command, which the caller owns
   Pointer enqueue(Pointer positions, Pointer weights, std::uint32_t n, const std::vector<Pointer>& results,
-                  const std::vector<Pointer>& events) {
+                  Pointer density, const std::vector<Pointer>& events) {
     std::vector<cl_event> wait_list;
     for (const Pointer event : events) wait_list.push_back(handle_of<cl_event>(event));
     return Call(nb::none()).run([&] {
       const std::scoped_lock lock(mutex_);
       cl_event done = nullptr;
+      diagram_.set_density(handle_of<cl_mem>(density));
       diagram_.enqueue(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n, results_of(results),
                        static_cast<cl_uint>(wait_list.size()), wait_list.data(), &done);
       return reinterpret_cast<Pointer>(done);
     });
   }
 
-  /// \param results  as in enqueue()  \return how many cells were computed
+  /// \param results, density  as in enqueue()  \return how many cells were computed
   std::uint32_t repair(Pointer positions, Pointer weights, std::uint32_t n,
-                       const std::vector<Pointer>& results) {
+                       const std::vector<Pointer>& results, Pointer density) {
     return Call(nb::none()).run([&] {
       const std::scoped_lock lock(mutex_);
+      diagram_.set_density(handle_of<cl_mem>(density));
       return diagram_.repair(handle_of<cl_mem>(positions), handle_of<cl_mem>(weights), n,
                              results_of(results));
     });
@@ -95,8 +98,9 @@ void bind_queues(nb::module_& m) {
       .def("set_pair_capacity", &PyDeviceDiagram::set_pair_capacity)
       .def("set_wall_capacity", &PyDeviceDiagram::set_wall_capacity)
       .def("set_image_capacity", &PyDeviceDiagram::set_image_capacity)
-      .def("enqueue", &PyDeviceDiagram::enqueue, "positions"_a, "weights"_a, "n"_a, "results"_a, "events"_a)
-      .def("repair", &PyDeviceDiagram::repair, "positions"_a, "weights"_a, "n"_a, "results"_a);
+      .def("enqueue", &PyDeviceDiagram::enqueue, "positions"_a, "weights"_a, "n"_a, "results"_a, "density"_a,
+           "events"_a)
+      .def("repair", &PyDeviceDiagram::repair, "positions"_a, "weights"_a, "n"_a, "results"_a, "density"_a);
 }
 
 }  // namespace powercell::python

@@ -132,6 +132,47 @@ def test_boundary_walls_are_those_of_diagram(rng, queue, d, dtype, tolerance):
     assert diagram.compute(seeds[:0], boundary_walls=True).boundary_walls.get()[0].tolist() == [0]
 
 
+@pytest.mark.parametrize("dtype, tolerance", [(np.float64, 1e-11), (np.float32, 1e-3)])
+@pytest.mark.parametrize("solid", [False, True])
+def test_masses_are_those_of_a_density_at_vertices(rng, queue, solid, dtype, tolerance):
+    mesh = pc.Domain.volume(*pc.ball(3)) if solid else pc.Domain.surface(*pc.sphere(4))
+    p = rng.uniform(-1, 1, (100, 3)).astype(dtype)
+    values = rng.random(len(mesh.regions.vertices)).astype(dtype)
+    other = rng.random(len(values)).astype(dtype)
+    want = pc.integrate(pc.Diagram(mesh, p), values)
+    diagram = pc.DeviceDiagram(mesh, queue)
+    seeds, density = cl.array.to_device(queue, p), cl.array.to_device(queue, values)
+    found = diagram.compute(seeds, density=density, uncertain=True)
+    assert found.density is density
+    diagram.repair(seeds, out=found)
+    size = want.mass.max()
+    assert found.mass.get() == pytest.approx(want.mass, abs=tolerance * size)
+    assert found.second_moment.get() == pytest.approx(want.second_moment, abs=4 * tolerance * size)
+    big = want.mass > 0.1 * size
+    assert found.centroid.get()[big] == pytest.approx(want.centroid[big], abs=10 * tolerance)
+    # Changed on the device, and a part of an array.
+    density.set(other)
+    changed = diagram.compute(seeds, density=density).mass.get()
+    assert changed == pytest.approx(pc.integrate(pc.Diagram(mesh, p), other).mass, abs=tolerance * size)
+    part = cl.array.to_device(queue, np.concatenate([values, other]))[len(values) :]
+    assert np.array_equal(diagram.compute(seeds, density=part).mass.get(), changed)
+    uniform = diagram.compute(seeds, out=found)
+    assert uniform.density is None
+    assert uniform.mass.get() == pytest.approx(pc.Diagram(mesh, p).mass, abs=tolerance * size)
+
+
+def test_repair_of_ties_keeps_the_density(queue):
+    mesh = pc.Domain.volume(*pc.ball(2))
+    grid = np.stack(np.meshgrid(*[np.linspace(-0.75, 0.75, 4)] * 3), axis=-1).reshape(-1, 3)
+    values = 1 + mesh.regions.vertices[:, 0]
+    diagram = pc.DeviceDiagram(mesh, queue)
+    seeds, density = cl.array.to_device(queue, grid), cl.array.to_device(queue, np.ascontiguousarray(values))
+    found = diagram.compute(seeds, density=density, uncertain=True)
+    diagram.compute(seeds)  # without: repair() takes that of the results
+    assert diagram.repair(seeds, out=found) == 64
+    assert found.mass.get() == pytest.approx(pc.integrate(pc.Diagram(mesh, grid), values).mass, abs=1e-12)
+
+
 def test_both_loaders_name_the_same_devices(queue):
     device = pc.Device.from_queue(queue)
     assert device.name == queue.device.name.strip() and device.queue is queue
@@ -287,6 +328,14 @@ def test_wrong_arguments_are_named(rng, queue, square):
         ("adjacency is 0", lambda: diagram.compute(good, adjacency=0)),
         ("boundary_walls is 'all'", lambda: diagram.compute(good, boundary_walls="all")),
         ("uncertain is 0", lambda: diagram.compute(good, uncertain=0)),
+        ("density is a ndarray", lambda: diagram.compute(good, density=np.ones(4))),
+        ("density has the type float32", lambda: diagram.compute(good, density=device(np.ones(4, np.float32)))),
+        (
+            "density has 9 values; 12 are expected",
+            lambda: pc.DeviceDiagram(pc.Domain.surface(*pc.sphere(1)), queue).compute(
+                device(np.zeros((1, 3))), density=device(np.ones(9))
+            ),
+        ),
         ("wall_capacity is -1", lambda: pc.DeviceDiagram(square, queue, wall_capacity=-1)),
         ("queue is a int", lambda: pc.DeviceDiagram(square, 3)),
         ("queue is a Device without", lambda: pc.DeviceDiagram(square, pc.devices()[0])),
@@ -297,6 +346,7 @@ def test_wrong_arguments_are_named(rng, queue, square):
     elsewhere = cl.CommandQueue(cl.Context([queue.device]))
     for code, call in [
         ("invalid_argument", lambda: diagram.compute(cl.array.to_device(elsewhere, np.zeros((4, 2))))),
+        ("unsupported", lambda: diagram.compute(good, density=device(np.ones(4)))),
         ("unsupported", lambda: pc.DeviceDiagram(pc.Domain.solid(*pc.sphere(4)), queue)),
         ("invalid_argument", lambda: pc.Device.from_queue(out_of_order(queue))),
     ]:
