@@ -15,7 +15,7 @@
 #define REGIONS_OF_ARGUMENTS \
   { corners, region_offset, region_vertex, behind, shape }
 #define OUTPUT_OF_ARGUMENTS \
-  { outputs, moments, faces, border, wall, vertices, vertex, link, reach, 0, 0 }
+  { outputs, moments, faces, border, wall, vertices, vertex, link, reach }
 
 /* Of the kernels that search the packed tree (TreeBlocks::append_arguments). */
 #define TREE_ARGUMENTS                                                                       \

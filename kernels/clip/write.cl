@@ -5,18 +5,19 @@
 #include "cell/density.cl"
 
 typedef struct {
-  uint wanted;                   /* a sum of OUTPUT_...; the memory of others is not used */
-  __global stored_real* moments; /* per pair: measure, first moments, second moment, about the seed */
-  __global uint* faces;          /* per row: faces written, all or (without geometry) the walls alone */
-  __global int* border;          /* rows of FACE_CAPACITY */
-  __global stored_real* wall;    /* rows of FACE_CAPACITY */
-  __global uint* vertices;       /* per row: vertices written */
-  __global stored_real* vertex;  /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
-  __global uint* link;           /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
-  __global stored_real* reach;   /* per row: of a cell that is done, before its vertices are improved */
-  /* Where WITH_DENSITY: of the region of the piece (cell/density.cl), and as `moments`, of the density. */
-  __global const stored_real* density;
-  __global stored_real* density_moments;
+  uint wanted;                         /* a sum of OUTPUT_...; the memory of others is not used */
+  __global stored_real* moments;       /* per pair: measure, first moments, second moment, about the seed */
+  __global uint* faces;                /* per row: faces written, all or (without geometry) the walls alone */
+  __global int* border;                /* rows of FACE_CAPACITY */
+  __global stored_real* wall;          /* rows of FACE_CAPACITY */
+  __global uint* vertices;             /* per row: vertices written */
+  __global stored_real* vertex;        /* rows of VERTEX_CAPACITY x DIMENSION, relative to the seed */
+  __global uint* link;                 /* rows of VERTEX_CAPACITY x 6: next and face (polyhedra only) */
+  __global stored_real* reach;         /* per row: of a cell that is done, before its vertices are improved */
+#if WITH_DENSITY                       /* else these would be private memory of each work-item */
+  __global const stored_real* density; /* of the region of the piece (cell/density.cl) */
+  __global stored_real* density_moments; /* as `moments`, of the density */
+#endif
 } output_t;
 
 #define MOMENTS (2 + DIMENSION)
@@ -26,7 +27,11 @@ typedef struct {
 /* All of them, about what the vertices are relative to; with `walls` the measures of walls too. */
 static inline void find_moments(cell_t* cell, output_t out, bool walls, real* moments) {
   cell_moments(cell, walls, moments);
-  if (WITH_DENSITY) cell_density_moments(cell, density_of(&cell->at, out.density), moments + MOMENTS);
+#if WITH_DENSITY
+  cell_density_moments(cell, density_of(&cell->at, out.density), moments + MOMENTS);
+#else
+  (void)out;
+#endif
 }
 
 /* Moments about the centre as those about the seed. */
@@ -124,9 +129,10 @@ static inline int write_piece(cell_t* cell, output_t out, int status, uint pair,
   }
   UNROLL for (int k = 0; k < MOMENTS; ++k) out.moments[(size_t)pair * MOMENTS + (size_t)k] =
       (stored_real)moments[k];
-  if (WITH_DENSITY)
-    UNROLL for (int k = 0; k < MOMENTS; ++k) out.density_moments[(size_t)pair * MOMENTS + (size_t)k] =
-        (stored_real)moments[ALL_MOMENTS - MOMENTS + k];
+#if WITH_DENSITY
+  UNROLL for (int k = 0; k < MOMENTS; ++k) out.density_moments[(size_t)pair * MOMENTS + (size_t)k] =
+      (stored_real)moments[MOMENTS + k];
+#endif
   return status <= PIECE_FLAT && !certain ? status | PIECE_UNCERTAIN : status;
 }
 

@@ -4,10 +4,10 @@
 
 #if WITH_DENSITY
 #define DENSITY_ARGUMENTS __global const stored_real *density, __global stored_real *density_moments,
-#define DENSITY_IN(region) density + (size_t)DENSITY_SIZE*(region), density_moments
+#define DENSITY_IN(region) , density + (size_t)DENSITY_SIZE*(region), density_moments
 #else
 #define DENSITY_ARGUMENTS
-#define DENSITY_IN(region) 0, 0
+#define DENSITY_IN(region)
 #endif
 
 /* The faces of pieces, in any order of the pieces: used[0] entries are taken. */
@@ -64,8 +64,7 @@ __kernel void clip_pairs(const uint first, const uint end, const uint count, con
                         0,
                         0,
                         0,
-                        reach,
-                        DENSITY_IN(pair_region[pair])};
+                        reach DENSITY_IN(pair_region[pair])};
   const regions_t regions = REGIONS_OF_ARGUMENTS;
   cell_t cell;
   int result = PIECE_EMPTY;
