@@ -134,11 +134,9 @@ typedef struct {
 #define BORDER_WALL 0
 
 /* A density in a region, affine: DENSITY_SIZE reals (kernels/diagram/density.cl). */
-#define DENSITY_VALUE 0 /* at its first corner; NaN where it is not known */
-#define DENSITY_LEAST 1 /* of its corners */
-#define DENSITY_MOST 2
-#define DENSITY_GRADIENT 3 /* 3 */
-#define DENSITY_SIZE 6
+#define DENSITY_VALUE 0    /* at its first corner; NaN where it is not known */
+#define DENSITY_GRADIENT 1 /* 3 */
+#define DENSITY_SIZE 4
 /* No density is larger, so that its products with areas and squared distances stay in the range of numbers.
  */
 #define LARGEST_DENSITY_DOUBLE 1e100

@@ -4,10 +4,9 @@
 #define POWERCELL_CLIP_DENSITY
 #include "cell/cell.cl"
 
-/* value + gradient.(y - corner), between the least and the most of the corners of the region: a vertex that
-   rounding puts outside it has no other value, so that no mass is negative. */
+/* value + gradient.(y - corner) */
 typedef struct {
-  real value, least, most;
+  real value;
   real4 gradient, corner; /* of the first corner, relative to what the vertices are */
 } density_t;
 
@@ -15,18 +14,14 @@ typedef struct {
 static inline density_t density_of(const vertices_t* p, __global const stored_real* region) {
   density_t density;
   density.value = region[DENSITY_VALUE];
-  density.least = region[DENSITY_LEAST];
-  density.most = region[DENSITY_MOST];
   density.gradient =
       make_real4(region[DENSITY_GRADIENT], region[DENSITY_GRADIENT + 1], region[DENSITY_GRADIENT + 2], 0);
   density.corner = region_corner(p, 0);
   return density;
 }
 
-/* At y. NaN where the density is not known: that is not below the least and not above the most. */
 static inline real density_at(density_t density, real4 y) {
-  const real at = density.value + dot3(density.gradient, y - density.corner);
-  return at < density.least ? density.least : at > density.most ? density.most : at;
+  return density.value + dot3(density.gradient, y - density.corner);
 }
 
 #if CELL_DIMENSION == 3

@@ -12,7 +12,7 @@ __kernel void affine_density(const uint regions, __global const seed_t* corners,
   __global stored_real* to = density + (size_t)r * DENSITY_SIZE;
   const seed_t first = corners[corner[0]];
   const real value = values[corner[0]];
-  real least = value, most = value, size = 0, rise[3] = {0, 0, 0};
+  real size = 0, rise[3] = {0, 0, 0};
   real4 edge[3];
   bool known = value >= 0 && value <= LARGEST_DENSITY;
   edge[2] = make_real4(0, 0, 0, 0);
@@ -23,8 +23,6 @@ __kernel void affine_density(const uint regions, __global const seed_t* corners,
     edge[k] = make_real4(d[0], d[1], DIMENSION == 3 ? d[DIMENSION - 1] : 0, 0);
     rise[k] = there - value;
     known = known && there >= 0 && there <= LARGEST_DENSITY;
-    least = fmin(least, there);
-    most = fmax(most, there);
     size = fmax(size, fmax(fabs(edge[k].x), fmax(fabs(edge[k].y), fabs(edge[k].z))));
   }
   /* In units of the region's size: products of four lengths may leave the range of numbers. */
@@ -35,8 +33,6 @@ __kernel void affine_density(const uint regions, __global const seed_t* corners,
   known =
       known && fabs(gradient.x) <= REAL_MAX && fabs(gradient.y) <= REAL_MAX && fabs(gradient.z) <= REAL_MAX;
   to[DENSITY_VALUE] = known ? value : (real)NAN;
-  to[DENSITY_LEAST] = least;
-  to[DENSITY_MOST] = most;
   to[DENSITY_GRADIENT] = gradient.x;
   to[DENSITY_GRADIENT + 1] = gradient.y;
   to[DENSITY_GRADIENT + 2] = gradient.z;

@@ -49,7 +49,7 @@ struct DensitySums {
   }
 };
 
-/// The density in one region: within the range of its corners, so that rounding makes no mass negative.
+/// The density in one region.
 class RegionDensity {
  public:
   RegionDensity(const RegionsView& mesh, std::uint32_t region, std::span<const double> values, double largest)
@@ -57,18 +57,13 @@ class RegionDensity {
     for (std::uint32_t k = mesh.region_offset[region]; k < mesh.region_offset[region + 1]; ++k) {
       const double value = values[mesh.region_vertex[k]];
       known_ = known_ && value >= 0 && value <= largest;
-      least_ = std::min(least_, value);
-      most_ = std::max(most_, value);
     }
   }
-  double operator()(const Place& x) const {
-    return known_ ? std::clamp(function_(x), least_, most_) : unknown;
-  }
+  double operator()(const Place& x) const { return known_ ? function_(x) : unknown; }
 
  private:
   AffineFunction function_;
   bool known_ = true;
-  double least_ = std::numeric_limits<double>::infinity(), most_ = 0;
 };
 
 /// Splits the pieces of cells into simplices.
