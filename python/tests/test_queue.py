@@ -169,7 +169,7 @@ def test_repair_of_ties_keeps_the_density(queue):
     seeds, density = cl.array.to_device(queue, grid), cl.array.to_device(queue, np.ascontiguousarray(values))
     found = diagram.compute(seeds, density=density, uncertain=True)
     diagram.compute(seeds)  # without: repair() takes that of the results
-    assert diagram.repair(seeds, out=found) == 64
+    assert diagram.repair(seeds, out=found) == 56  # those of the corners are far outside
     assert found.mass.get() == pytest.approx(pc.integrate(pc.Diagram(mesh, grid), values).mass, abs=1e-12)
 
 
