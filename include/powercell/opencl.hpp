@@ -180,8 +180,8 @@ class POWERCELL_API DeviceDiagram {
   /// not checked on the host: a cell with a part in a region at a corner of which the value is negative, not
   /// finite or above 10^100 (single precision: 10^30) has NaN for all its measures, and the others are right.
   /// Takes 2 + d reals a pair besides, and 4 a region. The first call with a buffer builds kernels; this
-  /// waits. \param values  read: a real for each vertex, in the order passed to Domain::surface or
-  /// Domain::volume, a
+  /// waits.
+  /// \param values  read: a real for each vertex, in the order passed to Domain::surface or Domain::volume, a
   ///   buffer of the context of the device, which is retained until another one is set; null: no density
   /// \throw Error unsupported unless the domain is a mesh of triangles or tetrahedra; invalid_argument (a
   ///   buffer that is too small or of another context); build_failed, self_test_failed, out_of_device_memory,
