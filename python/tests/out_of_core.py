@@ -37,6 +37,24 @@ class Joined:
         return [self.mass, self.centroid, self.second_moment, self.status, self.indptr, self.indices, self.data]
 
 
+class Sliced:
+    """An array-like that is never there as a whole."""
+
+    def __init__(self, array, most):
+        self._array, self._most, self.shape, self.slices = array, most, array.shape, []
+
+    def __getitem__(self, key):
+        assert isinstance(key, slice) and key.stop - key.start <= self._most
+        self.slices.append((key.start, key.stop))
+        return self._array[key]
+
+    def __array__(self, *_, **__):
+        raise AssertionError("converted as a whole")
+
+    def __len__(self):
+        return len(self._array)
+
+
 def same_bits(a, b):
     return all(u.tobytes() == v.tobytes() for u, v in zip(a.arrays(), b.arrays()))
 

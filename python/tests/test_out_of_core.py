@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import powercell as pc
-from out_of_core import check_report, compare, computed, same_bits, stop_at
+from out_of_core import Sliced, check_report, compare, computed, same_bits, stop_at
 
 
 @pytest.mark.parametrize("d", [2, 3])
@@ -70,24 +70,6 @@ def test_rows_may_be_kept_and_are_read_only(rng, square, parts):
     pc.compute_out_of_core(square, positions, take=(rows := []).append, folder=parts, name="seeds")
     with pytest.raises(ValueError, match="walls=True"):
         rows[0].neighbors(0)
-
-
-class Sliced:
-    """An array-like that is never there as a whole."""
-
-    def __init__(self, array, most):
-        self._array, self._most, self.shape, self.slices = array, most, array.shape, []
-
-    def __getitem__(self, key):
-        assert isinstance(key, slice) and key.stop - key.start <= self._most
-        self.slices.append((key.start, key.stop))
-        return self._array[key]
-
-    def __array__(self, *_, **__):
-        raise AssertionError("converted as a whole")
-
-    def __len__(self):
-        return len(self._array)
 
 
 def test_arrays_are_read_twice_in_blocks_of_rows(rng, square, parts):

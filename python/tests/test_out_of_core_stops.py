@@ -1,6 +1,5 @@
 """Seeds out of core: stops, other threads, and refusals."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 
 import powercell as pc
-from out_of_core import Boom, compare, computed, same_bits, stop_at
+from out_of_core import Boom, Sliced, compare, computed, same_bits, stop_at
 
 
 def test_stopped_by_progress_and_gone_on_with(rng, cube, parts):
