@@ -2,6 +2,7 @@
 #include <powercell.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <limits>
