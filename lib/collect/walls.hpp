@@ -42,9 +42,11 @@ class WallRows {
     return {memory_[place_[rank].part].data() + static_cast<std::size_t>(place_[rank].word)};
   }
   static constexpr std::uint32_t no_rank = ~std::uint32_t{0};
-  /// For results that are written one after the other, of rows scattered in memory: fetches those of entries
-  /// that come soon after entry i. \param rank  of each entry, or no_rank
-  /// \param offset  of the walls of each entry among all, about \param last  the end of the entries
+  /// Brings rows into the cache that will soon be read: results are written entry after entry, and the rows
+  /// of entries are scattered in memory.
+  /// \param rank    of each entry, or no_rank
+  /// \param offset  of the walls of each entry among those of all, as in Adjacency, or nearly
+  /// \param i       the entry at work \param last  the end of the entries
   void fetch_ahead(std::span<const std::uint32_t> rank, std::span<const std::uint64_t> offset, std::size_t i,
                    std::size_t last);
   /// Adds an uninitialised row of `count` walls to the memory of one thread. It replaces an earlier row of
