@@ -20,7 +20,7 @@ std::string line_of(const NamedValue& part) {
 void require_same_call(const LockedFolder& folder, const std::vector<NamedValue>& parts) {
   const std::string path = folder.file(call_name);
   if (!folder.has(call_name)) {
-    if (!folder.is_empty())  // it is removed at the end
+    if (!folder.is_empty(call_name))  // it is removed at the end
       throw Error(
           ErrorCode::invalid_argument,
           path + ": is not there, so the folder is for something else; name one that is not there yet");

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* finished = ".finished";  // the end of the name of a folder that is removed
 constexpr const char* lock_name = "lock";
+constexpr const char* unfinished_end = ".unfinished";  // of the name of a file that is not whole yet
 constexpr std::size_t buffer_bytes = std::size_t{1} << 16;
 
 std::string hint(int error) {
@@ -40,7 +41,7 @@ std::string hint(int error) {
 }  // namespace
 
 FileWriter::FileWriter(std::string path, Kind kind)
-    : path_(std::move(path)), unfinished_(kind == Kind::kept ? path_ + ".unfinished" : path_), kind_(kind) {
+    : path_(std::move(path)), unfinished_(kind == Kind::kept ? path_ + unfinished_end : path_), kind_(kind) {
   file_.reset(std::fopen(unfinished_.c_str(), "wbe"));
   if (!file_) fail("create", errno);
   (void)std::setvbuf(file_.get(), nullptr, _IOFBF, buffer_bytes);
@@ -138,10 +139,12 @@ bool LockedFolder::has(const std::string& name) const {
   return fs::exists(file(name), ignored);
 }
 
-bool LockedFolder::is_empty() const {
+bool LockedFolder::is_empty(const std::string& unfinished) const {
   const fs::directory_iterator files(path_);
-  return std::all_of(begin(files), end(files),
-                     [](const fs::directory_entry& entry) { return entry.path().filename() == lock_name; });
+  return std::all_of(begin(files), end(files), [&](const fs::directory_entry& entry) {
+    const fs::path name = entry.path().filename();
+    return name == lock_name || name == unfinished + unfinished_end;
+  });
 }
 
 void LockedFolder::remove_file(const std::string& name) const {

@@ -98,7 +98,8 @@ class LockedFolder {
 
   std::string file(const std::string& name) const { return path_ + "/" + name; }
   bool has(const std::string& name) const;
-  bool is_empty() const;  ///< but for the lock
+  /// But for the lock, and for what a FileWriter that was killed has left of the file of that name.
+  bool is_empty(const std::string& unfinished) const;
   void remove_file(const std::string& name) const;
   /// With all that is in it. \throw Error write_failed
   void remove();

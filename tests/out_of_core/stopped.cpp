@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <powercell/error.hpp>
 
 #include "tests/out_of_core/compute.hpp"
@@ -150,6 +151,17 @@ TEST_CASE("out of core: a folder with other files is refused, and left as it is"
   std::filesystem::create_directories(folder.path() + "/photos");
   refusal(ErrorCode::invalid_argument, seeds, options_in(folder, 0));
   CHECK(std::filesystem::exists(folder.path() + "/photos"));
+}
+
+TEST_CASE("out of core: a process killed while it wrote the first file of its folder is gone on with") {
+  const SeedArray seeds = some_seeds(10);
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.path());
+  for (const char* const name : {"lock", "call.txt.unfinished"})
+    std::ofstream(folder.path() + "/" + name) << "the seeds: 1";
+  Taken taken;
+  CHECK(compute_into(taken, seeds, options_in(folder, 0)).kept == 0);
+  CHECK_FALSE(folder.is_there());
 }
 
 TEST_CASE("out of core: wrong seeds are named as a diagram names them") {
