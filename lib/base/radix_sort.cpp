@@ -66,12 +66,15 @@ void sort_by_digits(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch
   if (from.data() != records.data()) std::copy(from.begin(), from.end(), records.begin());
 }
 
+bool has_less_key(const KeyedIndex& a, const KeyedIndex& b) {
+  return a.key < b.key;
+}
+
 void sort_short(std::span<KeyedIndex> records) {
-  const auto less = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; };
   if (records.size() == 2) {
-    if (less(records[1], records[0])) std::swap(records[0], records[1]);
+    if (has_less_key(records[1], records[0])) std::swap(records[0], records[1]);
   } else {
-    std::stable_sort(records.begin(), records.end(), less);
+    std::stable_sort(records.begin(), records.end(), has_less_key);
   }
 }
 
@@ -79,6 +82,8 @@ void sort_short(std::span<KeyedIndex> records) {
 
 void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads) {
   if (records.size() < least_by_digits) return sort_short(records);
+  // As pieces of seeds out of core are.
+  if (std::is_sorted(records.begin(), records.end(), has_less_key)) return;
   // Sort by enough of the highest digits to separate most records: an even number of passes, which ends in
   // `records`. Runs that agree in these digits are mostly short; long ones are sorted by all digits.
   unsigned passes = 2;

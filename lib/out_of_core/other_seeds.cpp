@@ -1,6 +1,7 @@
 #include "lib/out_of_core/other_seeds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <numeric>
@@ -31,24 +32,38 @@ PackedTree rim_of(const PackedTree& own) {
   return rim;
 }
 
-/// Seeds that each piece gets. One whose weight is far above those of others would else be asked for by
-/// every cell of each piece, and none would be proved without its vertices.
-constexpr std::size_t heaviest_seeds = 32;
+/// Seeds that each piece gets, at most. One whose weight is far above those of others would else be asked for
+/// by every cell of each piece, and none would be proved without its vertices.
+constexpr std::size_t most_heavy = 32;
 
-/// The ranks of the heaviest seeds, ascending.
+/// The square of the distance of seeds if they were spread evenly in their box.
+double spacing2(const exchange::TreeSeeds& seeds) {
+  const std::size_t d = seeds.dimension();
+  const exchange::BoxView all =
+      exchange::box_of(seeds.tree, static_cast<std::uint32_t>(seeds.tree.weight.size() - 1));
+  double log_measure = -std::log(static_cast<double>(seeds.size()));
+  for (std::size_t k = 0; k < d; ++k) log_measure += std::log(all.high[k] - all.low[k]);
+  return std::exp(2 * log_measure / static_cast<double>(d));
+}
+
+/// The ranks of the seeds far heavier than all but a few, ascending.
 std::vector<std::uint32_t> heaviest_of(const Store& store) {
+  const exchange::TreeSeeds seeds = store.seeds();
+  if (seeds.size() <= most_heavy) return {};
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heaviest;  // the lightest of them is on top
-  const std::span<const double> weights = store.seeds().weights;
-  for (std::size_t rank = 0; rank < weights.size(); ++rank) {
-    const bool has_room = heaviest.size() < heaviest_seeds;
-    if (!has_room && weights[rank] <= heaviest.top().first) continue;
+  for (std::size_t rank = 0; rank < seeds.size(); ++rank) {
+    const double weight = seeds.weights[rank];
+    const bool has_room = heaviest.size() <= most_heavy;
+    if (!has_room && weight <= heaviest.top().first) continue;
     if (!has_room) heaviest.pop();
-    heaviest.emplace(weights[rank], static_cast<std::uint32_t>(rank));
+    heaviest.emplace(weight, static_cast<std::uint32_t>(rank));
   }
   store.drop();
+  const double bound = heaviest.top().first + spacing2(seeds);
   std::vector<std::uint32_t> ranks;
-  for (; !heaviest.empty(); heaviest.pop()) ranks.push_back(heaviest.top().second);
+  for (; !heaviest.empty(); heaviest.pop())
+    if (heaviest.top().first > bound) ranks.push_back(heaviest.top().second);
   std::sort(ranks.begin(), ranks.end());
   return ranks;
 }
@@ -87,7 +102,7 @@ void OtherSeeds::send(std::uint32_t rank, std::vector<std::uint64_t>& ids, std::
   sent_.push_back(rank);
   ++sent_count_;
   const exchange::TreeSeeds seeds = store_.seeds();
-  ids.push_back(store_.id(rank));
+  ids.push_back(rank);
   rows.insert(rows.end(), store_.given(rank), store_.given(rank) + seeds.dimension());
   rows.push_back(seeds.weights[rank]);
 }

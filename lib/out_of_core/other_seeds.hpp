@@ -25,6 +25,7 @@ class Statuses {
   std::vector<std::uint8_t> known_;
 };
 
+/// The ids of seeds in what is sent are their ranks in the store.
 class OtherSeeds {
  public:
   OtherSeeds(const Store& store, const Statuses& statuses, int threads);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <powercell/error.hpp>
 #include <powercell/out_of_core.hpp>
 #include <utility>
@@ -182,11 +183,17 @@ class Computation {
 
   PieceCells compute_piece(const Store& store, std::size_t piece, OtherSeeds& others) {
     using exchange::Shard;
-    SeedBlock own = store.by_id(piece, diagram_.setup.threads);
-    traffic_.read += own.size() * (static_cast<std::size_t>(source_.dimension) + 2) * sizeof(double);
-    // The piece is shard 0, all other seeds are shard 1.
-    Shard shard(0, own.id, {source_.dimension, own.positions, own.weights}, source_.dimension,
-                options_.diagram.threads, diagram_.setup.domain.mesh().period.get(), options_.walls);
+    const int threads = diagram_.setup.threads;
+    PieceCells cells;
+    cells.order = store.by_id(piece, threads);
+    const auto [first, last] = store.ranks(piece);
+    traffic_.read += (last - first) * (static_cast<std::size_t>(source_.dimension) + 2) * sizeof(double);
+    // Ranks are the ids of seeds among pieces, so that all of a shard is in the order of the curve. The piece
+    // is shard 0, all other seeds are shard 1.
+    std::vector<std::uint64_t> ranks(last - first);
+    std::iota(ranks.begin(), ranks.end(), std::uint64_t{first});
+    Shard shard(0, ranks, store.seeds_of(piece), source_.dimension, options_.diagram.threads,
+                diagram_.setup.domain.mesh().period.get(), options_.walls);
     shard.meet(std::make_shared<exchange::FirstOutlines>(
         std::vector<PackedTree>{{}, others.begin(piece, shard.own().tree())}, source_.dimension));
     for (const auto& [to, rim] : shard.rims()) shard.take(to, others.near(rim));
@@ -194,11 +201,13 @@ class Computation {
       while (shard.open_cells() > 0) round(shard, others);
       shard.reopen();
     }
-    store.drop();
-    std::vector<std::uint64_t> foreign = shard.foreign_neighbors();
-    report_.neighbors += foreign.size();
+    cells.foreign = shard.foreign_neighbors();
+    report_.neighbors += cells.foreign.size();
     report_.clipped += shard.clipped_cells();
-    return {std::move(own.id), shard.take_cells(diagram_.setup.domain.measure()), std::move(foreign)};
+    cells.cells = shard.take_cells(diagram_.setup.domain.measure());
+    name_by_ids(cells, store, piece, threads);
+    store.drop();
+    return cells;
   }
 
   void round(exchange::Shard& shard, OtherSeeds& others) {

@@ -12,17 +12,22 @@
 #include "lib/base/background.hpp"
 #include "lib/exchange/shard.hpp"
 #include "lib/out_of_core/files.hpp"
+#include "lib/out_of_core/store.hpp"
 
 namespace powercell::out_of_core {
 
 /// The cells of a piece in memory.
 struct PieceCells {
-  std::vector<std::uint64_t> id;       ///< ascending
-  exchange::ShardCells cells;          ///< neighbours and walls may have been left out
-  std::vector<std::uint64_t> foreign;  ///< ids of seeds of other pieces with a wall with one of these
+  std::vector<std::uint64_t> id;       ///< by rank
+  std::vector<std::uint32_t> order;    ///< the cells by ascending id
+  exchange::ShardCells cells;          ///< by rank; neighbours and walls may have been left out
+  std::vector<std::uint64_t> foreign;  ///< seeds of other pieces with a wall with one of these
 };
 
-/// Writes files of pieces, each as a whole or not at all, while the caller goes on.
+/// Puts ids in the place of ranks, and sorts rows of walls by them.
+void name_by_ids(PieceCells& piece, const Store& store, std::size_t number, int threads);
+
+/// Writes files of pieces in the order of ids, each as a whole or not at all, while the caller goes on.
 class PieceWriter {
  public:
   /// Waits for the file before. \throw Error write_failed (of that one)

@@ -4,9 +4,7 @@
 #include <powercell/error.hpp>
 #include <utility>
 
-#include "lib/base/copy_point.hpp"
 #include "lib/base/radix_sort.hpp"
-#include "lib/base/threads.hpp"
 #include "lib/exchange/tree_of_boxes.hpp"
 
 namespace powercell::out_of_core {
@@ -94,24 +92,15 @@ void Store::build_tree(int dimension) {
   tree_.seeds = size();
 }
 
-SeedBlock Store::by_id(std::size_t piece, int threads) const {
-  const auto [first, last] = ranks(piece);
-  const std::size_t d = seeds().dimension(), count = last - first;
-  std::vector<KeyedIndex> order(count), scratch(count);
-  for (std::size_t k = 0; k < count; ++k) order[k] = {ids_[first + k], static_cast<std::uint32_t>(k)};
-  sort_by_key(order, scratch, threads);
-  SeedBlock block{
-      std::vector<std::uint64_t>(count), std::vector<double>(count * d), std::vector<double>(count), {}};
-  const double *const positions = &given_[first * d], *const weights = &weights_[first];
-  parallel_for(threads_for(count, threads), count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t from = order[k].index;
-      block.id[k] = order[k].key;
-      copy_point(positions + from * d, d, &block.positions[k * d]);
-      block.weights[k] = weights[from];
-    }
-  });
-  return block;
+std::vector<std::uint32_t> Store::by_id(std::size_t piece, int threads) const {
+  const std::span<const std::uint64_t> ids = ids_of(piece);
+  std::vector<KeyedIndex> records(ids.size()), scratch(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) records[k] = {ids[k], static_cast<std::uint32_t>(k)};
+  sort_by_key(records, scratch, threads);
+  std::vector<std::uint32_t> order(ids.size());
+  std::transform(records.begin(), records.end(), order.begin(),
+                 [](const KeyedIndex& record) { return record.index; });
+  return order;
 }
 
 void Store::drop() const {

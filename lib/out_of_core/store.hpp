@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <powercell/seeds.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -62,13 +63,25 @@ class Store {
     return {piece == 0 ? 0 : ends_[piece - 1], ends_[piece]};
   }
   std::uint64_t id(std::size_t rank) const { return ids_[rank]; }
+  /// Ids of the seeds of a piece, by rank.
+  std::span<const std::uint64_t> ids_of(std::size_t piece) const {
+    const auto [first, last] = ranks(piece);
+    return ids_.subspan(first, last - first);
+  }
   /// The position as given; those of seeds() are wrapped in a periodic domain.
   const double* given(std::size_t rank) const {
     return &given_[rank * static_cast<std::size_t>(tree_.dimension)];
   }
   exchange::TreeSeeds seeds() const { return {tree_, positions_, weights_}; }
-  /// The seeds of a piece by ascending id.
-  SeedBlock by_id(std::size_t piece, int threads) const;
+  /// The seeds of a piece as given, by rank.
+  SeedsView seeds_of(std::size_t piece) const {
+    const auto [first, last] = ranks(piece);
+    const std::size_t d = seeds().dimension();
+    return {tree_.dimension, given_.subspan(first * d, (last - first) * d),
+            weights_.subspan(first, last - first)};
+  }
+  /// The seeds of a piece by ascending id, counted from the first of them by rank.
+  std::vector<std::uint32_t> by_id(std::size_t piece, int threads) const;
   /// Gives the memory of what was looked at back.
   void drop() const;
 
