@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 #include <powercell/opencl.hpp>
+#include <powercell/regions.hpp>
 
 #include "lib/cl/context.hpp"
 
@@ -93,6 +94,15 @@ class OpenJob : public Job {
   std::optional<Device> device_;
 };
 
+/// A density at the vertices of a mesh of triangles or tetrahedra, from 0 to 2; nothing for another domain.
+std::vector<double> density_values(const Domain& domain) {
+  const bool mesh =
+      domain.kind() == DomainKind::surface || domain.regions().shape == RegionShape::tetrahedron;
+  std::vector<double> values(mesh ? domain.regions().vertices.size() / 3 : 0);
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = static_cast<double>(v % 5) / 2;
+  return values;
+}
+
 /// A buffer of the caller; throws errors as the library does.
 class Memory {
  public:
@@ -134,6 +144,7 @@ class DeviceDiagramJob : public Job {
         real_(float32_ ? sizeof(float) : sizeof(double)),
         n_(seeds.size()),
         seeds_(seeds),
+        densities_(density_values(domain_)),
         positions_(device_, seeds.positions.size() * real_),
         weights_(device_, n_ * real_),
         measures_(device_, n_ * (2 + static_cast<std::size_t>(seeds.dimension)) * real_),
@@ -146,9 +157,10 @@ class DeviceDiagramJob : public Job {
         uncertain_(device_, n_ * sizeof(cl_uint)),
         part_offset_(device_, (n_ + 1) * sizeof(cl_uint)),
         facet_(device_, room * sizeof(cl_uint)),
-        part_(device_, room * real_) {}
+        part_(device_, room * real_),
+        density_(device_, std::max<std::size_t>(densities_.size(), 1) * real_) {}
 
-  std::size_t steps() const override { return 7; }
+  std::size_t steps() const override { return densities_.empty() ? 7 : 8; }
   void step(std::size_t k) override {
     switch (k) {
       case 0:
@@ -174,17 +186,27 @@ class DeviceDiagramJob : public Job {
         diagram_->repair(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_), wanted());
         repaired_ = all_results();
         return;
-      default:  // the weights from before, in the same Diagram
+      case 6:  // the weights from before, in the same Diagram
         write(weights_, seeds_.weights);
         compute_all();
         diagram_->repair(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_), wanted());
         repaired_again_ = all_results();
+        return;
+      default:  // with a density, in the same Diagram
+        write(density_, densities_);
+        diagram_->set_density(density_.handle());
+        compute_all();
+        dense_ = all_results();
+        diagram_->repair(positions_.handle(), weights_.handle(), static_cast<std::uint32_t>(n_), wanted());
+        dense_repaired_ = all_results();
     }
   }
   std::string differences(const Job& other) const override {
     const auto& that = dynamic_cast<const DeviceDiagramJob&>(other);
     if (repaired_ != that.repaired_ || repaired_again_ != that.repaired_again_)
       return "repaired results differ";
+    if (dense_ != that.dense_ || dense_repaired_ != that.dense_repaired_)
+      return "results with a density differ";
     return results_ == that.results_ && others_ == that.others_
                ? ""
                : "measures, statuses, walls or boundary walls differ";
@@ -239,10 +261,11 @@ class DeviceDiagramJob : public Job {
   bool float32_;
   std::size_t real_, n_;
   SeedArray seeds_;
+  std::vector<double> densities_;
   Memory positions_, weights_, measures_, status_, offset_, neighbor_, wall_, shift_, uncertain_count_,
-      uncertain_, part_offset_, facet_, part_;
+      uncertain_, part_offset_, facet_, part_, density_;
   std::optional<DeviceDiagram> diagram_;
-  Bytes results_, others_, repaired_, repaired_again_;
+  Bytes results_, others_, repaired_, repaired_again_, dense_, dense_repaired_;
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ struct JobKind {
 /// Makes a Diagram, sets seeds, computes everything, sets weights and computes everything in another order.
 JobKind diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 /// Computes a DeviceDiagram on the setup's device into buffers of the caller, with walls too, and repairs it
-/// twice.
+/// twice; a mesh then once more with a density.
 JobKind device_diagram_job(const Setup& setup, const NamedDomain& domain, const SeedArray& seeds);
 /// Only Device::choose.
 JobKind open_job(const Setup& setup);

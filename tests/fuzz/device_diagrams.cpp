@@ -4,79 +4,16 @@
 #include <array>
 #include <cmath>
 #include <compare>
-#include <cstring>
 #include <map>
-#include <memory>
-#include <powercell/diagram.hpp>
-#include <powercell/opencl.hpp>
 #include <powercell/regions.hpp>
 #include <span>
 
+#include "tests/fuzz/device_density.hpp"
 #include "tests/fuzz/laws.hpp"
 #include "tests/fuzz/refusals.hpp"
 
 namespace powercell::fuzz {
 namespace {
-
-void succeed(cl_int status, const char* what) {
-  if (status != CL_SUCCESS) throw std::runtime_error(std::string(what) + ": " + std::to_string(status));
-}
-
-/// A context and queue of the caller, never freed.
-struct Caller {
-  cl_context context = nullptr;
-  cl_command_queue queue = nullptr;
-};
-
-const Caller& caller() {
-  static const Caller made = [] {
-    const DeviceInfo info = shared_device().info();
-    cl_platform_id platforms[16];
-    cl_device_id found[16];
-    succeed(clGetPlatformIDs(16, platforms, nullptr), "clGetPlatformIDs");
-    succeed(clGetDeviceIDs(platforms[info.platform], CL_DEVICE_TYPE_ALL, 16, found, nullptr),
-            "clGetDeviceIDs");
-    Caller result;
-    cl_int status = CL_SUCCESS;
-    result.context = clCreateContext(nullptr, 1, &found[info.device], nullptr, nullptr, &status);
-    succeed(status, "clCreateContext");
-    result.queue = clCreateCommandQueue(result.context, found[info.device], 0, &status);
-    succeed(status, "clCreateCommandQueue");
-    return result;
-  }();
-  return made;
-}
-
-const Device& device() {
-  static const auto* made = new Device(device_from_queue(caller().queue));
-  return *made;
-}
-
-/// A buffer that is released.
-struct Memory {
-  explicit Memory(std::size_t bytes, const void* values = nullptr) {
-    cl_int status = CL_SUCCESS;
-    handle = clCreateBuffer(caller().context, CL_MEM_READ_WRITE | (values ? CL_MEM_COPY_HOST_PTR : 0),
-                            bytes > 0 ? bytes : 1, const_cast<void*>(bytes > 0 ? values : nullptr), &status);
-    if (bytes == 0 && status != CL_SUCCESS)
-      handle = clCreateBuffer(caller().context, CL_MEM_READ_WRITE, 1, nullptr, &status);
-    succeed(status, "clCreateBuffer");
-  }
-  Memory(const Memory&) = delete;
-  Memory& operator=(const Memory&) = delete;
-  ~Memory() { clReleaseMemObject(handle); }
-  cl_mem handle = nullptr;
-};
-
-template <class T>
-std::vector<T> read(const Memory& memory, std::size_t count) {
-  std::vector<T> values(count);
-  if (count > 0)
-    succeed(clEnqueueReadBuffer(caller().queue, memory.handle, CL_TRUE, 0, count * sizeof(T), values.data(),
-                                0, nullptr, nullptr),
-            "reading results");
-  return values;
-}
 
 /// A wall of a row: the neighbour and, in a periodic domain, its image.
 struct Wall {
@@ -169,26 +106,14 @@ class Boundary {
 };
 
 /// Statuses and neighbours after repair are those of a Diagram without the invalid seeds. \throw Finding
-void check_repaired(const DeviceDiagram& diagram, const Options& options, const SeedInput& given,
-                    const std::vector<cl_uint>& before, const std::vector<cl_uint>& status,
+void check_repaired(const ExactTwin& twin, const std::vector<cl_uint>& status,
                     const std::vector<std::vector<Wall>>& walls) {
-  constexpr auto invalid = static_cast<cl_uint>(DeviceSeedStatus::invalid);
-  const auto d = static_cast<std::size_t>(diagram.domain().dimension());
-  SeedInput valid;
-  std::vector<cl_uint> number;  // of each valid seed
-  for (cl_uint i = 0; i < status.size(); ++i) {
-    require((before[i] == invalid) == (status[i] == invalid), "repair of an invalid seed");
-    if (status[i] == invalid) continue;
-    number.push_back(i);
-    valid.weights.push_back(given.weights[i]);
-    for (std::size_t k = 0; k < d; ++k) valid.positions.push_back(given.positions[i * d + k]);
-  }
-  Diagram exact(device(), diagram.domain(), options);
-  exact.set_seeds({diagram.domain().dimension(), valid.positions, valid.weights});
-  const Adjacency& rows = exact.adjacency();
+  const std::vector<cl_uint>& number = twin.number;
+  const Adjacency& rows = twin.diagram->adjacency();
   for (std::size_t k = 0; k < number.size(); ++k) {
     const std::string seed = "repaired seed " + std::to_string(number[k]) + ": ";
-    require(status[number[k]] == static_cast<cl_uint>(exact.measures().status[k]), seed + "another status");
+    require(status[number[k]] == static_cast<cl_uint>(twin.diagram->measures().status[k]),
+            seed + "another status");
     std::vector<Wall> row;
     for (std::uint64_t at = rows.offset[k]; at < rows.offset[k + 1]; ++at)
       row.push_back(
@@ -197,45 +122,22 @@ void check_repaired(const DeviceDiagram& diagram, const Options& options, const 
   }
 }
 
+/// The masses that the device finds, of a status each, with those of valid seeds summing to the domain's.
+/// \throw Finding
 template <class Real>
-void run(Input& input, const Domain& domain, Precision precision) {
-  Options options;
-  options.precision = precision;
-  DeviceDiagram diagram(device(), domain, options);
-  const std::size_t n = input.below(20), d = static_cast<std::size_t>(domain.dimension());
-  SeedInput given = any_seeds(input, domain, n);
-  const std::vector<Real> positions(given.positions.begin(), given.positions.end());
-  const std::vector<Real> weights(given.weights.begin(), given.weights.end());
-  given = {{positions.begin(), positions.end()}, {weights.begin(), weights.end()}};
-  const Memory position_memory(positions.size() * sizeof(Real), positions.data());
-  const Memory weight_memory(n * sizeof(Real), weights.data());
-  const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
-  const Rows<Real> adjacency(n, domain.is_periodic());
-  const Memory count(sizeof(cl_uint)), list(n * sizeof(cl_uint));
-  const Boundary<Real> boundary(domain, n);
-  const DeviceResults results{
-      measure_memory.handle, status_memory.handle, adjacency.handles(), {count.handle, list.handle}, {},
-      boundary.handles()};
-  diagram.enqueue(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n), results);
-  const auto rows = read<Real>(measure_memory, n * (2 + d));
-  const auto status = read<cl_uint>(status_memory, n);
-  adjacency.check(status);
-  boundary.check(status);
-  diagram.repair(position_memory.handle, weight_memory.handle, static_cast<std::uint32_t>(n), results);
-  const auto repaired = read<cl_uint>(status_memory, n);
-  check_repaired(diagram, options, given, status, repaired, adjacency.check(repaired));
-  boundary.check(repaired);
-
-  SeedInput valid;
+void check_masses(const DeviceDiagram& diagram, const SeedInput& given, const std::vector<Real>& rows,
+                  const std::vector<cl_uint>& status, const ExactTwin& twin) {
+  const Domain& domain = diagram.domain();
+  const std::size_t n = status.size(), d = static_cast<std::size_t>(domain.dimension());
   double total = 0;
-  bool whole = true;
+  bool whole = !twin.number.empty();
   for (std::size_t i = 0; i < n; ++i) {
     const std::string seed = "seed " + std::to_string(i) + ": ";
     require(status[i] <= static_cast<cl_uint>(DeviceSeedStatus::unfinished), seed + "no status");
     const auto what = static_cast<DeviceSeedStatus>(status[i]);
     const double mass = rows[i * (2 + d)];
-    bool finite = std::isfinite(weights[i]);
-    for (std::size_t k = 0; k < d; ++k) finite = finite && std::isfinite(positions[i * d + k]);
+    bool finite = std::isfinite(given.weights[i]);
+    for (std::size_t k = 0; k < d; ++k) finite = finite && std::isfinite(given.positions[i * d + k]);
     require(finite || what == DeviceSeedStatus::invalid, seed + "not finite, and not said so");
     if (what == DeviceSeedStatus::invalid || what == DeviceSeedStatus::unfinished) {
       require(std::isnan(mass), seed + "a measure of a cell that is not known");
@@ -244,21 +146,51 @@ void run(Input& input, const Domain& domain, Precision precision) {
       require(what == DeviceSeedStatus::ok ? mass > 0 : mass == 0, seed + "mass and status contradict");
       total += mass;
     }
-    if (what == DeviceSeedStatus::invalid) continue;
-    valid.weights.push_back(weights[i]);
-    for (std::size_t k = 0; k < d; ++k) valid.positions.push_back(positions[i * d + k]);
   }
-  if (!whole || valid.weights.empty()) return;
-  const SeedsView view{domain.dimension(), valid.positions, valid.weights};
-  const double allowed = sum_doubt(domain, n, plane_error(domain, view, precision));
-  const double least = precision == Precision::float32 ? 1e-5 : 1e-12;
-  if (allowed >= 0.01 || std::fabs(total - domain.measure()) <= (least + 8 * allowed) * domain.measure())
-    return;
+  const double allowed = twin.mass_doubt(diagram.precision());
+  if (!whole || allowed >= 0.01 || std::fabs(total - domain.measure()) <= allowed * domain.measure()) return;
   std::string what = "the masses do not sum to the domain's; parts of it, with statuses:";
   for (std::size_t i = 0; i < n; ++i)
     what +=
         " " + std::to_string(rows[i * (2 + d)] / domain.measure()) + " (" + std::to_string(status[i]) + ")";
   throw Finding(what);
+}
+
+template <class Real>
+void run(Input& input, const Domain& domain, Precision precision) {
+  Options options;
+  options.precision = precision;
+  DeviceDiagram diagram(caller_device(), domain, options);
+  const std::size_t n = input.below(20), d = static_cast<std::size_t>(domain.dimension());
+  SeedInput given = any_seeds(input, domain, n);
+  const std::vector<Real> positions(given.positions.begin(), given.positions.end());
+  const std::vector<Real> weights(given.weights.begin(), given.weights.end());
+  given = {{positions.begin(), positions.end()}, {weights.begin(), weights.end()}};
+  const DeviceSeeds seeds{Memory(positions.size() * sizeof(Real), positions.data()),
+                          Memory(n * sizeof(Real), weights.data()), static_cast<std::uint32_t>(n)};
+  const Memory measure_memory(n * (2 + d) * sizeof(Real)), status_memory(n * sizeof(cl_uint));
+  const Rows<Real> adjacency(n, domain.is_periodic());
+  const Memory count(sizeof(cl_uint)), list(n * sizeof(cl_uint));
+  const Boundary<Real> boundary(domain, n);
+  const DeviceResults results{
+      measure_memory.handle, status_memory.handle, adjacency.handles(), {count.handle, list.handle}, {},
+      boundary.handles()};
+  diagram.enqueue(seeds.positions.handle, seeds.weights.handle, seeds.count, results);
+  const auto rows = read<Real>(measure_memory, n * (2 + d));
+  const auto status = read<cl_uint>(status_memory, n);
+  adjacency.check(status);
+  boundary.check(status);
+  const ExactTwin twin(domain, options, given, status);
+  check_masses(diagram, given, rows, status, twin);
+
+  diagram.repair(seeds.positions.handle, seeds.weights.handle, seeds.count, results);
+  const auto repaired = read<cl_uint>(status_memory, n);
+  constexpr auto invalid = static_cast<cl_uint>(DeviceSeedStatus::invalid);
+  for (std::size_t i = 0; i < n; ++i)
+    require((status[i] == invalid) == (repaired[i] == invalid), "repair of an invalid seed");
+  check_repaired(twin, repaired, adjacency.check(repaired));
+  boundary.check(repaired);
+  check_density<Real>(input, diagram, seeds, status, twin);
 }
 
 /// A box with some periodic axes, or a lattice, from any numbers.

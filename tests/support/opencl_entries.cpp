@@ -211,6 +211,7 @@ RELEASE(clReleaseMemObject, cl_mem, buffer)
 RELEASE(clReleaseProgram, cl_program, program)
 RETAIN(clRetainCommandQueue, cl_command_queue, queue)
 RETAIN(clRetainContext, cl_context, context)
+RETAIN(clRetainMemObject, cl_mem, buffer)
 PASS(clSetKernelArg, (cl_kernel k, cl_uint index, std::size_t size, const void* value),
      (k, index, size, value))
 PASS(clWaitForEvents, (cl_uint n, Events wait), (n, wait))

@@ -48,6 +48,7 @@ constexpr const char* names[entry_count] = {"clBuildProgram",
                                             "clReleaseProgram",
                                             "clRetainCommandQueue",
                                             "clRetainContext",
+                                            "clRetainMemObject",
                                             "clSetKernelArg",
                                             "clWaitForEvents"};
 

@@ -59,6 +59,7 @@ enum class Entry : std::size_t {
   clReleaseProgram,
   clRetainCommandQueue,
   clRetainContext,
+  clRetainMemObject,
   clSetKernelArg,
   clWaitForEvents,
   count
