@@ -25,7 +25,8 @@ KEYS = ("program", "kernel", "variant", "target")
 COSTS = ("registers", "private", "spill", "waves", "code")
 # Programs that clip, of which the table has the first capacity of each kind of space and the large one in 3D, or the first
 # in 3D alone. The others share their code. Of programs without cells it has what runs in 3D.
-MAIN, BESIDE = "clip/by_tree.cl", ("clip/by_region.cl",)
+MAIN = "clip/by_tree.cl"
+BESIDE = ("clip/by_region.cl", "diagram/clip_pairs.cl", "diagram/clip_density.cl")
 # What --check compiles of the table, in some seconds each.
 CHECKED = {
     MAIN: ("float 2D", "float 3D", "double 3D"),
@@ -82,10 +83,11 @@ def with_includes(program, seen=None):
 def programs():
     """(program, the kind of its variants: cells, plain or none), of all files with kernels."""
     for path in sorted(KERNELS.rglob("*.cl")):
-        program, text = path.relative_to(KERNELS).as_posix(), path.read_text()
+        program = path.relative_to(KERNELS).as_posix()
+        text = with_includes(program)
         if "__kernel void" not in text or program.startswith(TESTS):
             continue
-        yield program, "cells" if "cell_t cell;" in text else "plain" if "base/real.cl" in with_includes(program) else "none"
+        yield program, "cells" if "cell_t cell;" in text else "plain" if '"base/real.cl"' in text else "none"
 
 
 def variants(path):

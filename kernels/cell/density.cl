@@ -1,7 +1,7 @@
 /* Integrals over a cell of a density that is affine in the region, piece by piece as the moments are found
    (docs/mathematics.md (33a)). */
-#ifndef POWERCELL_CLIP_DENSITY
-#define POWERCELL_CLIP_DENSITY
+#ifndef POWERCELL_CELL_DENSITY
+#define POWERCELL_CELL_DENSITY
 #include "cell/cell.cl"
 
 /* value + gradient.(y - corner) */
