@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from typing import Any, Optional
+from typing import Any, ClassVar, Optional
 
 import numpy as np
 
@@ -25,7 +25,46 @@ class DeviceStatus(enum.IntEnum):
     right."""
 
 
-class DeviceAdjacency:
+class _DeviceRows:
+    """Entries of each seed, as compressed sparse rows in device memory: what :class:`DeviceAdjacency` and
+    :class:`DeviceBoundaryWalls` have in common."""
+
+    _NAME: ClassVar[str]  # of the argument of compute() that asks for them
+
+    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any) -> None:
+        self._queue = queue
+        self.indptr = indptr
+        self.indices = indices
+        self.data = data
+
+    def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
+
+        Raises
+        ------
+        Error
+            ``invalid_argument`` if the entries exceed the room (how many there are).
+        """
+        indptr = self.indptr.get(self._queue)
+        return indptr, self._entries(self.indices, indptr), self._entries(self.data, indptr)
+
+    def _entries(self, array: Any, indptr: np.ndarray) -> np.ndarray:
+        """What rows have of an array, if there is room for all of them."""
+        count, room = int(indptr[-1]), len(self.indices)
+        if count > room:
+            raise Error(
+                f"there are {count} entries, and room for {room}; give compute({self._NAME}={count})",
+                "invalid_argument",
+            )
+        host: np.ndarray = array[:count].get(self._queue) if count else np.empty((0, *array.shape[1:]), array.dtype)
+        return host
+
+    def __repr__(self) -> str:
+        seeds, room = len(self.indptr) - 1, len(self.indices)
+        return f"<powercell.{type(self).__name__} of {seeds} seeds, room for {room} entries>"
+
+
+class DeviceAdjacency(_DeviceRows):
     """The walls of a :class:`DeviceDiagram`, as compressed sparse rows in device memory.
 
     Attributes
@@ -40,22 +79,11 @@ class DeviceAdjacency:
         In a periodic domain the image of each neighbour, as :attr:`Adjacency.shift`, with 0 behind the dimension.
     """
 
+    _NAME = "adjacency"
+
     def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any, shift: Optional[Any] = None) -> None:
-        self._queue = queue
-        self.indptr = indptr
-        self.indices = indices
-        self.data = data
+        super().__init__(queue, indptr, indices, data)
         self.shift = shift
-
-    def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
-
-        Raises
-        ------
-        Error
-            ``invalid_argument`` if the walls exceed the room (how many there are).
-        """
-        return rows_on_host(self, "adjacency")
 
     def get_shift(self) -> Optional[np.ndarray]:
         """Waits for the diagram, and copies the shifts to the host, without unused room; None where there are none.
@@ -65,16 +93,10 @@ class DeviceAdjacency:
         Error
             As :meth:`get`.
         """
-        if self.shift is None:
-            return None
-        count = entries_of(self, self.indptr.get(self._queue), "adjacency")
-        return self.shift[:count].get(self._queue) if count else np.empty((0, 3), np.int32)
-
-    def __repr__(self) -> str:
-        return f"<powercell.DeviceAdjacency of {len(self.indptr) - 1} seeds, room for {len(self.indices)} entries>"
+        return None if self.shift is None else self._entries(self.shift, self.indptr.get(self._queue))
 
 
-class DeviceBoundaryWalls:
+class DeviceBoundaryWalls(_DeviceRows):
     """The parts of the domain's boundary that the cells of a :class:`DeviceDiagram` have, as compressed sparse rows in
     device memory.
 
@@ -89,25 +111,7 @@ class DeviceBoundaryWalls:
         Length or area of the part of the facet that belongs to the cell.
     """
 
-    def __init__(self, queue: Any, indptr: Any, indices: Any, data: Any) -> None:
-        self._queue = queue
-        self.indptr = indptr
-        self.indices = indices
-        self.data = data
-
-    def get(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Waits for the diagram, and copies ``indptr``, ``indices`` and ``data`` to the host, without unused room.
-
-        Raises
-        ------
-        Error
-            ``invalid_argument`` if the parts exceed the room (how many there are).
-        """
-        return rows_on_host(self, "boundary_walls")
-
-    def __repr__(self) -> str:
-        seeds, room = len(self.indptr) - 1, len(self.indices)
-        return f"<powercell.DeviceBoundaryWalls of {seeds} seeds, room for {room} entries>"
+    _NAME = "boundary_walls"
 
 
 class DeviceUncertain:
@@ -272,23 +276,3 @@ class DeviceMeasures:
 def empty(queue: Any, shape: tuple[int, ...], dtype: np.dtype[Any], allocator: Any) -> Any:
     """An array of pyopencl, not filled."""
     return _looks.package("pyopencl.array").empty(queue, shape, dtype, allocator=allocator)
-
-
-def entries_of(rows: Any, indptr: np.ndarray, name: str) -> int:
-    """How many entries rows have, if there is room for them. ``name`` is that of the argument of compute()."""
-    count = int(indptr[-1])
-    if count > len(rows.indices):
-        raise Error(
-            f"there are {count} entries, and room for {len(rows.indices)}; give compute({name}={count})",
-            "invalid_argument",
-        )
-    return count
-
-
-def rows_on_host(rows: Any, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """``indptr``, ``indices`` and ``data`` of rows, without unused room."""
-    indptr = rows.indptr.get(rows._queue)
-    count = entries_of(rows, indptr, name)
-    if count == 0:
-        return indptr, np.empty(0, np.uint32), np.empty(0, rows.data.dtype)
-    return indptr, rows.indices[:count].get(rows._queue), rows.data[:count].get(rows._queue)
