@@ -93,9 +93,11 @@ class Demo(TerminalTest):
             self.skipTest("a fast machine")
         self.assertEqual(told, sorted(told))
         self.assertEqual({whole for _, whole in told}, {told[-1][1]})
-        # As many as there are: known before, and counted when all are compiled.
-        self.assertEqual(self.again["programs"], told[-1][1])
-        self.assertGreater(told[-1][0], self.again["programs"] / 2)
+        # As many as there are: known before, and counted when all are compiled; loading those of powercell's own cache, where
+        # the driver has none, does not count.
+        kept = any((self.home / "own").glob("*.clbin"))
+        self.assertEqual(self.again["programs"], 0 if kept else told[-1][1])
+        self.assertGreater(told[-1][0], told[-1][1] / 2)
 
     def test_the_inputs_are_those_of_the_examples(self):
         for name in FILES:

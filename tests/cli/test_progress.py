@@ -63,7 +63,8 @@ class ProgressTest(TerminalTest):
             parts -= seconds["check"]  # once
         self.assertAlmostEqual(parts, seconds["run"], delta=0.1 + 0.02 * seconds["run"])
         self.assertTrue(all(value >= 0 for value in seconds.values()), seconds)
-        self.assertGreater(seconds["build"], 1 if uncompiled else 0)
+        if uncompiled:
+            self.assertGreater(seconds["build"], 1)
         if command == "diagram":
             inner = sum(seconds[key] for key in ("prepare", "pairs", "neighbors", "clip", "collect", "certify"))
             self.assertLessEqual(inner, seconds["total"] + 1e-9)
@@ -90,7 +91,7 @@ class ProgressTest(TerminalTest):
         compiled_here = {"diagram", "sample", "treemap"} if ALL_INPUTS else {"treemap"}
         for command, arguments in runs.items():
             with self.subTest(command), tempfile.TemporaryDirectory() as cache:
-                env = {"POCL_CACHE_DIR": cache} if command in compiled_here else {}
+                env = {"POCL_CACHE_DIR": cache, "POWERCELL_CACHE_DIR": cache} if command in compiled_here else {}
                 first, warm = (self.report(command, *arguments, env=env) for _ in range(2))
                 self.check_times(command, first, command in compiled_here)
                 self.check_times(command, warm, False)
