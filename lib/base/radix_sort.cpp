@@ -82,7 +82,7 @@ void sort_short(std::span<KeyedIndex> records) {
 
 void sort_by_key(std::span<KeyedIndex> records, std::span<KeyedIndex> scratch, int threads) {
   if (records.size() < least_by_digits) return sort_short(records);
-  // As pieces of seeds out of core are.
+  // The seeds of a piece out of core come along the curve already.
   if (std::is_sorted(records.begin(), records.end(), has_less_key)) return;
   // Sort by enough of the highest digits to separate most records: an even number of passes, which ends in
   // `records`. Runs that agree in these digits are mostly short; long ones are sorted by all digits.

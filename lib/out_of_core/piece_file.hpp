@@ -24,7 +24,8 @@ struct PieceCells {
   std::vector<std::uint64_t> foreign;  ///< seeds of other pieces with a wall with one of these
 };
 
-/// Puts ids in the place of ranks, and sorts rows of walls by them.
+/// Sets `id`, puts ids in the place of the ranks of neighbours and foreign seeds, and sorts each row of walls
+/// by them. \param number  of the piece in the store
 void name_by_ids(PieceCells& piece, const Store& store, std::size_t number, int threads);
 
 /// Writes files of pieces in the order of ids, each as a whole or not at all, while the caller goes on.

@@ -63,8 +63,9 @@ class ProgressTest(TerminalTest):
             parts -= seconds["check"]  # once
         self.assertAlmostEqual(parts, seconds["run"], delta=0.1 + 0.02 * seconds["run"])
         self.assertTrue(all(value >= 0 for value in seconds.values()), seconds)
-        if uncompiled:
-            self.assertGreater(seconds["build"], 1)
+        # PoCL keeps programs itself, and builds those of an earlier run in no time, which is not 0.
+        if uncompiled or "Portable Computing Language" in self.good("devices").stdout:
+            self.assertGreater(seconds["build"], 1 if uncompiled else 0)
         if command == "diagram":
             inner = sum(seconds[key] for key in ("prepare", "pairs", "neighbors", "clip", "collect", "certify"))
             self.assertLessEqual(inner, seconds["total"] + 1e-9)

@@ -56,7 +56,8 @@ void check_status(double mass, cl_uint status, bool good, const std::string& see
 }  // namespace
 
 ExactTwin::ExactTwin(const Domain& domain, const Options& options, const SeedInput& given,
-                     const std::vector<cl_uint>& status) {
+                     const std::vector<cl_uint>& status)
+    : diagram(caller_device(), domain, options) {
   const auto d = static_cast<std::size_t>(domain.dimension());
   for (cl_uint i = 0; i < status.size(); ++i) {
     if (status[i] == static_cast<cl_uint>(DeviceSeedStatus::invalid)) continue;
@@ -64,12 +65,11 @@ ExactTwin::ExactTwin(const Domain& domain, const Options& options, const SeedInp
     valid.weights.push_back(given.weights[i]);
     for (std::size_t k = 0; k < d; ++k) valid.positions.push_back(given.positions[i * d + k]);
   }
-  diagram.emplace(caller_device(), domain, options);
-  diagram->set_seeds({domain.dimension(), valid.positions, valid.weights});
+  diagram.set_seeds({domain.dimension(), valid.positions, valid.weights});
 }
 
 double ExactTwin::mass_doubt(Precision precision) const {
-  const Domain& domain = diagram->domain();
+  const Domain& domain = diagram.domain();
   const SeedsView view{domain.dimension(), valid.positions, valid.weights};
   return (precision == Precision::float32 ? 1e-5 : 1e-12) +
          8 * sum_doubt(domain, number.size(), plane_error(domain, view, precision));
@@ -77,7 +77,7 @@ double ExactTwin::mass_doubt(Precision precision) const {
 
 template <class Real>
 void check_density(Input& input, DeviceDiagram& diagram, const DeviceSeeds& seeds,
-                   const std::vector<cl_uint>& status, const ExactTwin& twin) {
+                   const std::vector<cl_uint>& status, ExactTwin& twin) {
   if (!input.flag()) return;
   const Domain& domain = diagram.domain();
   const bool mesh =
@@ -113,7 +113,7 @@ void check_density(Input& input, DeviceDiagram& diagram, const DeviceSeeds& seed
   if (!comparable || twin.number.empty() || allowed >= 0.01) return;
   const auto after = read<Real>(measures, n * (2 + d));
   const std::vector<double> wide(values.begin(), values.end());
-  const DensityIntegrals exact = integrate(*twin.diagram, Density::nodal(wide), false);
+  const DensityIntegrals exact = integrate(twin.diagram, Density::nodal(wide), false);
   for (std::size_t k = 0; k < twin.number.size(); ++k) {
     const double mass = after[twin.number[k] * (2 + d)];
     require(std::fabs(mass - exact.mass[k]) <= allowed * largest * domain.measure(),
@@ -123,8 +123,8 @@ void check_density(Input& input, DeviceDiagram& diagram, const DeviceSeeds& seed
 }
 
 template void check_density<float>(Input&, DeviceDiagram&, const DeviceSeeds&, const std::vector<cl_uint>&,
-                                   const ExactTwin&);
+                                   ExactTwin&);
 template void check_density<double>(Input&, DeviceDiagram&, const DeviceSeeds&, const std::vector<cl_uint>&,
-                                    const ExactTwin&);
+                                    ExactTwin&);
 
 }  // namespace powercell::fuzz

@@ -2,7 +2,6 @@
 /// What holds for diagrams in device memory, told by a Diagram of the same seeds.
 #pragma once
 
-#include <optional>
 #include <powercell/diagram.hpp>
 
 #include "tests/fuzz/device_memory.hpp"
@@ -20,7 +19,7 @@ struct ExactTwin {
 
   std::vector<cl_uint> number;  ///< of each valid seed
   SeedInput valid;
-  mutable std::optional<Diagram> diagram;  ///< computes what is asked for
+  Diagram diagram;
 };
 
 /// Sets a density of any values at the vertices, good or not, computes and repairs: statuses are those
@@ -29,6 +28,6 @@ struct ExactTwin {
 /// device without a density, before repair \throw Finding
 template <class Real>
 void check_density(Input& input, DeviceDiagram& diagram, const DeviceSeeds& seeds,
-                   const std::vector<cl_uint>& status, const ExactTwin& twin);
+                   const std::vector<cl_uint>& status, ExactTwin& twin);
 
 }  // namespace powercell::fuzz

@@ -106,13 +106,13 @@ class Boundary {
 };
 
 /// Statuses and neighbours after repair are those of a Diagram without the invalid seeds. \throw Finding
-void check_repaired(const ExactTwin& twin, const std::vector<cl_uint>& status,
+void check_repaired(ExactTwin& twin, const std::vector<cl_uint>& status,
                     const std::vector<std::vector<Wall>>& walls) {
   const std::vector<cl_uint>& number = twin.number;
-  const Adjacency& rows = twin.diagram->adjacency();
+  const Adjacency& rows = twin.diagram.adjacency();
   for (std::size_t k = 0; k < number.size(); ++k) {
     const std::string seed = "repaired seed " + std::to_string(number[k]) + ": ";
-    require(status[number[k]] == static_cast<cl_uint>(twin.diagram->measures().status[k]),
+    require(status[number[k]] == static_cast<cl_uint>(twin.diagram.measures().status[k]),
             seed + "another status");
     std::vector<Wall> row;
     for (std::uint64_t at = rows.offset[k]; at < rows.offset[k + 1]; ++at)
@@ -180,7 +180,7 @@ void run(Input& input, const Domain& domain, Precision precision) {
   const auto status = read<cl_uint>(status_memory, n);
   adjacency.check(status);
   boundary.check(status);
-  const ExactTwin twin(domain, options, given, status);
+  ExactTwin twin(domain, options, given, status);
   check_masses(diagram, given, rows, status, twin);
 
   diagram.repair(seeds.positions.handle, seeds.weights.handle, seeds.count, results);
