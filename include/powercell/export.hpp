@@ -3,11 +3,7 @@
 #pragma once
 
 #if defined(__cplusplus) && __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
-#error "powercell needs C++20: compile with -std=c++20"
+#error "powercell needs C++20: compile with -std=c++20, or include powercell.h, which is for older C++ too"
 #endif
 
-#if defined(POWERCELL_STATIC) || !defined(__GNUC__)
-#define POWERCELL_API
-#else
-#define POWERCELL_API __attribute__((visibility("default")))
-#endif
+#include <powercell/c/export.h>

@@ -4,10 +4,9 @@
 #ifndef POWERCELL_C_BASE_H
 #define POWERCELL_C_BASE_H
 
+#include <powercell/c/export.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <powercell/export.hpp> /* only macros: legal in C */
 
 #ifdef __cplusplus
 extern "C" {
