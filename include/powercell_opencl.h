@@ -83,7 +83,8 @@ POWERCELL_API pc_status pc_device_diagram_set_density(pc_device_diagram* diagram
  * \param measures   written: n x (2 + d) reals, row-major: mass, centroid, second moment about the
  *   seed. 0, NaN..., 0 for hidden and duplicate seeds; all NaN for invalid and unfinished ones
  * \param status     written: n cl_uint, each a pc_device_seed_status
- * \param wait_count, wait_list  events that must be complete before the first command runs
+ * \param wait_count  how many events must be complete before the first command runs
+ * \param wait_list  these events
  * \param done       if not NULL: the event of the last command, for the caller to release */
 POWERCELL_API pc_status pc_device_diagram_enqueue(pc_device_diagram* diagram, cl_mem positions,
                                                   cl_mem weights, uint32_t n, cl_mem measures, cl_mem status,
@@ -154,7 +155,10 @@ POWERCELL_API pc_status pc_device_diagram_enqueue_results(pc_device_diagram* dia
 
 /** Computes the cells of the list results->uncertain exactly, on the host where needed, and puts them into
  * the results, which are then those of a pc_diagram with exact decisions (powercell::DeviceDiagram::repair).
- * Waits for the queue. \param positions, weights, n  as given to pc_device_diagram_enqueue_results() before
+ * Waits for the queue.
+ * \param positions  as given to pc_device_diagram_enqueue_results() before
+ * \param weights    as given there
+ * \param n          as given there
  * \param results  as written by that call, with the list
  * \param computed  if not NULL: how many cells were computed
  * \return PC_INVALID_ARGUMENT where the list was too small for all uncertain seeds, or the rows are for all

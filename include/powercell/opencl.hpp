@@ -193,8 +193,10 @@ class POWERCELL_API DeviceDiagram {
   /// \param positions  read: n x d reals, row-major
   /// \param weights    read: n reals; null means all zero
   /// \param n          at most 2^30; with 0 the buffers may be null
-  /// \param measures, status  written: as in DeviceResults
-  /// \param wait_count, wait_list  events that must be complete before the first command runs
+  /// \param measures   written: as in DeviceResults
+  /// \param status     written: as in DeviceResults
+  /// \param wait_count  how many events must be complete before the first command runs
+  /// \param wait_list  these events
   /// \param done       if not null: the event of the last command, for the caller to release
   /// The queue is flushed. After an exception there is no event, commands may still be writing scratch memory
   /// or results, and the diagram can be used again. \throw Error invalid_argument (a buffer that is too small
@@ -217,7 +219,9 @@ class POWERCELL_API DeviceDiagram {
   /// Waits for the queue, and works on the host: seeds, measures, statuses, rows and cells are read, and
   /// results are written back. Rows and cells may change their lengths, so all are written anew. The
   /// Diagram is kept for the next call; where the positions are the same, so are its order and tree.
-  /// \param positions, weights, n  as given to enqueue() before
+  /// \param positions  as given to enqueue() before
+  /// \param weights    as given to enqueue() before
+  /// \param n          as given to enqueue() before
   /// \param results  as written by that call, with the list
   /// \return how many cells were computed: 0 where the list is empty, for which only its count is read; all
   ///   valid ones where seeds that are different were one to the device

@@ -29,8 +29,9 @@ POWERCELL_API pc_status pc_density_function(pc_density_value function, void* use
                                             pc_density** density);
 /** Constant in each pixel of an image and 0 outside its rectangle, for polygons only. The integrals are
  * exact.
- * \param values     height x width, row-major from the top row (largest y) down, not negative
- * \param low, high  lower left and upper right corner of the rectangle, 2 doubles each */
+ * \param values  height x width, row-major from the top row (largest y) down, not negative
+ * \param low     lower left corner of the rectangle, 2 doubles
+ * \param high    upper right corner, likewise */
 POWERCELL_API pc_status pc_density_image(const double* values, size_t width, size_t height, const double* low,
                                          const double* high, pc_density** density);
 /** Linear in each triangle or tetrahedron. The integrals are exact.

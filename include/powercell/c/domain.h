@@ -40,8 +40,9 @@ POWERCELL_API pc_status pc_domain_solid(const double* vertices, size_t vertex_co
 POWERCELL_API pc_status pc_domain_box(const double* low, const double* high, int dimension,
                                       pc_domain** domain);
 /** A box whose opposite sides are identified along the axes where `periodic` is not 0; at least one.
- * \param low, high  `dimension` (2 or 3) doubles each
- * \param periodic   `dimension` numbers; NULL means all axes */
+ * \param low       the lower corner, `dimension` (2 or 3) doubles
+ * \param high      the upper corner, as many
+ * \param periodic  `dimension` numbers; NULL means all axes */
 POWERCELL_API pc_status pc_domain_periodic_box(const double* low, const double* high, const int* periodic,
                                                int dimension, pc_domain** domain);
 /** The plane or space modulo a lattice.

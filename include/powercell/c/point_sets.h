@@ -21,7 +21,8 @@ POWERCELL_API pc_status pc_random_points(const pc_domain* domain, const pc_densi
  * \param periodic   not 0: the domain is a box with its opposite sides identified
  * \param uniform    not 0: the points are meant to have constant density
  * \param options    of the diagram; NULL for the defaults
- * \param least, mean  distance of a point to its nearest neighbour, divided by that in the densest lattice
+ * \param least      the least distance of a point to its nearest neighbour, divided by the densest lattice's
+ * \param mean       the mean of these distances, divided likewise
  * \param hexatic    1 in the hexagonal lattice, about 0.37 for random points; NaN unless in the plane */
 POWERCELL_API pc_status pc_spacing(const pc_device* device, const pc_domain* domain, const double* positions,
                                    size_t count, int periodic, int uniform, const pc_options* options,

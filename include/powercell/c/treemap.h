@@ -69,7 +69,8 @@ POWERCELL_API void pc_treemap_destroy(const pc_treemap* treemap);
 /** Positions of the nodes in their parents, from which the layout of a changed tree can start (`start`).
  * \param parent     count
  * \param seeds      count x 2, as in pc_treemap
- * \param vertex_offset, vertices  as in pc_treemap; count + 1 offsets
+ * \param vertex_offset  count + 1, as in pc_treemap
+ * \param vertices   as in pc_treemap
  * \param positions  count x 2; NaN where a node or its parent has no polygon */
 POWERCELL_API pc_status pc_treemap_relative_positions(const int64_t* parent, const double* seeds,
                                                       size_t count, const uint64_t* vertex_offset,

@@ -69,8 +69,10 @@ typedef struct pc_law_checks {
  * sides and on their bisectors; each cell's measure and centroid from its pieces; random points of the
  * domain in the cell of least power distance, found by trying all seeds. A law that does not hold is
  * not a failure of the call.
- * \param positions, weights, count  the seeds of the diagram, as given to pc_diagram_set_seeds()
- * \param options  NULL for the defaults */
+ * \param positions  the seeds of the diagram, as given to pc_diagram_set_seeds()
+ * \param weights    as given there
+ * \param count      as given there
+ * \param options    NULL for the defaults */
 POWERCELL_API pc_status pc_diagram_verify(pc_diagram* diagram, const double* positions, const double* weights,
                                           size_t count, const pc_verify_options* options,
                                           const pc_law_checks** checks);
