@@ -4,7 +4,7 @@
 #ifndef POWERCELL_C_BASE_H
 #define POWERCELL_C_BASE_H
 
-#include <powercell/c/export.h>
+#include <powercell/c/export.h> /* first: where it refuses the target, other errors follow */
 #include <stddef.h>
 #include <stdint.h>
 
