@@ -23,7 +23,7 @@ build_packages="cmake ninja-build g++ pkg-config
 # files.
 test_packages="doctest-dev libcgal-dev voro++-dev libtbb-dev libopenmpi-dev openmpi-bin libpetsc-real-dev
   bash zsh fish groff-base man-db mandoc
-  clang oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-dev python3-venv python3-meshio python3-shapely python3-vtk9"
+  clang opencl-clhpp-headers oclgrind librsvg2-bin libxml2-utils poppler-utils python3 python3-dev python3-venv python3-meshio python3-shapely python3-vtk9"
 
 # Packages of the benchmarks besides those: their driver, and the plots.
 bench_packages="libbenchmark-dev python3-matplotlib python3-scipy"

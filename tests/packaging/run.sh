@@ -55,24 +55,8 @@ if [ "$kinds" = "shared static" ]; then
     fail "a project in C did not link MPI"
 fi
 
-step "every public header compiles alone"
-flags_of() {
-  case $1 in
-    powercell/mpi.hpp) pkg-config --cflags mpi-cxx ;;
-    powercell_mpi.h) pkg-config --cflags mpi-c ;;
-    powercell/petsc.hpp) pkg-config --cflags PETSc mpi-cxx ;;
-  esac
-}
-for header in $(cd "$prefix/include" && find . -name '*.hpp' | sed 's|^\./||' | sort); do
-  # shellcheck disable=SC2046
-  echo "#include <$header>" | ${CXX:-c++} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ \
-    -I "$prefix/include" $(flags_of "$header") - || fail "header $header does not compile alone"
-done
-for header in $(cd "$prefix/include" && find . -name '*.h' | sed 's|^\./||' | sort); do
-  # shellcheck disable=SC2046
-  echo "#include <$header>" | ${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c \
-    -I "$prefix/include" $(flags_of "$header") - || fail "header $header does not compile alone"
-done
+step "headers"
+python3 "$source/tests/headers/check.py" --cc "${CC:-cc}" --cxx "${CXX:-c++}" --include "$prefix/include"
 
 step "the installed tool"
 unset LD_LIBRARY_PATH # it finds the libraries beside it
