@@ -8,12 +8,16 @@
 namespace powercell {
 namespace {
 
+/// Products of at least this magnitude, and their rounding errors, do not underflow.
+constexpr double least_product = 1e-280;
+
 /// The exact sign of a sum of 12 doubles: an expansion of non-overlapping terms that grows by one term a
 /// double.
 class ExactSum {
  public:
   void add_product(double x, double y) {
     const double product = x * y;
+    exact_ = exact_ && (x == 0 || y == 0 || std::fabs(product) > least_product);
     add(std::fma(x, y, -product));
     add(product);
   }
@@ -23,6 +27,8 @@ class ExactSum {
     }
     return 0;
   }
+  /// False if the rounding error of a product may have been too small for a double.
+  bool exact() const { return exact_; }
 
  private:
   void add(double x) {
@@ -36,6 +42,7 @@ class ExactSum {
   }
   std::array<double, 12> term_{};  // in order of growing magnitude
   int count_ = 0;
+  bool exact_ = true;
 };
 
 int exact_orient2d(const double* a, const double* b, const double* c) {
@@ -46,7 +53,9 @@ int exact_orient2d(const double* a, const double* b, const double* c) {
   sum.add_product(-b[1], c[0]);
   sum.add_product(c[0], a[1]);
   sum.add_product(-c[1], a[0]);
-  return sum.sign();
+  if (sum.exact()) return sum.sign();
+  constexpr std::array<std::uint32_t, 3> corners{0, 1, 2};
+  return exact_orientation(std::array{a[0], a[1], b[0], b[1], c[0], c[1]}, corners);
 }
 
 }  // namespace
@@ -56,8 +65,9 @@ int orient2d(const double* a, const double* b, const double* c) {
   const double right = (b[1] - a[1]) * (c[0] - a[0]);
   const double area = left - right;
   // Each product carries three roundings and their difference one more.
-  const double bound = 4 * std::numeric_limits<double>::epsilon() * (std::fabs(left) + std::fabs(right));
-  if (std::fabs(area) > bound) return area > 0 ? 1 : -1;
+  const double size = std::fabs(left) + std::fabs(right);
+  if (size > least_product && std::fabs(area) > 4 * std::numeric_limits<double>::epsilon() * size)
+    return area > 0 ? 1 : -1;
   return exact_orient2d(a, b, c);
 }
 
@@ -75,8 +85,7 @@ int orient3d(const double* a, const double* b, const double* c, const double* d)
     sum += x[k] * (left - right);
     size += std::fabs(x[k]) * (std::fabs(left) + std::fabs(right));
   }
-  constexpr double least = 1e-280;  // of products that did not underflow
-  if (size > least && std::fabs(sum) > 16 * std::numeric_limits<double>::epsilon() * size)
+  if (size > least_product && std::fabs(sum) > 16 * std::numeric_limits<double>::epsilon() * size)
     return sum > 0 ? 1 : -1;
   std::array<double, 12> positions;
   for (std::size_t k = 0; k < 3; ++k) {

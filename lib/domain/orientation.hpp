@@ -8,7 +8,7 @@
 namespace powercell {
 
 /// +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if collinear: the exact sign for the given
-/// doubles, unless products under- or overflow.
+/// doubles. \pre products of coordinates do not overflow
 int orient2d(const double* a, const double* b, const double* c);
 
 /// The sign of det(b - a, c - a, d - a): exact for the given doubles.

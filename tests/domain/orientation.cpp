@@ -37,6 +37,30 @@ TEST_CASE("orient2d equals the rational sign, near and on lines, at any offset")
   CHECK(zeros < 19000);
 }
 
+TEST_CASE("orient2d equals the rational sign where products underflow") {
+  std::mt19937_64 random(5);
+  const auto coordinate = [&](int exponent) { return std::ldexp(double(random() % 9) - 4, exponent); };
+  int zeros = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int exponents[] = {-1060, -700, -540, -500, 0, 300};
+    const int x = exponents[trial % 6], y = exponents[trial / 6 % 6];
+    const double a[2] = {coordinate(x), coordinate(y)}, b[2] = {coordinate(x), coordinate(y)},
+                 c[2] = {coordinate(x), coordinate(y)};
+    const int expected = rational_orient2d(a, b, c);
+    zeros += expected == 0;
+    REQUIRE(orient2d(a, b, c) == expected);
+    REQUIRE(orient2d(c, b, a) == -expected);
+  }
+  CHECK(zeros > 100);
+  CHECK(zeros < 1000);
+  // A rounding error of a difference decides whether a product becomes 0 or the least positive number.
+  const double e = 0x1p-52, k = 40265318;
+  const double a[2] = {-0.3 * e * 0x1p-537, 0}, b[2] = {(1 - k * e) * 0x1p-537, 0x1p-537},
+               c[2] = {(1 - e / 2) * 0x1p-538, (1 + k * e) * 0x1p-538};
+  CHECK(rational_orient2d(a, b, c) == -1);
+  CHECK(orient2d(a, b, c) == -1);
+}
+
 TEST_CASE("strictly_between") {
   const double a[2] = {0, 0}, b[2] = {1, 2}, c[2] = {3, 6}, beside[2] = {1, std::nextafter(2.0, 3)};
   CHECK(strictly_between(a, b, c));
