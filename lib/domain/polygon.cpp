@@ -3,10 +3,9 @@
 #include "lib/domain/adjacency.hpp"
 #include "lib/domain/build.hpp"
 #include "lib/domain/convex_pieces.hpp"
-#include "lib/domain/geos.hpp"
 #include "lib/domain/measure.hpp"
+#include "lib/domain/polygon_check.hpp"
 #include "lib/domain/rings.hpp"
-#include "lib/domain/touching.hpp"
 
 namespace powercell {
 namespace {
@@ -19,20 +18,6 @@ std::vector<std::size_t> first_rings(const IndexedRings& rings) {
   }
   first.push_back(rings.rings.size());
   return first;
-}
-
-void validate(geos::Context& geos, const IndexedRings& rings, const std::vector<std::size_t>& first) {
-  std::vector<geos::Geometry> polygons;
-  for (std::uint32_t p = 0; p < rings.parts; ++p) {
-    polygons.push_back(geos.polygon(rings, rings.part(first[p], first[p + 1])));
-    if (const auto defect = geos.defect(polygons.back())) {
-      throw Error(
-          ErrorCode::invalid_domain,
-          "part " + std::to_string(p) + ": " + *defect +
-              "; rings must not cross or touch themselves, and holes must lie inside their outer ring");
-    }
-  }
-  check_disjoint(geos, polygons);
 }
 
 /// Fills in the borders of all edges. Edges of two pieces are interior; the others bound the domain and are
@@ -89,11 +74,9 @@ long double twice_area(const IndexedRings& rings, std::span<const std::uint32_t>
 }  // namespace
 
 RegionMeshPtr build_polygon(std::span<const PolygonPart> parts) {
-  geos::Context geos;
   IndexedRings rings = index_rings(parts);
+  split_touched_edges(rings, check_polygon(rings));
   const std::vector<std::size_t> first = first_rings(rings);
-  validate(geos, rings, first);
-  split_touched_edges(geos, rings);
 
   auto mesh = std::make_shared<RegionMesh>();
   mesh->kind = DomainKind::polygon;

@@ -29,7 +29,7 @@ Triangulation triangulate(const IndexedRings& vertices, std::span<const IndexedR
 
 /// Triangles, 3 vertices each and counter-clockwise, of the part with these rings, by a plane sweep in exact
 /// arithmetic: O(n log n). Rings may touch in vertices and may have straight vertices, but edges must not
-/// cross; if they do (by less than the validity check can tell) the result is empty.
+/// cross; if they do the result may be empty.
 /// After Hertel and Mehlhorn, "Fast triangulation of simple polygons", 1983.
 std::vector<std::uint32_t> sweep_triangulate(const IndexedRings& vertices,
                                              std::span<const IndexedRing> rings);

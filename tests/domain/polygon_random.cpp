@@ -112,7 +112,7 @@ TEST_CASE("random rings on a small lattice are tiled if valid, and refused other
       CHECK(std::fabs(static_cast<double>(domain.measure() / area - 1)) < 1e-13);
     } catch (const Error& error) {
       CHECK_MESSAGE(error.code() == ErrorCode::invalid_domain, error.what());
-      // The triangulation succeeds whenever GEOS's exact checks pass.
+      // The triangulation succeeds whenever the checks pass.
       CHECK_MESSAGE(std::string(error.what()).find("less than rounding") == std::string::npos, error.what());
     }
   }
