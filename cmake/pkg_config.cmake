@@ -10,7 +10,7 @@ list(TRANSFORM cxx_runtime PREPEND "-l")
 
 # powercell_needs(LIBRARY PREFIX MODULE): what static programs need of a module that pkg_check_modules(PREFIX MODULE) found
 # goes to LIBRARY_flags or LIBRARY_modules. A shared library brings what it needs itself, so its own flags are enough; pkg-config
-# would add what its static twin needs, libraries that are often not there (GEOS in Debian).
+# would add what its static twin needs, libraries that are often not there.
 macro(powercell_needs library prefix module)
   if("${${prefix}_LINK_LIBRARIES}" MATCHES "\\${CMAKE_STATIC_LIBRARY_SUFFIX}(;|$)")
     list(APPEND ${library}_modules ${module})
@@ -25,7 +25,6 @@ endmacro()
 
 set(core_flags "")
 set(core_modules "")
-powercell_needs(core POWERCELL_GEOS geos)
 if(POWERCELL_FLANN)
   powercell_needs(core POWERCELL_LZ4 liblz4)
 endif()
