@@ -15,6 +15,7 @@ TOOL_PACKAGES = {
     "cairo": "1.16",
     "cli11": "2.2",
     "fmt": "9",
+    "geos": "3.9",
     "libjpeg": "9",
     "libpng": "1.6",
     "nlohmann_json": "3.11",
@@ -50,7 +51,6 @@ class PowercellConan(ConanFile):
             copy(self, "*", os.path.join(root, folder), os.path.join(self.export_sources_folder, folder))
 
     def requirements(self):
-        self.requires("geos/[>=3.9]")
         self.requires("opencl-icd-loader/[>=2021]", transitive_headers=True)
         self.requires("opencl-headers/[>=2021]", transitive_headers=True)  # powercell/opencl.hpp
         self.requires("muparser/[>=2.3]")
@@ -112,7 +112,6 @@ class PowercellConan(ConanFile):
             core.defines = ["POWERCELL_STATIC"]
             core.system_libs = ["m", "pthread"]
         packages = {
-            "geos": ("geos::geos", "geos_c"),
             "opencl-icd-loader": ("opencl-icd-loader::opencl-icd-loader", "OpenCL"),
             "opencl-headers": ("opencl-headers::opencl-headers", None),
             "boost": ("boost::headers", None),

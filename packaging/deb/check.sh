@@ -35,15 +35,18 @@ wants() {
 }
 version=$(field powercell Version)
 same="\(= $version\)"
-wants libpowercell-core0 Depends 'libc6 \(>= .*' 'libgeos-c1v5 \(>= .*' 'ocl-icd-libopencl1 .*' 'libstdc\+\+6 \(>= .*'
+wants libpowercell-core0 Depends 'libc6 \(>= .*' 'ocl-icd-libopencl1 .*' 'libstdc\+\+6 \(>= .*'
 wants libpowercell-core0 Recommends 'pocl-opencl-icd \| opencl-icd'
 wants libpowercell-applications0 Depends "libpowercell-core0 $same" 'libmuparser2v5 \(>= .*'
-wants powercell Depends "libpowercell-core0 $same" "libpowercell-applications0 $same" 'libcairo2 \(>= .*' 'libproj25 \(>= .*'
+wants powercell Depends "libpowercell-core0 $same" "libpowercell-applications0 $same" 'libcairo2 \(>= .*' 'libgeos-c1v5 \(>= .*' 'libproj25 \(>= .*'
 wants powercell Recommends 'pocl-opencl-icd \| opencl-icd'
 wants libpowercell-dev Depends "libpowercell-core0 $same" "libpowercell-applications0 $same" 'opencl-c-headers \| opencl-headers' \
-  libgeos-dev libmuparser-dev
+  libmuparser-dev
 for package in libpowercell-core0 libpowercell-applications0 powercell; do
   ! field $package Depends | grep -E 'hdf5|mpi|flann|-dev' || fail "$package depends on what it does not use"
+done
+for package in libpowercell-core0 libpowercell-applications0 libpowercell-dev; do
+  ! field $package Depends | grep geos || fail "$package depends on GEOS, which only the tool uses"
 done
 
 step "a fresh $PRETTY_NAME"

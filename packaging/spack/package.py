@@ -24,7 +24,6 @@ class Powercell(CMakePackage):
     depends_on("pkgconfig", type="build")
 
     depends_on("opencl@1.2:")
-    depends_on("geos@3.9:")
     depends_on("muparser@2.3:")
     depends_on("boost@1.74:", type=("build", "link"))
     depends_on("eigen@3.4:", type="build")
@@ -35,6 +34,7 @@ class Powercell(CMakePackage):
         depends_on("cairo+pdf+png")
         depends_on("cli11@2.2:", type="build")
         depends_on("fmt@9:")
+        depends_on("geos@3.9:")
         depends_on("jpeg")
         depends_on("libpng")
         depends_on("nlohmann-json@3.11:", type="build")

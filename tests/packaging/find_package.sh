@@ -62,9 +62,7 @@ fi
 refuses C "COMPONENTS;static" "enable the language CXX"
 # The core needs nothing of the applications.
 mkdir -p "$work/core_only"
-for module in geos liblz4; do
-  ln -sf "$(pkg-config --variable=pcfiledir $module)/$module.pc" "$work/core_only"
-done
+ln -sf "$(pkg-config --variable=pcfiledir liblz4)/liblz4.pc" "$work/core_only"
 export PKG_CONFIG_LIBDIR="$work/core_only" PKG_CONFIG_PATH=
 accepts "C;CXX" "COMPONENTS;core;static" powercell::core
 refuses "C;CXX" "COMPONENTS;applications;static" "need 'muparser'"
