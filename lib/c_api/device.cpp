@@ -143,4 +143,12 @@ pc_status pc_device_latencies(const pc_device* device, double* launch, double* t
   });
 }
 
+pc_status pc_device_transfers(const pc_device* device, size_t bytes, double* to_device, double* to_host) {
+  return guarded([&] {
+    const DeviceTransfers transfers = measure_device_transfers(device_in(device), bytes);
+    if (to_device) *to_device = transfers.to_device;
+    if (to_host) *to_host = transfers.to_host;
+  });
+}
+
 }  // extern "C"

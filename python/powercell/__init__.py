@@ -32,11 +32,13 @@ from ._device import (  # noqa: E402
     Device,
     DeviceLatencies,
     DeviceRates,
+    DeviceTransfers,
     KernelBuilds,
     devices,
     kernel_builds,
     measure_device_latencies,
     measure_device_rates,
+    measure_device_transfers,
 )
 from ._device_cells import DeviceCells  # noqa: E402
 from ._device_results import (  # noqa: E402
@@ -79,6 +81,7 @@ __all__ = [
     "DeviceLatencies",
     "DeviceRates",
     "DeviceStatus",
+    "DeviceTransfers",
     "DeviceUncertain",
     "Diagram",
     "DistributedCells",
@@ -110,6 +113,7 @@ __all__ = [
     "kernel_builds",
     "measure_device_latencies",
     "measure_device_rates",
+    "measure_device_transfers",
     "mesh_quality",
     "random_points",
     "read_domain",

@@ -203,12 +203,15 @@ def kernel_builds() -> KernelBuilds:
 
 
 class DeviceRates(NamedTuple):
-    """Rates of two small kernels, each the best of several launches."""
+    """Rates of two small kernels, each the best of several launches. The scatter of a figure, here and below: by how
+    much longer than the best run their lower quartile took, relative to the best."""
 
     copied_bytes: float
     """Bytes read plus bytes written per second while a large buffer is copied."""
     operations: float
     """Multiplications plus additions per second; a fused one counts as two."""
+    copied_scatter: float
+    operations_scatter: float
 
 
 def measure_device_rates(device: Union[None, str, Device] = None, precision: str = "auto") -> DeviceRates:
@@ -235,6 +238,8 @@ class DeviceLatencies(NamedTuple):
     """Enqueuing a kernel of one work-item and waiting for it."""
     transfer: float
     """Reading one number from device memory."""
+    launch_scatter: float
+    transfer_scatter: float
 
 
 def measure_device_latencies(device: Union[None, str, Device] = None) -> DeviceLatencies:
@@ -251,3 +256,32 @@ def measure_device_latencies(device: Union[None, str, Device] = None) -> DeviceL
         ``self_test_failed`` (a wrong result).
     """
     return DeviceLatencies(*_core.measure_device_latencies(open_device(device)))
+
+
+class DeviceTransfers(NamedTuple):
+    """Bytes a second from one memory to the other, measured on the host from the call to its end, each the best of
+    several."""
+
+    to_device: float
+    """From ordinary host memory."""
+    to_host: float
+    to_device_scatter: float
+    to_host_scatter: float
+
+
+def measure_device_transfers(device: Union[None, str, Device] = None, bytes: int = 1 << 20) -> DeviceTransfers:
+    """How fast bytes go to a device and back. Takes a fifth of a second, or longer for many.
+
+    Parameters
+    ----------
+    device : Device or str, optional
+        As for :meth:`Device.choose`.
+    bytes : int
+        In one transfer.
+
+    Raises
+    ------
+    Error
+        ``self_test_failed`` (other bytes came back), ``out_of_device_memory``, ``invalid_argument``.
+    """
+    return DeviceTransfers(*_core.measure_device_transfers(open_device(device), bytes))

@@ -45,11 +45,18 @@ void bind_devices(nb::module_& m) {
   m.def("measure_device_rates", [](const Device& device, const std::string& precision) {
     const Precision wanted = precision_of(precision);
     const DeviceRates rates = Call(nb::none()).run([&] { return measure_device_rates(device, wanted); });
-    return nb::make_tuple(rates.copied_bytes, rates.operations);
+    return nb::make_tuple(rates.copied_bytes, rates.operations, rates.copied_scatter,
+                          rates.operations_scatter);
   });
   m.def("measure_device_latencies", [](const Device& device) {
     const DeviceLatencies latencies = Call(nb::none()).run([&] { return measure_device_latencies(device); });
-    return nb::make_tuple(latencies.launch, latencies.transfer);
+    return nb::make_tuple(latencies.launch, latencies.transfer, latencies.launch_scatter,
+                          latencies.transfer_scatter);
+  });
+  m.def("measure_device_transfers", [](const Device& device, std::size_t bytes) {
+    const DeviceTransfers found =
+        Call(nb::none()).run([&] { return measure_device_transfers(device, bytes); });
+    return nb::make_tuple(found.to_device, found.to_host, found.to_device_scatter, found.to_host_scatter);
   });
 }
 

@@ -74,8 +74,14 @@ def test_devices_and_their_rates():
     assert 1e6 < rates.copied_bytes < 1e14 and 1e6 < rates.operations < 1e15
     latencies = pc.measure_device_latencies(device)
     assert 0 < latencies.launch < 1 and 0 < latencies.transfer < 1
+    transfers = pc.measure_device_transfers(device, 4096)
+    assert 1e4 < transfers.to_device < 1e14 and 1e4 < transfers.to_host < 1e14
+    for result in (rates, latencies, transfers):
+        assert all(value >= 0 for name, value in result._asdict().items() if name.endswith("scatter"))
     after = pc.kernel_builds()
     assert after.seconds >= before.seconds and not after.running
     assert 0 <= device.build_seconds <= after.seconds
     with pytest.raises(ValueError, match="precision is 'half'"):
         pc.measure_device_rates(precision="half")
+    with pytest.raises(pc.Error, match="0 bytes"):
+        pc.measure_device_transfers(device, 0)

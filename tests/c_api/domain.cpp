@@ -179,6 +179,12 @@ TEST_CASE("the devices of the machine are those of C++") {
   CHECK(launch > 0);
   CHECK(transfer > 0);
   CHECK(pc_device_latencies(shared_device(), nullptr, nullptr) == PC_OK);
+  double there = 0, back = 0;
+  CHECK(pc_device_transfers(nullptr, 4096, &there, &back) == PC_INVALID_ARGUMENT);
+  CHECK(pc_device_transfers(shared_device(), 0, &there, &back) == PC_INVALID_ARGUMENT);
+  REQUIRE(pc_device_transfers(shared_device(), 4096, &there, &back) == PC_OK);
+  CHECK(there > 0);
+  CHECK(back > 0);
 }
 
 TEST_CASE("a domain tells what it is") {

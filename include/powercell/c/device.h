@@ -88,6 +88,12 @@ POWERCELL_API pc_status pc_device_rates(const pc_device* device, pc_precision pr
  * for it \param transfer  reading one number from device memory */
 POWERCELL_API pc_status pc_device_latencies(const pc_device* device, double* launch, double* transfer);
 
+/** Measures how many bytes a second go from host memory to device memory and back, `bytes` at a time: on the
+ * host from the call to its end, the best of several. Takes a fifth of a second, or nine transfers each way
+ * if these take longer. Either of the last two pointers may be NULL. */
+POWERCELL_API pc_status pc_device_transfers(const pc_device* device, size_t bytes, double* to_device,
+                                            double* to_host);
+
 #ifdef __cplusplus
 }
 #endif
