@@ -15,6 +15,7 @@
 #include "apps/io/atomic_file.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/option_words.hpp"
+#include "apps/outputs.hpp"
 #include "apps/report.hpp"
 
 namespace powercell::app {
@@ -25,22 +26,31 @@ int fail(const std::string& message) {
   return 1;
 }
 
+// Why a rate that is too low may be chance; empty if nothing says so.
+std::string doubt_of(const Ratio& ratio, const SavedRecord& now, const SavedRecord& then, double limit) {
+  constexpr const char* advice = ": measure again, on a machine that does nothing else";
+  if (ratio.value * (1 + ratio.scatter) >= limit)
+    return fmt::format("the runs of both scatter by {:.0f} %, too much to tell{} or with a larger --repeat",
+                       100 * ratio.scatter, advice);
+  for (const SavedRecord* record : {&now, &then})
+    if (const std::string busy = busy_text(record->processors, record->others); !busy.empty())
+      return fmt::format("while {} was measured, {}{}", record->path.empty() ? "it" : record->path, busy,
+                         advice);
+  return {};
+}
+
 // Prints the comparison. Exit code.
 int conclude_comparison(const BenchArguments& arguments, const SavedRecord& now, const SavedRecord& then,
                         const std::vector<BenchRatio>& ratios) {
   if (arguments.talk()) fmt::print("{}", comparison(now, then, ratios));
-  const auto worst = std::min_element(ratios.begin(), ratios.end(),
-                                      [](const auto& a, const auto& b) { return a.least() < b.least(); });
-  if (worst->least() >= arguments.fail_below) return 0;
-  const double scatter = worst->scatter();
-  return fail(fmt::format(
-      "{}: {:.3f} of the rate in {}, below --fail-below {}{}", worst->now->title(), worst->least(), then.path,
-      arguments.fail_below,
-      scatter > much_scatter
-          ? fmt::format("; but runs scatter by {:.0f} %, too much to tell: measure again, on a machine "
-                        "that does nothing else or with a larger --repeat",
-                        100 * scatter)
-          : ""));
+  const auto worst = std::min_element(ratios.begin(), ratios.end(), [](const auto& a, const auto& b) {
+    return a.least().value < b.least().value;
+  });
+  const double least = worst->least().value;
+  if (least >= arguments.fail_below) return 0;
+  const std::string doubt = doubt_of(worst->least(), now, then, arguments.fail_below);
+  return fail(fmt::format("{}: {:.3f} of the rate in {}, below --fail-below {}{}", worst->now->title(), least,
+                          then.path, arguments.fail_below, doubt.empty() ? "" : "; but " + doubt));
 }
 
 int compare_with_earlier(const BenchArguments& arguments, const BenchRecord& record,
@@ -71,6 +81,8 @@ int conclude(const BenchArguments& arguments, const BenchRecord& record,
                record.failures() ? fmt::format("{} FAILED", record.failures())
                                  : "the measures of every run sum to the domain's");
     fmt::print("{}{}", scatter_notes(record), headline(record));
+    if (const std::string devices = comparison_of_devices(saved(record, "")); !devices.empty())
+      fmt::print("\n{}", devices);
   }
   const int compared = earlier ? compare_with_earlier(arguments, record, *earlier) : 0;
   if (const std::string failure = record.failure(); !failure.empty()) return fail(failure);
@@ -101,31 +113,33 @@ int run(const BenchArguments& arguments, const CLI::App& command) {
   // Unreadable and unwritable files are refused before the benchmark, which takes a minute.
   std::optional<SavedRecord> earlier;
   if (!arguments.compare_files.empty()) earlier = read_record(arguments.compare_files.front());
-  std::optional<io::AtomicFile> file;
-  if (!arguments.json_file.empty() && arguments.json_file != "-") file.emplace(arguments.json_file);
+  check_writable({}, {arguments.json_file}, false);
 
   const BenchRecord record = run_bench(arguments, earlier ? &*earlier : nullptr);
-  const std::string json = json_text(as_json(record)) + "\n";
-  if (file) {
-    file->write(json);
-    file->commit();
+  if (!arguments.json_file.empty()) {
+    io::AtomicFile file(arguments.json_file);
+    file.write(json_text(as_json(record)) + "\n");
+    file.commit();
   }
-  if (arguments.json_file == "-") fmt::print("{}", json);
   return conclude(arguments, record, earlier);
 }
 
 constexpr const char* bench_examples =
     R"(Columns: seeds; cells per second for measures alone and for measures with adjacency, from seeds in
-host memory to results in host memory, the best of --repeat runs; arithmetic and bandwidth: the work
-counted for these cells, as a share of the rates that the device reaches in two small kernels (shown
+host memory to results in host memory, of the best run, each with its scatter: by how much longer than the
+best the lower quartile of the runs took. Runs are repeated until a quarter of them are within 5 % of the
+best, or the time for the row is over. Numbers of seeds are the same on every device, so that devices can be
+compared; the rates of each device over those of the first end the report. Arithmetic and bandwidth: the
+work counted for these cells, as a share of the rates that the device reaches in two small kernels (shown
 above the table). The work is a model (clipping by the seeds near enough to cut, and integration, with
 each number moved once), not a count of executed operations: the time also includes searching and
 transfers between host and device. See docs/performance.md. Then seconds to build the kernels (little if
 they were cached: see --cold), and from opening the device to the measures of the first 1,000 cells.
 Every run is checked: measures that do not sum to the domain's are a failure. The figure at the end is that
-of 1,000,000 seeds in the cube (100,000 with --quick), measures alone, in the first precision.
+of 1,000,000 seeds in the cube (100,000 with --quick), measures alone, in the first precision. A ratio of
+--compare has the scatter of both runs beside it, and a ~ where it shows no difference beyond that.
 Examples:
-  powercell bench                                      every device and precision, in under two minutes
+  powercell bench                                      every device and precision, some minutes for each device
   powercell bench --device gpu --json gpu.json
   powercell bench --quick --domain cube --domain part.mesh --precision float
   powercell bench --json new.json --compare old.json --fail-below 0.9
@@ -157,12 +171,13 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
       ->capture_default_str();
   command.add_option("--n", arguments.n, "Seeds")
       ->check(CLI::Range(std::size_t{1}, most_seeds_of_diagram))
-      ->default_str(
-          "those of --compare, else 1,000,000 in the cube and as many as a run of one second takes");
+      ->default_str("those of --compare, else rows of 10,000 and 100,000, and of 1,000,000 in the cube");
   command.add_option("--repeat", arguments.repeat, "Runs of each kind; the best counts")
       ->check(above_zero())
-      ->capture_default_str();
-  command.add_flag("--quick", arguments.quick, "Few seeds, in about ten seconds: rates are lower and vary");
+      ->default_str("until the scatter is small");
+  command.add_flag(
+      "--quick", arguments.quick,
+      "Rows of 10,000 seeds alone, and of 100,000 in the cube, in half a minute for each device");
   command.add_flag(
       "--cold", arguments.cold,
       "Compile the kernels of each row anew, to time it: the caches of powercell, PoCL and NVIDIA's driver "

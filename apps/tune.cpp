@@ -137,9 +137,8 @@ std::string scatter_note(const TuneRecord& record) {
       for (const TimedRuns& runs : trial.runs) most = std::max(most, runs.scatter());
   if (most <= much_scatter) return {};
   return fmt::format(
-      "note: the median of some runs took {:.0f} % longer than the best: something else keeps this machine "
-      "busy, or its "
-      "clock changes;\n      stop that, or raise --repeat\n",
+      "note: some runs scatter by {:.0f} %: something else keeps this machine busy, or its clock changes;\n"
+      "      stop that, or raise --repeat\n",
       100 * most);
 }
 
@@ -168,7 +167,7 @@ int run(const TuneArguments& arguments) {
 
 constexpr const char* tune_examples =
     R"(Each block of the table is a setting, each line a value of it, the one in use first: for each job the
-seconds of the best run, how much longer the median took, and the ratio to the first line. A value is
+seconds of the best run, how much longer the lower quartile took, and the ratio to the first line. A value is
 chosen where it is faster by more than both scatter (and 3 %) in some job, and slower by as much in none;
 otherwise the one in use is kept. At the end the result is timed against where it began once more: the
 defaults, or with --only the settings in use. Every value must give the same bits. The file is read

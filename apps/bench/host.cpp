@@ -3,13 +3,16 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sched.h>
+#include <sys/resource.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <string_view>
 #include <thread>
 
@@ -69,6 +72,32 @@ std::string loader_name() {
   return text + (text.empty() ? "" : ", ") + (unknown ? place.dli_fname : path.string());
 }
 
+/// The first line is "cpu", and the ticks of all processors: user, nice, system, idle, waiting, interrupts
+/// (two kinds), stolen, and what is part of the first two.
+std::optional<double> busy_seconds(const std::string& path) {
+  std::ifstream file(path);
+  std::string name;
+  std::array<double, 8> ticks{};
+  file >> name;
+  for (double& count : ticks) file >> count;
+  const long ticks_a_second = sysconf(_SC_CLK_TCK);
+  if (!file || name != "cpu" || ticks_a_second <= 0) return {};
+  constexpr std::size_t idle = 3, waiting = 4;
+  ticks[idle] = ticks[waiting] = 0;
+  return std::accumulate(ticks.begin(), ticks.end(), 0.0) / static_cast<double>(ticks_a_second);
+}
+
+double own_seconds() {
+  double sum = 0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+      sum += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
+  return sum;
+}
+
 }  // namespace
 
 HostInfo host_info() {
@@ -86,6 +115,29 @@ HostInfo host_info() {
   host.opencl_loader = loader_name();
   for (std::string* text : {&host.cpu, &host.system, &host.opencl_loader}) *text = io::printable(*text);
   return host;
+}
+
+HostState host_state(const std::string& root) {
+  HostState state;
+  state.busy = busy_seconds(root + "/proc/stat");
+  state.own = own_seconds();
+  state.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  std::ifstream load(root + "/proc/loadavg");
+  double average = 0;
+  while (state.load.size() < 3 && load >> average) state.load.push_back(average);
+  for (unsigned cpu = 0;; ++cpu) {
+    std::ifstream clock(fmt::format("{}/sys/devices/system/cpu/cpu{}/cpufreq/scaling_cur_freq", root, cpu));
+    double kilohertz = 0;
+    if (!(clock >> kilohertz)) break;
+    state.clock_mhz.push_back(1e-3 * kilohertz);
+  }
+  return state;
+}
+
+std::optional<double> used_by_others(const HostState& before, const HostState& after) {
+  const double seconds = after.seconds - before.seconds;
+  if (!before.busy || !after.busy || !(seconds > 0)) return {};
+  return std::max(0.0, (*after.busy - *before.busy - (after.own - before.own)) / seconds);
 }
 
 }  // namespace powercell::app

@@ -1,9 +1,11 @@
 /// \file
-/// The machine that a benchmark ran on, for its record.
+/// The machine that a benchmark ran on and what it did meanwhile, for the record.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace powercell::app {
 
@@ -17,5 +19,22 @@ struct HostInfo {
 };
 
 HostInfo host_info();
+
+/// How busy the machine is and how fast its processors run at this moment, as far as the system says.
+struct HostState {
+  std::vector<double> load;       ///< averages of 1, 5 and 15 minutes, the benchmark included; or empty
+  std::vector<double> clock_mhz;  ///< of each processor; or empty
+  /// Seconds of all processors since the system started that programs and the system used, and that the host
+  /// of this virtual machine took; and those that this process used, with what it started and waited for.
+  std::optional<double> busy;
+  double own = 0;
+  double seconds = 0;  ///< on a steady clock
+};
+
+/// \param root  before the paths of the system's files, for tests
+HostState host_state(const std::string& root = "");
+
+/// How many processors others used between two moments, on average; nothing if the system does not say.
+std::optional<double> used_by_others(const HostState& before, const HostState& after);
 
 }  // namespace powercell::app

@@ -9,19 +9,10 @@
 #include <vector>
 
 #include "apps/bench/host.hpp"
+#include "apps/bench/repeated.hpp"
 #include "apps/bench/work.hpp"
 
 namespace powercell::app {
-
-/// Repeated runs of the same computation, from seeds in host memory to results in host memory.
-struct TimedRuns {
-  std::vector<double> seconds;  ///< of each run, kernels built before
-  Timings phases;               ///< of the fastest
-
-  double best() const;  ///< least seconds; 0 without a run
-  /// How much longer than the best the median run took, relative to the best; 0 if there is one run.
-  double scatter() const;
-};
 
 /// A device, a domain, a precision and a number of seeds.
 struct BenchRow {
@@ -36,29 +27,45 @@ struct BenchRow {
   double first_result = 0;    ///< seconds from opening the device to the measures of the first seeds
   double relative_error = 0;  ///< of the sum of the measures, the largest of all runs
   Work work;                  ///< counted for a cell
+  HostState state;            ///< right after the runs
   DeviceRates rates;          ///< of the device in this precision
   std::string failure;        ///< the error if the row failed, else empty
 
   std::string title() const;           ///< for messages: "cube in double with 1,000 seeds on NAME"
   double scatter() const;              ///< the larger of both kinds of runs
+  std::size_t real_bytes() const;      ///< bytes of a number
   double rate() const;                 ///< cells a second, measures
   double adjacency_rate() const;       ///< cells a second, measures and adjacency
   double arithmetic_fraction() const;  ///< counted operations per second over the device's rate
   double bandwidth_fraction() const;   ///< counted bytes per second over the device's copying rate
 };
 
-/// Runs that scatter by more say too little: half of them are off by more than the tenth that a comparison
-/// with `--fail-below 0.9` is to find. On an idle machine rows scatter by a few hundredths.
+/// A figure that scatters by more is marked: half of what `--fail-below 0.9` is to find could be chance. On
+/// an idle machine figures scatter by a few hundredths.
 inline constexpr double much_scatter = 0.1;
 
-/// The row that stands for a device: white seeds in the cube, as many as `headline_seeds` where there is
-/// memory.
-inline constexpr std::size_t headline_seeds = 1'000'000, quick_headline_seeds = 100'000;
-inline constexpr const char* headline_domain = "cube";
+/// What a device reaches in small kernels in a precision, and in transfers of so many bytes.
+struct BenchRates {
+  std::string precision;
+  DeviceRates rates;
+};
+struct BenchTransfers {
+  std::size_t bytes = 0;
+  DeviceTransfers rates;
+};
 
 struct BenchDevice {
   DeviceInfo info;
-  DeviceLatencies latencies;  ///< 0 if they could not be measured
+  DeviceLatencies latencies = {};              ///< 0 if they could not be measured
+  std::vector<BenchRates> rates = {};          ///< those that could be measured, here and below
+  std::vector<BenchTransfers> transfers = {};  ///< ascending
+};
+
+/// A row that was not run.
+struct LeftOut {
+  std::string device, selector, domain, precision;
+  std::size_t n = 0;
+  std::string reason;
 };
 
 struct BenchRecord {
@@ -67,16 +74,20 @@ struct BenchRecord {
   std::string description;  ///< the user's words
   HostInfo host;
   int threads = 0;
-  bool cold = false;  ///< kernels compiled, not found in a cache
-  std::size_t repeat = 0;
+  bool cold = false;       ///< kernels compiled, not found in a cache
+  std::size_t repeat = 0;  ///< runs of each kind; 0: until they settle
+  HostState before, after;
+  std::optional<double> others;  ///< processors that other programs used meanwhile
   std::vector<BenchDevice> devices;
   std::vector<BenchRow> rows;
+  std::vector<LeftOut> left_out;
   double seconds = 0;  ///< of the whole benchmark
 
   std::size_t failures() const;
   /// The number of failed rows and the first of them; empty if none failed.
   std::string failure() const;
-  /// The rows that stand for the devices: of each the first in the cube that did not fail.
+  /// The rows that stand for the devices: of each in the cube, in the first precision that did not fail, that
+  /// of most seeds.
   std::vector<const BenchRow*> headlines() const;
 };
 

@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <map>
 
+#include "apps/bench/sizes.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/bench/timing.hpp"
 #include "apps/interrupt.hpp"
@@ -18,9 +20,8 @@
 namespace powercell::app {
 namespace {
 
-// Seconds for all rows together, and for one run of one row. Rows on a slow device may take longer.
-constexpr double usual_seconds = 75, quick_seconds = 10;
-constexpr double usual_run = 1, quick_run = 0.05;
+// Seconds for the runs of all rows of a device together. Rows whose runs settle need less.
+constexpr double usual_seconds = 75, quick_seconds = 20;
 
 // The default domains; the meshes have about 5,000 triangles and 14,000 tetrahedra.
 struct Shape {
@@ -106,127 +107,167 @@ class Bench {
     record_.date = now();
     record_.description = arguments.description;
     record_.host = host_info();
+    record_.before = host_state();
     record_.threads = arguments.threads;
     record_.cold = arguments.cold;
     record_.repeat = arguments.repeat;
-    for (const DeviceInfo& device : find_devices(arguments)) record_.devices.push_back({device, {}});
+    for (const DeviceInfo& device : find_devices(arguments)) record_.devices.push_back({device});
   }
 
   BenchRecord run() {
     for (const BenchDevice& device : record_.devices)
-      rows_left_ += precisions_of(arguments_, device.info).size() * domains_.size();
-    rows_ = rows_left_;
+      for (const RowPlan& plan : rows_of(device.info)) rows_ += plan.sizes.size();
     for (BenchDevice& device : record_.devices) run_device(device);
     progress_.finish();
-    record_.seconds = spent();
+    record_.after = host_state();
+    record_.others = used_by_others(record_.before, record_.after);
+    record_.seconds = watch_.lap();
     return std::move(record_);
   }
 
  private:
-  void run_device(BenchDevice& measured_device) {
-    const DeviceInfo& device = measured_device.info;
-    say(fmt::format("{}  {} ({}, {}), {} units", device.selector(), device.name, device.platform_name,
-                    device.driver_version, device.compute_units));
-    measured_device.latencies = latencies_of(device);
-    std::vector<std::pair<Precision, DeviceRates>> measured;
-    std::vector<std::string> faults;
-    for (const Precision precision : precisions_of(arguments_, device)) {
-      std::string fault;
-      measured.emplace_back(precision, rates_of(device, precision, fault));
-      faults.push_back(fault);
-    }
-    say(table_head());
+  // The rows of a domain and a precision.
+  struct RowPlan {
+    const NamedDomain* domain;
+    Precision precision;
+    std::vector<std::size_t> sizes;
+  };
+
+  std::vector<RowPlan> rows_of(const DeviceInfo& device) const {
+    std::vector<RowPlan> plans;
     for (const NamedDomain& domain : domains_)
-      for (std::size_t k = 0; k < measured.size(); ++k)
-        run_row(device, domain, measured[k].first, measured[k].second, faults[k]);
+      for (const Precision precision : precisions_of(arguments_, device))
+        plans.push_back({&domain, precision, sizes_of(device, domain.name, precision)});
+    return plans;
   }
 
-  // A device that cannot be used fails its rows, which say why.
-  DeviceLatencies latencies_of(const DeviceInfo& device) {
-    DeviceLatencies latencies;
-    try {
-      const Device opened = open_device(on_device(arguments_, device.selector()));
-      compute([&] { latencies = measure_device_latencies(opened); });
-      say(fmt::format("     a launch takes {:.1f} us, a transfer {:.1f} us", 1e6 * latencies.launch,
-                      1e6 * latencies.transfer));
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::interrupted) throw;
+  // Of the arguments, else of the earlier record, else those that every record has.
+  std::vector<std::size_t> sizes_of(const DeviceInfo& device, const std::string& domain,
+                                    Precision precision) const {
+    if (arguments_.n) return {arguments_.n};
+    if (earlier_) {
+      std::vector<std::size_t> sizes =
+          earlier_->sizes(device.name, device.selector(), domain, precision_name(precision));
+      if (!sizes.empty()) return sizes;
     }
-    return latencies;
+    return row_sizes(domain, arguments_.quick);
   }
 
-  DeviceRates rates_of(const DeviceInfo& device, Precision precision, std::string& fault) {
-    DeviceRates rates;
-    try {
-      const Device opened = open_device(on_device(arguments_, device.selector()));
+  void run_device(BenchDevice& measured) {
+    const DeviceInfo& device = measured.info;
+    say(fmt::format("{}  {} ({}, {}), {} units\n", device.selector(), device.name, device.platform_name,
+                    device.driver_version, device.compute_units));
+    progress_.note("rates of the device");
+    std::map<Precision, std::string> faults;
+    measure_calls(measured);
+    for (const Precision precision : precisions_of(arguments_, device))
+      faults[precision] = measure_rates(measured, precision);
+    say(device_lines(measured) + table_head() + "\n");
+    const std::vector<RowPlan> plans = rows_of(device);
+    double shares = 0;
+    for (const RowPlan& plan : plans)
+      for (const std::size_t n : plan.sizes) shares += share_of_time(n);
+    const double seconds = (arguments_.quick ? quick_seconds : usual_seconds) / shares;
+    for (const RowPlan& plan : plans) run_rows(measured, plan, faults[plan.precision], seconds);
+  }
+
+  // Latencies and transfers. A device that cannot be used fails its rows, which say why.
+  void measure_calls(BenchDevice& measured) {
+    attempt([&] {
+      const Device opened = open_device(on_device(arguments_, measured.info.selector()));
+      compute([&] {
+        measured.latencies = measure_device_latencies(opened);
+        for (const std::size_t bytes : transfer_sizes())
+          if (bytes <= measured.info.largest_allocation)
+            measured.transfers.push_back({bytes, measure_device_transfers(opened, bytes)});
+      });
+    });
+  }
+
+  // The fault, if they cannot be measured.
+  std::string measure_rates(BenchDevice& measured, Precision precision) {
+    return attempt([&] {
+      const Device opened = open_device(on_device(arguments_, measured.info.selector()));
+      DeviceRates rates;
       compute([&] { rates = measure_device_rates(opened, precision); });
-      say(fmt::format("     {}: {:.1f} GB/s copied, {:.1f} Gflop/s multiplied and added",
-                      precision_name(precision), 1e-9 * rates.copied_bytes, 1e-9 * rates.operations));
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::interrupted) throw;
-      fault = error.what();
-    }
-    return rates;
+      measured.rates.push_back({precision_name(precision), rates});
+    });
   }
 
-  void run_row(const DeviceInfo& device, const NamedDomain& domain, Precision precision,
-               const DeviceRates& rates, const std::string& fault) {
-    const CommonOptions options = on_device(arguments_, device.selector());
-    BenchTask task{domain.name, &domain.loaded, [options] { return open_device(options); },
-                   library_options(options)};
-    task.options.precision = precision;
-    task.n = seeds_of(device, domain.name, precision);
-    if (domain.name == headline_domain)
-      task.wanted = arguments_.quick ? quick_headline_seeds : headline_seeds;
-    task.repeat = arguments_.repeat;
-    task.seconds = std::max(1.0, (seconds_in_all() - spent()) / static_cast<double>(rows_left_--));
-    task.longest = arguments_.quick ? quick_run : usual_run;
-    task.rates = rates;
-    follow(task);
+  template <class Call>
+  static std::string attempt(const Call& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::interrupted) throw;
+      return error.what();
+    } catch (const std::bad_alloc&) {
+      return "out of memory on the host";
+    }
+    return {};
+  }
 
-    BenchRow row;
-    row.domain = domain.name;
-    row.precision = precision_name(precision);
-    row.failure = fault;
-    if (fault.empty()) compute([&] { row = time_row(task, counts_); });
-    row.device = device.name;
-    row.selector = device.selector();
-    say(table_line(row));
-    record_.rows.push_back(std::move(row));
+  // In ascending numbers of seeds: the rate with fewer tells how long a run with more takes.
+  void run_rows(const BenchDevice& measured, const RowPlan& plan, const std::string& fault,
+                double seconds_of_share) {
+    double rate = 0;
+    for (const std::size_t n : plan.sizes) {
+      const DeviceInfo& device = measured.info;
+      const std::string& domain = plan.domain->name;
+      const std::string precision = precision_name(plan.precision);
+      std::string reason;
+      if (plan.sizes.size() > 1) reason = why_left_out(n, device.memory_bytes, rate);
+      if (!reason.empty()) {
+        record_.left_out.push_back({device.name, device.selector(), domain, precision, n, reason});
+        say(table_line(record_.left_out.back()) + "\n");
+        ++rows_done_;
+        continue;
+      }
+      BenchTask task = task_of(measured, plan, n, seconds_of_share * share_of_time(n));
+      BenchRow row;
+      row.domain = domain;
+      row.precision = precision;
+      row.n = n;
+      row.failure = fault;
+      if (fault.empty()) compute([&] { row = time_row(task, counts_); });
+      row.device = device.name;
+      row.selector = device.selector();
+      rate = row.rate();
+      say(table_line(row) + "\n");
+      record_.rows.push_back(std::move(row));
+      ++rows_done_;
+    }
+  }
+
+  BenchTask task_of(const BenchDevice& measured, const RowPlan& plan, std::size_t n, double seconds) {
+    const CommonOptions options = on_device(arguments_, measured.info.selector());
+    BenchTask task{plan.domain->name, &plan.domain->loaded, [options] { return open_device(options); },
+                   library_options(options), n};
+    task.options.precision = plan.precision;
+    task.limits = {arguments_.repeat, seconds / 2};
+    for (const BenchRates& rates : measured.rates)
+      if (rates.precision == precision_name(plan.precision)) task.rates = rates.rates;
+    follow(task, seconds);
+    return task;
   }
 
   // A row has many diagrams; how much of it is done shows in the time.
-  void follow(BenchTask& task) {
-    const double row = 1 / static_cast<double>(rows_),
-                 done = row * static_cast<double>(rows_ - rows_left_ - 1);
+  void follow(BenchTask& task, double seconds) {
+    const double row = 1 / static_cast<double>(rows_), done = row * static_cast<double>(rows_done_);
     progress_.part(done, done + row);
-    progress_.note(task.name + std::string(" in ") + precision_name(task.options.precision));
-    task.options.progress = [this, watch = Stopwatch(), spent = 0.0, in_all = task.seconds](double) mutable {
+    progress_.note(fmt::format("{} in {}, {} seeds", task.name, precision_name(task.options.precision),
+                               with_commas(task.n)));
+    task.options.progress = [this, watch = Stopwatch(), spent = 0.0, seconds](double) mutable {
       constexpr double most = 0.95;
       spent += watch.lap();
-      return progress_.at(std::min(most, spent / in_all));
+      return progress_.at(std::min(most, spent / seconds));
     };
-  }
-
-  // From the arguments, else from the earlier record, else 0 to choose by time.
-  std::size_t seeds_of(const DeviceInfo& device, const std::string& domain, Precision precision) const {
-    if (arguments_.n || !earlier_) return arguments_.n;
-    const SavedRow* row =
-        earlier_->find(device.name, device.selector(), domain, precision_name(precision), 0);
-    return row ? row->n : 0;
-  }
-
-  double seconds_in_all() const { return arguments_.quick ? quick_seconds : usual_seconds; }
-
-  double spent() {
-    spent_ += watch_.lap();
-    return spent_;
   }
 
   void say(const std::string& text) {
     if (!arguments_.talk()) return;
     progress_.aside([&] {
-      fmt::print("{}\n", text);
+      fmt::print("{}", text);
       std::fflush(stdout);
     });
   }
@@ -237,9 +278,8 @@ class Bench {
   std::vector<NamedDomain> domains_;
   WorkCounts counts_;
   BenchRecord record_;
-  std::size_t rows_ = 0, rows_left_ = 0;
+  std::size_t rows_ = 0, rows_done_ = 0;
   Stopwatch watch_;
-  double spent_ = 0;
 };
 
 }  // namespace

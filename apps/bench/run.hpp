@@ -15,8 +15,9 @@ struct BenchArguments : CommonOptions {
   std::vector<std::string> devices, domains;  ///< empty for the defaults
   std::string json_file, description;
   std::vector<std::string>
-      compare_files;  ///< none; an earlier one; or two that exist, with nothing to measure
-  std::size_t n = 0, repeat = 3;
+      compare_files;       ///< none; an earlier one; or two that exist, with nothing to measure
+  std::size_t n = 0;       ///< seeds; 0: those of every record (sizes.hpp)
+  std::size_t repeat = 0;  ///< runs of each kind; 0: until they settle
   bool quick = false, cold = false;
   double fail_below = 0;
 
@@ -28,8 +29,8 @@ struct BenchArguments : CommonOptions {
 std::vector<std::string> bench_domain_names();
 
 /// Runs the benchmark for each device, domain and precision, and prints the rows of the table as they finish.
-/// The number of seeds is that of the arguments, else that of `earlier` (may be null), else as many as fill
-/// the time. \throw Error interrupted; invalid_argument, invalid_file (a domain); device_not_found
+/// The numbers of seeds are that of the arguments, else those of `earlier` (may be null), else those that
+/// every record has. \throw Error interrupted; invalid_argument, invalid_file (a domain); device_not_found
 BenchRecord run_bench(const BenchArguments& arguments, const SavedRecord* earlier);
 
 }  // namespace powercell::app

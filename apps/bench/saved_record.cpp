@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "apps/common.hpp"
@@ -22,15 +23,11 @@ double rate_of(const json& row, const char* results) {
   return rate;
 }
 
-double scatter_of(const json& row) {
-  double most = 0;
-  for (const char* results : {"measures", "adjacency"}) {
-    const double scatter = row.at(results).value("scatter", 0.0);  // missing in older files
-    if (!(scatter >= 0) || !std::isfinite(scatter))
-      throw std::invalid_argument(fmt::format("'scatter' of '{}' is not 0 or above", results));
-    most = std::max(most, scatter);
-  }
-  return most;
+double scatter_of(const json& row, const char* results) {
+  const double scatter = row.at(results).value("scatter", 0.0);  // missing in older files
+  if (!(scatter >= 0) || !std::isfinite(scatter))
+    throw std::invalid_argument(fmt::format("'scatter' of '{}' is not 0 or above", results));
+  return scatter;
 }
 
 std::size_t seeds_of(const json& row) {
@@ -69,12 +66,33 @@ const SavedRow* SavedRecord::find(const std::string& device, const std::string& 
   return found;
 }
 
+std::vector<std::size_t> SavedRecord::sizes(const std::string& device, const std::string& selector,
+                                            const std::string& domain, const std::string& precision) const {
+  std::set<std::size_t> found;
+  for (const SavedRow& row : rows)
+    if (row.domain == domain && find(device, selector, domain, precision, row.n)) found.insert(row.n);
+  return {found.begin(), found.end()};
+}
+
+SavedRecord SavedRecord::of_device(const std::string& selector) const {
+  SavedRecord part = *this;
+  std::erase_if(part.rows, [&](const SavedRow& row) { return row.selector != selector; });
+  return part;
+}
+
 SavedRecord saved(const BenchRecord& record, const std::string& path) {
-  SavedRecord result{path, version(), record.revision, record.date, record.description, {}};
+  SavedRecord result{path,
+                     version(),
+                     record.revision,
+                     record.date,
+                     record.description,
+                     {},
+                     record.host.processors,
+                     record.others.value_or(0)};
   for (const BenchRow& row : record.rows)
     if (row.failure.empty())
       result.rows.push_back({row.device, row.selector, row.domain, row.precision, row.n, row.rate(),
-                             row.adjacency_rate(), row.scatter()});
+                             row.adjacency_rate(), row.measures.scatter(), row.adjacency.scatter()});
   return result;
 }
 
@@ -93,6 +111,10 @@ SavedRecord parse_record(std::string_view bytes, const std::string& name) {
     if (!whole.at("revision").is_null()) record.revision = whole.at("revision").get<std::string>();
     record.date = whole.at("date").get<std::string>();
     record.description = whole.value("description", std::string());  // missing in older files
+    if (const json host = whole.value("host", json::object()); host.contains("processors"))
+      record.processors = host.at("processors").get<unsigned>();
+    if (const json others = whole.value("used_by_others", json()); !others.is_null())
+      record.others = others.get<double>();
     std::size_t number = 0;
     for (const json& row : whole.at("rows")) {
       reading = fmt::format("row {}", number++);
@@ -100,7 +122,7 @@ SavedRecord parse_record(std::string_view bytes, const std::string& name) {
       record.rows.push_back({row.at("device").get<std::string>(), row.at("selector").get<std::string>(),
                              row.at("domain").get<std::string>(), row.at("precision").get<std::string>(),
                              seeds_of(row), rate_of(row, "measures"), rate_of(row, "adjacency"),
-                             scatter_of(row)});
+                             scatter_of(row, "measures"), scatter_of(row, "adjacency")});
     }
   } catch (const json::parse_error& error) {
     refuse(name, fmt::format("is not JSON at byte {}", error.byte));

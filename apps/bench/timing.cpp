@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t least_seeds = 1000, most_seeds = 10'000'000;
 constexpr std::size_t first_seeds = 1000;      // of the first result
 constexpr std::size_t counted_seeds = 10'000;  // on whose cells the work is counted
-constexpr double bytes_a_seed = 2500;          // upper estimate of a diagram's memory
 
 class RowTimer {
  public:
@@ -23,11 +22,10 @@ class RowTimer {
 
   void run(WorkCounts& counts) {
     first_result();
-    row_.n = task_.n ? task_.n : task_.wanted ? std::min(task_.wanted, most_that_fit()) : choose_seeds();
     const io::SeedTable seeds = white_seeds(task_.domain->domain, row_.n);
     time_once(seeds, true);  // makes room for the results; not counted
-    row_.measures = time(seeds, false);
-    row_.adjacency = time(seeds, true);
+    time(seeds);
+    row_.state = host_state();
     row_.build = diagram_->device().build_seconds();
     row_.work = count(counts);
   }
@@ -36,8 +34,7 @@ class RowTimer {
   // Includes opening the device and building kernels, as in a program that starts; then once more with
   // adjacency, to build the kernels for that too.
   void first_result() {
-    const io::SeedTable seeds =
-        white_seeds(task_.domain->domain, task_.n ? std::min(task_.n, first_seeds) : first_seeds);
+    const io::SeedTable seeds = white_seeds(task_.domain->domain, std::min(task_.n, first_seeds));
     Stopwatch watch;
     diagram_.emplace(task_.open(), task_.domain->domain, task_.options);
     diagram_->set_seeds(seeds.view());
@@ -48,36 +45,21 @@ class RowTimer {
     time_once(seeds, true);
   }
 
-  // Multiplies the number until runs are long enough to time, then scales it to the time left.
-  std::size_t choose_seeds() {
-    const std::size_t most = most_that_fit();
-    // A run to warm up, `repeat` of either kind, the second kind a little longer, and the count.
-    const double target =
-        std::min(task_.longest, (task_.seconds - spent()) / (2.5 + 2.3 * static_cast<double>(task_.repeat)));
-    double n = least_seeds, seconds = time_once(white_seeds(task_.domain->domain, least_seeds), false);
-    for (double growth = 2; seconds < target / 4 && growth >= 2 && n < static_cast<double>(most);) {
-      growth = std::clamp(target / (2 * std::max(seconds, 1e-6)), 1.0, 16.0);
-      n = std::min(n * growth, static_cast<double>(most));
-      seconds = time_once(white_seeds(task_.domain->domain, static_cast<std::size_t>(n)), false);
-    }
-    return std::min(most, round_seeds(n * target / std::max(seconds, 1e-6)));
-  }
-
-  std::size_t most_that_fit() const {
-    const auto memory = static_cast<double>(diagram_->device().info().memory_bytes);
-    return round_seeds(memory / bytes_a_seed);
-  }
-
-  TimedRuns time(const io::SeedTable& seeds, bool adjacency) {
-    TimedRuns runs;
+  // Both kinds in turn: what disturbs the machine for a while meets both.
+  void time(const io::SeedTable& seeds) {
     std::optional<Measures> before;
-    for (std::size_t k = 0; k < task_.repeat; ++k) {
+    const auto run = [&](TimedRuns& runs, bool adjacency) {
+      if (enough(runs, task_.limits)) return false;
       runs.seconds.push_back(time_once(seeds, adjacency));
       if (runs.seconds.back() <= runs.best()) runs.phases = diagram_->timings();
       check(before ? &*before : nullptr);
       if (!before) before = diagram_->measures();
+      return true;
+    };
+    for (bool more = true; more;) {
+      more = run(row_.measures, false);
+      more = run(row_.adjacency, true) || more;
     }
-    return runs;
   }
 
   double time_once(const io::SeedTable& seeds, bool adjacency) {
@@ -102,16 +84,9 @@ class RowTimer {
     return counts[key] = count_work(part, diagram.cells(), seeds.positions);
   }
 
-  double spent() {
-    spent_ += watch_.lap();
-    return spent_;
-  }
-
   const BenchTask& task_;
   BenchRow& row_;
   std::optional<Diagram> diagram_;
-  Stopwatch watch_;
-  double spent_ = 0;
 };
 
 }  // namespace

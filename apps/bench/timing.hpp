@@ -21,11 +21,8 @@ struct BenchTask {
   const io::LoadedDomain* domain;  ///< the caller's
   std::function<Device()> open;    ///< opens the device anew
   Options options;                 ///< precision and so on
-  std::size_t n = 0;               ///< seeds; 0: as many as take about `seconds` in all
-  std::size_t wanted = 0;          ///< seeds where n is 0, if there is memory for them; 0: by time
-  std::size_t repeat = 3;          ///< runs of measures, and of measures and adjacency
-  double seconds = 10;             ///< time for this row
-  double longest = 1;              ///< seconds of one run that suffice
+  std::size_t n = 0;               ///< seeds
+  RunLimits limits = {};           ///< of the runs of measures, and of those of measures and adjacency
   DeviceRates rates = {};          ///< of the device
 };
 
@@ -35,7 +32,7 @@ io::SeedTable white_seeds(const Domain& domain, std::size_t n);
 /// Seconds from seeds in host memory to results there, without building kernels.
 double time_once(Diagram& diagram, const io::SeedTable& seeds, bool adjacency);
 
-/// Opens the device, times the first result, finds the number of seeds, and times; every run is checked.
+/// Opens the device, times the first result, and then as many runs as the limits want; every run is checked.
 /// Errors are reported in `BenchRow::failure`. \throw Error interrupted
 BenchRow time_row(const BenchTask& task, WorkCounts& counts);
 

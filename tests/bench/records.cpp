@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/bench/comparison.hpp"
+#include "apps/bench/sizes.hpp"
 #include "apps/bench/table.hpp"
 #include "tests/writers/temporary_folder.hpp"
 
@@ -109,10 +110,10 @@ TEST_CASE("ratios are new rates over earlier rates") {
   const SavedRecord now = saved(later, "");
   const auto ratios = same_rows(now, read);
   REQUIRE(ratios.size() == 2);
-  CHECK(ratios[0].measures == doctest::Approx(2));
-  CHECK(ratios[0].adjacency == doctest::Approx(0.5));
-  CHECK(ratios[0].least() == doctest::Approx(0.5));
-  CHECK(ratios[1].least() == doctest::Approx(1));
+  CHECK(ratios[0].measures.value == doctest::Approx(2));
+  CHECK(ratios[0].adjacency.value == doctest::Approx(0.5));
+  CHECK(ratios[0].least().value == doctest::Approx(0.5));
+  CHECK(ratios[1].least().value == doctest::Approx(1));
   const std::string text = comparison(now, read, ratios);
   CHECK(text.find("2.00") != std::string::npos);
   CHECK(text.find("1 row is not in that file") != std::string::npos);
@@ -136,8 +137,14 @@ TEST_CASE("a description is kept, and older files have none") {
   record.description = "nothing else runs; \"quoted\"";
   CHECK(read_text(as_json(record).dump()).description == record.description);
   json older = as_json(record);
-  for (const char* key : {"description", "host", "headlines"}) older.erase(key);
-  CHECK(read_text(older.dump()).description == "");
+  for (const char* key : {"description", "host", "headlines", "used_by_others"}) older.erase(key);
+  for (json& row : older["rows"])
+    for (const char* kind : {"measures", "adjacency"}) row[kind].erase("scatter");
+  const SavedRecord read = read_text(older.dump());
+  CHECK(read.description == "");
+  CHECK(read.processors == 0);
+  CHECK(read.rows[0].scatter == 0);
+  CHECK(same_rows(saved(record, ""), read).size() == 4);
 }
 
 TEST_CASE("two saved records: other numbers of seeds are compared, and said to be rough") {
@@ -149,7 +156,7 @@ TEST_CASE("two saved records: other numbers of seeds are compared, and said to b
   const auto ratios = alike_rows(now, then);
   REQUIRE(ratios.size() == 1);
   CHECK(ratios[0].then->n == 1000);
-  CHECK(ratios[0].measures == doctest::Approx(4));
+  CHECK(ratios[0].measures.value == doctest::Approx(4));
   const std::string text = comparison(now, then, ratios);
   CHECK(text.find("(with 1,000 seeds)") != std::string::npos);
   CHECK(text.find("rough") != std::string::npos);
@@ -165,45 +172,91 @@ TEST_CASE("two saved records of different devices: each row with every other dev
   const SavedRecord now = saved(other, "now.json");
   const auto ratios = alike_rows(now, then);
   REQUIRE(ratios.size() == 2);
-  CHECK(ratios[0].measures == doctest::Approx(10));
+  CHECK(ratios[0].measures.value == doctest::Approx(10));
   CHECK(ratios[1].then->n == 2000);  // the same number of seeds comes first
   CHECK(comparison(now, then, ratios).find("a faster device over device of two units") != std::string::npos);
   other.rows.push_back(made_row("0:0", "double", 1000, 0.1));  // a device that both have
   CHECK(alike_rows(saved(other, ""), then).size() == 1);
 }
 
-TEST_CASE("runs scatter by how much longer the median takes than the best") {
-  CHECK(TimedRuns{{2}, {}}.scatter() == 0);
-  CHECK(TimedRuns{{}, {}}.scatter() == 0);
-  CHECK(TimedRuns{{3, 2}, {}}.scatter() == doctest::Approx(0.5));
-  CHECK(TimedRuns{{9, 2, 2.2}, {}}.scatter() == doctest::Approx(0.1));  // one slow run does not count
+TEST_CASE("every figure is shown with its scatter, and rows that scatter much are counted") {
   BenchRecord record = made_record();
   for (BenchRow& row : record.rows) row.measures.seconds = {0.1, 0.104, 0.3};
   CHECK(scatter_notes(record) == "");
+  CHECK(table_line(record.rows[0]).find("10,000   ±4 %") != std::string::npos);
   record.rows[2].adjacency.seconds = {0.1, 0.13, 0.13};
-  const std::string text = scatter_notes(record);
-  CHECK(text.find("cube in float with 2,000 seeds on device of two units") != std::string::npos);
-  CHECK(text.find("30 %") != std::string::npos);
-  CHECK(table_line(record.rows[2]).find("~") != std::string::npos);
-  CHECK(table_line(record.rows[1]).find("~") == std::string::npos);
+  CHECK(table_line(record.rows[2]).find("20,000  ±30 %") != std::string::npos);
+  CHECK(scatter_notes(record) == "note: runs of 1 of 4 rows scatter by more than 10 %, the most by 30 %\n");
   record.rows[2].failure = "out of memory";
   CHECK(scatter_notes(record) == "");
 }
 
-TEST_CASE("runs that scatter much give no figure, and a ratio that is marked") {
+TEST_CASE("runs that scatter much give a figure all the same, which says so, and so do ratios") {
   BenchRecord record = made_record();
   record.rows[0].measures.seconds = {0.1, 0.12, 0.12};
-  const std::string text = headline(record);
-  CHECK(text.find("no figure for device of two units: the runs of cube in double scatter by 20 %") == 0);
-  CHECK(text.find("million cells a second: cube, white, 1,000 seeds, double") !=
-        std::string::npos);  // of 1:0
-  CHECK(as_json(record)["headlines"].size() == 1);
+  CHECK(headline(record).find("0.01 million cells a second ±20 %: cube, white, 1,000 seeds, double") == 0);
+  const json figures = as_json(record)["headlines"];
+  CHECK(figures.size() == 2);
+  CHECK(figures[0]["scatter"].get<double>() == doctest::Approx(0.2));
   CHECK(as_json(record)["rows"][0]["scattered"] == true);
-  const SavedRecord calm = saved(made_record(), "calm.json"), scattered = read_text(as_json(record).dump());
+  const SavedRecord scattered = read_text(as_json(record).dump());
   CHECK(scattered.rows[0].scatter == doctest::Approx(0.2));
-  CHECK(comparison(calm, calm, same_rows(calm, calm)).find("~") == std::string::npos);
-  for (const auto& [now, then] : {std::pair(&calm, &scattered), std::pair(&scattered, &calm)})
-    CHECK(comparison(*now, *then, same_rows(*now, *then)).find("~1.00") != std::string::npos);
+  CHECK(scattered.rows[0].adjacency_scatter == 0);
+}
+
+TEST_CASE("a ratio has the scatter of both runs, and is marked where it shows no difference beyond that") {
+  BenchRecord record = made_record();
+  record.rows = {made_row("0:0", "double", 1000, 0.1)};  // scatters by 5 %; with adjacency not at all
+  const SavedRecord then = saved(record, "then.json");
+  const auto text = [&](double seconds) {
+    BenchRecord changed = record;
+    changed.rows = {made_row("0:0", "double", 1000, seconds)};
+    const SavedRecord now = saved(changed, "");
+    return comparison(now, then, same_rows(now, then));
+  };
+  CHECK(text(0.1).find("~1.00  ±10 %      1.00   ±0 %") != std::string::npos);
+  CHECK(text(0.108).find("~0.93  ±10 %      0.93   ±0 %") != std::string::npos);
+  CHECK(text(0.092).find("~1.09  ±10 %      1.09   ±0 %") != std::string::npos);
+  CHECK(text(0.08).find(" 1.25  ±10 %      1.25   ±0 %") != std::string::npos);
+  CHECK(text(0.08).find("~") == std::string::npos);
+  CHECK(text(0.1).find("no difference beyond the scatter") != std::string::npos);
+}
+
+TEST_CASE("a comparison says that others kept a machine busy") {
+  BenchRecord record = made_record();
+  record.host.processors = 2;
+  record.others = 1.25;
+  const SavedRecord busy = read_text(as_json(record).dump());
+  CHECK(busy.others == 1.25);
+  record.others = 0.01;
+  const SavedRecord calm = saved(record, "calm.json");
+  const std::string text = comparison(calm, busy, same_rows(calm, busy));
+  CHECK(text.find("old.json was measured, other programs kept 1.2 of its processors busy") !=
+        std::string::npos);
+  CHECK(comparison(calm, calm, same_rows(calm, calm)).find("busy") == std::string::npos);
+  record.others = 1.25;
+  CHECK(scatter_notes(record).find("other programs kept 1.2 of its processors busy") != std::string::npos);
+  record.others.reset();  // where the system does not say
+  CHECK(as_json(record)["used_by_others"].is_null());
+  CHECK(read_text(as_json(record).dump()).others == 0);
+}
+
+TEST_CASE("devices of one record are compared row by row") {
+  BenchRecord record = made_record();  // 1:0 has one row of those of 0:0, half as fast
+  const std::string text = comparison_of_devices(saved(record, ""));
+  CHECK(text.find("Rates of 1:0 over those of 0:0\n") == 0);
+  CHECK(text.find(" 0.50  ±10 %      0.50   ±0 %") != std::string::npos);
+  CHECK(text.find("float") == std::string::npos);
+  record.rows.pop_back();
+  CHECK(comparison_of_devices(saved(record, "")) == "");
+}
+
+TEST_CASE("a later measurement takes the numbers of seeds of the earlier record") {
+  const SavedRecord read = read_text(as_json(made_record()).dump());
+  using Sizes = std::vector<std::size_t>;
+  CHECK(read.sizes("device of two units", "0:0", "cube", "float") == Sizes{1000, 2000});
+  CHECK(read.sizes("device of two units", "0:0", "square", "float") == Sizes{});
+  CHECK(read.sizes("another", "0:0", "cube", "float") == Sizes{});
 }
 
 TEST_CASE("the figure of a device is that of its first row in the cube") {
@@ -211,14 +264,14 @@ TEST_CASE("the figure of a device is that of its first row in the cube") {
   record.rows[0].failure = "out of memory";
   auto found = record.headlines();
   REQUIRE(found.size() == 2);
-  CHECK(found[0] == &record.rows[1]);
+  CHECK(found[0] == &record.rows[2]);  // of the first precision, that of most seeds
   CHECK(found[1] == &record.rows[3]);
   for (BenchRow& row : record.rows) row.n = headline_seeds;
-  record.rows[1].measures.seconds = {0.5};
+  for (const std::size_t k : {1, 2}) record.rows[k].measures.seconds = {0.5};
   const std::string text = headline(record);
-  CHECK(text.find("2 million cells a second: cube, white, 1,000,000 seeds, float") == 0);
+  CHECK(text.find("2 million cells a second ±0 %: cube, white, 1,000,000 seeds, float") == 0);
   CHECK(text.find("to compare") == std::string::npos);
-  record.rows[1].n = quick_headline_seeds;
+  for (BenchRow& row : record.rows) row.n = quick_headline_seeds;
   CHECK(headline(record).find("--quick") != std::string::npos);
   for (BenchRow& row : record.rows) row.domain = "square";
   CHECK(headline(record) == "");

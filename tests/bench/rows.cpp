@@ -14,7 +14,7 @@ namespace {
 
 BenchTask small_task(const io::LoadedDomain& domain) {
   BenchTask task{"square", &domain, [] { return Device::choose(); }, {}, 1000};
-  task.repeat = 2;
+  task.limits.exactly = 2;
   task.options.precision = Precision::float32;
   task.rates = {1e10, 1e10};
   return task;
@@ -78,17 +78,20 @@ TEST_CASE("a row with a given number of seeds") {
   CHECK(counts.count({"square", 1000}) == 1);
 }
 
-TEST_CASE("a row whose number of seeds is chosen by time") {
+TEST_CASE("a row whose runs are repeated until they settle or time is over") {
   const io::LoadedDomain domain = io::read_domain("square");
   BenchTask task = small_task(domain);
-  task.n = 0;
-  task.seconds = 2;
-  task.longest = 0.02;
+  task.limits = {0, 0.05};
   WorkCounts counts;
   const BenchRow row = time_row(task, counts);
   REQUIRE(row.failure == "");
-  CHECK(row.n == round_seeds(static_cast<double>(row.n)));
-  CHECK(row.measures.best() < 20 * task.longest);
+  for (const TimedRuns* runs : {&row.measures, &row.adjacency}) {
+    CHECK(runs->seconds.size() >= 3);
+    TimedRuns before = *runs;
+    before.seconds.pop_back();
+    CHECK(enough(*runs, task.limits));
+    CHECK(!enough(before, task.limits));
+  }
 }
 
 TEST_CASE("a row reports its failure, and the record fails with it") {

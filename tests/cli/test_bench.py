@@ -63,8 +63,14 @@ class Bench(ToolTest):
         self.assertRegex(record["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
         for key in ("name", "driver_version", "opencl_c_version", "compute_units"):
             self.assertIn(key, record["devices"][0])
+        device = record["devices"][0]
         for key in ("launch_seconds", "transfer_seconds"):
-            self.assertTrue(0 < record["devices"][0][key] < 1)
+            self.assertTrue(0 < device[key] < 1)
+        self.assertEqual([t["bytes"] for t in device["transfers"]], [4096 * 4 ** k for k in range(9)])
+        figures = [device, *device["rates"], *device["transfers"], record["rows"][0]["measures"], record["rows"][0]["adjacency"]]
+        scatters = [value for figure in figures for key, value in figure.items() if key.endswith("scatter")]
+        self.assertEqual(len(scatters), 2 + 2 + 2 * 9 + 2)
+        self.assertTrue(all(value >= 0 for value in scatters))
         row = record["rows"][0]
         for kind in ("measures", "adjacency"):
             self.assertEqual(len(row[kind]["seconds"]), 2)
@@ -80,9 +86,10 @@ class Bench(ToolTest):
         device = self.report("devices")["devices"][0]
         out = self.good(*self.SMALL, "--device", device["device"]).stdout
         self.assertIn(device["name"], out)
-        self.assertRegex(out, r"a launch takes [\d.]+ us, a transfer [\d.]+ us\n")
-        self.assertRegex(out, r"GB/s copied, [\d.]+ Gflop/s")
-        self.assertRegex(out, r"square +float +1,000 +~?[\d,]+ +~?[\d,]+ +[\d.e-]+ % +[\d.e-]+ % ")
+        self.assertRegex(out, r"a launch takes [\d.]+ us ±\d+ %, a transfer [\d.]+ us ±\d+ %\n")
+        self.assertRegex(out, r"GB/s copied ±\d+ %, [\d.]+ Gflop/s multiplied and added ±\d+ %\n")
+        self.assertEqual(len(re.findall(r"\n +\d+ [KM]iB +[\d.]+ +±\d+ % +[\d.]+ +±\d+ %", out)), 9)
+        self.assertRegex(out, r"square +float +1,000 +[\d,]+ +±\d+ % +[\d,]+ +±\d+ % +[\d.e-]+ % +[\d.e-]+ % ")
         lines = [line for line in out.splitlines() if not line.startswith(("note:", "      "))]  # a busy machine
         self.assertRegex(lines[-1], r"^1 row in \d+ s; the measures of every run sum to the domain's$")
 
@@ -90,10 +97,11 @@ class Bench(ToolTest):
         arguments = ("bench", "--quick", "--domain", "cube", "--precision", "float", "--device", "0:0", "--repeat", 1)
         out = self.good(*arguments, "--json", "a.json").stdout
         record = json.loads((self.folder / "a.json").read_text())
-        figure, row = record["headlines"][0], record["rows"][0]
-        self.assertEqual((figure["n"], row["n"]), (100000, 100000))
+        figure, row = record["headlines"][0], record["rows"][1]
+        self.assertEqual([(r["domain"], r["n"]) for r in record["rows"]], [("cube", 10000), ("cube", 100000)])
+        self.assertEqual(figure["n"], 100000)
         self.assertAlmostEqual(figure["million_cells_per_second"] * 1e6 / row["measures"]["cells_per_second"], 1, places=12)
-        self.assertRegex(out, r"\n[\d.]+ million cells a second: cube, white, 100,000 seeds, float, .*leave --quick out")
+        self.assertRegex(out, r"\n[\d.e-]+ million cells a second ±\d+ %: cube, white, 100,000 seeds, float, .*leave --quick out")
         self.assertEqual(self.record["headlines"], [])  # without the cube
 
     def test_a_file_as_domain_and_quiet(self):
@@ -116,7 +124,7 @@ class Bench(ToolTest):
         # The number of seeds is that of the earlier record; the same file may be read and then replaced.
         arguments = ("bench", "--domain", "square", "--precision", "float", "--compare", old)
         out = self.good(*arguments).stdout
-        self.assertRegex(out, r"square +float +500 +~?[\d.]+ +~?0\.00 ")
+        self.assertRegex(out, r"square +float +500 +~?[\d.]+ +±\d+ % +0\.00 +±\d+ % ")
         self.good(*arguments, "--fail-below", 1e-9, "--json", old)
         self.good(*arguments, "--fail-below", 0.001)
 
@@ -134,7 +142,11 @@ class Bench(ToolTest):
             self.assertEqual(host["cpu"], found[1].strip())
 
     def test_two_saved_files_are_compared_without_measuring(self):
-        self.changed(lambda record: [record["rows"][0][kind].update(scatter=0) for kind in ("measures", "adjacency")])
+        def calm(record):
+            record["used_by_others"] = 0
+            for kind in ("measures", "adjacency"):
+                record["rows"][0][kind]["scatter"] = 0
+        self.changed(calm)
         record = json.loads((self.folder / "old.json").read_text())
         record["rows"][0]["measures"]["cells_per_second"] *= 2
         record["rows"][0]["adjacency"]["cells_per_second"] *= 3
@@ -143,21 +155,30 @@ class Bench(ToolTest):
         compare = ("bench", "--compare", "old.json", "new.json")
         # No device is needed, so none is opened.
         out = self.good(*compare, env={"POWERCELL_DEVICE": "no such device"}).stdout
-        self.assertRegex(out, r"square +float +1,000 +2\.00 +3\.00 ")
+        self.assertRegex(out, r"square +float +1,000 +2\.00 +±0 % +3\.00 +±0 % ")
         self.assertIn("twice as fast", out)
         self.good(*compare, "--fail-below", 1.9)
         back = ("bench", "--compare", "new.json", "old.json")
-        self.assertRegex(self.good(*back).stdout, r"square +float +1,000 +0\.50 +0\.33 ")
+        self.assertRegex(self.good(*back).stdout, r"square +float +1,000 +0\.50 +±0 % +0\.33 +±0 % ")
         done = run(*back, "--fail-below", 0.9, cwd=self.folder)
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stderr.endswith("0.333 of the rate in new.json, below --fail-below 0.9\n"), done.stderr)
-        record["rows"][0]["measures"]["scatter"] = 0.2
+        record["rows"][0]["adjacency"]["scatter"] = 2
         self.write("scattered.json", json.dumps(record))
-        self.assertRegex(self.good(*compare[:-1], "scattered.json").stdout, r"square +float +1,000 +~2\.00 +~3\.00 ")
+        self.assertRegex(self.good(*compare[:-1], "scattered.json").stdout,
+                         r"square +float +1,000 +2\.00 +±0 % +3\.00 +±200 % .*\n(?!~)")
         done = run("bench", "--compare", "scattered.json", "old.json", "--fail-below", 0.9, cwd=self.folder)
-        self.assertIn("below --fail-below 0.9; but runs scatter by 20 %, too much to tell: measure again", done.stderr)
+        self.assertIn("below --fail-below 0.9; but the runs of both scatter by 200 %, too much to tell: measure again", done.stderr)
+        record["rows"][0]["adjacency"]["scatter"] = 0
+        record["used_by_others"] = 1e3
+        self.write("busy.json", json.dumps(record))
+        self.assertIn("note: while busy.json was measured, other programs kept 1e+03 of its processors busy",
+                      self.good(*compare[:-1], "busy.json").stdout)
+        done = run("bench", "--compare", "busy.json", "old.json", "--fail-below", 0.9, cwd=self.folder)
+        self.assertIn("below --fail-below 0.9; but while busy.json was measured, other programs kept", done.stderr)
         self.assertEqual(self.good(*compare, "--quiet").stdout, "")
-        for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--json", "a.json", "--describe", "x"], ["--domain", "cube"]):
+        for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--json", "a.json", "--describe", "x"],
+                       ["--domain", "cube"]):
             self.bad(2, f"measures nothing; leave {option[0]} out", *compare, *option)
         for row in record["rows"]:
             row["domain"] = "elsewhere"
@@ -170,7 +191,7 @@ class Bench(ToolTest):
         done = run(*self.SMALL, "--compare", old, "--fail-below", 0.5, "--json", "new.json", cwd=self.folder)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"^powercell: error: square in float with 1,000 seeds on .* 0\.000 of the rate in "
-                                      r"old\.json, below --fail-below 0\.5(; but runs scatter .*)?\n$")
+                                      r"old\.json, below --fail-below 0\.5(; but .*)?\n$")
         self.assertTrue((self.folder / "new.json").exists())
 
     def test_nothing_to_compare_with(self):
@@ -208,6 +229,24 @@ class Bench(ToolTest):
                                check=True).stdout
         self.assertIn("a \\| b", shown)
         self.assertRegex(shown, r"(?m)^\| square \| float \| 1,000 \| [\d.e-]+ \| [\d.e-]+ \|")
+
+    def test_devices_of_one_record_have_the_same_rows_and_are_compared(self):
+        two = {"POCL_DEVICES": "basic pthread"}
+        if len(json.loads(self.good("devices", "--json", env=two).stdout)["devices"]) != 2:
+            self.skipTest("this OpenCL does not show one processor as two devices")
+        arguments = ("bench", "--quick", "--device", "all", "--domain", "square", "--precision", "float", "--repeat", 1)
+        out = self.good(*arguments, "--json", "a.json", env=two).stdout
+        record = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual({(r["selector"], r["n"]) for r in record["rows"]}, {("0:0", 10000), ("0:1", 10000)})
+        self.assertRegex(out, r"\nRates of 0:\d over those of 0:\d\n.*\nsquare +float +10,000 +~?[\d.]+ +±0 % ")
+
+    def test_the_machine_is_as_busy_as_the_system_says(self):
+        record = self.record
+        for state in (record["state_before"], record["state_after"], record["rows"][0]["state"]):
+            self.assertEqual(len(state["load_averages"]), 3)
+            self.assertEqual("clock_mhz" in state,
+                             pathlib.Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_cur_freq").exists())
+        self.assertTrue(0 <= record["used_by_others"] <= os.cpu_count() + 0.5)
 
     def test_interrupt_leaves_the_older_file(self):
         self.write("a.json", "older")
