@@ -10,9 +10,12 @@
 #include <powercell/seeds.hpp>
 
 #include "apps/bench/comparison.hpp"
+#include "apps/bench/csv.hpp"
+#include "apps/bench/plot.hpp"
 #include "apps/bench/run.hpp"
 #include "apps/bench/table.hpp"
 #include "apps/io/atomic_file.hpp"
+#include "apps/io/read_file.hpp"
 #include "apps/number_checks.hpp"
 #include "apps/option_words.hpp"
 #include "apps/outputs.hpp"
@@ -98,8 +101,9 @@ void disable_caches() {
 
 /// \throw WrongUsage for options that choose what to measure, where nothing is measured
 void refuse_to_measure(const CLI::App& command) {
-  for (const char* option : {"--device", "--domain", "--precision", "--n", "--repeat", "--quick", "--cold",
-                             "--json", "--describe", "--neighbors", "--decisions", "--certify", "--threads"})
+  for (const char* option :
+       {"--device", "--domain", "--precision", "--n", "--repeat", "--quick", "--cold", "--json", "--csv",
+        "--plot", "--describe", "--neighbors", "--decisions", "--certify", "--threads"})
     if (command.count(option) > 0)
       throw WrongUsage(fmt::format("--compare with two files measures nothing; leave {} out", option));
 }
@@ -113,7 +117,7 @@ int run(const BenchArguments& arguments, const CLI::App& command) {
   // Unreadable and unwritable files are refused before the benchmark, which takes a minute.
   std::optional<SavedRecord> earlier;
   if (!arguments.compare_files.empty()) earlier = read_record(arguments.compare_files.front());
-  check_writable({}, {arguments.json_file}, false);
+  check_writable({}, {arguments.json_file, arguments.csv_file, arguments.plot_file}, false);
 
   const BenchRecord record = run_bench(arguments, earlier ? &*earlier : nullptr);
   if (!arguments.json_file.empty()) {
@@ -121,6 +125,8 @@ int run(const BenchArguments& arguments, const CLI::App& command) {
     file.write(json_text(as_json(record)) + "\n");
     file.commit();
   }
+  if (!arguments.csv_file.empty()) write_csv(arguments.csv_file, record);
+  if (!arguments.plot_file.empty()) write_plot(arguments.plot_file, record);
   return conclude(arguments, record, earlier);
 }
 
@@ -143,6 +149,7 @@ Examples:
   powercell bench --device gpu --json gpu.json
   powercell bench --quick --domain cube --domain part.mesh --precision float
   powercell bench --json new.json --compare old.json --fail-below 0.9
+  powercell bench --device all --csv rates.csv --plot rates.svg
   powercell bench --json mine.json --describe 'workstation, nothing else running'
   powercell bench --compare old.json new.json          two saved files; measures nothing)";
 
@@ -185,6 +192,19 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--json", arguments.json_file, "Write all figures as JSON; - for stdout without a table")
       ->type_name("FILE")
+      ->default_str("none");
+  command
+      .add_option("--csv", arguments.csv_file,
+                  "Write a table with a row for each figure; - for stdout without a table for people")
+      ->type_name("FILE.csv")
+      ->default_str("none");
+  command
+      .add_option("--plot", arguments.plot_file,
+                  "Draw the rates of rows and transfers, with those of all devices beside each other")
+      ->type_name("FILE.svg")
+      ->check([](const std::string& path) {
+        return io::lower_extension(path) == ".svg" ? std::string() : "a plot is an .svg";
+      })
       ->default_str("none");
   command
       .add_option("--describe", arguments.description,

@@ -13,7 +13,7 @@ namespace powercell::app {
 /// Options of the command line; `CommonOptions::device` and `json` are not used.
 struct BenchArguments : CommonOptions {
   std::vector<std::string> devices, domains;  ///< empty for the defaults
-  std::string json_file, description;
+  std::string json_file, csv_file, plot_file, description;
   std::vector<std::string>
       compare_files;       ///< none; an earlier one; or two that exist, with nothing to measure
   std::size_t n = 0;       ///< seeds; 0: those of every record (sizes.hpp)
@@ -22,7 +22,7 @@ struct BenchArguments : CommonOptions {
   double fail_below = 0;
 
   /// Whether the table is printed.
-  bool talk() const { return !quiet && json_file != "-"; }
+  bool talk() const { return !quiet && json_file != "-" && csv_file != "-"; }
 };
 
 /// The names of domains that --domain knows.

@@ -5,6 +5,8 @@ usage: test_bench.py PATH_OF_POWERCELL [unittest options]
 """
 
 import copy
+import csv
+import io
 import json
 import os
 import pathlib
@@ -13,6 +15,7 @@ import re
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree
 
 from tool import DATA, TOOL, ToolTest, interrupt, run
 
@@ -178,7 +181,7 @@ class Bench(ToolTest):
         self.assertIn("below --fail-below 0.9; but while busy.json was measured, other programs kept", done.stderr)
         self.assertEqual(self.good(*compare, "--quiet").stdout, "")
         for option in (["--quick"], ["--n", "5"], ["--json", "a.json"], ["--json", "a.json", "--describe", "x"],
-                       ["--domain", "cube"]):
+                       ["--csv", "a.csv"], ["--plot", "a.svg"], ["--domain", "cube"]):
             self.bad(2, f"measures nothing; leave {option[0]} out", *compare, *option)
         for row in record["rows"]:
             row["domain"] = "elsewhere"
@@ -210,7 +213,10 @@ class Bench(ToolTest):
                  self.write("a.json", '{"cells": []}'))
         self.bad(1, r"a\.json: the file: .*'version'", *self.SMALL, "--compare",
                  self.write("a.json", '{"format": "powercell bench", "format_version": 1}'))
-        self.bad(1, "missing", *self.SMALL, "--json", "missing/a.json")
+        for option, path in (("--json", "missing/a.json"), ("--csv", "missing/a.csv"), ("--plot", "missing/a.svg")):
+            self.bad(1, "missing", *self.SMALL, option, path)
+        self.bad(2, "an .svg", *self.SMALL, "--plot", "a.png")
+        self.bad(2, "would mix on the standard output", *self.SMALL, "--json", "-", "--csv", "-")
         self.bad(1, "unknown domain 'blob'; --domain takes square", "bench", "--domain", "blob")
         self.bad(1, "resolution", "bench", "--domain", "sphere:0")
         self.bad(1, "no such device", "bench", "--device", "no such device")
@@ -229,6 +235,29 @@ class Bench(ToolTest):
                                check=True).stdout
         self.assertIn("a \\| b", shown)
         self.assertRegex(shown, r"(?m)^\| square \| float \| 1,000 \| [\d.e-]+ \| [\d.e-]+ \|")
+
+    def test_figures_as_csv_and_plot(self):
+        done = self.good(*self.SMALL, "--csv", "-", "--plot", "a.svg", "--json", "a.json")
+        rows = list(csv.DictReader(io.StringIO(done.stdout)))
+        record = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(done.stderr, "")
+        device = record["devices"][0]
+        for row in rows:
+            self.assertEqual((row["device"], row["name"]), (device["device"], device["name"]))
+        values = {(r["figure"], r["precision"], r["size"]): (float(r["value"]), float(r["scatter"])) for r in rows}
+        self.assertEqual(len(values), len(rows))
+        for figure in ("measures", "adjacency"):
+            found = record["rows"][0][figure]
+            self.assertEqual(values[figure, "float", "1000"], (found["cells_per_second"], found["scatter"]))
+        for found in device["transfers"]:
+            for figure in ("to_device", "to_host"):
+                self.assertEqual(values[figure, "", str(found["bytes"])],
+                                 (found[figure + "_bytes_per_second"], found[figure + "_scatter"]))
+        self.assertEqual(values["operations", "float", ""][0], device["rates"][0]["operations_per_second"])
+        picture = xml.etree.ElementTree.parse(self.folder / "a.svg").getroot()
+        texts = [element.text for element in picture.iter("{http://www.w3.org/2000/svg}text")]
+        self.assertIn("square, float, 1,000", texts)
+        self.assertIn("256 MiB", texts)
 
     def test_devices_of_one_record_have_the_same_rows_and_are_compared(self):
         two = {"POCL_DEVICES": "basic pthread"}
