@@ -1,14 +1,13 @@
 #include "lib/cl/disk_cache.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
+
+#include "lib/base/system.hpp"
 
 namespace powercell::cl {
 namespace {
@@ -54,15 +53,10 @@ Header header_of(const CacheKey& key, std::span<const unsigned char> binary) {
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter{0};
   std::filesystem::path temporary = path;
-  for (const std::string& part : {std::to_string(getpid()), std::to_string(counter++)})
+  for (const std::string& part : {system::process_number(), std::to_string(counter++)})
     temporary += '.' + part;
   temporary += ".tmp";
   return temporary;
-}
-
-const char* environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value && *value ? value : nullptr;
 }
 
 }  // namespace
@@ -104,10 +98,9 @@ std::string CacheKey::hex() const {
 }
 
 std::filesystem::path DiskCache::default_folder() {
-  if (const char* folder = environment("POWERCELL_CACHE_DIR")) return folder;
-  if (const char* folder = environment("XDG_CACHE_HOME")) return std::filesystem::path(folder) / "powercell";
-  if (const char* home = environment("HOME")) return std::filesystem::path(home) / ".cache" / "powercell";
-  return {};
+  if (auto own = system::path_from_environment("POWERCELL_CACHE_DIR"); !own.empty()) return own;
+  const std::filesystem::path folder = system::cache_folder();
+  return folder.empty() ? folder : folder / "powercell";
 }
 
 std::optional<Binary> DiskCache::read(const CacheKey& key) const {

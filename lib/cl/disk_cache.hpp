@@ -38,7 +38,8 @@ class DiskCache {
   /// An empty folder makes a cache that is always empty.
   explicit DiskCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// POWERCELL_CACHE_DIR, else XDG_CACHE_HOME/powercell, else HOME/.cache/powercell, else empty.
+  /// POWERCELL_CACHE_DIR, else XDG_CACHE_HOME/powercell, else HOME/.cache/powercell (on Windows
+  /// LOCALAPPDATA/powercell), else empty.
   static std::filesystem::path default_folder();
   const std::filesystem::path& folder() const { return folder_; }
 

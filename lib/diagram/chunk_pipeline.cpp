@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "lib/base/float_environment.hpp"
 #include "lib/diagram/stopwatch.hpp"
 
 namespace powercell {
@@ -40,6 +41,7 @@ bool ChunkPipeline::start() {
 }
 
 void ChunkPipeline::run(std::size_t device) noexcept {
+  const FloatEnvironment environment;  // where threads do not inherit it
   try {
     devices_[device].prepare();
     while (Slot* const slot = take(device)) clip(device, *slot);

@@ -1,6 +1,7 @@
 #include "lib/out_of_core/call_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <powercell/error.hpp>
 #include <string>
@@ -30,7 +31,7 @@ void require_same_call(const LockedFolder& folder, const std::vector<NamedValue>
     return;
   }
   std::vector<std::string> lines;
-  std::ifstream file(path);
+  std::ifstream file{std::filesystem::path(path)};
   for (std::string line; std::getline(file, line);) lines.push_back(line);
   std::string differ;
   for (const NamedValue& part : parts)

@@ -1,15 +1,8 @@
 #include "lib/out_of_core/files.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <powercell/error.hpp>
 #include <thread>
@@ -25,90 +18,78 @@ constexpr const char* lock_name = "lock";
 constexpr const char* unfinished_end = ".unfinished";  // of the name of a file that is not whole yet
 constexpr std::size_t buffer_bytes = std::size_t{1} << 16;
 
-std::string hint(int error) {
-  if (error == ENOSPC || error == EDQUOT)
-    return "; free some space and run it again: what is finished is kept";
-  if (error == EACCES || error == EROFS) return "; choose a folder with write permission";
-  if (error == EMFILE) return "; allow more open files (ulimit -n)";
+std::string hint(const std::error_code& error) {
+  if (system::is_full(error)) return "; free some space and run it again: what is finished is kept";
+  if (error == std::errc::permission_denied || error == std::errc::read_only_file_system)
+    return "; choose a folder with write permission";
+  if (error == std::errc::too_many_files_open) return "; allow more open files (ulimit -n)";
   return "";
 }
 
-[[noreturn]] void refuse(const std::string& path, const char* doing, int error) {
-  throw Error(ErrorCode::write_failed,
-              path + ": cannot " + doing + " it: " + std::strerror(error) + hint(error));
+[[noreturn]] void refuse(const std::string& path, const char* doing, const std::error_code& error) {
+  throw Error(ErrorCode::write_failed, path + ": cannot " + doing + " it: " + error.message() + hint(error));
+}
+
+std::error_code last_error() {
+  return {errno, std::generic_category()};
 }
 
 }  // namespace
 
 FileWriter::FileWriter(std::string path, Kind kind)
     : path_(std::move(path)), unfinished_(kind == Kind::kept ? path_ + unfinished_end : path_), kind_(kind) {
-  file_.reset(std::fopen(unfinished_.c_str(), "wbe"));
-  if (!file_) fail("create", errno);
+  std::error_code error;
+  file_.reset(system::create_file(unfinished_, error));
+  if (error) refuse(path_, "create", error);
   (void)std::setvbuf(file_.get(), nullptr, _IOFBF, buffer_bytes);
 }
 
 void FileWriter::write_bytes(const void* from, std::size_t count) {
-  if (count > 0 && std::fwrite(from, 1, count, file_.get()) != count) fail("write", errno);
+  if (count > 0 && std::fwrite(from, 1, count, file_.get()) != count) refuse(path_, "write", last_error());
   bytes_ += count;
 }
 
 void FileWriter::sync() {
-  if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail("write", errno);
+  std::error_code error;
+  system::write_to_disk(file_.get(), error);
+  if (error) refuse(path_, "write", error);
 }
 
 void FileWriter::close() {
   if (kind_ == Kind::kept) sync();
-  if (std::fclose(file_.release()) != 0) fail("write", errno);  // what is left of a scratch file
+  if (std::fclose(file_.release()) != 0)
+    refuse(path_, "write", last_error());  // what is left of a scratch file
   if (kind_ == Kind::scratch) return;
-  if (std::rename(unfinished_.c_str(), path_.c_str()) != 0) fail("rename", errno);
-}
-
-void FileWriter::fail(const char* doing, int error) const {
-  refuse(path_, doing, error);
+  std::error_code error;
+  fs::rename(unfinished_, path_, error);
+  if (error) refuse(path_, "rename", error);
 }
 
 MappedFile::MappedFile(const std::string& path) : path_(path) {
-  const auto fail = [&](int error) {
-    throw Error(ErrorCode::invalid_file, path + ": cannot read it: " + std::strerror(error));
-  };
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(errno);
-  struct stat status {};
-  if (fstat(file, &status) != 0) {
-    const int error = errno;
-    ::close(file);
-    fail(error);
-  }
-  bytes_ = static_cast<std::size_t>(status.st_size);
-  void* const data = bytes_ == 0 ? nullptr : mmap(nullptr, bytes_, PROT_READ, MAP_SHARED, file, 0);
-  const int error = errno;
-  ::close(file);
-  if (data == MAP_FAILED) fail(error);
-  data_ = static_cast<const std::byte*>(data);
+  std::error_code error;
+  bytes_ = system::map_file(path, error);
+  if (error) throw Error(ErrorCode::invalid_file, path + ": cannot read it: " + error.message());
 }
 
 MappedFile::MappedFile(MappedFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      data_(std::exchange(other.data_, nullptr)),
-      bytes_(std::exchange(other.bytes_, 0)) {}
+    : path_(std::move(other.path_)), bytes_(std::exchange(other.bytes_, {})) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
   std::swap(path_, other.path_);
-  std::swap(data_, other.data_);
   std::swap(bytes_, other.bytes_);
   return *this;
 }
 
 MappedFile::~MappedFile() {
-  if (data_ != nullptr) munmap(const_cast<std::byte*>(data_), bytes_);
+  system::unmap(bytes_);
 }
 
 void MappedFile::drop() const {
-  if (data_ != nullptr) (void)madvise(const_cast<std::byte*>(data_), bytes_, MADV_DONTNEED);
+  system::drop(bytes_);
 }
 
 void MappedFile::require(std::size_t offset, std::size_t count, std::size_t size) const {
-  if (offset <= bytes_ && count <= (bytes_ - offset) / size) return;
+  if (offset <= bytes() && count <= (bytes() - offset) / size) return;
   throw Error(ErrorCode::invalid_file,
               path_ + ": is shorter than what was written; remove its folder to begin anew");
 }
@@ -117,21 +98,15 @@ LockedFolder::LockedFolder(std::string path) : path_(std::move(path)) {
   std::error_code error;
   fs::remove_all(path_ + finished, error);  // of a run that ended while it removed its folder
   fs::create_directories(path_, error);
-  if (error) refuse(path_, "make", error.value());
-  lock_ = open(file(lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ < 0) refuse(file(lock_name), "create", errno);
+  if (error) refuse(path_, "make", error);
   // A process that was killed while it started another, as compilers are, keeps it until that one has begun.
   for (int attempt = 0; attempt < 20; ++attempt) {
-    if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+    if (lock_.take(file(lock_name), error)) return;
+    if (error) refuse(file(lock_name), "create", error);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  ::close(lock_);
   throw Error(ErrorCode::write_failed,
               path_ + ": another process computes in this folder; wait for its end, or stop it");
-}
-
-LockedFolder::~LockedFolder() {
-  if (lock_ >= 0) ::close(lock_);
 }
 
 bool LockedFolder::has(const std::string& name) const {
@@ -156,8 +131,11 @@ void LockedFolder::remove() {
   // At once, so that what is left by a process that is killed is not taken for a computation to go on with.
   std::error_code error;
   fs::rename(path_, path_ + finished, error);
+  const bool again = static_cast<bool>(error);
+  lock_.release();
+  if (again) fs::rename(path_, path_ + finished, error);  // Windows renames no folder with an open file
   if (!error) fs::remove_all(path_ + finished, error);
-  if (error) refuse(path_, "remove", error.value());
+  if (error) refuse(path_, "remove", error);
 }
 
 }  // namespace powercell::out_of_core

@@ -10,6 +10,8 @@
 #include <string>
 #include <type_traits>
 
+#include "lib/base/system.hpp"
+
 namespace powercell::out_of_core {
 
 /// Writes a file. It has another name until close() where it is to be whole or not there.
@@ -41,7 +43,6 @@ class FileWriter {
 
  private:
   void write_bytes(const void* from, std::size_t count);
-  [[noreturn]] void fail(const char* doing, int error) const;
 
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -62,18 +63,18 @@ class MappedFile {
   MappedFile& operator=(MappedFile&& other) noexcept;
   ~MappedFile();
 
-  std::size_t bytes() const { return bytes_; }
+  std::size_t bytes() const { return bytes_.size(); }
   /// Numbers from a byte on; its offset must be a multiple of their size. \throw Error invalid_file if the
   /// file ends before them
   template <class T>
   std::span<const T> numbers(std::size_t offset, std::size_t count) const {
     require(offset, count, sizeof(T));
-    return {reinterpret_cast<const T*>(data_ + offset), count};
+    return {reinterpret_cast<const T*>(bytes_.data() + offset), count};
   }
   /// All of the file.
   template <class T>
   std::span<const T> all() const {
-    return numbers<T>(0, bytes_ / sizeof(T));
+    return numbers<T>(0, bytes() / sizeof(T));
   }
   /// Gives the memory back; what is looked at again is read again.
   void drop() const;
@@ -82,8 +83,7 @@ class MappedFile {
   void require(std::size_t offset, std::size_t count, std::size_t size) const;
 
   std::string path_;
-  const std::byte* data_ = nullptr;
-  std::size_t bytes_ = 0;
+  std::span<const std::byte> bytes_;
 };
 
 /// A folder of which one process makes use at a time.
@@ -94,7 +94,6 @@ class LockedFolder {
   explicit LockedFolder(std::string path);
   LockedFolder(const LockedFolder&) = delete;
   LockedFolder& operator=(const LockedFolder&) = delete;
-  ~LockedFolder();
 
   std::string file(const std::string& name) const { return path_ + "/" + name; }
   bool has(const std::string& name) const;
@@ -106,7 +105,7 @@ class LockedFolder {
 
  private:
   std::string path_;
-  int lock_ = -1;
+  system::FileLock lock_;
 };
 
 }  // namespace powercell::out_of_core

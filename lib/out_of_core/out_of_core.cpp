@@ -164,6 +164,7 @@ class Computation {
       if (std::none_of(files_[p].foreign.begin(), files_[p].foreign.end(), is_hidden)) continue;
       ++report_.again;
       const std::string path = folder.file(name_of(p));
+      files_[p] = PieceFile();  // Windows replaces no file that is mapped
       writer.write(path, compute_piece(store, p, others));
       writer.finish();
       files_[p] = PieceFile(path, source_.dimension);

@@ -45,6 +45,7 @@ class PieceWriter {
 /// What a PieceWriter has written.
 class PieceFile {
  public:
+  PieceFile() = default;
   /// \throw Error invalid_file
   PieceFile(const std::string& path, int dimension);
 
