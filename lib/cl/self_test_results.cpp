@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "lib/base/error_free.hpp"
+
 namespace powercell::cl {
 namespace {
 
@@ -71,7 +73,7 @@ std::string arithmetic_fault(std::span<const T> operands, std::span<const T> res
     const T a = operands[3 * i], b = operands[3 * i + 1], c = operands[3 * i + 2];
     const T product = a * b;
     const Expected<T> expected[] = {{0, "a*b + c, each rounded,", product + c},
-                                    {1, "fma(a, b, c)", std::fma(a, b, c)},
+                                    {1, "fma(a, b, c)", rounded_once(a, b, c)},
                                     {4, "comparing with infinity and NaN (-1 means right)", -1},
                                     {5, "a*b - b*a", 0}};
     for (const auto& [at, what, value] : expected) {

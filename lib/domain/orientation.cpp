@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/base/error_free.hpp"
+
 namespace powercell {
 namespace {
 
@@ -18,7 +20,7 @@ class ExactSum {
   void add_product(double x, double y) {
     const double product = x * y;
     exact_ = exact_ && (x == 0 || y == 0 || std::fabs(product) > least_product);
-    add(std::fma(x, y, -product));
+    add(error_of_product(x, y, product));
     add(product);
   }
   int sign() const {
@@ -34,8 +36,7 @@ class ExactSum {
   void add(double x) {
     for (int k = 0; k < count_; ++k) {
       const double sum = x + term_[k];
-      const double part = sum - x;
-      term_[k] = (x - (sum - part)) + (term_[k] - part);  // the rounding error of `sum`
+      term_[k] = error_of_sum(x, term_[k], sum);
       x = sum;
     }
     term_[count_++] = x;
