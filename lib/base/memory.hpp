@@ -11,14 +11,6 @@
 
 namespace powercell {
 
-/// Loads the cache line at `place` ahead of its use, for accesses at scattered addresses.
-inline void prefetch([[maybe_unused]] const void* place) {
-#if defined(__GNUC__)
-  __builtin_prefetch(place);
-  asm volatile("");  // or the compiler takes the function for one without effects and drops its calls
-#endif
-}
-
 /// Makes the system map the pages of memory that is about to be written, on all threads at once; otherwise
 /// the thread that writes it first waits for one page after the other. Does nothing on systems that cannot.
 void populate(void* begin, std::size_t bytes, int threads);

@@ -7,13 +7,12 @@
 #include <limits>
 #include <sstream>
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/random.hpp"
 #include "lib/cl/self_test_results.hpp"
 
 namespace powercell::cl {
 namespace {
-
-__extension__ using TwoWords = unsigned __int128;
 
 template <class T>
 constexpr int digits = std::numeric_limits<T>::digits;
@@ -48,7 +47,7 @@ Integers next_to_tie(int p, std::uint64_t bits) {
   for (int step = 0; step < 6; ++step) inverse *= 2 - b * inverse;
   const std::uint64_t y = inverse % period;
   const bool negative = y < period / 2;  // -y has the digits that y lacks
-  const TwoWords product = TwoWords{negative ? period - y : y} * b;
+  const UnsignedInt128 product = UnsignedInt128{negative ? period - y : y} * b;
   return {static_cast<std::uint64_t>((negative ? product + 1 : product - 1) >> (p + 1)), b};
 }
 

@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/compiler.hpp"
+
 namespace powercell {
 
-__extension__ using Limbs2 = unsigned __int128;
-__extension__ using SignedLimbs2 = __int128;
+using Limbs2 = UnsignedInt128;
+using SignedLimbs2 = Int128;
 
 /// An integer in two's complement, least limb first. Sums and differences must fit n limbs; products always
 /// fit.

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/base/vector_copies.hpp"
 #include "lib/collect/walls.hpp"
@@ -14,12 +15,12 @@ namespace {
 constexpr std::size_t shared_ranks = 4096;  // with fewer ranks, threads cost more than they save
 
 // A vector of the compiler, which does not vectorise such short loops by itself.
-using Vector [[gnu::vector_size(WallRow::lanes * sizeof(std::uint32_t))]] = std::uint32_t;
+using Vector POWERCELL_VECTOR(WallRow::lanes * sizeof(std::uint32_t)) = std::uint32_t;
 static_assert(WallRow::lanes == 8);
 
 /// The place of neighbour i in a row, or the row's count. Uses no unpredictable branches, and whole vectors,
 /// which may extend beyond the neighbours.
-[[gnu::always_inline]] inline std::size_t find(const WallRow& row, std::uint32_t i) {
+POWERCELL_ALWAYS_INLINE std::size_t find(const WallRow& row, std::uint32_t i) {
   const auto count = static_cast<std::uint32_t>(row.count());
   Vector place = {}, here = {1, 2, 3, 4, 5, 6, 7, 8};  // counted from 1
   for (std::uint32_t block = 0; block < count; block += WallRow::lanes, here += WallRow::lanes) {

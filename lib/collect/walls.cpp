@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/layout.h"
+#include "lib/base/compiler.hpp"
 #include "lib/base/threads.hpp"
 
 namespace powercell {

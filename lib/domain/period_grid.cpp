@@ -4,14 +4,14 @@
 #include <bit>
 #include <cmath>
 
+#include "lib/base/compiler.hpp"
+
 namespace powercell {
 namespace {
 
-__extension__ using TwoWords = __int128;
-
 /// The upper half of the product.
 std::int64_t high_product(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>((static_cast<TwoWords>(a) * b) >> 64);
+  return static_cast<std::int64_t>((static_cast<Int128>(a) * b) >> 64);
 }
 
 /// x * 2^by, rounded down. \pre it fits

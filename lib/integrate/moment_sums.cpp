@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/memory.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/scene/variant.hpp"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/vector_copies.hpp"
 
 namespace powercell::pairs::loops {
@@ -15,10 +16,10 @@ constexpr double greatest = std::numeric_limits<double>::max();
 constexpr double unit_roundoff = 0x1p-53;
 
 template <int D>
-[[gnu::always_inline]] inline void powers_in(std::size_t count, const double* const* column,
-                                             const double* origin, const double* point, double square,
-                                             double weight, double constant, double* __restrict to) {
-  const double* __restrict x[D + 1];
+POWERCELL_ALWAYS_INLINE void powers_in(std::size_t count, const double* const* column, const double* origin,
+                                       const double* point, double square, double weight, double constant,
+                                       double* POWERCELL_RESTRICT to) {
+  const double* POWERCELL_RESTRICT x[D + 1];
   for (int k = 0; k <= D; ++k) x[k] = column[k];
   for (std::size_t s = 0; s < count; ++s) {
     double sum = 0;
@@ -34,15 +35,15 @@ template <int D>
 
 /// Ascending with x, for x that is not NaN. The minimum of integers does not depend on the order of
 /// comparisons, so compilers vectorise it.
-[[gnu::always_inline]] inline std::int64_t ordered_bits(double x) {
+POWERCELL_ALWAYS_INLINE std::int64_t ordered_bits(double x) {
   const auto bits = std::bit_cast<std::int64_t>(x);
   return bits ^ (bits >> 63 & std::numeric_limits<std::int64_t>::max());
 }
 
 template <std::size_t C>
-[[gnu::always_inline]] inline void raise_corners(std::size_t count, const double* const* lower,
-                                                 const double* upper, double* __restrict excess) {
-  const double* __restrict value[C];
+POWERCELL_ALWAYS_INLINE void raise_corners(std::size_t count, const double* const* lower, const double* upper,
+                                           double* POWERCELL_RESTRICT excess) {
+  const double* POWERCELL_RESTRICT value[C];
   for (std::size_t v = 0; v < C; ++v) value[v] = lower[v];
   for (std::size_t s = 0; s < count; ++s) {
     double low = value[0][s] - upper[0];
@@ -55,10 +56,10 @@ template <std::size_t C>
 }
 
 template <int D>
-[[gnu::always_inline]] inline void raise_box(std::size_t count, const double* const* column,
-                                             const double* origin, const double* size, const double* t,
-                                             double* __restrict excess) {
-  const double* __restrict x[D + 1];
+POWERCELL_ALWAYS_INLINE void raise_box(std::size_t count, const double* const* column, const double* origin,
+                                       const double* size, const double* t,
+                                       double* POWERCELL_RESTRICT excess) {
+  const double* POWERCELL_RESTRICT x[D + 1];
   for (int k = 0; k <= D; ++k) x[k] = column[k];
   double t2 = 0, reach2 = 0;
   for (int k = 0; k < D; ++k) t2 += t[k] * t[k], reach2 += size[k] * size[k];
@@ -80,10 +81,9 @@ template <int D>
 }
 
 template <int D>
-[[gnu::always_inline]] inline void raise_nodes(std::size_t count, const double* const* column,
-                                               const double* size, const double* t,
-                                               double* __restrict excess) {
-  const double* __restrict x[2 * D + 1];
+POWERCELL_ALWAYS_INLINE void raise_nodes(std::size_t count, const double* const* column, const double* size,
+                                         const double* t, double* POWERCELL_RESTRICT excess) {
+  const double* POWERCELL_RESTRICT x[2 * D + 1];
   for (int k = 0; k <= 2 * D; ++k) x[k] = column[k];
   double fixed = std::fabs(t[D]) + std::numeric_limits<double>::min() / unit_roundoff;
   for (int k = 0; k < D; ++k) fixed += 2 * (t[k] * t[k] + size[k] * size[k]);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/vector_copies.hpp"
 
 namespace powercell::pairs::loops {
@@ -21,8 +22,7 @@ using lanes::load, lanes::store, lanes::Vector;
 
 /// A bound for the error of 2 q.y - offset at all points of eight boxes, or infinity.
 template <int D>
-[[gnu::always_inline]] inline void find_error(const Bisector& bisector, const Vector (&extent)[D],
-                                              Vector& error) {
+POWERCELL_ALWAYS_INLINE void find_error(const Bisector& bisector, const Vector (&extent)[D], Vector& error) {
   error = Vector{} + bisector.magnitude;
   for (int k = 0; k < D; ++k) error += std::fabs(bisector.q[k]) * extent[k];
   error = error <= largest ? rounding * error + tiny : Vector{} + infinite;
@@ -30,7 +30,7 @@ template <int D>
 
 /// Twice the largest distance of a point of the box from the seed, along each axis.
 template <int D>
-[[gnu::always_inline]] inline void find_extent(const Lanes* box, const double* seed, Vector (&extent)[D]) {
+POWERCELL_ALWAYS_INLINE void find_extent(const Lanes* box, const double* seed, Vector (&extent)[D]) {
   for (int k = 0; k < D; ++k) {
     Vector a, b;
     load(&box[k], a);
@@ -42,8 +42,8 @@ template <int D>
 }
 
 /// Records one bisector: 2 q.y - offset is within [least, most] in each lane, up to its error.
-[[gnu::always_inline]] inline void record(const Vector& least, const Vector& most, const Vector& error,
-                                          Vector& beyond, double* greatest) {
+POWERCELL_ALWAYS_INLINE void record(const Vector& least, const Vector& most, const Vector& error,
+                                    Vector& beyond, double* greatest) {
   const Vector none = Vector{} - infinite;
   const Vector value = error <= largest ? least - error : none;
   beyond = value > beyond ? value : beyond;
@@ -51,8 +51,8 @@ template <int D>
 }
 
 template <int D>
-[[gnu::always_inline]] inline void boxes_in(const Bisector* bisector, std::size_t bisectors, const Lanes* box,
-                                            const double* seed, Lanes& beyond, double* greatest) {
+POWERCELL_ALWAYS_INLINE void boxes_in(const Bisector* bisector, std::size_t bisectors, const Lanes* box,
+                                      const double* seed, Lanes& beyond, double* greatest) {
   Vector low[D], high[D], extent[D], farthest = Vector{} - infinite;
   find_extent<D>(box, seed, extent);
   for (int k = 0; k < D; ++k) {
@@ -76,9 +76,9 @@ template <int D>
 }
 
 template <int D>
-[[gnu::always_inline]] inline void corners_in(const Bisector* bisector, std::size_t bisectors,
-                                              const Lanes* box, const Lanes* corner, std::size_t corners,
-                                              const double* seed, Lanes& beyond, double* greatest) {
+POWERCELL_ALWAYS_INLINE void corners_in(const Bisector* bisector, std::size_t bisectors, const Lanes* box,
+                                        const Lanes* corner, std::size_t corners, const double* seed,
+                                        Lanes& beyond, double* greatest) {
   Vector extent[D], farthest = Vector{} - infinite;
   find_extent<D>(box, seed, extent);
   for (std::size_t j = 0; j < bisectors; ++j) {
@@ -102,8 +102,7 @@ template <int D>
 }
 
 template <int D>
-[[gnu::always_inline]] inline double least_in(const double* direction, const double* vertex,
-                                              std::size_t count) {
+POWERCELL_ALWAYS_INLINE double least_in(const double* direction, const double* vertex, std::size_t count) {
   Vector least = Vector{} + infinite;
   for (std::size_t v = 0; v < count; v += lane_count) {
     Vector sum{}, x;

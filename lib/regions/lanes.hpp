@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "lib/base/compiler.hpp"
+
 namespace powercell {
 
 constexpr std::size_t lane_count = 8;
@@ -16,12 +18,12 @@ using Lanes = std::array<double, lane_count>;
 
 namespace lanes {
 
-using Vector [[gnu::vector_size(lane_count * sizeof(double))]] = double;
+using Vector POWERCELL_VECTOR(lane_count * sizeof(double)) = double;
 
-[[gnu::always_inline]] inline void load(const void* from, Vector& to) {
+POWERCELL_ALWAYS_INLINE void load(const void* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);
 }
-[[gnu::always_inline]] inline void store(const Vector& from, void* to) {
+POWERCELL_ALWAYS_INLINE void store(const Vector& from, void* to) {
   std::memcpy(to, &from, sizeof from);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/vector_copies.hpp"
 
 namespace powercell {
@@ -25,8 +26,8 @@ std::vector<Lanes> blocks_of(const RegionGroups::Boxes& boxes, std::size_t d) {
 }
 
 template <int D>
-[[gnu::always_inline]] inline void gaps_to(const Lanes* box, const double* origin, const double* low,
-                                           const double* high, Lanes& gap) {
+POWERCELL_ALWAYS_INLINE void gaps_to(const Lanes* box, const double* origin, const double* low,
+                                     const double* high, Lanes& gap) {
   using namespace lanes;
   Vector most = Vector{} - std::numeric_limits<double>::infinity();
   for (int k = 0; k < D; ++k) {

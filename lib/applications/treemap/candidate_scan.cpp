@@ -1,5 +1,6 @@
 #include "lib/applications/treemap/candidate_scan.hpp"
 
+#include "lib/base/compiler.hpp"
 #include "lib/base/vector_copies.hpp"
 
 namespace powercell::treemap_detail {
@@ -10,8 +11,8 @@ constexpr std::size_t lanes = 16;  // seeds per block, two vectors of the widest
 
 /// Computes excess[k], which is above 0 if seed k may cut the cell.
 /// \return whether any may
-[[gnu::always_inline]] inline bool excesses(std::size_t count, const double* x, const double* y,
-                                            const double* weight, const ScanBox& box, double* excess) {
+POWERCELL_ALWAYS_INLINE bool excesses(std::size_t count, const double* x, const double* y,
+                                      const double* weight, const ScanBox& box, double* excess) {
   const double px = box.x, py = box.y, own = box.weight;
   const double low_x = 2 * box.low_x, high_x = 2 * box.high_x, low_y = 2 * box.low_y, high_y = 2 * box.high_y;
   int any = 0;
