@@ -3,6 +3,8 @@
 /// alone, so that a port to another compiler begins and ends there. Internal.
 #pragma once
 
+#include <cstdint>
+
 #if !defined(__GNUC__)
 #error \
     "powercell is compiled by GCC or clang (on Windows MinGW-w64); other compilers need this header's names"
@@ -26,6 +28,11 @@ __extension__ using UnsignedInt128 = unsigned __int128;
 inline void prefetch(const void* place) {
   __builtin_prefetch(place);
   asm volatile("");  // or the compiler takes the function for one without effects and drops its calls
+}
+
+/// Sets bits of a byte that other threads set bits of too (std::atomic_ref, which libc++ has from 19 on).
+inline void add_bits(std::uint8_t& to, std::uint8_t bits) {
+  if ((__atomic_load_n(&to, __ATOMIC_RELAXED) & bits) != bits) __atomic_fetch_or(&to, bits, __ATOMIC_RELAXED);
 }
 
 }  // namespace powercell

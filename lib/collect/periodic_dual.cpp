@@ -1,7 +1,9 @@
 #include "lib/collect/periodic_dual.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -12,7 +14,7 @@ namespace {
 struct Corner {
   std::uint32_t seed;
   std::array<std::int32_t, 3> shift;
-  friend auto operator<=>(const Corner&, const Corner&) = default;
+  friend std::strong_ordering operator<=>(const Corner&, const Corner&) = default;
 };
 template <std::size_t C>
 using CornerRow = std::array<Corner, C>;

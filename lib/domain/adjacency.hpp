@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,7 +18,7 @@ template <std::size_t N>
 struct FacetKey {
   std::array<std::uint32_t, N> vertex;
   std::uint32_t slot;
-  friend auto operator<=>(const FacetKey&, const FacetKey&) = default;
+  friend std::strong_ordering operator<=>(const FacetKey&, const FacetKey&) = default;
 };
 
 /// Sorts the keys and calls `group` with each run of facets that have the same vertices; slots ascend in a

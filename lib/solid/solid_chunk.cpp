@@ -1,12 +1,12 @@
 #include "lib/solid/solid_chunk.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "kernels/layout.h"
+#include "lib/base/compiler.hpp"
 #include "lib/base/threads.hpp"
 #include "lib/clip/exact_planes.hpp"
 #include "lib/domain/outline.hpp"
@@ -273,10 +273,7 @@ void Chunk::find_coincidences(const CellInSolid& in_solid, const WholeCell& cell
 
 void Chunk::leave_hints(std::uint32_t rank, const CellInSolid& in_solid, const WholeCell& cell,
                         SideHints& hints) const {
-  const auto add = [&](std::uint32_t seen_rank, std::uint8_t what) {
-    const std::atomic_ref seen(hints.seen[seen_rank]);
-    if ((seen.load(std::memory_order_relaxed) & what) != what) seen.fetch_or(what, std::memory_order_relaxed);
-  };
+  const auto add = [&](std::uint32_t seen_rank, std::uint8_t what) { add_bits(hints.seen[seen_rank], what); };
   add(rank, SideHints::looked);
   for (std::uint32_t v = 0; v < cell.vertices(); ++v) {
     const std::uint32_t* const faces = &cell.link[6 * std::size_t{v} + 3];
